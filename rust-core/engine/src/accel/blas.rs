@@ -1,0 +1,108 @@
+//! The tree of one triangle mesh.
+
+use super::Cancelled;
+use super::build::{Effort, build};
+use super::collapse::LeafMaker;
+use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::triangle_block::TriangleBlock;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Bottom-level tree: the triangles of one mesh in its own space. Share it between scenes by `Arc`.
+#[derive(Debug)]
+pub struct Blas {
+    pub(super) nodes: Vec<Node>,
+    pub(super) blocks: Vec<TriangleBlock>,
+    pub(super) bounds: Bounds,
+    triangles: usize,
+}
+
+/// Bytes held by a [`Blas`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlasMemory {
+    /// Bytes of the nodes.
+    pub nodes: usize,
+    /// Bytes of the triangle blocks.
+    pub blocks: usize,
+    /// Triangles in the tree.
+    pub triangles: usize,
+}
+
+impl BlasMemory {
+    /// All bytes.
+    pub fn bytes(&self) -> usize {
+        self.nodes + self.blocks
+    }
+}
+
+impl Blas {
+    /// Builds the tree of a mesh: points `positions[n][3]` and triangles `triangles[m][3]` of point numbers.
+    ///
+    /// A triangle with a point that is missing, not finite, or beyond 1e12 is left out; no ray hits it. Runs in the current rayon pool.
+    /// `cancel` is read between the steps of the build, which ends with [`Cancelled`] when it is set.
+    pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+        let corners = |triangle: &[u32; 3]| -> Option<[[f32; 3]; 3]> {
+            let [a, b, c] = triangle.map(|i| positions.get(i as usize));
+            Some([*a?, *b?, *c?])
+        };
+        let (boxes, primitives): (Vec<Bounds>, Vec<u32>) =
+            triangles.par_iter().enumerate().filter_map(|(i, triangle)| Some((triangle_bounds(&corners(triangle)?)?, i as u32))).unzip();
+        if cancel.load(Ordering::Relaxed) {
+            return Err(Cancelled);
+        }
+        assert!(boxes.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
+        let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
+        let mut bounds = Bounds::EMPTY;
+        for b in &boxes {
+            bounds.extend(b.min);
+            bounds.extend(b.max);
+        }
+        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len() })
+    }
+
+    /// The bytes of the tree.
+    pub fn memory(&self) -> BlasMemory {
+        BlasMemory {
+            nodes: self.nodes.capacity() * size_of::<Node>(),
+            blocks: self.blocks.capacity() * size_of::<TriangleBlock>(),
+            triangles: self.triangles,
+        }
+    }
+}
+
+/// The padded box of a triangle, if all its coordinates are usable.
+fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
+    let usable = corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE);
+    usable.then(|| {
+        let mut bounds = Bounds::EMPTY;
+        for &corner in corners {
+            bounds.extend(corner);
+        }
+        bounds.padded()
+    })
+}
+
+/// Makes blocks of up to eight triangles.
+struct Blocks<'a> {
+    positions: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    /// From the boxes' numbers to the mesh's.
+    primitives: &'a [u32],
+}
+
+impl LeafMaker for Blocks<'_> {
+    type Leaf = TriangleBlock;
+    const CAPACITY: u32 = 8;
+    const KIND: Kind = Kind::Triangles;
+    const COST: f32 = 1.2;
+
+    fn leaf(&self, primitives: &[u32]) -> TriangleBlock {
+        let mut block = TriangleBlock::EMPTY;
+        for (lane, &box_number) in primitives.iter().enumerate() {
+            let primitive = self.primitives[box_number as usize];
+            let corners = self.triangles[primitive as usize].map(|i| self.positions[i as usize]);
+            block.set(lane, corners, primitive);
+        }
+        block
+    }
+}

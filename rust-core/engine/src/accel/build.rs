@@ -1,0 +1,64 @@
+//! Construction of the two kinds of trees: boxes, binary tree, collapse.
+
+use super::Cancelled;
+use super::collapse::{LeafMaker, WideTree, collapse};
+use super::flat_tree::{FlatNode, balanced, flatten};
+use super::node::{Bounds, MAX_DEPTH, Node};
+use glam::Vec3A;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How much time goes into the binary tree.
+#[derive(Clone, Copy)]
+pub(super) struct Effort {
+    search_distance: PlocSearchDistance,
+    /// First rounds of the clustering that look at direct neighbours alone.
+    short_rounds: usize,
+    /// Share of the nodes that is tried at other places.
+    reinsertion: f32,
+}
+
+impl Effort {
+    /// For meshes: within some percent of the best trees for a small part of their time.
+    pub(super) const MESH: Effort = Effort { search_distance: PlocSearchDistance::Medium, short_rounds: 3, reinsertion: 0.05 };
+    /// For the few boxes of a top level that every ray meets.
+    pub(super) const SCENE: Effort = Effort { search_distance: PlocSearchDistance::High, short_rounds: 1, reinsertion: 0.5 };
+}
+
+/// Builds the wide tree over boxes; primitive `i` of the leaf maker is box `i`.
+pub(super) fn build<M: LeafMaker>(boxes: &[Bounds], maker: &M, effort: Effort, cancel: &AtomicBool) -> Result<WideTree<M::Leaf>, Cancelled> {
+    if boxes.is_empty() {
+        return Ok(WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 });
+    }
+    let tree = binary_tree(boxes, effort, cancel)?;
+    let wide = collapse(&tree, maker, cancel)?;
+    if wide.depth <= MAX_DEPTH {
+        return Ok(wide);
+    }
+    collapse(&balanced(boxes), maker, cancel)
+}
+
+/// Locally ordered clustering, then reinsertion in ever smaller batches (obvhs).
+fn binary_tree(boxes: &[Bounds], effort: Effort, cancel: &AtomicBool) -> Result<Vec<FlatNode>, Cancelled> {
+    let check = || if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) };
+    let aabbs: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(Vec3A::from_array(b.min), Vec3A::from_array(b.max))).collect();
+    check()?;
+    let mut tree: Bvh2 = PlocBuilder::with_capacity(aabbs.len()).build(
+        effort.search_distance,
+        &aabbs,
+        (0..aabbs.len() as u32).collect(),
+        SortPrecision::U64,
+        effort.short_rounds,
+    );
+    drop(aabbs);
+    let mut optimizer = ReinsertionOptimizer::default();
+    for round in (1..32).step_by(2) {
+        check()?;
+        optimizer.run(&mut tree, effort.reinsertion, Some(vec![1.0 / round as f32]));
+    }
+    check()?;
+    Ok(flatten(&tree))
+}

@@ -1,0 +1,66 @@
+//! Placed geometry: what the caller says, and the record the traversal reads.
+
+use super::shape::Shape;
+use super::transform::Affine;
+
+/// What an instance shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Geometry {
+    /// A mesh, by its number in the scene's list of trees.
+    Mesh(u32),
+    /// An analytic shape.
+    Shape(Shape),
+}
+
+/// Geometry placed in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// What is placed.
+    pub geometry: Geometry,
+    /// Rows of the map from object to world space, the last column the translation. Mirrors are fine; a singular map hides the instance.
+    pub object_to_world: [[f64; 4]; 3],
+    /// A ray sees the instance when its own mask shares a bit with this one.
+    pub mask: u8,
+    /// True when the material may let shadow rays pass.
+    pub transparent: bool,
+}
+
+impl Instance {
+    /// The identity map, which moves nothing.
+    pub const IDENTITY: [[f64; 4]; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+}
+
+/// Geometry in one word: shapes are counted down from the top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PackedGeometry(u32);
+
+const SHAPES: [Shape; 4] = [Shape::Rectangle, Shape::Disk, Shape::Sphere, Shape::Cylinder];
+
+impl PackedGeometry {
+    pub(super) fn new(geometry: Geometry) -> Self {
+        match geometry {
+            Geometry::Mesh(index) => PackedGeometry(index),
+            Geometry::Shape(shape) => PackedGeometry(u32::MAX - shape as u32),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn get(self) -> Geometry {
+        match SHAPES.get((u32::MAX - self.0) as usize) {
+            Some(&shape) => Geometry::Shape(shape),
+            None => Geometry::Mesh(self.0),
+        }
+    }
+}
+
+/// Leaf of the top-level tree: one instance; 64 bytes.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct InstanceRecord {
+    pub(super) world_to_object: Affine,
+    pub(super) geometry: PackedGeometry,
+    /// The caller's number.
+    pub(super) id: u32,
+    pub(super) mask: u8,
+    pub(super) transparent: bool,
+}

@@ -1,0 +1,49 @@
+//! Ray tracing acceleration: two levels of 8-wide bounding volume hierarchies.
+//!
+//! A [`Blas`] holds the triangles of one mesh, a [`SceneBvh`] the instances of many. Incoherent rays walk the tree one by one, eight boxes
+//! or triangles at a time; coherent rays walk it in packets of sixteen. All walks are watertight and find the same nearest hit: boxes are
+//! widened by a bound on the rounding errors (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong
+//! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
+
+mod blas;
+mod build;
+mod collapse;
+mod flat_tree;
+mod instance;
+mod instance_walk;
+mod lanes8;
+mod node;
+mod packet;
+mod packet_query;
+mod packet_ray;
+mod packet_walk;
+mod prepared;
+mod query;
+mod ray;
+mod scalar;
+mod scene_bvh;
+mod shape;
+#[cfg(test)]
+mod tests;
+mod transform;
+mod triangle_block;
+mod walk;
+mod wide;
+
+pub use blas::{Blas, BlasMemory};
+pub use instance::{Geometry, Instance};
+pub use ray::{Hits, NONE, PassedHit, RayBatch};
+pub use scene_bvh::SceneBvh;
+pub use shape::Shape;
+
+/// The build was cancelled through its flag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+impl std::fmt::Display for Cancelled {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("cancelled")
+    }
+}
+
+impl std::error::Error for Cancelled {}

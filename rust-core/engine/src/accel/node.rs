@@ -1,0 +1,131 @@
+//! The 8-wide node shared by both levels of the tree.
+
+/// Children of a node, and triangles of a block.
+pub(super) const WIDTH: usize = 8;
+
+/// Depth up to which a tree may grow; deeper trees are rebuilt balanced. Seven entries wait on the stack for every level.
+pub(super) const MAX_DEPTH: usize = 72;
+
+/// Entries of a traversal stack, a power of two above `MAX_DEPTH * (WIDTH - 1) + 1`.
+pub(super) const STACK: usize = 512;
+
+/// What a child slot refers to: three bits of kind and 29 bits of index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ChildRef(pub(super) u32);
+
+/// Kinds of children; curves, spheres and moving triangles would be further leaf kinds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(super) enum Kind {
+    /// A node of the same tree.
+    Inner = 0,
+    /// A block of triangles of a mesh.
+    Triangles = 1,
+    /// One instance of the scene.
+    Instance = 2,
+}
+
+const KIND_SHIFT: u32 = 29;
+const INDEX_MASK: u32 = (1 << KIND_SHIFT) - 1;
+
+impl ChildRef {
+    /// The root of every tree.
+    pub(super) const ROOT: ChildRef = ChildRef(0);
+
+    pub(super) fn new(kind: Kind, index: usize) -> Self {
+        debug_assert!(index <= INDEX_MASK as usize);
+        ChildRef(((kind as u32) << KIND_SHIFT) | index as u32)
+    }
+
+    #[inline(always)]
+    pub(super) fn is_inner(self) -> bool {
+        self.0 <= INDEX_MASK
+    }
+
+    #[inline(always)]
+    pub(super) fn index(self) -> usize {
+        (self.0 & INDEX_MASK) as usize
+    }
+
+    /// The same reference with its index moved, as when trees are put one behind the other.
+    pub(super) fn shifted(self, nodes: usize, leaves: usize) -> Self {
+        ChildRef(self.0 + if self.is_inner() { nodes } else { leaves } as u32)
+    }
+}
+
+/// The most leaf blocks or nodes a tree can address.
+pub(super) const MAX_INDEX: usize = INDEX_MASK as usize;
+
+/// Eight boxes and what is in them; 256 bytes, four cache lines.
+///
+/// Slots are sorted by surface area, smallest first; empty slots come last and hold an empty box, which no ray hits. The inner children of
+/// a node lie next to each other in memory.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// Rows: lowest x, y, z, then highest x, y, z.
+    pub(super) bounds: [[f32; WIDTH]; 6],
+    /// What lies in each box.
+    pub(super) children: [ChildRef; WIDTH],
+}
+
+impl Node {
+    /// A node without children.
+    pub(super) const EMPTY: Node =
+        Node { bounds: [[f32::INFINITY; 8], [f32::INFINITY; 8], [f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8]], children: [ChildRef::ROOT; WIDTH] };
+
+    pub(super) fn set(&mut self, slot: usize, bounds: &Bounds, child: ChildRef) {
+        for axis in 0..3 {
+            self.bounds[axis][slot] = bounds.min[axis];
+            self.bounds[axis + 3][slot] = bounds.max[axis];
+        }
+        self.children[slot] = child;
+    }
+}
+
+/// An axis-aligned box; empty when `min > max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub(super) min: [f32; 3],
+    pub(super) max: [f32; 3],
+}
+
+impl Bounds {
+    pub(super) const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [-f32::INFINITY; 3] };
+
+    pub(super) fn extend(&mut self, point: [f32; 3]) {
+        for axis in 0..3 {
+            self.min[axis] = self.min[axis].min(point[axis]);
+            self.max[axis] = self.max[axis].max(point[axis]);
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.min[0] > self.max[0]
+    }
+
+    /// Half the surface area, the measure of the surface area heuristic.
+    pub(super) fn half_area(&self) -> f32 {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.max[axis] - self.min[axis]);
+        x * y + y * z + z * x
+    }
+
+    /// Widened by the share of the rounding error bound that depends on the coordinates (see `prepared.rs`).
+    pub(super) fn padded(&self) -> Self {
+        let mut largest = 0.0f32;
+        for axis in 0..3 {
+            largest = largest.max(self.min[axis].abs()).max(self.max[axis].abs());
+        }
+        let pad = largest * ROUNDING_PAD;
+        Bounds { min: self.min.map(|x| x - pad), max: self.max.map(|x| x + pad) }
+    }
+}
+
+/// Boxes are widened by this share of the largest coordinate in play: eight units in the last place (2^-24) of f32.
+///
+/// What it must cover, in units of 2^-24 times the largest coordinate: 2.5 for the sheared vertex of the triangle test, 2.5 for the plane
+/// distances of the box test.
+pub(super) const ROUNDING_PAD: f32 = 8.0 / (1u32 << 24) as f32;
+
+/// Coordinates beyond this (in metres) are left out of the trees, so that no product in the tests overflows.
+pub(super) const LARGEST_COORDINATE: f32 = 1e12;

@@ -1,0 +1,90 @@
+//! Batches of rays and of hits, one entry a ray.
+
+/// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
+pub const NONE: u32 = u32::MAX;
+
+/// A borrowed batch of rays; all slices have the same length, one entry a ray.
+///
+/// A ray sees points `origin + t * direction` with `t_min < t <= t_max`; directions need not be unit, `t` counts in units of the direction.
+/// `t_min` below zero counts as zero. A ray with a component that is not finite, or with a zero direction, hits nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct RayBatch<'a> {
+    /// Start points: x, y, z.
+    pub origin: [&'a [f32]; 3],
+    /// Directions: x, y, z, of any length but zero.
+    pub direction: [&'a [f32]; 3],
+    /// Exclusive lower end of the interval.
+    pub t_min: &'a [f32],
+    /// Inclusive upper end of the interval; infinity is fine.
+    pub t_max: &'a [f32],
+    /// An instance is seen when it shares a bit of its visibility mask with this one.
+    pub mask: &'a [u8],
+}
+
+impl<'a> RayBatch<'a> {
+    /// The number of rays.
+    pub fn len(&self) -> usize {
+        self.t_max.len()
+    }
+
+    /// True when there is no ray.
+    pub fn is_empty(&self) -> bool {
+        self.t_max.is_empty()
+    }
+
+    /// Cuts all columns to one length, so that later indexing is checked once.
+    pub(super) fn same_length(self) -> Self {
+        let n = self.len();
+        let cut = |column: &'a [f32]| &column[..n];
+        RayBatch {
+            origin: self.origin.map(cut),
+            direction: self.direction.map(cut),
+            t_min: cut(self.t_min),
+            t_max: self.t_max,
+            mask: &self.mask[..n],
+        }
+    }
+}
+
+/// The nearest hits of a batch, one entry a ray; the queries set the length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hits {
+    /// Distance in units of the ray's direction; the ray's `t_max` for a miss.
+    pub t: Vec<f32>,
+    /// Barycentric coordinate of the triangle's vertex 1, or the shape's first parameter.
+    pub u: Vec<f32>,
+    /// Barycentric coordinate of the triangle's vertex 2, or the shape's second parameter.
+    pub v: Vec<f32>,
+    /// The triangle's number in its mesh, 0 for shapes, [`NONE`] for a miss.
+    pub primitive: Vec<u32>,
+    /// The instance's number, [`NONE`] for a miss.
+    pub instance: Vec<u32>,
+}
+
+impl Hits {
+    /// Sets the number of entries; new entries are misses.
+    pub fn resize(&mut self, n: usize) {
+        self.t.resize(n, f32::INFINITY);
+        self.u.resize(n, 0.0);
+        self.v.resize(n, 0.0);
+        self.primitive.resize(n, NONE);
+        self.instance.resize(n, NONE);
+    }
+}
+
+/// A hit on a transparent instance, on the way of a ray that no opaque surface blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassedHit {
+    /// The ray's number in its batch.
+    pub ray: u32,
+    /// The instance's number.
+    pub instance: u32,
+    /// The triangle's number in its mesh, 0 for shapes.
+    pub primitive: u32,
+    /// See [`Hits::u`].
+    pub u: f32,
+    /// See [`Hits::v`].
+    pub v: f32,
+    /// Distance in units of the ray's direction.
+    pub t: f32,
+}

@@ -1,0 +1,90 @@
+//! The tree over the instances of a scene.
+
+use super::Cancelled;
+use super::blas::Blas;
+use super::build::{Effort, build};
+use super::collapse::LeafMaker;
+use super::instance::{Geometry, Instance, InstanceRecord, PackedGeometry};
+use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::transform::{inverse, transformed_bounds};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Two-level tree of a scene: instances over shared meshes and analytic shapes.
+#[derive(Clone, Debug)]
+pub struct SceneBvh {
+    pub(super) nodes: Vec<Node>,
+    pub(super) records: Vec<InstanceRecord>,
+    pub(super) meshes: Vec<Arc<Blas>>,
+}
+
+impl SceneBvh {
+    /// Builds the top level over `instances`, whose order gives the instance numbers in the hits.
+    ///
+    /// Instances of missing or empty meshes, with singular maps or beyond 1e12 metres are left out; no ray hits them.
+    pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
+        let mut boxes = Vec::with_capacity(instances.len());
+        let mut records = Vec::with_capacity(instances.len());
+        for (id, instance) in instances.iter().enumerate() {
+            if let Some((bounds, record)) = placed(&meshes, instance, id as u32) {
+                boxes.push(bounds);
+                records.push(record);
+            }
+        }
+        assert!(boxes.len() <= MAX_INDEX, "a scene holds at most {MAX_INDEX} instances");
+        let tree = build(&boxes, &Records(&records), Effort::SCENE, cancel)?;
+        Ok(SceneBvh { nodes: tree.nodes, records: tree.leaves, meshes })
+    }
+
+    /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
+    pub fn rebuild(&mut self, instances: &[Instance], cancel: &AtomicBool) -> Result<(), Cancelled> {
+        *self = SceneBvh::build(std::mem::take(&mut self.meshes), instances, cancel)?;
+        Ok(())
+    }
+
+    /// The mesh trees, in the order of the numbers in [`Geometry::Mesh`].
+    pub fn meshes(&self) -> &[Arc<Blas>] {
+        &self.meshes
+    }
+
+    /// Bytes of the top level, without the meshes.
+    pub fn memory(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>() + self.records.capacity() * size_of::<InstanceRecord>()
+    }
+}
+
+/// The world box and the record of an instance, if rays can hit it.
+fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
+    let object_bounds = match instance.geometry {
+        Geometry::Mesh(index) => meshes.get(index as usize)?.bounds,
+        Geometry::Shape(shape) => shape.bounds(),
+    };
+    if object_bounds.is_empty() {
+        return None;
+    }
+    let bounds = transformed_bounds(&instance.object_to_world, &object_bounds);
+    let usable = bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE);
+    let world_to_object = inverse(&instance.object_to_world)?.map(|row| row.map(|x| x as f32));
+    let record = InstanceRecord {
+        world_to_object,
+        geometry: PackedGeometry::new(instance.geometry),
+        id,
+        mask: instance.mask,
+        transparent: instance.transparent,
+    };
+    (usable && world_to_object.iter().flatten().all(|x| x.is_finite())).then_some((bounds, record))
+}
+
+/// Puts instance records into the order of the tree.
+struct Records<'a>(&'a [InstanceRecord]);
+
+impl LeafMaker for Records<'_> {
+    type Leaf = InstanceRecord;
+    const CAPACITY: u32 = 1;
+    const KIND: Kind = Kind::Instance;
+    const COST: f32 = 1.0;
+
+    fn leaf(&self, primitives: &[u32]) -> InstanceRecord {
+        self.0[primitives[0] as usize]
+    }
+}

@@ -1,0 +1,51 @@
+//! Leaf of a mesh tree: up to eight triangles, structure of arrays.
+
+use super::node::WIDTH;
+use super::ray::NONE;
+
+/// Up to eight triangles sorted by their number; unused lanes hold NaN, which no test accepts.
+///
+/// The intersection test (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013) shears the vertices into the ray's
+/// space, where the three edge functions are differences of two products. Both products round monotonously, so a sign is never wrong, and a
+/// zero is accepted from both sides: a closed mesh has no gap at edges or vertices.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct TriangleBlock {
+    /// `vertices[corner][axis][lane]`.
+    pub(super) vertices: [[[f32; WIDTH]; 3]; 3],
+    /// The triangles' numbers in the mesh, [`NONE`] in unused lanes.
+    pub(super) primitives: [u32; WIDTH],
+}
+
+impl TriangleBlock {
+    /// A block without triangles.
+    pub(super) const EMPTY: TriangleBlock = TriangleBlock { vertices: [[[f32::NAN; WIDTH]; 3]; 3], primitives: [NONE; WIDTH] };
+
+    pub(super) fn set(&mut self, lane: usize, corners: [[f32; 3]; 3], primitive: u32) {
+        for (rows, corner) in self.vertices.iter_mut().zip(corners) {
+            for (row, x) in rows.iter_mut().zip(corner) {
+                row[lane] = x;
+            }
+        }
+        self.primitives[lane] = primitive;
+    }
+
+    /// The number of triangles.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        let mut n = 0;
+        for primitive in self.primitives {
+            n += usize::from(primitive != NONE);
+        }
+        n
+    }
+}
+
+/// Distances and barycentric coordinates of eight triangles, valid in the lanes of a mask.
+#[derive(Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub(super) struct BlockHits {
+    pub(super) t: [f32; WIDTH],
+    pub(super) u: [f32; WIDTH],
+    pub(super) v: [f32; WIDTH],
+}

@@ -1,0 +1,27 @@
+//! Polygon meshes of any valence turned into triangle meshes with primvars.
+//!
+//! Front ends fill a [`PolygonMesh`], call [`PolygonMesh::checked`] to drop what is broken, optionally
+//! [`refine::refine`] it, and [`triangulate`] the result. All functions are pure, deterministic and never panic on
+//! bad input: what cannot be used is skipped and counted or comes back as a [`MeshProblem`].
+
+mod ear_clip;
+mod normals;
+mod polygon;
+mod primvar;
+mod problem;
+pub mod quadrics;
+pub mod refine;
+mod tangents;
+mod triangulate;
+mod validate;
+mod vector;
+
+#[cfg(test)]
+mod tests;
+
+pub use normals::{corner_normals, facet_normals, smooth_normals};
+pub use polygon::PolygonMesh;
+pub use primvar::{FacePrimvar, Interpolation};
+pub use problem::{MeshProblem, Severity};
+pub use tangents::corner_tangents;
+pub use triangulate::{Triangulation, triangulate};

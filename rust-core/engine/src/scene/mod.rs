@@ -1,0 +1,94 @@
+//! The scene description: what is to be rendered, as plain data.
+//!
+//! Front ends fill a [`Scene`]; nothing here knows how it is computed. Lengths are metres, transforms f64, colours linear Rec.709,
+//! radiances scaled so that their luminance is in cd/m².
+
+mod camera;
+mod instance;
+mod light;
+mod material;
+mod mesh;
+mod origin;
+mod settings;
+mod texture;
+mod transform;
+
+pub use camera::{Camera, CameraExposure, Projection};
+pub use instance::{Instances, Visibility};
+pub use light::{DomeFormat, Emission, Light, LightShape, Shaping};
+pub use material::{Channel, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind};
+pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
+pub use origin::Origin;
+pub use settings::{Aov, Crop, Filter, Integrator, Settings};
+pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
+pub use transform::Transform;
+
+use serde::{Deserialize, Serialize};
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        pub struct $name(pub u32);
+        impl $name {
+            /// The place in the scene's list.
+            #[inline]
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+id!(
+    /// A mesh of the scene.
+    MeshId
+);
+id!(
+    /// A material of the scene.
+    MaterialId
+);
+id!(
+    /// A texture of the scene.
+    TextureId
+);
+
+/// Everything that is rendered.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Scene {
+    /// Triangle meshes, shared by instances.
+    pub meshes: Vec<Mesh>,
+    /// Placed meshes.
+    pub instances: Vec<Instances>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Images.
+    pub textures: Vec<Texture>,
+    /// Light sources other than emissive materials.
+    pub lights: Vec<Light>,
+    /// Cameras; [`Settings::camera`] chooses one.
+    pub cameras: Vec<Camera>,
+    /// How it is rendered.
+    pub settings: Settings,
+}
+
+impl Scene {
+    /// Adds a mesh.
+    pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.meshes.push(mesh);
+        MeshId(id_of(self.meshes.len()))
+    }
+    /// Adds a material.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(id_of(self.materials.len()))
+    }
+    /// Adds a texture.
+    pub fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(id_of(self.textures.len()))
+    }
+}
+
+fn id_of(len: usize) -> u32 {
+    u32::try_from(len - 1).expect("a scene has fewer than 2^32 elements of a kind")
+}

@@ -1,0 +1,31 @@
+//! Where a scene element came from.
+
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A prim path or an object's name, and the file if it is known: the first thing every message says.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Origin {
+    /// Prim path, object name or variable name.
+    pub name: Arc<str>,
+    /// The file it stands in, empty if unknown.
+    pub file: Arc<str>,
+}
+
+impl Origin {
+    /// An origin without a file.
+    pub fn new(name: impl AsRef<str>) -> Self {
+        Self { name: Arc::from(name.as_ref()), file: Arc::from("") }
+    }
+}
+
+impl std::fmt::Display for Origin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.name.is_empty(), self.file.is_empty()) {
+            (false, false) => write!(f, "{} ({})", self.name, self.file),
+            (true, false) => write!(f, "{}", self.file),
+            (false, true) => write!(f, "{}", self.name),
+            (true, true) => write!(f, "scene"),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! Images.
+
+use super::Origin;
+use serde::{Deserialize, Serialize};
+use std::{path::PathBuf, sync::Arc};
+
+/// Where the pixels come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum TextureSource {
+    /// A file; `<UDIM>` in the name stands for the tile number.
+    File(PathBuf),
+    /// An encoded file in memory, with a name that tells its format.
+    Encoded {
+        /// Name for messages; its ending tells the format.
+        name: String,
+        /// The file's bytes.
+        bytes: Arc<[u8]>,
+    },
+    /// Linear float RGBA, rows from the top.
+    Pixels {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// RGBA.
+        rgba: Arc<[f32]>,
+    },
+}
+
+/// What lies beyond the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum WrapMode {
+    /// The image again.
+    Repeat,
+    /// The border's colour.
+    Clamp,
+    /// The image mirrored.
+    Mirror,
+    /// Zero, alpha too.
+    Black,
+}
+
+/// How texels are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TextureFilter {
+    /// Trilinear between mip levels.
+    Linear,
+    /// The nearest texel of the finest level.
+    Closest,
+}
+
+/// An image and how its numbers are meant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Texture {
+    /// Where it came from.
+    pub origin: Origin,
+    /// The pixels.
+    pub source: TextureSource,
+    /// Colour space by any of the names that USD, MaterialX and OpenColorIO use; `auto` decides by the file.
+    pub colour_space: String,
+}
