@@ -1,9 +1,25 @@
 //! gonio: a physically exact path tracer on SIMD lanes.
 //!
-//! A front end fills a [`scene::Scene`], in metres and physical units; `compile` lays it out for computing; `render` traces it tile by tile
-//! into a film; `output` writes files.
+//! A front end fills a [`scene::Scene`], in metres and physical units; [`compile`] lays it out for computing; [`render`] traces it tile by
+//! tile into a film.
 
+pub mod accel;
+pub mod bsdf;
+pub mod camera;
+pub mod colour;
+pub mod compile;
+pub mod distribution;
 pub mod error;
+pub mod film;
+pub mod geometry;
+pub mod graph;
+pub mod integrator;
+pub mod light;
+pub mod mesh;
+pub mod output;
+pub mod render;
+pub mod sampler;
 pub mod scene;
+pub mod texture;
 
 pub use error::{Diagnostic, Error, Result, Severity};

@@ -23,14 +23,17 @@ impl<L: Lanes> Frame<L> {
         let b = n.x * n.y * a;
         Self { x: Vec3::new(sign * n.x * n.x * a + 1.0, sign * b, -sign * n.x), y: Vec3::new(b, sign + n.y * n.y * a, -n.y), z: n }
     }
-    /// The frame about unit normal `n` whose x axis is `tangent` projected to the plane; any frame where the tangent is parallel to `n`.
+    /// The frame about unit normal `n` whose x axis is `tangent` projected to the plane; any frame where the tangent is parallel to `n`
+    /// within 3·10⁻⁴, zero or not finite. The tangent's length does not matter.
     #[inline(always)]
     pub fn from_tangent(n: Vec3<L>, tangent: Vec3<L>) -> Self {
         let any = Self::from_normal(n);
         let flat = tangent - n * n.dot(tangent);
         let squared = flat.length_squared();
-        let usable = squared.gt(1e-12) & squared.is_finite();
-        let x = usable.select(flat * squared.sqrt().recip(), any.x);
+        let usable = squared.gt(tangent.length_squared() * 1e-7) & squared.is_finite();
+        let unit = flat * squared.sqrt().recip();
+        // Projected again, for a short remainder is mostly rounding error.
+        let x = usable.select(unit - n * n.dot(unit), any.x);
         Self { x, y: n.cross(x), z: n }
     }
     /// A world vector in the frame's coordinates.

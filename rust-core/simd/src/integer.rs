@@ -93,6 +93,12 @@ impl<L: Lanes> U<L> {
     pub fn keep_if(self, mask: M<L>) -> Self {
         mask.select(self, self.lanes().u(0))
     }
+    /// One more where the mask is set: how comparisons are counted.
+    #[inline(always)]
+    pub fn count_if(self, mask: M<L>) -> Self {
+        // The mask's ones are -1, so that one subtraction does it.
+        self - mask.to_ones()
+    }
     /// The bits of each value in reverse order.
     #[inline(always)]
     pub fn reverse_bits(self) -> Self {

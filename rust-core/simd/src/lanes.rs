@@ -123,6 +123,8 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn not_m(a: Self::Mask) -> Self::Mask;
     /// Bit `i` is lane `i`.
     fn bits_m(a: Self::Mask) -> u64;
+    /// All ones where set, zero elsewhere.
+    fn ones_m(a: Self::Mask) -> Self::U32;
     /// Lane `i` from bit `i`.
     fn mask_from_bits(self, bits: u64) -> Self::Mask;
     /// `if_true` where the mask is set.

@@ -64,11 +64,16 @@ impl<L: Lanes> M<L> {
     pub fn count(self) -> usize {
         self.bits().count_ones() as usize
     }
-    /// 1 where set, 0 elsewhere.
+    /// 1 where set, 0 elsewhere. To count, see [`U::count_if`].
     #[inline(always)]
     pub fn to_integers(self) -> U<L> {
         let l = L::token_m(self.0);
         self.select(l.u(1), l.u(0))
+    }
+    /// All ones where set, 0 elsewhere.
+    #[inline(always)]
+    pub fn to_ones(self) -> U<L> {
+        U(L::ones_m(self.0))
     }
     /// Set here and not in `other`.
     #[inline(always)]

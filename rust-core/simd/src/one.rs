@@ -222,6 +222,10 @@ impl Lanes for One {
         u64::from(a)
     }
     #[inline(always)]
+    fn ones_m(a: bool) -> u32 {
+        u32::from(a).wrapping_neg()
+    }
+    #[inline(always)]
     fn mask_from_bits(self, bits: u64) -> bool {
         bits & 1 != 0
     }

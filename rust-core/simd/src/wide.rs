@@ -218,6 +218,10 @@ impl<S: Simd> Lanes for Wide<S> {
         a.to_bitmask()
     }
     #[inline(always)]
+    fn ones_m(a: S::mask32s) -> S::u32s {
+        a.to_vector().bitcast()
+    }
+    #[inline(always)]
     fn mask_from_bits(self, bits: u64) -> S::mask32s {
         S::mask32s::from_bitmask(self.0, bits)
     }

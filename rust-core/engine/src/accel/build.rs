@@ -5,11 +5,18 @@ use super::collapse::{LeafMaker, WideTree, collapse};
 use super::flat_tree::{FlatNode, balanced, flatten};
 use super::node::{Bounds, MAX_DEPTH, Node};
 use glam::Vec3A;
+use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use std::sync::atomic::{AtomicBool, Ordering};
+
+impl Boundable for Bounds {
+    fn aabb(&self) -> Aabb {
+        Aabb::new(Vec3A::from_array(self.min), Vec3A::from_array(self.max))
+    }
+}
 
 /// How much time goes into the binary tree.
 #[derive(Clone, Copy)]
@@ -29,7 +36,12 @@ impl Effort {
 }
 
 /// Builds the wide tree over boxes; primitive `i` of the leaf maker is box `i`.
-pub(super) fn build<M: LeafMaker>(boxes: &[Bounds], maker: &M, effort: Effort, cancel: &AtomicBool) -> Result<WideTree<M::Leaf>, Cancelled> {
+pub(super) fn build<M: LeafMaker>(
+    boxes: &[Bounds],
+    maker: &M,
+    effort: Effort,
+    cancel: &AtomicBool,
+) -> Result<WideTree<M::Leaf>, Cancelled> {
     if boxes.is_empty() {
         return Ok(WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 });
     }
@@ -44,16 +56,10 @@ pub(super) fn build<M: LeafMaker>(boxes: &[Bounds], maker: &M, effort: Effort, c
 /// Locally ordered clustering, then reinsertion in ever smaller batches (obvhs).
 fn binary_tree(boxes: &[Bounds], effort: Effort, cancel: &AtomicBool) -> Result<Vec<FlatNode>, Cancelled> {
     let check = || if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) };
-    let aabbs: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(Vec3A::from_array(b.min), Vec3A::from_array(b.max))).collect();
-    check()?;
-    let mut tree: Bvh2 = PlocBuilder::with_capacity(aabbs.len()).build(
-        effort.search_distance,
-        &aabbs,
-        (0..aabbs.len() as u32).collect(),
-        SortPrecision::U64,
-        effort.short_rounds,
-    );
-    drop(aabbs);
+    let primitives = (0..boxes.len() as u32).collect();
+    let mut builder = PlocBuilder::with_capacity(boxes.len());
+    let mut tree: Bvh2 = builder.build(effort.search_distance, boxes, primitives, SortPrecision::U64, effort.short_rounds);
+    drop(builder);
     let mut optimizer = ReinsertionOptimizer::default();
     for round in (1..32).step_by(2) {
         check()?;

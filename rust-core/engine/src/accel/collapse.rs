@@ -31,30 +31,21 @@ pub(super) struct WideTree<L> {
     pub(super) depth: usize,
 }
 
-/// The choices at one binary node.
-///
-/// `split[1]` is 0 for a leaf, else the slots of eight that go left when it becomes a wide node. `split[i]` for 2 to 7 slots is the slots
-/// that go left, or 0 where fewer slots are as cheap.
-#[derive(Clone, Copy)]
-struct Choice {
-    split: [u8; WIDTH],
-}
-
 /// Subtrees of at most this many leaves are collapsed as one parallel task.
 const TASK_LEAVES: usize = 1 << 14;
 
 /// Collapses a tree that is not empty.
 pub(super) fn collapse<M: LeafMaker>(tree: &[FlatNode], maker: &M, cancel: &AtomicBool) -> Result<WideTree<M::Leaf>, Cancelled> {
     let choices = choose::<M>(tree, cancel)?;
-    if cancel.load(Ordering::Relaxed) {
-        return Err(Cancelled);
-    }
     let mut top = Emitter { tree, choices: &choices, maker, nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 };
     let tasks = top.emit(Pending { place: 0, node: 0, depth: 1 }, TASK_LEAVES);
     let parts: Vec<(Pending, Emitter<M>)> = tasks
         .into_par_iter()
         .map(|task| {
-            let mut part = Emitter { tree, choices: &choices, maker, nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: task.depth };
+            let guess = choices[task.place as usize].count as usize / 3 + 1;
+            let (mut nodes, leaves) = (Vec::with_capacity(guess), Vec::with_capacity(guess));
+            nodes.push(Node::EMPTY);
+            let mut part = Emitter { tree, choices: &choices, maker, nodes, leaves, depth: task.depth };
             if !cancel.load(Ordering::Relaxed) {
                 part.emit(Pending { node: 0, ..task }, 0);
             }
@@ -76,10 +67,8 @@ fn join<M: LeafMaker>(top: Emitter<M>, parts: Vec<(Pending, Emitter<M>)>) -> Wid
         // Node 1 of the part becomes node `nodes.len()`.
         let (node_shift, leaf_shift) = (nodes.len() - 1, leaves.len());
         let moved = |mut node: Node| {
-            for slot in 0..WIDTH {
-                if node.bounds[0][slot] <= node.bounds[3][slot] {
-                    node.children[slot] = node.children[slot].shifted(node_shift, leaf_shift);
-                }
+            for child in &mut node.children {
+                *child = child.shifted(node_shift, leaf_shift);
             }
             node
         };
@@ -101,7 +90,7 @@ struct Pending {
 
 struct Emitter<'a, M: LeafMaker> {
     tree: &'a [FlatNode],
-    choices: &'a Choices,
+    choices: &'a [Choice],
     maker: &'a M,
     nodes: Vec<Node>,
     leaves: Vec<M::Leaf>,
@@ -114,7 +103,7 @@ impl<M: LeafMaker> Emitter<'_, M> {
         let mut tasks = Vec::new();
         let mut stack = vec![start];
         while let Some(pending) = stack.pop() {
-            if self.choices.count[pending.place as usize] as usize <= task_leaves {
+            if self.choices[pending.place as usize].count as usize <= task_leaves {
                 tasks.push(pending);
                 continue;
             }
@@ -122,7 +111,7 @@ impl<M: LeafMaker> Emitter<'_, M> {
             let (slots, n) = self.slots(pending.place);
             let mut node = Node::EMPTY;
             for (slot, &place) in slots[..n].iter().enumerate() {
-                let child = if self.choices.splits[place as usize].split[1] == 0 {
+                let child = if self.choices[place as usize].split[1] == 0 {
                     self.emit_leaf(place)
                 } else {
                     self.nodes.push(Node::EMPTY);
@@ -142,7 +131,7 @@ impl<M: LeafMaker> Emitter<'_, M> {
         let mut slots = [(0.0f32, 0u32); WIDTH];
         let mut n = 0;
         let mut open = [(0u32, 0u8); WIDTH];
-        let split = self.choices.splits[place as usize].split[1];
+        let split = self.choices[place as usize].split[1];
         let mut top = 1;
         if split == 0 {
             open[0] = (place, 1);
@@ -155,7 +144,7 @@ impl<M: LeafMaker> Emitter<'_, M> {
             top -= 1;
             let (place, mut budget) = open[top];
             let node = &self.tree[place as usize];
-            let choice = &self.choices.splits[place as usize].split;
+            let choice = &self.choices[place as usize].split;
             while budget > 1 && choice[budget as usize] == 0 {
                 budget -= 1;
             }
@@ -179,7 +168,7 @@ impl<M: LeafMaker> Emitter<'_, M> {
     }
 
     fn emit_leaf(&mut self, place: u32) -> ChildRef {
-        let count = self.choices.count[place as usize] as usize;
+        let count = self.choices[place as usize].count as usize;
         let mut primitives = [0u32; WIDTH];
         let mut n = 0;
         for node in &self.tree[place as usize..place as usize + 2 * count - 1] {
@@ -198,57 +187,92 @@ impl<M: LeafMaker> Emitter<'_, M> {
     }
 }
 
-/// The outcome of the dynamic programme, one entry a binary node.
-struct Choices {
-    splits: Vec<Choice>,
+/// The outcome of the dynamic programme at one binary node.
+#[derive(Clone, Copy)]
+struct Choice {
     /// Primitives below.
-    count: Vec<u32>,
+    count: u32,
+    /// The least cost with 1 to 7 slots.
+    cost: [f32; WIDTH - 1],
+    /// `split[1]` is 0 for a leaf, else the slots of eight that go left when the node becomes a wide one. `split[i]` for 2 to 7 slots is
+    /// the slots that go left, or 0 where fewer slots are as cheap.
+    split: [u8; WIDTH],
 }
 
-fn choose<M: LeafMaker>(tree: &[FlatNode], cancel: &AtomicBool) -> Result<Choices, Cancelled> {
-    let mut splits = vec![Choice { split: [0; WIDTH] }; tree.len()];
-    let mut count = vec![1u32; tree.len()];
-    let mut costs = vec![[0.0f32; WIDTH]; tree.len()];
-    for (place, node) in tree.iter().enumerate().rev() {
-        if place % (1 << 16) == 0 && cancel.load(Ordering::Relaxed) {
-            return Err(Cancelled);
-        }
-        let area = node.bounds.half_area();
-        if node.right == 0 {
-            costs[place] = [area * M::COST; WIDTH];
-            continue;
-        }
-        let (left, right) = (place + 1, node.right as usize);
-        count[place] = count[left] + count[right];
-        let leaf_cost = if count[place] <= M::CAPACITY { area * M::COST } else { f32::INFINITY };
-        (costs[place], splits[place]) = combine(&costs[left], &costs[right], area, leaf_cost);
+/// Runs the dynamic programme: small subtrees in parallel, then what lies above them.
+fn choose<M: LeafMaker>(tree: &[FlatNode], cancel: &AtomicBool) -> Result<Vec<Choice>, Cancelled> {
+    let (subtrees, above) = cut(tree);
+    let mut choices = vec![Choice { count: 1, cost: [0.0; WIDTH - 1], split: [0; WIDTH] }; tree.len()];
+    let mut parts = Vec::with_capacity(subtrees.len());
+    let (mut rest, mut done) = (&mut choices[..], 0);
+    for &(start, end) in &subtrees {
+        let (_, from) = std::mem::take(&mut rest).split_at_mut(start - done);
+        let (part, behind) = from.split_at_mut(end - start);
+        parts.push((start, part));
+        (rest, done) = (behind, end);
     }
-    Ok(Choices { splits, count })
-}
-
-/// Costs and choices of a node from those of its children; entry `i` is for `i` slots.
-fn combine(left: &[f32; WIDTH], right: &[f32; WIDTH], node_cost: f32, leaf_cost: f32) -> ([f32; WIDTH], Choice) {
-    let mut cost = [0.0f32; WIDTH];
-    let mut choice = Choice { split: [0; WIDTH] };
-    let best = |slots: usize| {
-        let mut best = (f32::INFINITY, 1u8);
-        for to_left in 1..slots {
-            let sum = left[to_left] + right[slots - to_left];
-            if sum < best.0 {
-                best = (sum, to_left as u8);
+    parts.into_par_iter().for_each(|(start, part)| {
+        if !cancel.load(Ordering::Relaxed) {
+            for place in (0..part.len()).rev() {
+                part[place] = choice::<M>(&tree[start + place], part, start, start + place);
             }
         }
-        best
-    };
-    let (below, split) = best(WIDTH);
-    let inner_cost = below + node_cost;
-    cost[1] = leaf_cost.min(inner_cost);
-    choice.split[1] = if leaf_cost <= inner_cost { 0 } else { split };
-    for slots in 2..WIDTH {
-        let (sum, to_left) = best(slots);
-        let better = sum < cost[slots - 1];
-        cost[slots] = if better { sum } else { cost[slots - 1] };
-        choice.split[slots] = if better { to_left } else { 0 };
+    });
+    for &place in above.iter().rev() {
+        choices[place] = choice::<M>(&tree[place], &choices, 0, place);
     }
-    (cost, choice)
+    if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(choices) }
+}
+
+/// The ranges of the largest subtrees of at most `TASK_LEAVES` leaves, and the nodes above them, both in rising order.
+fn cut(tree: &[FlatNode]) -> (Vec<(usize, usize)>, Vec<usize>) {
+    let (mut subtrees, mut above) = (Vec::new(), Vec::new());
+    let mut stack = vec![(0, tree.len())];
+    while let Some((place, end)) = stack.pop() {
+        if end - place < 2 * TASK_LEAVES {
+            subtrees.push((place, end));
+            continue;
+        }
+        above.push(place);
+        let right = tree[place].right as usize;
+        stack.push((right, end));
+        stack.push((place + 1, right));
+    }
+    (subtrees, above)
+}
+
+/// The choice at one node from those at its children; `choices[0]` belongs to node `first`.
+fn choice<M: LeafMaker>(node: &FlatNode, choices: &[Choice], first: usize, place: usize) -> Choice {
+    let area = node.bounds.half_area();
+    if node.right == 0 {
+        return Choice { count: 1, cost: [area * M::COST; WIDTH - 1], split: [0; WIDTH] };
+    }
+    let (left, right) = (&choices[place + 1 - first], &choices[node.right as usize - first]);
+    let count = left.count + right.count;
+    let leaf_cost = if count <= M::CAPACITY { area * M::COST } else { f32::INFINITY };
+    let mut out = Choice { count, cost: [0.0; WIDTH - 1], split: [0; WIDTH] };
+    let (below, split) = cheapest(left, right, WIDTH);
+    let inner_cost = below + area;
+    out.cost[0] = leaf_cost.min(inner_cost);
+    out.split[1] = if leaf_cost <= inner_cost { 0 } else { split };
+    for slots in 2..WIDTH {
+        let (sum, to_left) = cheapest(left, right, slots);
+        let better = sum < out.cost[slots - 2];
+        out.cost[slots - 1] = if better { sum } else { out.cost[slots - 2] };
+        out.split[slots] = if better { to_left } else { 0 };
+    }
+    out
+}
+
+/// The cheapest way to share slots between two subtrees: the cost, and the slots of the left one.
+#[inline(always)]
+fn cheapest(left: &Choice, right: &Choice, slots: usize) -> (f32, u8) {
+    let mut best = (f32::INFINITY, 1u8);
+    for to_left in 1..slots {
+        let sum = left.cost[to_left - 1] + right.cost[slots - to_left - 1];
+        if sum < best.0 {
+            best = (sum, to_left as u8);
+        }
+    }
+    best
 }

@@ -71,8 +71,10 @@ pub(super) struct Node {
 
 impl Node {
     /// A node without children.
-    pub(super) const EMPTY: Node =
-        Node { bounds: [[f32::INFINITY; 8], [f32::INFINITY; 8], [f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8]], children: [ChildRef::ROOT; WIDTH] };
+    pub(super) const EMPTY: Node = Node {
+        bounds: [[f32::INFINITY; 8], [f32::INFINITY; 8], [f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8]],
+        children: [ChildRef::ROOT; WIDTH],
+    };
 
     pub(super) fn set(&mut self, slot: usize, bounds: &Bounds, child: ChildRef) {
         for axis in 0..3 {

@@ -32,13 +32,14 @@ impl SceneBvh {
             }
         }
         assert!(boxes.len() <= MAX_INDEX, "a scene holds at most {MAX_INDEX} instances");
-        let tree = build(&boxes, &Records(&records), Effort::SCENE, cancel)?;
+        let effort = if boxes.len() <= MANY_INSTANCES { Effort::SCENE } else { Effort::MESH };
+        let tree = build(&boxes, &Records(&records), effort, cancel)?;
         Ok(SceneBvh { nodes: tree.nodes, records: tree.leaves, meshes })
     }
 
     /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
     pub fn rebuild(&mut self, instances: &[Instance], cancel: &AtomicBool) -> Result<(), Cancelled> {
-        *self = SceneBvh::build(std::mem::take(&mut self.meshes), instances, cancel)?;
+        *self = SceneBvh::build(self.meshes.clone(), instances, cancel)?;
         Ok(())
     }
 
@@ -52,6 +53,9 @@ impl SceneBvh {
         self.nodes.capacity() * size_of::<Node>() + self.records.capacity() * size_of::<InstanceRecord>()
     }
 }
+
+/// Above this number of instances the top level gets no more care than a mesh, so that moving one stays quick.
+const MANY_INSTANCES: usize = 10_000;
 
 /// The world box and the record of an instance, if rays can hit it.
 fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {

@@ -2,8 +2,10 @@
 
 type Point = [f64; 2];
 
-/// Containment tests per vertex after which the rest of a polygon is cut as a fan: bounds the time of hostile polygons.
+/// Containment tests after which the rest of a polygon is cut as a fan: per vertex for small polygons and at most, so that
+/// hostile outlines take a fraction of a second and not quadratic time.
 const TESTS_PER_VERTEX: usize = 4096;
+const MAX_TESTS: usize = 1 << 24;
 
 /// Appends `polygon.len() - 2` triangles of places in `polygon`, which runs counter-clockwise. Polygons that cross
 /// themselves give triangles that cover all vertices, nothing better.
@@ -63,10 +65,12 @@ impl<'a> Clipper<'a> {
         let is_reflex: Vec<bool> = (0..count).map(|i| turn(polygon[previous[i]], polygon[i], polygon[next[i]]) <= 0.0).collect();
         let mut by_x: Vec<usize> = (0..count).filter(|&i| is_reflex[i]).collect();
         by_x.sort_unstable_by(|&a, &b| polygon[a][0].total_cmp(&polygon[b][0]).then(a.cmp(&b)));
-        Self { polygon, previous, next, is_reflex, by_x, stale: 0, tests_left: count.saturating_mul(TESTS_PER_VERTEX) }
+        Self { polygon, previous, next, is_reflex, by_x, stale: 0, tests_left: count.saturating_mul(TESTS_PER_VERTEX).min(MAX_TESTS) }
     }
 
     fn is_ear(&mut self, vertex: usize) -> bool {
+        // A visit costs as a test does, or outlines with few convex vertices would take quadratic time.
+        self.tests_left = self.tests_left.saturating_sub(1);
         if self.is_reflex[vertex] {
             return false;
         }
@@ -88,7 +92,7 @@ impl<'a> Clipper<'a> {
                 break;
             }
         }
-        self.tests_left = self.tests_left.saturating_sub(tests + 1);
+        self.tests_left = self.tests_left.saturating_sub(tests);
         !blocked
     }
 

@@ -17,9 +17,9 @@ pub(super) fn newell(points: &[Vec3], vertices: &[u32]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     for (i, &vertex) in vertices.iter().enumerate() {
         let (a, b) = (relative(vertex), relative(vertices[(i + 1) % vertices.len()]));
-        for axis in 0..3 {
+        for (axis, component) in normal.iter_mut().enumerate() {
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            normal[axis] += (a[u] - b[u]) * (a[v] + b[v]);
+            *component += (a[u] - b[u]) * (a[v] + b[v]);
         }
     }
     normal

@@ -54,7 +54,13 @@ impl PolygonMesh {
         let ragged = !primvar.values.len().is_multiple_of(primvar.components);
         if ragged || primvar.place_count() != expected {
             let found = primvar.place_count();
-            return Some(MeshProblem::PrimvarLength { primvar: place, name: name(), interpolation: primvar.interpolation, expected, found });
+            return Some(MeshProblem::PrimvarLength {
+                primvar: place,
+                name: name(),
+                interpolation: primvar.interpolation,
+                expected,
+                found,
+            });
         }
         let elements = primvar.element_count();
         let indices = primvar.indices.as_deref().unwrap_or(&[]);

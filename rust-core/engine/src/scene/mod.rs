@@ -3,6 +3,7 @@
 //! Front ends fill a [`Scene`]; nothing here knows how it is computed. Lengths are metres, transforms f64, colours linear Rec.709,
 //! radiances scaled so that their luminance is in cd/m².
 
+mod bundle;
 mod camera;
 mod instance;
 mod light;
@@ -13,6 +14,7 @@ mod settings;
 mod texture;
 mod transform;
 
+pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping};

@@ -21,7 +21,12 @@ pub(crate) fn limit_weights(valence: u32) -> (f32, f32) {
 }
 
 /// Values of the next level: those of vertices, edges, faces.
-pub(crate) fn refine_values<const N: usize>(level: &Level, masks: &[VertexMask], triangles: TriangleRule, values: &[[f32; N]]) -> Vec<[f32; N]> {
+pub(crate) fn refine_values<const N: usize>(
+    level: &Level,
+    masks: &[VertexMask],
+    triangles: TriangleRule,
+    values: &[[f32; N]],
+) -> Vec<[f32; N]> {
     let centers = face_centers(level, values);
     let mut refined = Vec::with_capacity(level.vertex_count + level.edge_vertices.len() + centers.len());
     apply(masks, values, &ring_sums(level, values, &centers), &mut refined);

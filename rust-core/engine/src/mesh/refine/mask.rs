@@ -77,7 +77,8 @@ pub(crate) fn refinement_masks(level: &Level, smooth: SmoothWeights) -> Vec<Vert
             return mask;
         }
         let vertex_ends = sharpness > 0.0 && reduced(sharpness) == 0.0;
-        let (sum, count) = if vertex_ends { (around.ending_sum + sharpness, around.ending_count + 1.0) } else { (around.ending_sum, around.ending_count) };
+        let (sum, count) =
+            if vertex_ends { (around.ending_sum + sharpness, around.ending_count + 1.0) } else { (around.ending_sum, around.ending_count) };
         let weight = if count > 0.0 { (sum / count).min(1.0) } else { 0.0 };
         blend(mask, weight, rule_mask(below, around, &around.below, smooth, CREASE_REFINED))
     };
@@ -87,7 +88,8 @@ pub(crate) fn refinement_masks(level: &Level, smooth: SmoothWeights) -> Vec<Vert
 /// Masks from a level to the limit surface, its sharp edges taken as sharp for ever.
 pub(crate) fn limit_masks(level: &Level, smooth: SmoothWeights) -> Vec<VertexMask> {
     let around = neighbourhoods(level);
-    let mask_of = |(around, &sharpness): (&Neighbourhood, &f32)| rule_mask(around.here.rule(sharpness), around, &around.here, smooth, CREASE_LIMIT);
+    let mask_of =
+        |(around, &sharpness): (&Neighbourhood, &f32)| rule_mask(around.here.rule(sharpness), around, &around.here, smooth, CREASE_LIMIT);
     around.iter().zip(&level.vertex_sharpness).map(mask_of).collect()
 }
 

@@ -12,8 +12,7 @@ pub(crate) struct Sector<'a> {
 /// Calls `visit` for each sector of the level, in order of their first corners. Sectors are parted by boundaries,
 /// non-manifold edges and the edges that are a `is_barrier`.
 pub(crate) fn for_each_sector(level: &Level, is_barrier: impl Fn(usize) -> bool, mut visit: impl FnMut(&Sector)) {
-    let faces = level.corner_faces();
-    let walker = Walker { level, faces: &faces, is_barrier };
+    let walker = Walker { level, is_barrier };
     let mut visited = vec![false; level.corner_vertex.len()];
     let mut corners = Vec::new();
     for seed in 0..level.corner_vertex.len() {
@@ -34,7 +33,6 @@ pub(crate) fn for_each_sector(level: &Level, is_barrier: impl Fn(usize) -> bool,
 
 struct Walker<'a, Barrier> {
     level: &'a Level,
-    faces: &'a [u32],
     is_barrier: Barrier,
 }
 
@@ -53,14 +51,12 @@ impl<Barrier: Fn(usize) -> bool> Walker<'_, Barrier> {
 
     /// The next corner counter-clockwise around the same vertex.
     fn after(&self, corner: usize) -> Option<usize> {
-        let incoming = self.level.previous(self.faces[corner] as usize, corner);
-        self.across(incoming)
+        self.across(self.level.before(corner))
     }
 
     /// The next corner clockwise around the same vertex.
     fn before(&self, corner: usize) -> Option<usize> {
-        let opposite = self.across(corner)?;
-        Some(self.level.next(self.faces[opposite] as usize, opposite))
+        self.across(corner).map(|opposite| self.level.after(opposite))
     }
 
     /// The corner that runs along the same edge as `corner` on the other side.

@@ -10,6 +10,8 @@ use crate::mesh::MeshProblem;
 pub(super) fn sharpen(level: &mut Level, creases: &Creases, boundary: BoundaryInterpolation, holes: &mut [bool]) -> Vec<MeshProblem> {
     let fans = fan_counts(level, |edge| is_infinitely_sharp(level, edge));
     let base: Vec<bool> = level.edge_sharpness.iter().map(|&sharpness| sharpness >= INFINITE).collect();
+    // Authored values count from smooth, so that a boundary's own sharpness can be told from its topological one.
+    level.edge_sharpness.fill(0.0);
     let mut problems = Vec::new();
     problems.extend(sharpen_edges(level, creases));
     problems.extend(sharpen_corners(level, creases));
@@ -37,10 +39,10 @@ fn sharpen_edges(level: &mut Level, creases: &Creases) -> Option<MeshProblem> {
     let per_chain = given == creases.crease_lengths.len() as u64;
     if !per_chain && given != edges {
         let chains = creases.crease_lengths.len();
-        return Some(MeshProblem::Crease { message: format!("{given} crease sharpnesses, expected {chains} (per crease) or {edges} (per edge)") });
+        return Some(MeshProblem::Crease {
+            message: format!("{given} crease sharpnesses, expected {chains} (per crease) or {edges} (per edge)"),
+        });
     }
-    // Authored values count from smooth, so that a boundary's own sharpness can be told from its topological one.
-    level.edge_sharpness.fill(0.0);
     let (mut start, mut edge_number, mut missing) = (0usize, 0usize, 0usize);
     for (chain, &length) in creases.crease_lengths.iter().enumerate() {
         for pair in creases.crease_indices[start..start + length as usize].windows(2) {

@@ -3,7 +3,7 @@
 //! Vertices of the next level are numbered: those from vertices, then from edges, then (quads only) from faces. Edges:
 //! two from each edge, the half at its first vertex first, then one from each corner.
 
-use super::topology::{INFINITE, Level};
+use super::topology::{INFINITE, Level, NONE};
 
 impl Level {
     /// The next level of quads; the face from corner `c` has number `c`.
@@ -29,7 +29,8 @@ impl Level {
             }
         }
         child.face_start = (0..=corner_count as u32).map(|face| 4 * face).collect();
-        child.link_corners();
+        child.face_size = 4;
+        child.close();
         child
     }
 
@@ -57,7 +58,8 @@ impl Level {
             }
         }
         child.face_start = (0..=4 * self.face_count() as u32).map(|face| 3 * face).collect();
-        child.link_corners();
+        child.face_size = 3;
+        child.close();
         child
     }
 
@@ -81,6 +83,17 @@ impl Level {
         child.edge_sharpness.resize(edge_count, 0.0);
         child.vertex_sharpness.resize(vertex_count, 0.0);
         child
+    }
+
+    /// Links corners with their edges. Edges that fold back on themselves leave halves without faces, which must not pass
+    /// for smooth.
+    fn close(&mut self) {
+        self.link_corners();
+        for (sharpness, corners) in self.edge_sharpness.iter_mut().zip(&self.edge_corners) {
+            if corners[1] == NONE {
+                *sharpness = INFINITE;
+            }
+        }
     }
 
     /// Number of the half of `edge` that touches `vertex`.

@@ -10,6 +10,8 @@ pub(crate) const INFINITE: f32 = 10.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Level {
     pub(crate) vertex_count: usize,
+    /// Corners of every face where they are all the same by construction (refined levels), else 0.
+    pub(crate) face_size: usize,
     /// First corner of each face, and the end.
     pub(crate) face_start: Vec<u32>,
     pub(crate) corner_vertex: Vec<u32>,
@@ -110,6 +112,35 @@ impl Level {
     /// The edge between two vertices, on a level made by [`Level::new`] (whose edges are sorted).
     pub(super) fn find_edge(&self, a: u32, b: u32) -> Option<usize> {
         self.edge_vertices.binary_search(&[a.min(b), a.max(b)]).ok()
+    }
+
+    /// (first corner of the face, number of its corners) of a corner. The common sizes are spelled out because this is
+    /// the innermost step of all walks and division by a constant is cheap.
+    #[inline]
+    pub(crate) fn face_around(&self, corner: usize) -> (usize, usize) {
+        match self.face_size {
+            4 => (corner & !3, 4),
+            3 => (corner - corner % 3, 3),
+            _ => {
+                let face = self.face_start.partition_point(|&start| start as usize <= corner) - 1;
+                let first = self.face_start[face] as usize;
+                (first, self.face_start[face + 1] as usize - first)
+            }
+        }
+    }
+
+    /// The corner after `corner` in its face.
+    #[inline]
+    pub(crate) fn after(&self, corner: usize) -> usize {
+        let (first, size) = self.face_around(corner);
+        if corner + 1 == first + size { first } else { corner + 1 }
+    }
+
+    /// The corner before `corner` in its face.
+    #[inline]
+    pub(crate) fn before(&self, corner: usize) -> usize {
+        let (first, size) = self.face_around(corner);
+        if corner == first { first + size - 1 } else { corner - 1 }
     }
 
     /// Face of each corner.

@@ -1,0 +1,148 @@
+//! The walk of one ray through both levels.
+
+use super::blas::Blas;
+use super::instance::{Geometry, InstanceRecord};
+use super::lanes8::Lanes8;
+use super::node::ChildRef;
+use super::prepared::PreparedRay;
+use super::query::Hit;
+use super::ray::RayBatch;
+use super::scene_bvh::SceneBvh;
+use super::transform::{transform_direction, transform_point};
+use super::triangle_block::BlockHits;
+use super::walk::{Stack, Visitor, walk};
+
+/// A query: takes the hits of one ray as they are found.
+pub(super) trait Collector {
+    /// True when near hits shorten the search.
+    const ORDERED: bool;
+    /// Hits beyond this distance are not wanted.
+    fn t_max(&self) -> f32;
+    /// Takes a hit within the interval; true ends the search.
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool;
+}
+
+/// The stacks of the two levels.
+pub(super) struct SceneWalk<'a> {
+    pub(super) stack: &'a mut Stack,
+    pub(super) mesh_stack: &'a mut Stack,
+}
+
+/// Sends ray `i` of a batch through the scene; true when the collector ended the search.
+#[inline(always)]
+pub(super) fn walk_scene<K: Lanes8, C: Collector>(
+    lanes: K,
+    scene: &SceneBvh,
+    stacks: &mut SceneWalk,
+    rays: &RayBatch,
+    i: usize,
+    collector: &mut C,
+) -> bool {
+    let origin = [rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]];
+    let direction = [rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]];
+    let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], rays.t_max[i]) else { return false };
+    walk_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], collector)
+}
+
+/// Sends a ray through the part of the scene's tree below `start`.
+#[inline(always)]
+pub(super) fn walk_scene_from<K: Lanes8, C: Collector>(
+    lanes: K,
+    scene: &SceneBvh,
+    stacks: &mut SceneWalk,
+    start: ChildRef,
+    ray: &PreparedRay,
+    mask: u8,
+    collector: &mut C,
+) -> bool {
+    let mut visitor = SceneVisitor { scene, mask, stack: stacks.mesh_stack, collector };
+    walk(lanes, &scene.nodes, start, ray, stacks.stack, &mut visitor)
+}
+
+struct SceneVisitor<'a, C: Collector> {
+    scene: &'a SceneBvh,
+    mask: u8,
+    stack: &'a mut Stack,
+    collector: &'a mut C,
+}
+
+impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
+    const ORDERED: bool = C::ORDERED;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.collector.t_max()
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
+        let record = &self.scene.records[leaf.index()];
+        if record.mask & self.mask == 0 {
+            return false;
+        }
+        let origin = transform_point(&record.world_to_object, ray.origin);
+        let direction = transform_direction(&record.world_to_object, ray.direction);
+        match record.geometry.get() {
+            Geometry::Mesh(index) => {
+                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return false };
+                walk_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.collector)
+            }
+            Geometry::Shape(shape) => {
+                for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
+                    let hit = Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id };
+                    if self.collector.add(hit, record.transparent) {
+                        return true;
+                    }
+                }
+                false
+            }
+        }
+    }
+}
+
+/// Sends a ray in object space through the part of a mesh's tree below `start`.
+#[inline(always)]
+pub(super) fn walk_mesh<K: Lanes8, C: Collector>(
+    lanes: K,
+    mesh: &Blas,
+    start: ChildRef,
+    ray: &PreparedRay,
+    record: &InstanceRecord,
+    stack: &mut Stack,
+    collector: &mut C,
+) -> bool {
+    let mut visitor = MeshVisitor { mesh, record, collector };
+    walk(lanes, &mesh.nodes, start, ray, stack, &mut visitor)
+}
+
+struct MeshVisitor<'a, C: Collector> {
+    mesh: &'a Blas,
+    record: &'a InstanceRecord,
+    collector: &'a mut C,
+}
+
+impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
+    const ORDERED: bool = C::ORDERED;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.collector.t_max()
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
+        let block = &self.mesh.blocks[leaf.index()];
+        let mut hits = BlockHits::default();
+        let mut mask = lanes.triangles(block, ray, self.collector.t_max(), &mut hits);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize % 8;
+            mask &= mask - 1;
+            let hit =
+                Hit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], primitive: block.primitives[lane], instance: self.record.id };
+            if self.collector.add(hit, self.record.transparent) {
+                return true;
+            }
+        }
+        false
+    }
+}

@@ -1,0 +1,142 @@
+//! Sixteen rays made ready for box and triangle tests; lane for lane the numbers of `PreparedRay`.
+
+use super::node::{LARGEST_COORDINATE, ROUNDING_PAD};
+use super::prepared::{DIRECTION_RANGE, PreparedRay, SMALLEST_SHARE};
+use super::transform::Affine;
+use fearless_simd::{f32x16, mask32x16, prelude::*};
+
+/// Rays of a packet.
+pub(super) const PACKET: usize = 16;
+
+/// Sixteen rays in the space of one tree.
+#[derive(Clone, Copy)]
+pub(super) struct PacketRays<S: Simd> {
+    pub(super) origin: [f32x16<S>; 3],
+    pub(super) direction: [f32x16<S>; 3],
+    pub(super) reciprocal: [f32x16<S>; 3],
+    pub(super) near_offset: [f32x16<S>; 3],
+    pub(super) far_offset: [f32x16<S>; 3],
+    pub(super) t_min: f32x16<S>,
+    /// Lanes with negative directions, an axis each.
+    negative: [u32; 3],
+    /// Lanes whose largest direction component is along x and y.
+    major: [u32; 2],
+    /// The lanes that can hit something.
+    pub(super) lanes: u32,
+}
+
+impl<S: Simd> PacketRays<S> {
+    /// Prepares the lanes of a mask; `t_min` must not be negative.
+    #[inline(always)]
+    pub(super) fn new(simd: S, origin: [f32x16<S>; 3], direction: [f32x16<S>; 3], t_min: f32x16<S>, t_max: f32x16<S>, lanes: u32) -> Self {
+        let zero = f32x16::splat(simd, 0.0);
+        let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
+        let [ox, oy, oz] = [origin[0].abs(), origin[1].abs(), origin[2].abs()];
+        let (largest, start) = (x.max(y).max(z), ox.max(oy).max(oz));
+        let sum = x + y + z + ox + oy + oz;
+        let usable = largest.simd_ge(DIRECTION_RANGE[0])
+            & largest.simd_le(DIRECTION_RANGE[1])
+            & start.simd_le(LARGEST_COORDINATE)
+            & sum.simd_lt(f32::INFINITY)
+            & t_min.simd_le(t_max);
+        let (smallest, pad) = (largest * SMALLEST_SHARE, start * ROUNDING_PAD);
+        let (mut reciprocal, mut near_offset, mut far_offset) = ([zero; 3], [zero; 3], [zero; 3]);
+        let mut negative = [0; 3];
+        for axis in 0..3 {
+            let component = direction[axis].abs().max(smallest).copysign(direction[axis]);
+            reciprocal[axis] = f32x16::splat(simd, 1.0) / component;
+            let signed_pad = pad.copysign(component);
+            near_offset[axis] = -(origin[axis] + signed_pad) * reciprocal[axis];
+            far_offset[axis] = -(origin[axis] - signed_pad) * reciprocal[axis];
+            negative[axis] = component.simd_lt(0.0).to_bitmask() as u32;
+        }
+        let x_major = (x.simd_ge(y) & x.simd_ge(z)).to_bitmask() as u32;
+        let major = [x_major, y.simd_ge(z).to_bitmask() as u32 & !x_major];
+        let lanes = lanes & usable.to_bitmask() as u32;
+        PacketRays { origin, direction, reciprocal, near_offset, far_offset, t_min, negative, major, lanes }
+    }
+
+    /// The packet in the space of an instance.
+    #[inline(always)]
+    pub(super) fn transformed(&self, simd: S, m: &Affine, t_max: f32x16<S>, lanes: u32) -> Self {
+        let (mut origin, mut direction) = (self.origin, self.direction);
+        let [p, d] = [self.origin, self.direction];
+        for (axis, row) in m.iter().enumerate() {
+            origin[axis] = (p[0] * row[0] + p[1] * row[1]) + (p[2] * row[2] + row[3]);
+            direction[axis] = (d[0] * row[0] + d[1] * row[1]) + d[2] * row[2];
+        }
+        Self::new(simd, origin, direction, self.t_min, t_max, lanes)
+    }
+
+    /// The lanes among `lanes` that go through boxes and triangles the way the first of them does.
+    #[inline(always)]
+    pub(super) fn like_first(&self, lanes: u32) -> u32 {
+        let bit = lanes & lanes.wrapping_neg();
+        let mut group = lanes;
+        for mask in self.negative.into_iter().chain(self.major) {
+            group &= if mask & bit != 0 { mask } else { !mask };
+        }
+        group
+    }
+
+    /// The ray of one lane.
+    #[inline(always)]
+    pub(super) fn single(&self, lane: usize, t_max: f32) -> Option<PreparedRay> {
+        PreparedRay::new(lane_of(&self.origin, lane), lane_of(&self.direction, lane), self.t_min.as_slice()[lane], t_max)
+    }
+}
+
+/// The components of one lane.
+#[inline(always)]
+pub(super) fn lane_of<S: Simd>(v: &[f32x16<S>; 3], lane: usize) -> [f32; 3] {
+    [v[0].as_slice()[lane], v[1].as_slice()[lane], v[2].as_slice()[lane]]
+}
+
+/// The least of the chosen lanes.
+#[inline(always)]
+fn least<S: Simd>(simd: S, lanes: mask32x16<S>, v: f32x16<S>) -> f32 {
+    lanes.select(v, f32x16::splat(simd, f32::INFINITY)).reduce_min()
+}
+
+/// The largest of the chosen lanes.
+#[inline(always)]
+fn most<S: Simd>(simd: S, lanes: mask32x16<S>, v: f32x16<S>) -> f32 {
+    lanes.select(v, f32x16::splat(simd, -f32::INFINITY)).reduce_max()
+}
+
+/// What the lanes of a group share: signs, major axis, and intervals around their rays.
+pub(super) struct Group<S: Simd> {
+    /// See `PreparedRay::near_rows`.
+    pub(super) near_rows: [usize; 3],
+    /// See `PreparedRay::axes`.
+    pub(super) axes: [usize; 3],
+    /// See `PreparedRay::shear`, the slopes negated.
+    pub(super) shear: [f32x16<S>; 3],
+    /// Ends of the reciprocals' interval.
+    pub(super) reciprocal: [[f32; 2]; 3],
+    /// The starts that meet near planes first and far planes last.
+    pub(super) start: [[f32; 2]; 3],
+}
+
+impl<S: Simd> Group<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, rays: &PacketRays<S>, lanes: u32) -> Self {
+        let first = lanes & lanes.wrapping_neg();
+        let major = if rays.major[0] & first != 0 { 0 } else { 2 - usize::from(rays.major[1] & first != 0) };
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][major];
+        let along = rays.reciprocal[major];
+        let shear = [-(rays.direction[axes[0]] * along), -(rays.direction[axes[1]] * along), along];
+        let mask = mask32x16::from_bitmask(simd, u64::from(lanes));
+        let mut group = Group { near_rows: [0; 3], axes, shear, reciprocal: [[0.0; 2]; 3], start: [[0.0; 2]; 3] };
+        let [x, y, z] = [rays.origin[0].abs(), rays.origin[1].abs(), rays.origin[2].abs()];
+        let pad = most(simd, mask, x.max(y).max(z)) * ROUNDING_PAD;
+        for axis in 0..3 {
+            group.reciprocal[axis] = [least(simd, mask, rays.reciprocal[axis]), most(simd, mask, rays.reciprocal[axis])];
+            let (low, high) = (least(simd, mask, rays.origin[axis]) - pad, most(simd, mask, rays.origin[axis]) + pad);
+            let backwards = rays.negative[axis] & first != 0;
+            group.near_rows[axis] = if backwards { axis + 3 } else { axis };
+            group.start[axis] = if backwards { [low, high] } else { [high, low] };
+        }
+        group
+    }
+}

@@ -1,0 +1,139 @@
+//! The walk of one ray through one tree.
+
+use super::lanes8::Lanes8;
+use super::node::{ChildRef, Node, STACK, WIDTH};
+use super::prepared::PreparedRay;
+
+/// What happens at the leaves of a walk.
+pub(super) trait Visitor<K: Lanes8> {
+    /// True when nearer children are to be visited first.
+    const ORDERED: bool;
+    /// Nothing beyond this distance is of interest.
+    fn t_max(&self) -> f32;
+    /// Visits a leaf; true ends the walk.
+    fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool;
+}
+
+/// Pending children: the bits of the distance above the reference, so that whole entries sort by distance.
+pub(super) type Stack = [u64; STACK];
+
+/// An empty stack.
+pub(super) const EMPTY_STACK: Stack = [0; STACK];
+
+#[inline(always)]
+fn entry(near: f32, child: ChildRef) -> u64 {
+    (u64::from(near.to_bits()) << 32) | u64::from(child.0)
+}
+
+#[inline(always)]
+fn push(stack: &mut Stack, top: &mut usize, entry: u64) {
+    stack[*top % STACK] = entry;
+    *top += 1;
+}
+
+/// Visits the leaves below `start` whose boxes the ray meets; true when the visitor ended the walk.
+#[inline(always)]
+pub(super) fn walk<K: Lanes8, V: Visitor<K>>(
+    lanes: K,
+    nodes: &[Node],
+    start: ChildRef,
+    ray: &PreparedRay,
+    stack: &mut Stack,
+    visitor: &mut V,
+) -> bool {
+    let mut top = 0;
+    let mut current = start;
+    let mut near = [0.0; WIDTH];
+    loop {
+        if current.is_inner() {
+            let node = &nodes[current.index()];
+            let mask = lanes.boxes(node, ray, visitor.t_max(), &mut near);
+            if mask != 0 {
+                current = descend::<V, K>(node, mask, &near, stack, &mut top);
+                continue;
+            }
+        } else if visitor.leaf(lanes, ray, current) {
+            return true;
+        }
+        loop {
+            if top == 0 {
+                return false;
+            }
+            top -= 1;
+            let popped = stack[top % STACK];
+            if !V::ORDERED || f32::from_bits((popped >> 32) as u32) <= visitor.t_max() {
+                current = ChildRef(popped as u32);
+                break;
+            }
+        }
+    }
+}
+
+/// Chooses the next child among those of a mask that is not zero, and leaves the others on the stack.
+#[inline(always)]
+fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH], stack: &mut Stack, top: &mut usize) -> ChildRef {
+    let first = mask.trailing_zeros() as usize % WIDTH;
+    let rest = mask & (mask - 1);
+    if rest == 0 {
+        return node.children[first];
+    }
+    if !V::ORDERED {
+        // Smallest box first: often a leaf, and a likely end of the search.
+        let mut rest = rest;
+        while rest != 0 {
+            let slot = (31 - rest.leading_zeros()) as usize % WIDTH;
+            push(stack, top, entry(0.0, node.children[slot]));
+            rest ^= 1 << slot;
+        }
+        return node.children[first];
+    }
+    let second = rest.trailing_zeros() as usize % WIDTH;
+    let (a, b) = (entry(near[first], node.children[first]), entry(near[second], node.children[second]));
+    let (mut low, mut high) = (a.min(b), a.max(b));
+    let mut rest = rest & (rest - 1);
+    if rest == 0 {
+        push(stack, top, high);
+        return ChildRef(low as u32);
+    }
+    let third = rest.trailing_zeros() as usize % WIDTH;
+    let c = entry(near[third], node.children[third]);
+    rest &= rest - 1;
+    if rest == 0 {
+        let middle = low.max(c);
+        low = low.min(c);
+        push(stack, top, high.max(middle));
+        push(stack, top, high.min(middle));
+        return ChildRef(low as u32);
+    }
+    let fourth = rest.trailing_zeros() as usize % WIDTH;
+    let d = entry(near[fourth], node.children[fourth]);
+    rest &= rest - 1;
+    let (low2, high2) = (c.min(d), c.max(d));
+    let (inner1, inner2) = (low.max(low2), high.min(high2));
+    low = low.min(low2);
+    high = high.max(high2);
+    if rest == 0 {
+        push(stack, top, high);
+        push(stack, top, inner1.max(inner2));
+        push(stack, top, inner1.min(inner2));
+        return ChildRef(low as u32);
+    }
+    let mut sorted = [high, inner1.max(inner2), inner1.min(inner2), low, 0, 0, 0, 0];
+    let mut n = 4;
+    while rest != 0 {
+        let slot = rest.trailing_zeros() as usize % WIDTH;
+        let e = entry(near[slot], node.children[slot]);
+        let mut place = n;
+        while place > 0 && sorted[(place - 1) % WIDTH] < e {
+            sorted[place % WIDTH] = sorted[(place - 1) % WIDTH];
+            place -= 1;
+        }
+        sorted[place % WIDTH] = e;
+        n += 1;
+        rest &= rest - 1;
+    }
+    for &e in &sorted[..n - 1] {
+        push(stack, top, e);
+    }
+    ChildRef(sorted[n - 1] as u32)
+}

@@ -1,0 +1,167 @@
+//! Reflectance of smooth interfaces, and its mean over the cosine-weighted hemisphere.
+
+use gonio_simd::{F, Lanes, Rgb};
+
+/// Normal reflectance of an interface; `eta` = far over near index.
+#[inline(always)]
+pub(crate) fn normal_reflectance<L: Lanes>(eta: F<L>) -> F<L> {
+    ((eta - 1.0) / (eta + 1.0)).squared()
+}
+
+/// Exact unpolarised reflectance of a dielectric at cosine `c` ≥ 0; 1 under total internal reflection.
+#[inline(always)]
+pub(crate) fn dielectric<L: Lanes>(c: F<L>, eta: F<L>) -> F<L> {
+    // The floor keeps 0 / 0 away at grazing angles of equal indices.
+    let c = c.max(1e-6);
+    let squared = 1.0 - (1.0 - c * c) / (eta * eta);
+    let t = squared.safe_sqrt();
+    let s = (c - eta * t) / (c + eta * t);
+    let p = (eta * c - t) / (eta * c + t);
+    squared.le(0.0).select(c.lanes().f(1.0), (s * s + p * p) * 0.5)
+}
+
+/// The exact curve moved to run from 0 at normal incidence to 1 at grazing.
+#[inline(always)]
+pub(crate) fn dielectric_share<L: Lanes>(c: F<L>, eta: F<L>) -> F<L> {
+    let f0 = normal_reflectance(eta);
+    ((dielectric(c, eta) - f0) / (1.0 - f0)).saturate()
+}
+
+/// Mean reflectance of a dielectric (fits of Kulla, Conty 2017).
+#[inline(always)]
+pub(crate) fn dielectric_mean<L: Lanes>(eta: F<L>) -> F<L> {
+    let dense = (eta - 1.0) / (eta * 1.00071 + 4.08567);
+    let thin = eta.mul_add(eta.mul_add(eta.mul_add(-0.130_607, -0.965_241), 0.1014), 0.997_118);
+    eta.ge(1.0).select(dense, thin).saturate()
+}
+
+/// (1 − c)⁵.
+#[inline(always)]
+pub(crate) fn schlick_share<L: Lanes>(c: F<L>) -> F<L> {
+    let x = (1.0 - c).saturate();
+    x.squared().squared() * x
+}
+
+/// Exact unpolarised reflectance of a conductor with index `n` + i `k`, from vacuum, at cosine `c`.
+#[inline(always)]
+fn conductor_channel<L: Lanes>(c: F<L>, n: F<L>, k: F<L>) -> F<L> {
+    let (c2, s2) = (c * c, 1.0 - c * c);
+    let t0 = n * n - k * k - s2;
+    let a2b2 = (t0 * t0 + n * n * k * k * 4.0).sqrt();
+    let t1 = a2b2 + c2;
+    let t2 = ((a2b2 + t0) * 0.5).safe_sqrt() * c * 2.0;
+    let s = (t1 - t2) / (t1 + t2);
+    let t3 = c2.mul_add(a2b2, s2 * s2);
+    let t4 = t2 * s2;
+    (s * ((t3 - t4) / (t3 + t4)) + s) * 0.5
+}
+
+/// Index and extinction of a conductor with normal reflectance `r` and edge tint `g` (Gulbrandsen 2014).
+#[inline(always)]
+fn gulbrandsen_channel<L: Lanes>(r: F<L>, g: F<L>) -> [F<L>; 2] {
+    let r = r.clamp(0.0, 0.99);
+    let root = r.sqrt();
+    let n = ((1.0 + root) / (1.0 - root)).lerp((1.0 - r) / (1.0 + r), g);
+    [n, ((r * (n + 1.0).squared() - (n - 1.0).squared()) / (1.0 - r)).safe_sqrt()]
+}
+
+/// Mean of the F82 curve.
+#[inline(always)]
+fn f82_mean<L: Lanes>(l: L, f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
+    (f0.lerp(Rgb::grey(l.f(1.0)), l.f(1.0 / 21.0)) - drop * (1.0 / 126.0)).saturate()
+}
+
+/// Factor between the drop of the F82 curve under Schlick's at c = 1/7 and its coefficient: 7 / (6/7)⁶.
+const DROP: f32 = 17.651_385;
+/// Schlick's share at c = 1/7, (6/7)⁵.
+const SHARE_82: f32 = 0.462_664_36;
+
+/// A reflectance as a function of the half-angle cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Curve<L: Lanes> {
+    /// 1 everywhere.
+    One,
+    /// The exact curve moved to the ends `f0` and `f90`.
+    Dielectric {
+        /// Index that shapes the curve.
+        eta: F<L>,
+        /// Value at normal incidence.
+        f0: Rgb<L>,
+        /// Value at grazing.
+        f90: Rgb<L>,
+    },
+    /// Schlick's curve.
+    Schlick {
+        /// Value at normal incidence.
+        f0: Rgb<L>,
+        /// Value at grazing.
+        f90: Rgb<L>,
+    },
+    /// Schlick's curve less `drop` c (1 − c)⁶.
+    F82 {
+        /// Value at normal incidence.
+        f0: Rgb<L>,
+        /// Coefficient of the drop.
+        drop: Rgb<L>,
+    },
+    /// The exact curve of a conductor.
+    Conductor {
+        /// Refractive index.
+        n: Rgb<L>,
+        /// Extinction coefficient.
+        k: Rgb<L>,
+    },
+}
+
+impl<L: Lanes> Curve<L> {
+    /// The F82 curve from its normal value and its tint at 82 degrees.
+    #[inline(always)]
+    pub(crate) fn f82(f0: Rgb<L>, tint: Rgb<L>) -> Self {
+        let white = Rgb::grey(f0.r.lanes().f(1.0));
+        let at_82 = f0.lerp(white, f0.r.lanes().f(SHARE_82));
+        Self::F82 { f0, drop: (white - tint) * at_82 * DROP }
+    }
+    /// Gulbrandsen's conductor with normal reflectance `r` and edge tint `g`.
+    #[inline(always)]
+    pub(crate) fn gulbrandsen(r: Rgb<L>, g: Rgb<L>) -> Self {
+        let (red, green, blue) = (gulbrandsen_channel(r.r, g.r), gulbrandsen_channel(r.g, g.g), gulbrandsen_channel(r.b, g.b));
+        Self::Conductor { n: Rgb::new(red[0], green[0], blue[0]), k: Rgb::new(red[1], green[1], blue[1]) }
+    }
+    /// Reflectance at half-angle cosine `c`.
+    #[inline(always)]
+    pub(crate) fn reflectance(&self, c: F<L>) -> Rgb<L> {
+        match *self {
+            Self::One => Rgb::grey(c.lanes().f(1.0)),
+            Self::Dielectric { eta, f0, f90 } => f0.lerp(f90, dielectric_share(c, eta)),
+            Self::Schlick { f0, f90 } => f0.lerp(f90, schlick_share(c)),
+            Self::F82 { f0, drop } => {
+                let white = Rgb::grey(c.lanes().f(1.0));
+                let x = (1.0 - c).saturate();
+                let fifth = x.squared().squared() * x;
+                (f0.lerp(white, fifth) - drop * (c * fifth * x)).saturate()
+            }
+            Self::Conductor { n, k } => {
+                Rgb::new(conductor_channel(c, n.r, k.r), conductor_channel(c, n.g, k.g), conductor_channel(c, n.b, k.b))
+            }
+        }
+    }
+    /// Mean reflectance over the cosine-weighted hemisphere.
+    #[inline(always)]
+    pub(crate) fn mean(&self, l: L) -> Rgb<L> {
+        match *self {
+            Self::One => Rgb::grey(l.f(1.0)),
+            Self::Dielectric { eta, f0, f90 } => {
+                let normal = normal_reflectance(eta);
+                f0.lerp(f90, ((dielectric_mean(eta) - normal) / (1.0 - normal)).saturate())
+            }
+            Self::Schlick { f0, f90 } => f0.lerp(f90, l.f(1.0 / 21.0)),
+            Self::F82 { f0, drop } => f82_mean(l, f0, drop),
+            Self::Conductor { .. } => {
+                let f0 = self.reflectance(l.f(1.0));
+                let at_82 = f0.lerp(Rgb::grey(l.f(1.0)), l.f(SHARE_82));
+                let drop = (at_82 - self.reflectance(l.f(1.0 / 7.0))) * DROP;
+                f82_mean(l, f0, drop)
+            }
+        }
+    }
+}

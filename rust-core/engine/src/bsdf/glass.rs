@@ -1,0 +1,119 @@
+//! Rough or smooth dielectric interface: reflection and refraction chosen at the half vector (Walter et al. 2007).
+//!
+//! No radiance scaling with the squared index: light that enters and leaves keeps its value.
+
+use super::fresnel::{dielectric_share, schlick_share};
+use super::microfacet::{MIRROR, Widths};
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+
+/// Relative index differences up to this pass straight through.
+const STRAIGHT: f32 = 1e-4;
+
+/// Colours of an interface: what reflects, and what is kept from passing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interface<L: Lanes> {
+    /// Far over near index.
+    pub(crate) eta: F<L>,
+    /// Reflection at normal incidence.
+    pub(crate) f0: Rgb<L>,
+    /// Reflection at grazing.
+    pub(crate) f90: Rgb<L>,
+    /// What is kept from passing at normal incidence; everything at grazing.
+    pub(crate) kept: Rgb<L>,
+    /// Tint of what passes.
+    pub(crate) passed: Rgb<L>,
+    /// Whether Schlick's curve stands for the exact one.
+    pub(crate) schlick: bool,
+}
+
+impl<L: Lanes> Interface<L> {
+    /// Reflected and passed colour at half-angle cosine `c`.
+    #[inline(always)]
+    pub(crate) fn split(&self, c: F<L>) -> [Rgb<L>; 2] {
+        let l = c.lanes();
+        let white = Rgb::grey(l.f(1.0));
+        let share = if self.schlick {
+            // Total internal reflection comes before the approximate curve.
+            let total = (1.0 - c * c).ge(self.eta * self.eta);
+            total.select(l.f(1.0), schlick_share(c))
+        } else {
+            dielectric_share(c, self.eta)
+        };
+        [self.f0.lerp(self.f90, share), (white - self.kept) * self.passed * (1.0 - share)]
+    }
+    /// Probability of reflection at half-angle cosine `c`.
+    #[inline(always)]
+    fn reflects([reflected, passed]: [Rgb<L>; 2]) -> F<L> {
+        let (r, t) = (reflected.mean(), passed.mean());
+        r / (r + t).max(1e-20)
+    }
+}
+
+/// The lobe at one view.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GlassLobe<L: Lanes> {
+    widths: Widths<L>,
+    interface: Interface<L>,
+    /// Smooth lanes: evaluated nowhere, sampled exactly.
+    pub(crate) delta: M<L>,
+    stretch: F<L>,
+}
+
+impl<L: Lanes> GlassLobe<L> {
+    /// The lobe seen from `wo`.
+    #[inline(always)]
+    pub(crate) fn new(wo: Vec3<L>, widths: Widths<L>, interface: Interface<L>) -> Self {
+        let delta = (widths.x * widths.y).le(MIRROR) | (interface.eta - 1.0).abs().lt(STRAIGHT);
+        let widths = Widths { x: widths.x.keep_if(!delta), y: widths.y.keep_if(!delta) };
+        Self { widths, interface, delta, stretch: widths.stretch(wo) }
+    }
+    /// Roughness r.
+    #[inline(always)]
+    pub(crate) fn roughness(&self) -> F<L> {
+        self.widths.roughness()
+    }
+    /// Value × cosine and pdf.
+    #[inline(always)]
+    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let l = wo.x.lanes();
+        let eta = self.interface.eta;
+        let passes = wi.z.lt(0.0);
+        // One half vector for both: the relative index is 1 in a reflection. It points to the upper side.
+        let sum = wi * passes.select(eta, l.f(1.0)) + wo;
+        let length2 = sum.length_squared().max(1e-20);
+        let h = sum * sum.z.gt(0.0).select(l.f(1.0), l.f(-1.0)) * length2.sqrt().recip();
+        let (c, d) = (wo.dot(h), wi.dot(h));
+        let possible = wo.z.gt(0.0) & !self.delta & c.gt(0.0) & passes.select(d.lt(0.0), d.gt(0.0));
+        let split = self.interface.split(c.saturate());
+        let jacobian = passes.select(eta * eta * c * d.abs() / length2, l.f(0.25));
+        let density = self.widths.distribution(h) * jacobian * 2.0;
+        let (light, view) = (wi.z.abs(), wo.z);
+        let value = density * light / self.stretch.mul_add(light, self.widths.stretch(wi) * view);
+        let reflects = Interface::reflects(split);
+        let pdf = density / (self.stretch + view) * passes.select(1.0 - reflects, reflects);
+        ((passes.select(split[1], split[0]) * value).keep_if(possible), pdf.keep_if(possible))
+    }
+    /// A direction with the pdf of [`Self::eval`], and whether it ended on the side that `u[0]` chose.
+    #[inline(always)]
+    pub(crate) fn sample(&self, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, M<L>) {
+        let l = wo.x.lanes();
+        let h = self.widths.sample(wo, l.f(1.0), [u[1], u[2]]);
+        let c = wo.dot(h);
+        let reflects = Interface::reflects(self.interface.split(c.saturate()));
+        let inverse = self.interface.eta.recip();
+        let cos = (1.0 - (1.0 - c * c) * inverse * inverse).safe_sqrt();
+        let refracted = h * (c * inverse - cos) - wo * inverse;
+        let mirrored = u[0].lt(reflects);
+        let wi = mirrored.select(wo.reflect(h), refracted);
+        (wi, mirrored.select(wi.z.gt(0.0), wi.z.lt(0.0)))
+    }
+    /// Value and probability of the smooth lanes for the side that `wi` lies on.
+    #[inline(always)]
+    pub(crate) fn smooth(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let split = self.interface.split(wo.z.saturate());
+        let reflects = Interface::reflects(split);
+        let passes = wi.z.lt(0.0);
+        let usable = wo.z.gt(0.0);
+        (passes.select(split[1], split[0]).keep_if(usable), passes.select(1.0 - reflects, reflects).keep_if(usable))
+    }
+}

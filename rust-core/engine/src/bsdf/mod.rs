@@ -1,0 +1,28 @@
+//! Surfaces: a block of parameters with OpenPBR's names, switches for the models that differ, and the lobes they resolve into.
+//!
+//! Contract: directions are unit, in the shading frame (z the normal on the viewer's side, x the tangent) and point away from the surface.
+//! `eval` gives BSDF × |cos θi|, `pdf` is per solid angle, `sample` returns a struct whose `value / pdf` is the throughput factor.
+//!
+//! A [`Surface`] is compiled once for a material; [`Surface::resolve`] turns the parameter values of a batch of hits into [`Lobes`], in which
+//! all attenuation by layers at the view is contained; evaluation and sampling loop over the lobes' slots, which are the same in all lanes.
+
+mod diffuse;
+mod energy;
+mod fresnel;
+mod fuzz;
+mod glass;
+mod lobes;
+mod microfacet;
+pub mod parameter;
+mod reflect;
+mod resolve;
+mod surface;
+mod switches;
+#[cfg(test)]
+mod tests;
+
+pub use lobes::{BsdfSample, Lobes, MAXIMUM};
+pub use surface::{LobeSet, ParameterValues, Surface};
+pub use switches::{
+    Anisotropy, Attenuation, CoatPath, Diffuse, EmissionOrder, Fresnel, Fuzz, FuzzAttenuation, FuzzOrder, Metal, Switches, Tint,
+};

@@ -1,0 +1,7 @@
+//! Tests of the surface models. Settings are shared: a new row in [`rows`] gets every statistical test.
+
+mod chi_square;
+mod cycles;
+mod furnace;
+mod harness;
+mod rows;

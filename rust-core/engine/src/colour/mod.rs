@@ -1,0 +1,15 @@
+//! Colour spaces: transfer functions, gamuts, and the names that USD, MaterialX, OCIO and Blender give them. The core renders in linear Rec.709.
+
+mod gamut;
+mod matrix;
+mod space;
+mod transfer;
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests;
+
+pub use gamut::{Gamut, Primaries};
+pub use matrix::{Matrix3, apply, inverse, product};
+pub use space::{ColourSpace, UnknownColourSpace, file_rule};
+pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};

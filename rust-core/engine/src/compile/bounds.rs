@@ -1,0 +1,88 @@
+//! World bounds.
+
+use crate::scene::{Mesh, Scene, Transform};
+
+/// A box, empty when its minimum is above its maximum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Least coordinates, metres.
+    pub min: [f64; 3],
+    /// Greatest coordinates, metres.
+    pub max: [f64; 3],
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] }
+    }
+}
+
+impl Bounds {
+    /// Whether nothing is inside.
+    pub fn is_empty(&self) -> bool {
+        (0..3).any(|i| self.min[i] > self.max[i])
+    }
+    /// Takes a point in; points that are not finite are left out.
+    pub fn extend(&mut self, p: [f64; 3]) {
+        if p.iter().all(|x| x.is_finite()) {
+            for i in 0..3 {
+                self.min[i] = self.min[i].min(p[i]);
+                self.max[i] = self.max[i].max(p[i]);
+            }
+        }
+    }
+    /// The box of the corners under a map.
+    pub fn transformed(&self, transform: &Transform) -> Self {
+        let mut out = Self::default();
+        if !self.is_empty() {
+            for corner in 0..8 {
+                out.extend(transform.point(std::array::from_fn(|i| if corner >> i & 1 == 0 { self.min[i] } else { self.max[i] })));
+            }
+        }
+        out
+    }
+    /// The middle.
+    pub fn centre(&self) -> [f64; 3] {
+        std::array::from_fn(|i| 0.5 * (self.min[i] + self.max[i]))
+    }
+    /// Half the diagonal.
+    pub fn radius(&self) -> f64 {
+        0.5 * (0..3).map(|i| (self.max[i] - self.min[i]).powi(2)).sum::<f64>().sqrt()
+    }
+    /// Where single precision has its origin: the middle of scenes that lie farther away than they are large, else zero, so that small edits
+    /// do not move it.
+    pub(super) fn rebase_origin(&self) -> [f64; 3] {
+        if self.is_empty() {
+            return [0.0; 3];
+        }
+        let centre = self.centre();
+        let away = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if away > 2.0 * self.radius() { centre } else { [0.0; 3] }
+    }
+}
+
+/// Bounds of a mesh in its own space.
+pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
+    let mut bounds = Bounds::default();
+    for point in mesh.points.iter() {
+        bounds.extend(point.map(f64::from));
+    }
+    bounds
+}
+
+/// Bounds of all instances.
+pub(super) fn of_scene(scene: &Scene) -> Bounds {
+    let meshes: Vec<Bounds> = scene.meshes.iter().map(of_mesh).collect();
+    let mut bounds = Bounds::default();
+    for instances in &scene.instances {
+        let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };
+        for transform in &instances.transforms {
+            let placed = mesh.transformed(transform);
+            if !placed.is_empty() {
+                bounds.extend(placed.min);
+                bounds.extend(placed.max);
+            }
+        }
+    }
+    bounds
+}

@@ -1,0 +1,178 @@
+//! Lights as records, and the shapes of those that rays can meet.
+
+use super::{
+    geometry::{rebased, rows},
+    textures::CompiledTextures,
+};
+use crate::{
+    accel::{Geometry, Instance, Shape},
+    bsdf::parameter,
+    error::Diagnostic,
+    geometry::{GeometryTable, NONE},
+    integrator::{SurfaceMaterial, ray_mask},
+    light::{LightKind, LightRecord, LightTable, Shaping, size_factor},
+    scene::{Light, LightShape, Mesh, Scene, Transform},
+};
+
+/// Emissive triangles beyond this many are found by scattered rays alone: a table of more would cost more than it saves.
+const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
+
+/// The light table and what belongs to it.
+#[derive(Debug)]
+pub(super) struct CompiledLights {
+    pub(super) table: LightTable,
+    pub(super) instances: Vec<Instance>,
+    pub(super) instance_light: Vec<u32>,
+    pub(super) triangle_lights: Vec<u32>,
+}
+
+/// Lays out the scene's lights, then the triangles of emissive meshes.
+pub(super) fn compile(
+    scene: &Scene, geometry: &GeometryTable, materials: &[SurfaceMaterial], textures: &CompiledTextures, origin: [f64; 3],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> CompiledLights {
+    let mut records = Vec::new();
+    let mut instances = Vec::new();
+    let mut instance_light = Vec::new();
+    for (number, light) in scene.lights.iter().enumerate() {
+        let placed = rebased(&sized(light), origin);
+        records.push(record(light, &placed, textures.light_numbers[number], diagnostics));
+        if let Some(instance) = shape_instance(light, &placed) {
+            instance_light.push(number as u32);
+            instances.push(instance);
+        }
+    }
+    instance_light.push(0);
+    let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
+    CompiledLights { table: LightTable::build(&records, textures.of_lights.clone()), instances, instance_light, triangle_lights }
+}
+
+/// The light's map with its size in the axes: half sides, radii, half length.
+fn sized(light: &Light) -> Transform {
+    let [x, y, z] = match light.shape {
+        LightShape::Rectangle { width, height } => [0.5 * width, 0.5 * height, 1.0],
+        LightShape::Disk { radius } => [radius, radius, 1.0],
+        LightShape::Sphere { radius } => [radius; 3],
+        LightShape::Cylinder { radius, length } => [0.5 * length, radius, radius],
+        LightShape::Distant { .. } | LightShape::Dome { .. } => [1.0; 3],
+    };
+    let mut transform = light.transform;
+    for (column, size) in transform.columns.iter_mut().zip([x, y, z]) {
+        column.iter_mut().for_each(|value| *value *= size);
+    }
+    transform
+}
+
+fn kind(shape: LightShape) -> LightKind {
+    match shape {
+        LightShape::Rectangle { .. } => LightKind::Rectangle,
+        LightShape::Disk { .. } => LightKind::Disk,
+        LightShape::Sphere { .. } => LightKind::Sphere,
+        LightShape::Cylinder { .. } => LightKind::Cylinder,
+        LightShape::Distant { .. } => LightKind::Distant,
+        LightShape::Dome { .. } => LightKind::Dome,
+    }
+}
+
+fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
+    let kind = kind(light.shape);
+    let angle = if let LightShape::Distant { angle_deg } = light.shape { angle_deg.to_radians() } else { 0.0 };
+    let mut radiance = light.emission.radiance;
+    if light.emission.normalized {
+        // The factor is an area in the stage's own units.
+        let units = placed.columns.map(|column| column.map(|x| x / light.emission.metres_per_unit));
+        let factor = size_factor(kind, [units[0], units[1], units[2]], angle);
+        if factor > 0.0 {
+            radiance = radiance.map(|x| (f64::from(x) / factor) as f32);
+        } else {
+            diagnostics.push(Diagnostic::warning(&light.origin, "the light has no extent to normalize by; it stays dark"));
+            radiance = [0.0; 3];
+        }
+    }
+    let shaping = &light.shaping;
+    LightRecord {
+        to_world: placed.columns.map(|column| column.map(|x| x as f32)),
+        radiance,
+        shaping: Shaping {
+            cone_angle: shaping.cone_angle_deg.map_or(f32::INFINITY, f32::to_radians),
+            softness: shaping.cone_softness,
+            focus: shaping.focus,
+            focus_tint: shaping.focus_tint,
+        },
+        texture,
+        angle: angle as f32,
+        visible_to_camera: light.visibility.camera,
+        casts_shadow: light.casts_shadow,
+        ..LightRecord::new(kind)
+    }
+}
+
+/// The light's shape for the tree: scattered rays find every light, camera rays those that are visible.
+fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
+    let mut transform = *placed;
+    let mut double = |axis: usize| transform.columns[axis].iter_mut().for_each(|x| *x *= 2.0);
+    let shape = match light.shape {
+        LightShape::Rectangle { .. } => {
+            double(0);
+            double(1);
+            Shape::Rectangle
+        }
+        LightShape::Disk { .. } => Shape::Disk,
+        LightShape::Sphere { .. } => Shape::Sphere,
+        LightShape::Cylinder { .. } => {
+            double(0);
+            Shape::Cylinder
+        }
+        LightShape::Distant { .. } | LightShape::Dome { .. } => return None,
+    };
+    let mask = ray_mask::INDIRECT | if light.visibility.camera { ray_mask::CAMERA } else { 0 };
+    Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })
+}
+
+/// Adds a light for each triangle of meshes with an evenly emitting material; gives the first light of each instance.
+fn emissive_triangles(
+    scene: &Scene, geometry: &GeometryTable, materials: &[SurfaceMaterial], origin: [f64; 3], records: &mut Vec<LightRecord>,
+) -> Vec<u32> {
+    let even = |m: &SurfaceMaterial| m.emissive && !m.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR);
+    if !materials.iter().any(even) {
+        return Vec::new();
+    }
+    let mut first_light = Vec::with_capacity(geometry.instance_mesh.len() + 1);
+    let mut number = 0;
+    for group in &scene.instances {
+        let Some(mesh) = scene.meshes.get(group.mesh.index()) else { continue };
+        for transform in &group.transforms {
+            let material = |triangle: usize| &materials[geometry.material(number, triangle as u32) as usize];
+            let slots = mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1));
+            let first = geometry.instance_material[number as usize] as usize;
+            let emits = geometry.materials[first..first + slots].iter().any(|m| even(&materials[*m as usize]));
+            let fits = records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
+            if emits && fits && group.visibility.indirect {
+                first_light.push(records.len() as u32);
+                let placed = rebased(transform, origin);
+                records.extend((0..mesh.triangles.len()).map(|t| triangle_record(mesh, t, &placed, material(t), even(material(t)))));
+            } else {
+                first_light.push(NONE);
+            }
+            number += 1;
+        }
+    }
+    if first_light.iter().all(|first| *first == NONE) {
+        return Vec::new();
+    }
+    first_light
+}
+
+fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, material: &SurfaceMaterial, emits: bool) -> LightRecord {
+    let corners = mesh.triangles[triangle].map(|i| mesh.points.get(i as usize).map_or([0.0; 3], |p| placed.point(p.map(f64::from))));
+    let edge = |i: usize| -> [f32; 3] { std::array::from_fn(|k| (corners[i][k] - corners[0][k]) as f32) };
+    let (x, y) = (edge(1), edge(2));
+    let z = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]].map(|c| -c);
+    let emission = &material.surface.constants[parameter::EMISSION_COLOR..parameter::EMISSION_COLOR + 3];
+    LightRecord {
+        to_world: [x, y, z, corners[0].map(|c| c as f32)],
+        radiance: if emits { [emission[0], emission[1], emission[2]] } else { [0.0; 3] },
+        two_sided: true,
+        ..LightRecord::new(LightKind::Triangle)
+    }
+}

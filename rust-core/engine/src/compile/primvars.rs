@@ -1,0 +1,85 @@
+//! Which primvars materials read, and their layout in the value tables.
+
+use crate::{
+    geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
+    scene::{Operation, Primvar, PrimvarInterpolation, Scene},
+};
+
+/// Names of the primvars that any material reads; their columns follow the one of the normals.
+pub(super) fn used_names(scene: &Scene) -> Vec<String> {
+    let mut names = Vec::new();
+    for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
+        if let Operation::Primvar { name, .. } = &node.operation {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+    }
+    names
+}
+
+/// The column of a name.
+pub(super) fn column(names: &[String], name: &str) -> Option<usize> {
+    names.iter().position(|known| known == name).map(|i| i + 1)
+}
+
+/// How many elements an interpolation has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Elements {
+    pub(super) uniform: usize,
+    pub(super) points: usize,
+    pub(super) corners: usize,
+}
+
+impl Elements {
+    fn count(&self, interpolation: PrimvarInterpolation) -> usize {
+        match interpolation {
+            PrimvarInterpolation::Constant => 1,
+            PrimvarInterpolation::Uniform => self.uniform,
+            PrimvarInterpolation::Vertex => self.points,
+            PrimvarInterpolation::FaceVarying => self.corners,
+        }
+    }
+}
+
+/// What is wrong with a primvar's arrays, if anything.
+pub(super) fn problem(primvar: &Primvar, elements: Elements) -> Option<String> {
+    let components = usize::from(primvar.components);
+    if !(1..=4).contains(&components) {
+        return Some(format!("primvar '{}' has {components} components, expected 1 to 4", primvar.name));
+    }
+    let expected = elements.count(primvar.interpolation);
+    let values = primvar.values.len() / components;
+    let found = primvar.indices.as_ref().map_or(values, |indices| indices.len());
+    if found < expected {
+        return Some(format!("primvar '{}' has {found} elements, expected {expected} ({:?})", primvar.name, primvar.interpolation));
+    }
+    let largest = primvar.indices.as_ref().and_then(|indices| indices.iter().max().copied());
+    match largest {
+        Some(index) if index as usize >= values => {
+            Some(format!("primvar '{}' has index {index}, but only {values} values", primvar.name))
+        }
+        _ => None,
+    }
+}
+
+/// Puts a checked primvar's arrays into the tables.
+pub(super) fn append(primvar: &Primvar, table: &mut GeometryTable) -> PrimvarRef {
+    let first_value = table.values.len() as u32;
+    table.values.extend_from_slice(&primvar.values);
+    let first_index = match &primvar.indices {
+        Some(indices) => {
+            let first = table.value_indices.len() as u32;
+            table.value_indices.extend_from_slice(indices);
+            first
+        }
+        None => NONE,
+    };
+    let kind = match primvar.interpolation {
+        PrimvarInterpolation::Constant => PrimvarKind::Constant,
+        PrimvarInterpolation::Uniform => PrimvarKind::Uniform,
+        PrimvarInterpolation::Vertex => PrimvarKind::Vertex,
+        PrimvarInterpolation::FaceVarying => PrimvarKind::FaceVarying,
+    };
+    PrimvarRef { kind, components: u32::from(primvar.components), first_value, first_index }
+}

@@ -1,0 +1,90 @@
+//! From sums to an image.
+
+use super::{Film, channel_names};
+use crate::{
+    integrator::{BATCH, tile_place},
+    scene::{Aov, Crop},
+};
+
+/// A named group of channels, pixel by pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// The pass.
+    pub aov: Aov,
+    /// `channels` floats a pixel, rows from the top.
+    pub values: Vec<f32>,
+    /// Channels a pixel.
+    pub channels: usize,
+}
+
+/// A developed film: the rendered window of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// The whole image's width and height.
+    pub resolution: [u32; 2],
+    /// The part the layers hold.
+    pub window: Crop,
+    /// The passes.
+    pub layers: Vec<Layer>,
+    /// Samples a pixel, the least of all tiles.
+    pub samples: u32,
+}
+
+impl Image {
+    /// Width and height of the window.
+    pub fn size(&self) -> [usize; 2] {
+        [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize)
+    }
+
+    /// The layer of a pass.
+    pub fn layer(&self, aov: Aov) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.aov == aov)
+    }
+}
+
+impl Film {
+    /// The means so far.
+    ///
+    /// Depth, normal and position are means over what was covered; alpha tells how much that was.
+    pub fn develop(&self) -> Image {
+        let [width, height] = [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize);
+        let mut layers: Vec<Layer> = self.layout.aovs.iter().map(|aov| empty_layer(*aov, width * height)).collect();
+        let mut least = u32::MAX;
+        for tile in 0..self.tile_count() {
+            let area = self.tile_area(tile);
+            self.read(tile, |sums| {
+                least = least.min(sums.samples);
+                for (layer, offset) in layers.iter_mut().zip(&self.layout.offsets) {
+                    develop_tile(layer, *offset, sums, area, self.window.min, width);
+                }
+            });
+        }
+        Image { resolution: self.resolution, window: self.window, layers, samples: if least == u32::MAX { 0 } else { least } }
+    }
+}
+
+fn empty_layer(aov: Aov, pixels: usize) -> Layer {
+    let channels = channel_names(aov).len();
+    Layer { aov, values: vec![0.0; pixels * channels], channels }
+}
+
+fn develop_tile(layer: &mut Layer, offset: usize, tile: &super::TileFilm, area: Crop, corner: [u32; 2], width: usize) {
+    if tile.samples == 0 {
+        return;
+    }
+    let scale = if layer.aov == Aov::PrimId { 1.0 } else { 1.0 / f64::from(tile.samples) };
+    for code in 0..BATCH {
+        let [x, y] = tile_place(code);
+        let place = [area.min[0] + x as u32, area.min[1] + y as u32];
+        if place[0] >= area.max[0] || place[1] >= area.max[1] {
+            continue;
+        }
+        let pixel = (place[1] - corner[1]) as usize * width + (place[0] - corner[0]) as usize;
+        for channel in 0..layer.channels {
+            let sum = tile.sums[(offset + channel) * BATCH + code];
+            // Ids are kept one higher, so that nothing met is −1.
+            let value = if layer.aov == Aov::PrimId { sum - 1.0 } else { sum * scale };
+            layer.values[pixel * layer.channels + channel] = value as f32;
+        }
+    }
+}

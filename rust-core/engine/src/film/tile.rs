@@ -1,0 +1,126 @@
+//! A tile's sums.
+
+use super::ChannelLayout;
+use crate::{
+    integrator::{BATCH, FirstHit},
+    scene::Aov,
+};
+use std::collections::BTreeMap;
+
+/// Sums over a block of samples, `BATCH` values a channel, by the pixels' Morton numbers.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Channel after channel.
+    pub sums: Vec<f32>,
+    /// Samples a pixel has in it.
+    pub samples: u32,
+}
+
+/// Sums over all blocks so far.
+#[derive(Clone, Debug)]
+pub struct TileFilm {
+    /// Channel after channel, `BATCH` values each, by the pixels' Morton numbers.
+    pub sums: Vec<f64>,
+    /// Sum of the squares of the blocks' mean luminances times their samples, by pixel.
+    pub second_moment: Vec<f64>,
+    /// Samples a pixel has.
+    pub samples: u32,
+    /// Blocks added.
+    pub blocks: u32,
+    waiting: BTreeMap<u32, Block>,
+    id_channel: Option<usize>,
+    color_channel: Option<usize>,
+}
+
+impl TileFilm {
+    /// An empty tile.
+    pub fn new(layout: &ChannelLayout) -> Self {
+        Self {
+            sums: vec![0.0; layout.channels * BATCH],
+            second_moment: vec![0.0; BATCH],
+            samples: 0,
+            blocks: 0,
+            waiting: BTreeMap::new(),
+            id_channel: layout.offset(Aov::PrimId),
+            color_channel: layout.offset(Aov::Color),
+        }
+    }
+
+    /// Adds block `number`; one that comes early waits.
+    pub fn add(&mut self, number: u32, block: Block) {
+        self.waiting.insert(number, block);
+        while let Some(block) = self.waiting.remove(&self.blocks) {
+            self.add_now(&block);
+            self.blocks += 1;
+        }
+    }
+
+    fn add_now(&mut self, block: &Block) {
+        for (channel, sums) in self.sums.chunks_exact_mut(BATCH).enumerate() {
+            let values = &block.sums[channel * BATCH..(channel + 1) * BATCH];
+            if Some(channel) == self.id_channel {
+                // Ids are not averaged: the first sample that met something names it.
+                sums.iter_mut().zip(values).filter(|(sum, _)| **sum == 0.0).for_each(|(sum, value)| *sum = f64::from(*value));
+            } else {
+                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
+            }
+        }
+        if let Some(color) = self.color_channel {
+            let channel = |i: usize| &block.sums[(color + i) * BATCH..(color + i + 1) * BATCH];
+            let (r, g, b) = (channel(0), channel(1), channel(2));
+            let samples = f64::from(block.samples);
+            for (i, moment) in self.second_moment.iter_mut().enumerate() {
+                let y = 0.2126 * f64::from(r[i]) + 0.7152 * f64::from(g[i]) + 0.0722 * f64::from(b[i]);
+                *moment += y * y / samples;
+            }
+        }
+        self.samples += block.samples;
+    }
+}
+
+impl Block {
+    /// A block from what a worker gathered; positions are moved by `origin` back to world space, radiance is multiplied by `exposure`
+    /// in the colour pass alone.
+    pub fn new(layout: &ChannelLayout, gathered: &FirstHit, samples: u32, exposure: f32, origin: [f64; 3]) -> Self {
+        let mut sums = vec![0.0; layout.channels * BATCH];
+        for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
+            let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
+            fill(*aov, channels, gathered, exposure, origin);
+        }
+        Self { sums, samples }
+    }
+}
+
+fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
+    let radiance = &gathered.radiance;
+    let luminance = |i: usize| 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
+    match aov {
+        Aov::Color => {
+            for (c, out) in channels.chunks_exact_mut(BATCH).take(3).enumerate() {
+                out.iter_mut().zip(&radiance[c][..BATCH]).for_each(|(out, value)| *out = value * exposure);
+            }
+            channels[3 * BATCH..].copy_from_slice(&gathered.alpha[..BATCH]);
+        }
+        Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
+        Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
+        Aov::Normal => copy3(channels, &gathered.normal),
+        Aov::Albedo => copy3(channels, &gathered.albedo),
+        Aov::P => {
+            for (c, out) in channels.chunks_exact_mut(BATCH).enumerate() {
+                let place = origin[c] as f32;
+                for (i, out) in out.iter_mut().enumerate() {
+                    *out = gathered.position[c][i] + place * gathered.alpha[i];
+                }
+            }
+        }
+        Aov::PrimId => channels.iter_mut().zip(&gathered.prim_id[..]).for_each(|(out, id)| *out = *id as f32),
+        Aov::Luminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(i)),
+        Aov::Illuminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(BATCH + i)),
+    }
+}
+
+fn copy3(channels: &mut [f32], from: &[gonio_simd::Column; 3]) {
+    for (out, column) in channels.chunks_exact_mut(BATCH).zip(from) {
+        out.copy_from_slice(&column[..BATCH]);
+    }
+}

@@ -1,0 +1,150 @@
+//! Primvars at hits: which value each triangle corner has, and their interpolation, on lanes.
+
+use super::{GeometryTable, HitLanes, NONE};
+use gonio_simd::{F, Lanes, M, U};
+
+/// What a compiled primvar's values belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PrimvarKind {
+    /// The mesh has none.
+    Absent = 0,
+    /// One value.
+    Constant = 1,
+    /// One value a triangle, or an instance for instances' own primvars.
+    Uniform = 2,
+    /// One value a point.
+    Vertex = 3,
+    /// One value a triangle corner.
+    FaceVarying = 4,
+}
+
+/// A primvar of a mesh in the tables.
+#[derive(Clone, Copy, Debug)]
+pub struct PrimvarRef {
+    /// What the values belong to.
+    pub kind: PrimvarKind,
+    /// Floats a value.
+    pub components: u32,
+    /// First float in `values`.
+    pub first_value: u32,
+    /// First entry in `value_indices`, or [`NONE`] for values in order.
+    pub first_index: u32,
+}
+
+impl PrimvarRef {
+    /// No primvar.
+    pub const ABSENT: Self = Self { kind: PrimvarKind::Absent, components: 1, first_value: 0, first_index: NONE };
+
+    /// As the table stores it.
+    pub fn words(self) -> [u32; 4] {
+        [self.kind as u32 | self.components << 8, self.first_value, self.first_index, 0]
+    }
+}
+
+/// A primvar's references for hits on different meshes.
+#[derive(Clone, Copy, Debug)]
+struct RefLanes<L: Lanes> {
+    kind: U<L>,
+    components: U<L>,
+    first_value: U<L>,
+    first_index: U<L>,
+    per_instance: M<L>,
+}
+
+impl GeometryTable {
+    /// Four components of a primvar column at hits, missing components zero, and where there is a value at all.
+    #[inline(always)]
+    pub fn primvar<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> ([F<L>; 4], M<L>) {
+        let reference = self.reference(l, hit, column);
+        let present = reference.kind.ne(PrimvarKind::Absent as u32);
+        let mut value = [l.f(0.0); 4];
+        if !present.any() {
+            return (value, present);
+        }
+        let weights = [l.f(1.0) - hit.u - hit.v, hit.u, hit.v];
+        for (corner, weight) in weights.into_iter().enumerate() {
+            let at = self.value_place(l, hit, &reference, corner as u32);
+            for (component, sum) in value.iter_mut().enumerate() {
+                let inside = (l.u(component as u32)).lt(reference.components);
+                let part = l.gather(&self.values, at + component as u32);
+                *sum = inside.select(part, l.f(0.0)).mul_add(weight, *sum);
+            }
+        }
+        (value, present)
+    }
+
+    /// Where a column has a value, and how many components.
+    #[inline(always)]
+    pub(super) fn primvar_presence<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> (U<L>, M<L>) {
+        let reference = self.reference(l, hit, column);
+        (reference.components, reference.kind.ne(PrimvarKind::Absent as u32))
+    }
+
+    /// Three components at one corner of the hit triangles.
+    #[inline(always)]
+    pub(super) fn corner_value<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize, corner: u32) -> [F<L>; 3] {
+        let reference = self.reference(l, hit, column);
+        let at = self.value_place(l, hit, &reference, corner);
+        let mut value = [l.f(0.0); 3];
+        for (component, out) in value.iter_mut().enumerate() {
+            *out = l.gather(&self.values, at + component as u32);
+        }
+        value
+    }
+
+    /// The first two components at the three corners; zeros where there is no value.
+    #[inline(always)]
+    pub fn corner_uvs<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> [[F<L>; 2]; 3] {
+        let reference = self.reference(l, hit, column);
+        let present = reference.kind.ne(PrimvarKind::Absent as u32) & l.u(1).lt(reference.components);
+        let mut corners = [[l.f(0.0); 2]; 3];
+        for (corner, uv) in corners.iter_mut().enumerate() {
+            let at = self.value_place(l, hit, &reference, corner as u32);
+            *uv = [l.gather(&self.values, at).keep_if(present), l.gather(&self.values, at + 1).keep_if(present)];
+        }
+        corners
+    }
+
+    #[inline(always)]
+    fn reference<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> RefLanes<L> {
+        let at = (hit.mesh * self.columns as u32 + column as u32) << 2;
+        let head = l.gather_integers(&self.primvars, at);
+        let (value, index) = (l.gather_integers(&self.primvars, at + 1), l.gather_integers(&self.primvars, at + 2));
+        let own = RefLanes { kind: head & 0xff, components: head >> 8, first_value: value, first_index: index, per_instance: l.m(false) };
+        let absent = own.kind.eq(PrimvarKind::Absent as u32);
+        let first = l.gather_integers(&self.instance_primvar, hit.instance);
+        let instead = absent & first.ne(NONE);
+        if !instead.any() {
+            return own;
+        }
+        let at = (first + column as u32) << 2;
+        let head = l.gather_integers(&self.instance_primvars, at);
+        RefLanes {
+            kind: instead.select(head & 0xff, own.kind),
+            components: instead.select(head >> 8, own.components),
+            first_value: instead.select(l.gather_integers(&self.instance_primvars, at + 1), own.first_value),
+            first_index: instead.select(l.gather_integers(&self.instance_primvars, at + 2), own.first_index),
+            per_instance: instead,
+        }
+    }
+
+    /// First float of a corner's value.
+    #[inline(always)]
+    fn value_place<L: Lanes>(&self, l: L, hit: &HitLanes<L>, reference: &RefLanes<L>, corner: u32) -> U<L> {
+        let kind = |k: PrimvarKind| reference.kind.eq(k as u32);
+        let point = hit.points[corner as usize] - hit.first_point;
+        let uniform = reference.per_instance.select(l.gather_integers(&self.instance_number, hit.instance), hit.primitive);
+        let element = kind(PrimvarKind::Vertex).select(
+            point,
+            kind(PrimvarKind::FaceVarying)
+                .select(hit.primitive * 3 + corner, kind(PrimvarKind::Uniform).select(uniform, l.u(0))),
+        );
+        let indexed = reference.first_index.ne(NONE);
+        let element = if indexed.any() {
+            indexed.select(l.gather_integers(&self.value_indices, reference.first_index + element), element)
+        } else {
+            element
+        };
+        reference.first_value + element * reference.components
+    }
+}

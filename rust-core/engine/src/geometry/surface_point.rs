@@ -1,0 +1,146 @@
+//! Surface points at hits: position with an error bound, normals, and the primvars' derivatives, on lanes.
+
+use super::{GeometryTable, NORMALS};
+use gonio_simd::{F, Lanes, U, Vec3};
+
+/// Hits of meshes, one per lane, with what is looked up once.
+#[derive(Clone, Copy, Debug)]
+pub struct HitLanes<L: Lanes> {
+    /// Instance number.
+    pub instance: U<L>,
+    /// Triangle number in its mesh.
+    pub primitive: U<L>,
+    /// Barycentric coordinate of corner 1.
+    pub u: F<L>,
+    /// Barycentric coordinate of corner 2.
+    pub v: F<L>,
+    /// Mesh number.
+    pub mesh: U<L>,
+    /// First point of the mesh.
+    pub first_point: U<L>,
+    /// Point numbers of the corners over all meshes.
+    pub points: [U<L>; 3],
+}
+
+/// A point on a surface, world space.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint<L: Lanes> {
+    /// Position.
+    pub position: Vec3<L>,
+    /// How far along the normal the true point may lie from `position`, metres.
+    pub error: F<L>,
+    /// Unit normal of the triangle, on the side its winding shows counter-clockwise.
+    pub geometric_normal: Vec3<L>,
+    /// Unit shading normal on the same side.
+    pub shading_normal: Vec3<L>,
+    /// Edges from corner 0 to 1 and 2, world space.
+    pub edges: [Vec3<L>; 2],
+    /// Twice the triangle's area.
+    pub double_area: F<L>,
+}
+
+/// Rounding errors of a chain of `n` operations: n ε / (1 − n ε) (Higham; pbrt-v4 section 6.8).
+const fn gamma(n: u32) -> f32 {
+    let e = f32::EPSILON * 0.5;
+    n as f32 * e / (1.0 - n as f32 * e)
+}
+
+impl GeometryTable {
+    /// Looks up what the hits refer to.
+    #[inline(always)]
+    pub fn hit_lanes<L: Lanes>(&self, l: L, instance: U<L>, primitive: U<L>, u: F<L>, v: F<L>) -> HitLanes<L> {
+        let mesh = l.gather_integers(&self.instance_mesh, instance);
+        let triangle = l.gather_integers(&self.mesh_triangle, mesh) + primitive;
+        let first = triangle * 3;
+        HitLanes {
+            instance,
+            primitive,
+            u,
+            v,
+            mesh,
+            first_point: l.gather_integers(&self.mesh_point, mesh),
+            points: [
+                l.gather_integers(&self.corners, first),
+                l.gather_integers(&self.corners, first + 1),
+                l.gather_integers(&self.corners, first + 2),
+            ],
+        }
+    }
+
+    /// The points themselves.
+    ///
+    /// Positions come from the triangle, not from the ray, so their error does not grow with the distance travelled.
+    #[inline(always)]
+    pub fn surface_point<L: Lanes>(&self, l: L, hit: &HitLanes<L>) -> SurfacePoint<L> {
+        let [p0, p1, p2] = hit.points.map(|point| Vec3::gather(l, &self.points, point * 3));
+        let at = hit.instance * 12;
+        let columns = [0, 3, 6].map(|k| Vec3::gather(l, &self.instance_transform, at + k));
+        let origin = Vec3::gather(l, &self.instance_transform, at + 9);
+        let w = l.f(1.0) - hit.u - hit.v;
+        let local = p0 * w + p1 * hit.u + p2 * hit.v;
+        let position = local.transform(columns) + origin;
+        let edges = [(p1 - p0).transform(columns), (p2 - p0).transform(columns)];
+        let cross = edges[0].cross(edges[1]);
+        // A mirroring map turns the winding round.
+        let cofactors = [columns[1].cross(columns[2]), columns[2].cross(columns[0]), columns[0].cross(columns[1])];
+        let determinant = columns[0].dot(cofactors[0]);
+        let sign = l.f(1.0).copysign(determinant);
+        let double_area = cross.length();
+        let geometric_normal = (cross * sign).normalize_or(Vec3::splat(l, [0.0, 0.0, 1.0]));
+        let shading_normal = self.shading_normal(l, hit, cofactors, sign, geometric_normal);
+        let error = self.position_error(l, [p0, p1, p2], local, columns, origin, geometric_normal);
+        SurfacePoint { position, error, geometric_normal, shading_normal, edges, double_area }
+    }
+
+    /// The interpolated normal carried to world space, on the geometric normal's side.
+    #[inline(always)]
+    fn shading_normal<L: Lanes>(&self, l: L, hit: &HitLanes<L>, cofactors: [Vec3<L>; 3], sign: F<L>, flat: Vec3<L>) -> Vec3<L> {
+        let (_, present) = self.primvar_presence(l, hit, NORMALS);
+        if !present.any() {
+            return flat;
+        }
+        let [n0, n1, n2] = [0, 1, 2].map(|corner| {
+            let [x, y, z] = self.corner_value(l, hit, NORMALS, corner);
+            Vec3::new(x, y, z)
+        });
+        let local = n0 * (l.f(1.0) - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
+        let world = (local.transform(cofactors) * sign).normalize_or(flat);
+        // Authored normals may point to the other side; which side is the front is the winding's business.
+        let same = world.dot(flat).ge(0.0);
+        present.select(same.select(world, -world), flat)
+    }
+
+    /// A bound on the position's error along the normal: interpolation and transformation in single precision (pbrt-v4 section 6.8.4).
+    #[inline(always)]
+    fn position_error<L: Lanes>(
+        &self, l: L, corners: [Vec3<L>; 3], local: Vec3<L>, columns: [Vec3<L>; 3], origin: Vec3<L>, normal: Vec3<L>,
+    ) -> F<L> {
+        let largest = |axis: fn(&Vec3<L>) -> F<L>| axis(&corners[0]).abs().max(axis(&corners[1]).abs()).max(axis(&corners[2]).abs());
+        let extent = Vec3::new(largest(|p| p.x), largest(|p| p.y), largest(|p| p.z));
+        let mut error = l.f(0.0);
+        let axes: [(fn(&Vec3<L>) -> F<L>, F<L>); 3] = [(|v| v.x, normal.x), (|v| v.y, normal.y), (|v| v.z, normal.z)];
+        for (axis, n) in axes {
+            let moved = axis(&columns[0]).abs() * extent.x + axis(&columns[1]).abs() * extent.y + axis(&columns[2]).abs() * extent.z;
+            let rotated =
+                (axis(&columns[0]) * local.x).abs() + (axis(&columns[1]) * local.y).abs() + (axis(&columns[2]) * local.z).abs();
+            let bound = moved * gamma(9) + (rotated + axis(&origin).abs()) * gamma(5);
+            error = bound.mul_add(n.abs(), error);
+        }
+        error
+    }
+}
+
+impl<L: Lanes> SurfacePoint<L> {
+    /// Where a ray into `direction` may start without meeting the surface it leaves.
+    #[inline(always)]
+    pub fn spawn(&self, direction: Vec3<L>) -> Vec3<L> {
+        spawn(self.position, self.geometric_normal, self.error, direction)
+    }
+}
+
+/// A ray's start at `position` moved off the surface to the side `direction` points to, by twice the error bound.
+#[inline(always)]
+pub fn spawn<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>) -> Vec3<L> {
+    let side = (error * 2.0).copysign(normal.dot(direction));
+    normal.mul_add(side, position)
+}

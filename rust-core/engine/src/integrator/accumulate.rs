@@ -1,0 +1,58 @@
+//! What is kept of the first surface a camera ray meets, and limits on contributions.
+
+use super::{
+    scatter::{add, add_rgb},
+    state::FirstHit,
+};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// A contribution held to the user's limit for fireflies; zero means no limit.
+#[inline(always)]
+pub(super) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
+    if limit > 0.0 {
+        let largest = value.max_component();
+        let over = largest.gt(limit);
+        let factor = over.select(largest.recip() * limit, largest.lanes().f(1.0));
+        value * factor
+    } else {
+        value
+    }
+}
+
+/// A first surface, by lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FirstSurface<L: Lanes> {
+    pub(super) slot: U<L>,
+    pub(super) depth: F<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) position: Vec3<L>,
+    pub(super) albedo: Rgb<L>,
+    pub(super) prim_id: U<L>,
+}
+
+impl FirstHit {
+    /// Adds what the chosen lanes' camera rays met.
+    #[inline(always)]
+    pub(super) fn record<L: Lanes>(&mut self, l: L, surface: &FirstSurface<L>, chosen: M<L>) {
+        if !chosen.any() {
+            return;
+        }
+        let slot = surface.slot;
+        let triple = |v: Vec3<L>| Rgb::new(v.x, v.y, v.z);
+        add(&mut self.alpha, slot, l.f(1.0), chosen);
+        add(&mut self.depth, slot, surface.depth, chosen);
+        add_rgb(&mut self.normal, slot, triple(surface.normal), chosen);
+        add_rgb(&mut self.position, slot, triple(surface.position), chosen);
+        add_rgb(&mut self.albedo, slot, surface.albedo, chosen);
+        let (slots, ids) = (slot.to_array(), surface.prim_id.to_array());
+        let mut bits = chosen.bits();
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize;
+            let known = &mut self.prim_id[slots[lane] as usize];
+            if *known == 0 {
+                *known = ids[lane] + 1;
+            }
+            bits &= bits - 1;
+        }
+    }
+}

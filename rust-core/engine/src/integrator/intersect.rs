@@ -1,0 +1,187 @@
+//! The second stage: tracing, and sorting what was hit into light, surface and nothing.
+
+use super::{
+    accumulate::clamped,
+    kernels::{self, LightHit},
+    material::Tables,
+    path::Transport,
+    scatter::add_rgb,
+    state::{Paths, Workspace, flag, gather3},
+};
+use crate::{
+    accel::{Hits, NONE, RayBatch, SceneBvh},
+    light::power_heuristic,
+};
+use gonio_simd::{Execution, Lanes, Rgb, dispatch};
+
+/// Finds what every path hits, adds the light that shapes and the surroundings send, and leaves the surface hits sorted by material.
+pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    let paths = &ws.paths;
+    ws.statistics.rays += paths.count as u64;
+    first_hits(transport.execution, &tables.bvh, &rays_of(paths), depth == 0, &mut ws.hits);
+    classify(tables, ws);
+    while !ws.at_lights.is_empty() {
+        dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, ws));
+        pass_through_lights(tables, transport, ws);
+    }
+    dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
+    sort_by_material(tables, ws);
+}
+
+fn rays_of(paths: &Paths) -> RayBatch<'_> {
+    let n = paths.count;
+    RayBatch {
+        origin: [&paths.origin[0][..n], &paths.origin[1][..n], &paths.origin[2][..n]],
+        direction: [&paths.direction[0][..n], &paths.direction[1][..n], &paths.direction[2][..n]],
+        t_min: &paths.t_min[..n],
+        t_max: &paths.t_max[..n],
+        mask: &paths.mask[..n],
+    }
+}
+
+fn first_hits(execution: Execution, bvh: &SceneBvh, rays: &RayBatch<'_>, coherent: bool, hits: &mut Hits) {
+    match execution {
+        Execution::Scalar => bvh.first_hit_scalar(rays, hits),
+        Execution::Vector(level) if coherent => bvh.first_hit_packets(level, rays, hits),
+        Execution::Vector(level) => bvh.first_hit(level, rays, hits),
+    }
+}
+
+/// Lists the paths that escaped and those that stand before a light's shape.
+fn classify(tables: &Tables, ws: &mut Workspace) {
+    ws.escaped.clear();
+    ws.at_lights.clear();
+    for (path, instance) in ws.hits.instance.iter().enumerate() {
+        if *instance == NONE {
+            ws.escaped.push(path as u32);
+        } else if *instance >= tables.first_light_instance {
+            ws.at_lights.push(path as u32);
+        }
+    }
+}
+
+/// Adds what the shapes of lights send to the paths that met them.
+#[inline(always)]
+fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    let count = ws.at_lights.len();
+    ws.at_lights.resize(gonio_simd::padded(count), 0);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        let path = l.load_integers(&ws.at_lights, at);
+        let instance = l.gather_integers(&ws.hits.instance, path);
+        let light = l.gather_integers(&tables.instance_light, instance - tables.first_light_instance);
+        let direction = gather3(l, &ws.paths.direction, path);
+        let from = gather3(l, &ws.paths.vertex, path);
+        let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
+        let hit = LightHit { light, from, normal: gather3(l, &ws.paths.normal, path), direction, point };
+        let (radiance, pdf) = kernels::eval_light(l, tables, &hit, alive);
+        let flags = l.gather_integers(&ws.paths.flags, path);
+        let sampled = (flags & flag::DELTA).eq(0);
+        let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, path), pdf), l.f(1.0));
+        let throughput = gather3(l, &ws.paths.throughput, path);
+        let slot = l.gather_integers(&ws.paths.slot, path);
+        let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z) * weight, transport.clamp(depth));
+        add_rgb(&mut ws.first_hit.radiance, slot, value, alive & value.is_lit());
+    }
+    ws.at_lights.truncate(count);
+}
+
+/// Traces on behind the shapes of lights: they shine and block nothing.
+fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
+    for path in &ws.at_lights {
+        let i = *path as usize;
+        // Far enough that the same shape is not met again, near enough that nothing behind it is lost.
+        ws.paths.t_min[i] = (ws.hits.t[i] * (1.0 + 1e-6)).next_up();
+    }
+    let mut waiting = std::mem::take(&mut ws.at_lights);
+    let select = |column: &[f32]| -> Vec<f32> { waiting.iter().map(|i| column[*i as usize]).collect() };
+    let paths = &ws.paths;
+    let origin = [select(&paths.origin[0]), select(&paths.origin[1]), select(&paths.origin[2])];
+    let direction = [select(&paths.direction[0]), select(&paths.direction[1]), select(&paths.direction[2])];
+    let (t_min, t_max) = (select(&paths.t_min), select(&paths.t_max));
+    let mask: Vec<u8> = waiting.iter().map(|i| paths.mask[*i as usize]).collect();
+    let rays = RayBatch {
+        origin: [&origin[0], &origin[1], &origin[2]],
+        direction: [&direction[0], &direction[1], &direction[2]],
+        t_min: &t_min,
+        t_max: &t_max,
+        mask: &mask,
+    };
+    first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
+    for (from, to) in waiting.iter().enumerate() {
+        let to = *to as usize;
+        ws.hits.t[to] = ws.retraced.t[from];
+        ws.hits.u[to] = ws.retraced.u[from];
+        ws.hits.v[to] = ws.retraced.v[from];
+        ws.hits.primitive[to] = ws.retraced.primitive[from];
+        ws.hits.instance[to] = ws.retraced.instance[from];
+    }
+    let hits = &ws.hits;
+    ws.escaped.extend(waiting.iter().filter(|i| hits.instance[**i as usize] == NONE));
+    waiting.retain(|i| {
+        let instance = hits.instance[*i as usize];
+        instance != NONE && instance >= tables.first_light_instance
+    });
+    ws.at_lights = waiting;
+}
+
+/// Adds what lights at infinity send to the paths that escaped.
+#[inline(always)]
+fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    let count = ws.escaped.len();
+    ws.escaped.resize(gonio_simd::padded(count), 0);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        let path = l.load_integers(&ws.escaped, at);
+        let flags = l.gather_integers(&ws.paths.flags, path);
+        let camera = (flags & flag::CAMERA).ne(0);
+        let delta = (flags & flag::DELTA).ne(0);
+        let radiance = tables.lights.escaped(
+            l,
+            gather3(l, &ws.paths.vertex, path),
+            gather3(l, &ws.paths.normal, path),
+            gather3(l, &ws.paths.direction, path),
+            l.gather(&ws.paths.pdf, path),
+            camera,
+            delta,
+        );
+        let throughput = gather3(l, &ws.paths.throughput, path);
+        let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z), transport.clamp(depth));
+        add_rgb(&mut ws.first_hit.radiance, l.gather_integers(&ws.paths.slot, path), value, alive & value.is_lit());
+    }
+}
+
+/// Counting sort of the paths at surfaces by material.
+fn sort_by_material(tables: &Tables, ws: &mut Workspace) {
+    let materials = tables.materials.len();
+    ws.material_start.clear();
+    ws.material_start.resize(materials + 1, 0);
+    ws.material_of.clear();
+    for (instance, primitive) in ws.hits.instance.iter().zip(&ws.hits.primitive) {
+        if *instance == NONE {
+            ws.material_of.push(NONE);
+        } else {
+            let material = tables.geometry.material(*instance, *primitive);
+            ws.material_start[material as usize + 1] += 1;
+            ws.material_of.push(material);
+        }
+    }
+    for m in 0..materials {
+        ws.material_start[m + 1] += ws.material_start[m];
+    }
+    let total = ws.material_start[materials] as usize;
+    ws.order.clear();
+    ws.order.resize(gonio_simd::padded(total) + gonio_simd::PADDING, 0);
+    for (path, material) in ws.material_of.iter().enumerate() {
+        if *material != NONE {
+            let place = &mut ws.material_start[*material as usize];
+            ws.order[*place as usize] = path as u32;
+            *place += 1;
+        }
+    }
+    // Placing moved every start to the next one's place.
+    for m in (1..=materials).rev() {
+        ws.material_start[m] = ws.material_start[m - 1];
+    }
+    ws.material_start[0] = 0;
+}

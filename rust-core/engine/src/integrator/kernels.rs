@@ -1,0 +1,106 @@
+//! The large kernels as functions of their own.
+//!
+//! Inlined at every call they would make stages of a hundred thousand instructions, which compile for minutes and run no faster: a call costs
+//! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
+
+use super::{
+    material::{SurfaceMaterial, Tables},
+    surface::{ChunkSource, HitSource, surface_chunk},
+};
+use crate::{
+    bsdf::{BsdfSample, Lobes, ParameterValues, Surface},
+    graph::{self, GraphScratch, OutputColumns, SurfaceColumns},
+    light::LightSample,
+};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// [`Surface::resolve`].
+#[inline(never)]
+pub(super) fn resolve<L: Lanes>(
+    l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>,
+) -> Lobes<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.resolve(l, values, at, wo, entering),
+    )
+}
+
+/// [`Surface::transmittance`].
+#[inline(never)]
+pub(super) fn transmittance<L: Lanes>(
+    l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>,
+) -> Rgb<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.transmittance(l, values, at, wo, entering),
+    )
+}
+
+/// [`Lobes::eval`].
+#[inline(never)]
+pub(super) fn eval<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.eval(l, wo, wi),
+    )
+}
+
+/// [`Lobes::sample`].
+#[inline(never)]
+pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sample(l, wo, u),
+    )
+}
+
+/// [`crate::light::LightTable::sample`].
+#[inline(never)]
+pub(super) fn sample_light<L: Lanes>(l: L, tables: &Tables, p: Vec3<L>, n: Vec3<L>, u_choice: F<L>, u: [F<L>; 2]) -> LightSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.sample(l, p, n, u_choice, u),
+    )
+}
+
+/// A point on a light that a ray met.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightHit<L: Lanes> {
+    pub(super) light: U<L>,
+    pub(super) from: Vec3<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) point: Vec3<L>,
+}
+
+/// [`crate::light::LightTable::eval_hit`].
+#[inline(never)]
+pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.eval_hit(l, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+    )
+}
+
+/// [`super::surface::surface_chunk`].
+#[inline(never)]
+pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
+    l: L, tables: &Tables, material: &SurfaceMaterial, hits: &H, source: &ChunkSource<'_>, out: &mut SurfaceColumns,
+) {
+    l.vectorize(
+        #[inline(always)]
+        || surface_chunk(l, tables, material, hits, source, out),
+    );
+}
+
+/// [`graph::evaluate`].
+#[inline(never)]
+pub(super) fn evaluate<L: Lanes>(
+    l: L, tables: &Tables, material: &SurfaceMaterial, points: &mut SurfaceColumns, count: usize, scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
+) {
+    l.vectorize(
+        #[inline(always)]
+        || graph::evaluate(l, &material.program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
+    );
+}

@@ -1,0 +1,101 @@
+//! Illuminance: the measured points are lit and scatter like white Lambertian surfaces, π times over.
+//!
+//! Irradiance E = ∫ L cosθ dω equals π times the radiance that a white Lambertian surface sends out, so the same estimators serve.
+
+use super::{
+    kernels,
+    material::Tables,
+    path::SampleContext,
+    scatter::add_rgb,
+    state::{BATCH, PathLanes, Workspace, flag, load3},
+};
+use crate::{geometry::spawn, light::power_heuristic, sampler::dimension};
+use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// One register of measured points.
+#[derive(Clone, Copy, Debug)]
+struct Point<L: Lanes> {
+    alive: M<L>,
+    position: Vec3<L>,
+    error: F<L>,
+    geometric: Vec3<L>,
+    frame: Frame<L>,
+    throughput: Rgb<L>,
+    width: F<L>,
+    slot: U<L>,
+}
+
+/// Lights the measured points and starts a path from each.
+#[inline(always)]
+pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, context: &SampleContext, ws: &mut Workspace) {
+    let count = ws.measure.count;
+    for at in (0..count).step_by(L::COUNT) {
+        let point = load_point(l, at, l.first(count - at), ws);
+        let pixel = point.slot - BATCH as u32;
+        let index = context.sampler.index(l, pixel, context.sample);
+        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
+        let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+        if !tables.lights.is_empty() {
+            light(l, tables, &point, u_choice, context.sampler.pair(l, index, base + dimension::LIGHT), ws);
+        }
+        start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);
+    }
+    ws.measure.count = 0;
+}
+
+#[inline(always)]
+fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
+    let m = &ws.measure;
+    let throughput = load3(l, &m.throughput, at);
+    Point {
+        alive,
+        position: load3(l, &m.position, at),
+        error: l.load(&m.error, at),
+        geometric: load3(l, &m.geometric_normal, at),
+        frame: Frame::from_normal(load3(l, &m.shading_normal, at)),
+        throughput: Rgb::new(throughput.x, throughput.y, throughput.z),
+        width: l.load(&m.width, at),
+        slot: l.load_integers(&m.slot, at) + BATCH as u32,
+    }
+}
+
+#[inline(always)]
+fn light<L: Lanes>(l: L, tables: &Tables, point: &Point<L>, u_choice: F<L>, u: [F<L>; 2], ws: &mut Workspace) {
+    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u_choice, u);
+    let cosine = point.frame.z.dot(sample.wi).max(0.0);
+    let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
+    if !usable.any() {
+        return;
+    }
+    let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, cosine * FRAC_1_PI));
+    let contribution = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
+    let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
+    add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
+    let origin = spawn(point.position, point.geometric, point.error, sample.wi);
+    let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
+    ws.shadows.append(lit & sample.casts_shadow, origin, sample.wi, t_max, contribution, point.slot);
+}
+
+#[inline(always)]
+fn start<L: Lanes>(l: L, point: &Point<L>, u: [F<L>; 2], ws: &mut Workspace) {
+    let local = super::generate::cosine_hemisphere(u);
+    let direction = point.frame.to_world(local).normalize();
+    // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
+    let alive = point.alive & local.z.gt(0.0) & point.geometric.dot(direction).gt(0.0);
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, direction),
+        direction,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex: point.position,
+        normal: point.frame.z,
+        throughput: point.throughput * PI,
+        pdf: local.z * FRAC_1_PI,
+        width: point.width,
+        spread: l.f(0.3),
+        slot: point.slot,
+        flags: l.u(flag::MEASURED | (1 << flag::BOUNCE_SHIFT)),
+    };
+    ws.next.append(&state, alive);
+}

@@ -1,0 +1,19 @@
+//! Light transport in stages over batches of paths: generate, intersect, shade by material, sample lights, trace shadows, accumulate.
+
+mod accumulate;
+mod generate;
+mod intersect;
+mod kernels;
+mod material;
+mod measure;
+mod path;
+mod scatter;
+mod shade;
+mod shadow;
+mod state;
+mod surface;
+
+pub use material::{MaterialTable, SurfaceMaterial, Tables};
+pub use path::{Tracer, Transport};
+pub use state::{BATCH, FirstHit, Statistics, TILE, Workspace, ray_mask};
+pub(crate) use generate::tile_place;

@@ -1,0 +1,132 @@
+//! The path tracer: a sample of every pixel of a tile, stage by stage.
+
+use super::{
+    generate::{TileArea, generate},
+    intersect::intersect,
+    kernels,
+    material::Tables,
+    measure::measure,
+    shade::shade_chunk,
+    shadow::trace_shadows,
+    state::{Workspace, flag},
+    surface::ChunkSource,
+};
+use crate::{
+    camera::CameraTable,
+    film::FilterTable,
+    graph::CHUNK,
+    sampler::Sampler,
+};
+use gonio_simd::{Execution, Lanes, dispatch};
+
+/// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
+const MOST_DEPTH: u32 = 256;
+
+/// What does not change during a render.
+#[derive(Clone, Debug)]
+pub struct Transport {
+    /// How kernels run.
+    pub execution: Execution,
+    /// Scatterings after the first surface.
+    pub max_bounces: u32,
+    /// Whether illuminance is measured.
+    pub measure: bool,
+    /// Limits of direct and indirect contributions; 0 is off.
+    pub clamps: [f32; 2],
+    /// The camera's position and viewing direction, rebased world space.
+    pub eye: [f32; 3],
+    /// See `eye`.
+    pub forward: [f32; 3],
+    /// Seed of the random numbers.
+    pub seed: u32,
+    /// Samples a pixel in the whole render.
+    pub samples: u32,
+}
+
+impl Transport {
+    /// The limit of contributions at a depth.
+    #[inline(always)]
+    pub(super) fn clamp(&self, depth: u32) -> f32 {
+        self.clamps[usize::from(depth > 1)]
+    }
+}
+
+/// Which sample is under way, and how deep its paths are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SampleContext {
+    pub(super) sampler: Sampler,
+    pub(super) sample: u32,
+    pub(super) depth: u32,
+}
+
+/// Traces batches of one view of a scene.
+#[derive(Debug)]
+pub struct Tracer<'a> {
+    /// The scene.
+    pub tables: &'a Tables,
+    /// The camera.
+    pub camera: &'a CameraTable,
+    /// The pixel filter.
+    pub filter: &'a FilterTable,
+    /// What does not change.
+    pub transport: Transport,
+}
+
+impl Tracer<'_> {
+    /// Adds one sample of every pixel in `[min, max)` (at most a tile's width) to the workspace's sums.
+    ///
+    /// `cancelled` is asked once a stage; a cancelled batch leaves the sums incomplete.
+    pub fn trace(&self, min: [u32; 2], max: [u32; 2], sample: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+        let execution = self.transport.execution;
+        let tile = [min[0] / super::TILE as u32, min[1] / super::TILE as u32];
+        let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
+        let area = TileArea { min, max };
+        dispatch!(execution, l => generate(l, self.camera, self.filter, &sampler, area, sample, &mut ws.paths));
+        for depth in 0..MOST_DEPTH {
+            if ws.paths.count == 0 || cancelled() {
+                break;
+            }
+            let context = SampleContext { sampler, sample, depth };
+            intersect(self.tables, &self.transport, depth, ws);
+            ws.next.count = 0;
+            self.shade(&context, ws);
+            if ws.measure.count > 0 {
+                dispatch!(execution, l => measure(l, self.tables, &context, ws));
+            }
+            trace_shadows(self.tables, &self.transport, depth == 0, ws);
+            std::mem::swap(&mut ws.paths, &mut ws.next);
+            ws.paths.set_masks();
+        }
+    }
+
+    /// Shades all surface hits, material by material, a chunk at a time.
+    fn shade(&self, context: &SampleContext, ws: &mut Workspace) {
+        let mut first = 0;
+        for material in 0..self.tables.materials.len() {
+            let end = ws.material_start[material + 1] as usize;
+            while first < end {
+                let count = (end - first).min(CHUNK);
+                dispatch!(self.transport.execution, l => self.shade_one(l, context, material, first, count, ws));
+                first += count;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
+        let material = &self.tables.materials[material];
+        let source = ChunkSource {
+            order: &ws.order[first..],
+            count,
+            direction: &ws.paths.direction,
+            cone: Some([&ws.paths.width, &ws.paths.spread]),
+        };
+        kernels::surface_points(l, self.tables, material, &ws.hits, &source, &mut ws.surface);
+        if !material.program.is_empty() {
+            kernels::evaluate(l, self.tables, material, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
+        }
+        shade_chunk(l, self.tables, &self.transport, context, material, first, count, ws);
+    }
+}
+
+const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));

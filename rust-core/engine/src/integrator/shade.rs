@@ -1,0 +1,301 @@
+//! The fourth stage: a chunk of hits of one material emits, is lit, and scatters.
+
+use super::{
+    accumulate::{FirstSurface, clamped},
+    kernels::{self, LightHit},
+    material::{SurfaceMaterial, Tables},
+    path::{SampleContext, Transport},
+    scatter::add_rgb,
+    state::{MeasurePoints, PathLanes, Workspace, append3, flag, gather3, load3},
+};
+use crate::{
+    bsdf::{Lobes, ParameterValues, parameter::COUNT},
+    geometry::{NONE, spawn},
+    graph::{OutputColumns, Program},
+    light::power_heuristic,
+    sampler::dimension,
+};
+use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+
+/// Roughness widens a path's cone by this much, radians: blurred reflections need no sharp textures.
+const CONE_PER_ROUGHNESS: f32 = 0.3;
+/// Surfaces after which Russian roulette may end a path.
+const ROULETTE_FROM: u32 = 3;
+
+/// The parameters of a chunk: constants, and the columns a program computed.
+pub(super) fn parameter_values<'a>(material: &'a SurfaceMaterial, outputs: &'a OutputColumns) -> ParameterValues<'a> {
+    let mut values = ParameterValues::constant(&material.surface.constants);
+    fill_columns(&material.program, outputs, &mut values.columns);
+    values
+}
+
+fn fill_columns<'a>(program: &Program, outputs: &'a OutputColumns, columns: &mut [Option<&'a [f32]>; COUNT]) {
+    let mut place = 0;
+    for output in &program.outputs {
+        for i in 0..output.width {
+            columns[output.offset + i] = Some(outputs.column(place));
+            place += 1;
+        }
+    }
+}
+
+/// One register of shading points.
+#[derive(Clone, Copy, Debug)]
+struct Point<L: Lanes> {
+    alive: M<L>,
+    path: U<L>,
+    position: Vec3<L>,
+    error: F<L>,
+    geometric: Vec3<L>,
+    frame: Frame<L>,
+    wo: Vec3<L>,
+    throughput: Rgb<L>,
+    flags: U<L>,
+    slot: U<L>,
+    width: F<L>,
+    spread: F<L>,
+    bounces: U<L>,
+}
+
+/// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
+#[inline(always)]
+pub(super) fn shade_chunk<L: Lanes>(
+    l: L, tables: &Tables, transport: &Transport, context: &SampleContext, material: &SurfaceMaterial, first: usize, count: usize,
+    ws: &mut Workspace,
+) {
+    let outputs = std::mem::take(&mut ws.outputs);
+    let values = parameter_values(material, &outputs);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        ws.statistics.lanes += L::COUNT as u64;
+        ws.statistics.lanes_alive += alive.count() as u64;
+        let point = load_point(l, material, first, at, alive, ws);
+        let wo = point.frame.to_local(point.wo);
+        let entering = l.load(&ws.surface.side, at).gt(0.0);
+        let lobes = kernels::resolve(l, &material.surface, &values, at, wo, entering);
+        shade_lanes(l, tables, transport, context, material, &point, wo, &lobes, at, ws);
+    }
+    ws.outputs = outputs;
+}
+
+#[inline(always)]
+fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
+    let path = l.load_integers(&ws.order, first + at);
+    let shading = load3(l, &ws.surface.shading_normal, at);
+    let frame =
+        if material.anisotropic { Frame::from_tangent(shading, load3(l, &ws.surface.tangent, at)) } else { Frame::from_normal(shading) };
+    let throughput = gather3(l, &ws.paths.throughput, path);
+    let flags = l.gather_integers(&ws.paths.flags, path);
+    let spread = l.gather(&ws.paths.spread, path);
+    Point {
+        alive,
+        path,
+        position: load3(l, &ws.surface.position, at),
+        error: l.load(&ws.surface.error, at),
+        geometric: load3(l, &ws.surface.geometric_normal, at),
+        frame,
+        wo: load3(l, &ws.surface.wo, at),
+        throughput: Rgb::new(throughput.x, throughput.y, throughput.z),
+        flags,
+        slot: l.gather_integers(&ws.paths.slot, path),
+        width: l.gather(&ws.hits.t, path).mul_add(spread, l.gather(&ws.paths.width, path)),
+        spread,
+        bounces: flags >> flag::BOUNCE_SHIFT,
+    }
+}
+
+#[inline(always)]
+fn shade_lanes<L: Lanes>(
+    l: L, tables: &Tables, transport: &Transport, context: &SampleContext, material: &SurfaceMaterial, point: &Point<L>, wo: Vec3<L>,
+    lobes: &Lobes<L>, at: usize, ws: &mut Workspace,
+) {
+    let pixel = point.slot & (super::state::BATCH as u32 - 1);
+    let index = context.sampler.index(l, pixel, context.sample);
+    let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
+    let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
+    let present = if material.surface.lobes.cut_out {
+        let seen_through = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
+        pass_straight(l, point, seen_through, ws);
+        point.alive.and_not(seen_through)
+    } else {
+        point.alive
+    };
+    if material.surface.lobes.emission {
+        add_emission(l, tables, transport, context.depth, point, lobes.emission(), present, at, ws);
+    }
+    record_first(l, tables, transport, point, lobes, present, at, ws);
+    let [smooth, only_delta] = lobes.smoothness(l);
+    if transport.measure {
+        let measured = present.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(super::state::BATCH as u32);
+        append_measure(point, measured, &mut ws.measure);
+    }
+    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    if smooth.any() && !tables.lights.is_empty() {
+        let u_light = context.sampler.pair(l, index, base + dimension::LIGHT);
+        light(l, tables, transport, context.depth, point, wo, lobes, u_choice, u_light, present, ws);
+    }
+    let going_on = present & point.bounces.lt(transport.max_bounces + 1);
+    let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
+    scatter(l, context.depth, point, wo, lobes, [u_lobe, u, v], u_roulette, only_delta, going_on, ws);
+}
+
+/// Opacity after the cut-out threshold.
+#[inline(always)]
+pub(super) fn threshold<L: Lanes>(opacity: F<L>, threshold: f32) -> F<L> {
+    let l = opacity.lanes();
+    if threshold > 0.0 { opacity.ge(threshold).select(l.f(1.0), l.f(0.0)) } else { opacity }
+}
+
+/// Sends paths on that go through a surface which is not there: nothing about them changes but where they start.
+#[inline(always)]
+fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: &mut Workspace) {
+    if !chosen.any() {
+        return;
+    }
+    let direction = -point.wo;
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, direction),
+        direction,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex: gather3(l, &ws.paths.vertex, point.path),
+        normal: gather3(l, &ws.paths.normal, point.path),
+        throughput: point.throughput,
+        pdf: l.gather(&ws.paths.pdf, point.path),
+        width: point.width,
+        spread: point.spread,
+        slot: point.slot,
+        flags: point.flags,
+    };
+    ws.next.append(&state, chosen);
+}
+
+/// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
+#[inline(always)]
+fn add_emission<L: Lanes>(
+    l: L, tables: &Tables, transport: &Transport, depth: u32, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize,
+    ws: &mut Workspace,
+) {
+    let mut value = emission * point.throughput;
+    if !tables.triangle_lights.is_empty() {
+        let first = l.gather_integers(&tables.triangle_lights, l.load_integers(&ws.surface.instance, at));
+        let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
+        if sampled.any() {
+            let light = (first + l.load_integers(&ws.surface.primitive, at)).keep_if(sampled);
+            let (from, normal) = (gather3(l, &ws.paths.vertex, point.path), gather3(l, &ws.paths.normal, point.path));
+            let hit = LightHit { light, from, normal, direction: -point.wo, point: point.position };
+            let (_, pdf) = kernels::eval_light(l, tables, &hit, sampled);
+            let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, point.path), pdf), l.f(1.0));
+            value = value * weight;
+        }
+    }
+    add_rgb(&mut ws.first_hit.radiance, point.slot, clamped(value, transport.clamp(depth)), present & value.is_lit());
+}
+
+/// Keeps what camera rays met first.
+#[inline(always)]
+fn record_first<L: Lanes>(
+    l: L, tables: &Tables, transport: &Transport, point: &Point<L>, lobes: &Lobes<L>, present: M<L>, at: usize, ws: &mut Workspace,
+) {
+    let seen = present & (point.flags & flag::CAMERA).ne(0);
+    if !seen.any() {
+        return;
+    }
+    let surface = FirstSurface {
+        slot: point.slot,
+        depth: (point.position - Vec3::splat(l, transport.eye)).dot(Vec3::splat(l, transport.forward)),
+        normal: point.frame.z,
+        position: point.position,
+        albedo: lobes.albedo(),
+        prim_id: l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at)),
+    };
+    ws.first_hit.record(l, &surface, seen);
+}
+
+#[inline(always)]
+fn append_measure<L: Lanes>(point: &Point<L>, chosen: M<L>, out: &mut MeasurePoints) {
+    if !chosen.any() {
+        return;
+    }
+    let n = out.count;
+    append3(point.position, chosen, &mut out.position, n);
+    point.error.append(chosen, &mut out.error, n);
+    append3(point.geometric, chosen, &mut out.geometric_normal, n);
+    append3(point.frame.z, chosen, &mut out.shading_normal, n);
+    let weight = point.throughput;
+    append3(Vec3::new(weight.r, weight.g, weight.b), chosen, &mut out.throughput, n);
+    point.width.append(chosen, &mut out.width, n);
+    point.slot.append(chosen, &mut out.slot, n);
+    out.count += chosen.count();
+}
+
+/// Samples one light and queues the shadow ray to it.
+#[inline(always)]
+fn light<L: Lanes>(
+    l: L, tables: &Tables, transport: &Transport, depth: u32, point: &Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, u_choice: F<L>,
+    u: [F<L>; 2], present: M<L>, ws: &mut Workspace,
+) {
+    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u_choice, u);
+    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit();
+    if !usable.any() {
+        return;
+    }
+    let (value, pdf) = kernels::eval(l, lobes, wo, point.frame.to_local(sample.wi));
+    let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf));
+    let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(depth));
+    let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
+    let free = lit.and_not(sample.casts_shadow);
+    add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free);
+    let origin = spawn(point.position, point.geometric, point.error, sample.wi);
+    // Lights that are meshes must not shadow themselves.
+    let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
+    ws.shadows.append(lit & sample.casts_shadow, origin, sample.wi, t_max, contribution, point.slot);
+}
+
+/// Samples the next direction and appends the paths that go on.
+#[inline(always)]
+fn scatter<L: Lanes>(
+    l: L, depth: u32, point: &Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, u: [F<L>; 3], u_roulette: F<L>, only_delta: M<L>, going_on: M<L>,
+    ws: &mut Workspace,
+) {
+    if !going_on.any() {
+        return;
+    }
+    let sample = kernels::sample(l, lobes, wo, u);
+    let wi = point.frame.to_world(sample.wi).normalize();
+    // A direction on the other side of the triangle than of the shading normal would leak light.
+    let across = point.geometric.dot(wi).lt(0.0);
+    let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
+    let throughput = point.throughput * sample.value * sample.pdf.recip();
+    let mut alive = going_on & consistent & sample.pdf.gt(0.0) & throughput.is_lit() & throughput.max_component().is_finite();
+    let mut throughput = throughput;
+    if depth >= ROULETTE_FROM {
+        let survival = throughput.max_component().clamp(0.05, 1.0);
+        alive &= u_roulette.lt(survival);
+        throughput = throughput * survival.recip();
+    }
+    if !alive.any() {
+        return;
+    }
+    let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
+    let measured = (point.flags & flag::MEASURED) | only_delta.select(l.u(0), l.u(flag::MEASURED));
+    let scattered = delta | measured | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
+    let straight = sample.straight;
+    let before = |columns: &[gonio_simd::Column; 3]| gather3(l, columns, point.path);
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, wi),
+        direction: wi,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex: straight.select(before(&ws.paths.vertex), point.position),
+        normal: straight.select(before(&ws.paths.normal), point.frame.z),
+        throughput,
+        pdf: straight.select(l.gather(&ws.paths.pdf, point.path), sample.pdf),
+        width: point.width,
+        spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
+        slot: point.slot,
+        flags: straight.select(point.flags + (1 << flag::BOUNCE_SHIFT), scattered),
+    };
+    ws.next.append(&state, alive);
+}

@@ -1,0 +1,115 @@
+//! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
+
+use super::{
+    kernels,
+    material::Tables,
+    path::Transport,
+    scatter::add_rgb,
+    shade::{parameter_values, threshold},
+    state::{ShadowRays, Workspace, load3},
+    surface::ChunkSource,
+};
+use crate::{
+    accel::{PassedHit, RayBatch},
+    bsdf::parameter::OPACITY,
+    graph::CHUNK,
+};
+use gonio_simd::{Execution, Frame, Lanes, Rgb, dispatch};
+
+/// Traces the queued shadow rays and adds the contributions of those that arrive.
+pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bool, ws: &mut Workspace) {
+    let n = ws.shadows.count;
+    if n == 0 {
+        return;
+    }
+    ws.statistics.shadow_rays += n as u64;
+    ws.blocked.clear();
+    ws.blocked.resize(n + gonio_simd::PADDING, 1);
+    ws.passed.clear();
+    let rays = rays_of(&ws.shadows);
+    let blocked = &mut ws.blocked[..n];
+    match (transport.execution, tables.any_transparent) {
+        (Execution::Scalar, true) => tables.bvh.blocked_or_passed_scalar(&rays, blocked, &mut ws.passed),
+        (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
+        (Execution::Vector(level), true) => tables.bvh.blocked_or_passed(level, &rays, blocked, &mut ws.passed),
+        (Execution::Vector(level), false) if coherent => tables.bvh.occluded_packets(level, &rays, blocked),
+        (Execution::Vector(level), false) => tables.bvh.occluded(level, &rays, blocked),
+    }
+    if !ws.passed.is_empty() {
+        dim_by_surfaces(tables, transport, ws);
+    }
+    dispatch!(transport.execution, l => add_arrived(l, ws));
+    ws.shadows.count = 0;
+}
+
+fn rays_of(shadows: &ShadowRays) -> RayBatch<'_> {
+    let n = shadows.count;
+    RayBatch {
+        origin: [&shadows.origin[0][..n], &shadows.origin[1][..n], &shadows.origin[2][..n]],
+        direction: [&shadows.direction[0][..n], &shadows.direction[1][..n], &shadows.direction[2][..n]],
+        t_min: &shadows.t_min[..n],
+        t_max: &shadows.t_max[..n],
+        mask: &shadows.mask[..n],
+    }
+}
+
+#[inline(always)]
+fn add_arrived<L: Lanes>(l: L, ws: &mut Workspace) {
+    for at in (0..ws.shadows.count).step_by(L::COUNT) {
+        let mut bits = 0;
+        for lane in 0..L::COUNT {
+            bits |= u64::from(ws.blocked[at + lane] == 0) << lane;
+        }
+        let arrived = gonio_simd::M(l.mask_from_bits(bits)) & l.first(ws.shadows.count - at);
+        let value = load3(l, &ws.shadows.contribution, at);
+        let slot = l.load_integers(&ws.shadows.slot, at);
+        add_rgb(&mut ws.first_hit.radiance, slot, Rgb::new(value.x, value.y, value.z), arrived);
+    }
+}
+
+/// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
+fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
+    let mut passed = std::mem::take(&mut ws.passed);
+    let material_of = |hit: &PassedHit| tables.geometry.material(hit.instance, hit.primitive);
+    // The distance settles the order, so that the product is the same however the tree was walked.
+    passed.sort_unstable_by(|a, b| (material_of(a), a.ray).cmp(&(material_of(b), b.ray)).then(a.t.total_cmp(&b.t)));
+    for hits in passed.chunk_by(|a, b| material_of(a) == material_of(b)) {
+        let material = material_of(&hits[0]);
+        for chunk in hits.chunks(CHUNK) {
+            dispatch!(transport.execution, l => dim_chunk(l, tables, material, chunk, ws));
+        }
+    }
+    ws.passed = passed;
+}
+
+#[inline(always)]
+fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit], ws: &mut Workspace) {
+    let material = &tables.materials[material as usize];
+    let mut order = [0; CHUNK];
+    for (i, place) in order[..hits.len()].iter_mut().enumerate() {
+        *place = i as u32;
+    }
+    let source = ChunkSource { order: &order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
+    kernels::surface_points(l, tables, material, hits, &source, &mut ws.surface);
+    if !material.program.is_empty() {
+        kernels::evaluate(l, tables, material, &mut ws.surface, hits.len(), &mut ws.scratch, &mut ws.outputs);
+    }
+    let values = parameter_values(material, &ws.outputs);
+    for at in (0..hits.len()).step_by(L::COUNT) {
+        let frame = Frame::from_normal(load3(l, &ws.surface.shading_normal, at));
+        let wo = frame.to_local(load3(l, &ws.surface.wo, at));
+        let entering = l.load(&ws.surface.side, at).gt(0.0);
+        let factor = if material.opacity_threshold > 0.0 {
+            Rgb::grey(1.0 - threshold(values.get(l, OPACITY, at), material.opacity_threshold))
+        } else {
+            kernels::transmittance(l, &material.surface, &values, at, wo, entering)
+        };
+        let [r, g, b] = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
+        for (lane, hit) in hits[at..].iter().take(L::COUNT).enumerate() {
+            let ray = hit.ray as usize;
+            ws.shadows.contribution[0][ray] *= r[lane];
+            ws.shadows.contribution[1][ray] *= g[lane];
+            ws.shadows.contribution[2][ray] *= b[lane];
+        }
+    }
+}

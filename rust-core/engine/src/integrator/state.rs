@@ -1,0 +1,310 @@
+//! The state of a batch of paths, in columns.
+
+use crate::{
+    accel::{Hits, PassedHit},
+    graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
+};
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+
+/// Pixels along a tile's side.
+pub const TILE: usize = 64;
+/// Pixels of a tile: the paths that start together.
+pub const BATCH: usize = TILE * TILE;
+/// Paths under way at once: each pixel's own, and the one that measures its illuminance.
+pub(super) const CAPACITY: usize = 2 * BATCH;
+
+/// What a path has met so far.
+pub(super) mod flag {
+    /// Nothing yet but what it saw through: hits are what the camera sees.
+    pub(in crate::integrator) const CAMERA: u32 = 1;
+    /// The last scattering was a mirror's or a smooth boundary's: lights cannot be sampled for it.
+    pub(in crate::integrator) const DELTA: u32 = 2;
+    /// A surface that is not a mirror has been met.
+    pub(in crate::integrator) const MEASURED: u32 = 4;
+    /// Above this bit: the number of scatterings.
+    pub(in crate::integrator) const BOUNCE_SHIFT: u32 = 8;
+}
+
+/// Visibility bits of rays.
+pub mod ray_mask {
+    /// Rays from the camera.
+    pub const CAMERA: u8 = 1;
+    /// Rays to lights.
+    pub const SHADOW: u8 = 2;
+    /// Scattered rays.
+    pub const INDIRECT: u8 = 4;
+}
+
+type Columns3 = [Column; 3];
+
+pub(super) fn columns3(len: usize) -> Columns3 {
+    [Column::new(len), Column::new(len), Column::new(len)]
+}
+
+#[inline(always)]
+pub(super) fn load3<L: Lanes>(l: L, columns: &Columns3, at: usize) -> Vec3<L> {
+    Vec3::load(l, [&columns[0], &columns[1], &columns[2]], at)
+}
+
+#[inline(always)]
+pub(super) fn gather3<L: Lanes>(l: L, columns: &Columns3, index: U<L>) -> Vec3<L> {
+    Vec3::new(l.gather(&columns[0], index), l.gather(&columns[1], index), l.gather(&columns[2], index))
+}
+
+#[inline(always)]
+pub(super) fn append3<L: Lanes>(v: Vec3<L>, mask: M<L>, columns: &mut Columns3, len: usize) {
+    let [x, y, z] = columns;
+    v.x.append(mask, x, len);
+    v.y.append(mask, y, len);
+    v.z.append(mask, z, len);
+}
+
+/// Paths with a ray each.
+#[derive(Debug)]
+pub(super) struct Paths {
+    /// Paths in the columns.
+    pub(super) count: usize,
+    pub(super) origin: Columns3,
+    pub(super) direction: Columns3,
+    pub(super) t_min: Column,
+    pub(super) t_max: Column,
+    /// The point that scattered the ray, and its normal: what lights are sampled from.
+    pub(super) vertex: Columns3,
+    pub(super) normal: Columns3,
+    pub(super) throughput: Columns3,
+    /// Density of the direction per solid angle.
+    pub(super) pdf: Column,
+    /// Width of the path's cone at the ray's start, and its growth a metre.
+    pub(super) width: Column,
+    pub(super) spread: Column,
+    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance.
+    pub(super) slot: Column<u32>,
+    pub(super) flags: Column<u32>,
+    /// Visibility bits of the ray.
+    pub(super) mask: Vec<u8>,
+}
+
+/// One register of paths, to be appended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PathLanes<L: Lanes> {
+    pub(super) origin: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) t_min: F<L>,
+    pub(super) t_max: F<L>,
+    pub(super) vertex: Vec3<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) throughput: Rgb<L>,
+    pub(super) pdf: F<L>,
+    pub(super) width: F<L>,
+    pub(super) spread: F<L>,
+    pub(super) slot: U<L>,
+    pub(super) flags: U<L>,
+}
+
+impl Default for Paths {
+    fn default() -> Self {
+        // A register's room behind the last path: appending writes whole registers.
+        let room = padded(CAPACITY) + gonio_simd::PADDING;
+        Self {
+            count: 0,
+            origin: columns3(room),
+            direction: columns3(room),
+            t_min: Column::new(room),
+            t_max: Column::new(room),
+            vertex: columns3(room),
+            normal: columns3(room),
+            throughput: columns3(room),
+            pdf: Column::new(room),
+            width: Column::new(room),
+            spread: Column::new(room),
+            slot: Column::new(room),
+            flags: Column::new(room),
+            mask: vec![0; room],
+        }
+    }
+}
+
+impl Paths {
+    /// Appends the chosen lanes; `camera` bits of the flags decide the rays' visibility mask.
+    #[inline(always)]
+    pub(super) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
+        let n = self.count;
+        append3(p.origin, chosen, &mut self.origin, n);
+        append3(p.direction, chosen, &mut self.direction, n);
+        p.t_min.append(chosen, &mut self.t_min, n);
+        p.t_max.append(chosen, &mut self.t_max, n);
+        append3(p.vertex, chosen, &mut self.vertex, n);
+        append3(p.normal, chosen, &mut self.normal, n);
+        append3(Vec3::new(p.throughput.r, p.throughput.g, p.throughput.b), chosen, &mut self.throughput, n);
+        p.pdf.append(chosen, &mut self.pdf, n);
+        p.width.append(chosen, &mut self.width, n);
+        p.spread.append(chosen, &mut self.spread, n);
+        p.slot.append(chosen, &mut self.slot, n);
+        p.flags.append(chosen, &mut self.flags, n);
+        self.count += chosen.count();
+    }
+
+    /// Sets the visibility bits of all rays by their flags.
+    pub(super) fn set_masks(&mut self) {
+        for (mask, flags) in self.mask[..self.count].iter_mut().zip(&self.flags[..self.count]) {
+            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::INDIRECT };
+        }
+    }
+}
+
+/// Shadow rays with what they bring if nothing is in the way.
+#[derive(Debug)]
+pub(super) struct ShadowRays {
+    pub(super) count: usize,
+    pub(super) origin: Columns3,
+    pub(super) direction: Columns3,
+    pub(super) t_max: Column,
+    pub(super) contribution: Columns3,
+    pub(super) slot: Column<u32>,
+    /// Constant columns that the traversal wants.
+    pub(super) t_min: Vec<f32>,
+    pub(super) mask: Vec<u8>,
+}
+
+impl Default for ShadowRays {
+    fn default() -> Self {
+        let room = padded(CAPACITY) + gonio_simd::PADDING;
+        Self {
+            count: 0,
+            origin: columns3(room),
+            direction: columns3(room),
+            t_max: Column::new(room),
+            contribution: columns3(room),
+            slot: Column::new(room),
+            t_min: vec![0.0; room],
+            mask: vec![ray_mask::SHADOW; room],
+        }
+    }
+}
+
+impl ShadowRays {
+    #[inline(always)]
+    pub(super) fn append<L: Lanes>(
+        &mut self, chosen: M<L>, origin: Vec3<L>, direction: Vec3<L>, t_max: F<L>, contribution: Rgb<L>, slot: U<L>,
+    ) {
+        let n = self.count;
+        append3(origin, chosen, &mut self.origin, n);
+        append3(direction, chosen, &mut self.direction, n);
+        t_max.append(chosen, &mut self.t_max, n);
+        append3(Vec3::new(contribution.r, contribution.g, contribution.b), chosen, &mut self.contribution, n);
+        slot.append(chosen, &mut self.slot, n);
+        self.count += chosen.count();
+    }
+}
+
+/// Points whose illuminance is measured.
+#[derive(Debug)]
+pub(super) struct MeasurePoints {
+    pub(super) count: usize,
+    pub(super) position: Columns3,
+    pub(super) error: Column,
+    pub(super) geometric_normal: Columns3,
+    pub(super) shading_normal: Columns3,
+    pub(super) throughput: Columns3,
+    pub(super) width: Column,
+    pub(super) slot: Column<u32>,
+}
+
+impl Default for MeasurePoints {
+    fn default() -> Self {
+        let room = padded(BATCH) + gonio_simd::PADDING;
+        Self {
+            count: 0,
+            position: columns3(room),
+            error: Column::new(room),
+            geometric_normal: columns3(room),
+            shading_normal: columns3(room),
+            throughput: columns3(room),
+            width: Column::new(room),
+            slot: Column::new(room),
+        }
+    }
+}
+
+/// What the camera sees first, by pixel slot; sums over the samples of a block.
+#[derive(Debug)]
+pub struct FirstHit {
+    /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second.
+    pub radiance: Columns3,
+    /// Coverage.
+    pub alpha: Column,
+    /// Distance along the camera's axis, metres.
+    pub depth: Column,
+    /// Shading normals, world space.
+    pub normal: Columns3,
+    /// Positions, world space, not rebased.
+    pub position: Columns3,
+    /// Albedos.
+    pub albedo: Columns3,
+    /// Instance sets; of the block's first sample that met one, plus one, zero for none.
+    pub prim_id: Column<u32>,
+}
+
+impl Default for FirstHit {
+    fn default() -> Self {
+        Self {
+            radiance: columns3(CAPACITY),
+            alpha: Column::new(BATCH),
+            depth: Column::new(BATCH),
+            normal: columns3(BATCH),
+            position: columns3(BATCH),
+            albedo: columns3(BATCH),
+            prim_id: Column::new(BATCH),
+        }
+    }
+}
+
+impl FirstHit {
+    /// Empties all sums.
+    pub fn clear(&mut self) {
+        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo];
+        threes.into_iter().flatten().chain([&mut self.alpha, &mut self.depth]).for_each(|column| column.fill(0.0));
+        self.prim_id.fill(0);
+    }
+}
+
+/// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    pub(super) paths: Paths,
+    pub(super) next: Paths,
+    pub(super) hits: Hits,
+    pub(super) retraced: Hits,
+    pub(super) shadows: ShadowRays,
+    pub(super) blocked: Vec<u8>,
+    pub(super) passed: Vec<PassedHit>,
+    pub(super) measure: MeasurePoints,
+    /// Path numbers in the order of their materials.
+    pub(super) order: Vec<u32>,
+    pub(super) material_start: Vec<u32>,
+    pub(super) material_of: Vec<u32>,
+    pub(super) escaped: Vec<u32>,
+    pub(super) at_lights: Vec<u32>,
+    pub(super) surface: SurfaceColumns,
+    pub(super) scratch: GraphScratch,
+    pub(super) outputs: OutputColumns,
+    /// The block under way.
+    pub first_hit: FirstHit,
+    /// Rays traced and lanes alive, for benchmarks.
+    pub statistics: Statistics,
+}
+
+/// Counts for benchmarks and progress.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Statistics {
+    /// Rays that looked for their first hit.
+    pub rays: u64,
+    /// Shadow rays.
+    pub shadow_rays: u64,
+    /// Lanes shaded that held a path.
+    pub lanes_alive: u64,
+    /// Lanes shaded.
+    pub lanes: u64,
+}
+
+const _: () = assert!(CHUNK % gonio_simd::PADDING == 0);

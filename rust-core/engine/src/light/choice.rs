@@ -1,0 +1,171 @@
+//! Choosing one light: by its power and distance from each point where lights are few, by power alone where they are many.
+
+use super::record::LightKind;
+use super::row::{ROW, Reader, field, flag};
+use super::table::LightTable;
+use crate::distribution::AliasTable;
+use gonio_simd::{F, Lanes, M, U, Vec3};
+
+/// Up to this many lights each point weighs all of them.
+pub(crate) const WEIGHED: usize = 64;
+/// A light is never thought weaker than this share by the receiver's orientation, because surfaces may let light through.
+const RECEIVER_FLOOR: f32 = 0.05;
+/// The same for the emitter's obliqueness, because the far end of a light may face the point more squarely.
+const EMITTER_FLOOR: f32 = 0.1;
+
+/// What the estimate of a light's illuminance takes, one light in all lanes or a light in each.
+struct Estimate<L: Lanes> {
+    centre: Vec3<L>,
+    radius: F<L>,
+    strength: F<L>,
+    axis: Vec3<L>,
+    normal: Vec3<L>,
+    cone_cosine: F<L>,
+    sine: F<L>,
+    flags: U<L>,
+}
+
+impl<L: Lanes> Estimate<L> {
+    #[inline(always)]
+    fn gather(light: &Reader<'_, L>) -> Self {
+        Self {
+            centre: light.vector(field::BOUND_CENTRE),
+            radius: light.value(field::BOUND_RADIUS),
+            strength: light.value(field::STRENGTH),
+            axis: light.vector(field::AXIS),
+            normal: light.vector(field::NORMAL),
+            cone_cosine: light.value(field::CONE_COSINE),
+            sine: light.value(field::SINE),
+            flags: light.integer(field::FLAGS),
+        }
+    }
+    #[inline(always)]
+    fn splat(l: L, row: &[f32]) -> Self {
+        let vector = |at: usize| Vec3::new(l.f(row[at]), l.f(row[at + 1]), l.f(row[at + 2]));
+        Self {
+            centre: vector(field::BOUND_CENTRE),
+            radius: l.f(row[field::BOUND_RADIUS]),
+            strength: l.f(row[field::STRENGTH]),
+            axis: vector(field::AXIS),
+            normal: vector(field::NORMAL),
+            cone_cosine: l.f(row[field::CONE_COSINE]),
+            sine: l.f(row[field::SINE]),
+            flags: l.u(row[field::FLAGS].to_bits()),
+        }
+    }
+    #[inline(always)]
+    fn is(&self, bit: u32) -> M<L> {
+        (self.flags & bit).ne(0)
+    }
+    /// About the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
+    #[inline(always)]
+    fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
+        let far = self.is(flag::INFINITE);
+        let nowhere = n.length_squared().lt(0.5);
+        let lifted = |x: F<L>| nowhere.select(l.f(1.0), x.clamp(RECEIVER_FLOOR, 1.0));
+        // A distant light's lowest point stands higher by the sine of its half angle; domes are on every side.
+        let dome = (self.flags & flag::KIND).eq(LightKind::Dome as u32);
+        let from_far = lifted(dome.select(l.f(1.0), self.sine - self.axis.dot(n)));
+
+        let towards = self.centre - p;
+        let squared = towards.length_squared().max(f32::MIN_POSITIVE);
+        let distance = squared.sqrt();
+        let direction = towards * distance.recip();
+        let sine = (self.radius / distance).min(1.0);
+        let cosine = (1.0 - sine * sine).safe_sqrt();
+        let inside = squared.le(self.radius * self.radius);
+        let receiver = inside.select(l.f(1.0), widened(l, n.dot(direction), sine, cosine));
+        let height = -self.normal.dot(towards);
+        let height = self.is(flag::TWO_SIDED).select(height.abs(), height);
+        let emitter = inside.select(l.f(1.0), (height / distance).max(EMITTER_FLOOR));
+        let emitter = self.is(flag::FLAT).select(emitter.keep_if(height.gt(0.0)), l.f(1.0));
+        let in_cone = inside | widened(l, -self.axis.dot(direction), sine, cosine).ge(self.cone_cosine);
+        let spread = squared.max(self.radius * self.radius).max(f32::MIN_POSITIVE);
+        let from_near = (lifted(receiver) * emitter / spread).keep_if(in_cone);
+        (self.strength * far.select(from_far, from_near)).min(1e30)
+    }
+}
+
+/// Cosine of an angle less another one, 1 where that would be negative.
+#[inline(always)]
+fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
+    let sine = (1.0 - cosine * cosine).safe_sqrt();
+    cosine.gt(by_cosine).select(l.f(1.0), cosine.mul_add(by_cosine, sine * by_sine))
+}
+
+/// How lights are chosen.
+#[derive(Clone, Debug)]
+pub(crate) enum Choice {
+    /// By an estimate at each point.
+    Weighed,
+    /// By power, the same everywhere.
+    Power(AliasTable),
+}
+
+/// Probabilities by power: infinite lights share one half, the others the other half.
+pub(crate) fn power_table(rows: &[f32], count: usize) -> AliasTable {
+    let read = |i: usize| {
+        let row = &rows[i * ROW..(i + 1) * ROW];
+        (f64::from(row[field::STRENGTH]), row[field::FLAGS].to_bits() & flag::INFINITE != 0)
+    };
+    let mut sums = [0.0; 2];
+    for (strength, infinite) in (0..count).map(read) {
+        sums[usize::from(infinite)] += strength;
+    }
+    let weights: Vec<f32> = (0..count)
+        .map(read)
+        .map(|(strength, infinite)| if strength > 0.0 { (strength / sums[usize::from(infinite)]) as f32 } else { 0.0 })
+        .collect();
+    AliasTable::new(&weights)
+}
+
+impl LightTable {
+    /// Estimates of all lights at a point, added up.
+    #[inline(always)]
+    fn total_estimate<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
+        let mut total = l.f(0.0);
+        for row in self.rows.chunks_exact(ROW) {
+            total += Estimate::splat(l, row).illuminance(l, p, n);
+        }
+        total
+    }
+
+    /// Draws a light for each point and gives its probability: 0 where no light can arrive.
+    #[inline(always)]
+    pub fn choose<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+        match &self.choice {
+            Choice::Power(table) => table.sample(l, u),
+            Choice::Weighed if self.count <= 1 => (l.u(0), l.f(1.0)),
+            Choice::Weighed => {
+                let mut sums = [l.f(0.0); WEIGHED];
+                let mut total = l.f(0.0);
+                for (row, sum) in self.rows.chunks_exact(ROW).zip(&mut sums) {
+                    total += Estimate::splat(l, row).illuminance(l, p, n);
+                    *sum = total;
+                }
+                let target = u * total;
+                let mut light = l.u(0);
+                for sum in &sums[..self.count] {
+                    light += sum.le(target).to_integers();
+                }
+                let light = light.min(self.count as u32 - 1);
+                let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
+                (light, (chosen / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)))
+            }
+        }
+    }
+
+    /// Probability that [`Self::choose`] draws `light` at a point.
+    #[inline(always)]
+    pub fn choice_probability<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
+        match &self.choice {
+            Choice::Power(table) => table.probability(l, light),
+            Choice::Weighed if self.count <= 1 => l.f(1.0),
+            Choice::Weighed => {
+                let total = self.total_estimate(l, p, n);
+                let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
+                (chosen / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0))
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Lights: what they send, where to look for them, and how likely each direction is drawn.
+//!
+//! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample`] chooses a light and a direction;
+//! [`LightTable::eval_hit`] and [`LightTable::escaped`] weigh rays that found a light by the BSDF. Formulas are UsdLux's, in cd/m².
+
+mod blackbody;
+mod build;
+mod choice;
+mod cylinder;
+mod disk;
+mod distant;
+mod dome;
+mod emitter;
+mod record;
+mod rectangle;
+mod row;
+mod sample;
+mod shaping;
+mod size;
+mod sphere;
+mod table;
+mod texture;
+mod triangle;
+mod vector;
+
+#[cfg(test)]
+mod tests;
+
+pub use blackbody::blackbody_rgb;
+pub use record::{LightKind, LightRecord, LightTexture, Shaping};
+pub use sample::{LightSample, power_heuristic};
+pub use size::size_factor;
+pub use table::LightTable;

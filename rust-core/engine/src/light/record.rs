@@ -1,0 +1,117 @@
+//! What the compile step says about each light: plain data, one record per light.
+
+/// The emitter's geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum LightKind {
+    /// A parallelogram: origin ± axis x ± axis y, emitting towards −axis z.
+    Rectangle,
+    /// An ellipse: origin + a x + b y with a² + b² ≤ 1, emitting towards −axis z.
+    Disk,
+    /// An ellipsoid: the unit sphere under the axes, emitting outward.
+    Sphere,
+    /// The lateral surface of an elliptic cylinder: origin + a x + cos φ y + sin φ z with |a| ≤ 1, emitting outward, without caps.
+    Cylinder,
+    /// Infinitely far, seen towards +axis z under [`LightRecord::angle`].
+    Distant,
+    /// All around, +axis y up.
+    Dome,
+    /// A point; its radiance is a luminous intensity in cd.
+    Point,
+    /// Corners origin, origin + x, origin + y; emits to the side that x × y points to; −axis z is its shaping axis.
+    Triangle,
+}
+
+impl LightKind {
+    /// All kinds, in the order of their numbers.
+    pub const ALL: [Self; 8] =
+        [Self::Rectangle, Self::Disk, Self::Sphere, Self::Cylinder, Self::Distant, Self::Dome, Self::Point, Self::Triangle];
+
+    /// Whether the light has no place.
+    pub fn is_infinite(self) -> bool {
+        matches!(self, Self::Distant | Self::Dome)
+    }
+}
+
+/// What narrows the beam (UsdLux ShapingAPI): the emission towards a direction at angle θ from −axis z is multiplied by
+/// `lerp(focus_tint, 1, |cos θ|^focus) · (1 − smoothstep(θ; cone_angle (1 − softness), cone_angle))`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaping {
+    /// Half angle in radians beyond which nothing is emitted; infinite means no cone.
+    pub cone_angle: f32,
+    /// 0 is a hard edge, 1 falls off from the axis on.
+    pub softness: f32,
+    /// Exponent of the cosine to the axis; not positive means none.
+    pub focus: f32,
+    /// Colour where the cosine's power is 0.
+    pub focus_tint: [f32; 3],
+}
+
+impl Default for Shaping {
+    fn default() -> Self {
+        Self { cone_angle: f32::INFINITY, softness: 0.0, focus: 0.0, focus_tint: [0.0; 3] }
+    }
+}
+
+/// A light, in world space and metres.
+#[derive(Clone, Copy, Debug)]
+pub struct LightRecord {
+    /// The emitter.
+    pub kind: LightKind,
+    /// Axis columns x, y, z and the origin. The axes carry the light's size (half width, half height, radius, half length) and need not be
+    /// orthogonal; see [`LightKind`] for what they span. Domes and distant lights use the axes' directions alone.
+    pub to_world: [[f32; 3]; 4],
+    /// Emitted radiance (cd/m², Rec.709) before shaping and texture, already divided by the normalize factor. Cd for points, lx on a facing
+    /// surface for distant lights of angle 0.
+    pub radiance: [f32; 3],
+    /// Narrowing of the beam; domes and distant lights ignore it.
+    pub shaping: Shaping,
+    /// Multiplies the radiance over a rectangle or a dome: an index into the textures given to [`super::LightTable::build`].
+    pub texture: Option<u32>,
+    /// Full angle of a distant light in radians.
+    pub angle: f32,
+    /// Emitting area in m² for choosing among lights; 0 lets the table find it.
+    pub area: f32,
+    /// Rectangles, disks and triangles: emits from both sides alike.
+    pub two_sided: bool,
+    /// Whether camera rays see the emitter.
+    pub visible_to_camera: bool,
+    /// Whether things block it.
+    pub casts_shadow: bool,
+    /// Factor on diffuse reflection of this light (not physical; 1 leaves it alone).
+    pub diffuse: f32,
+    /// Factor on specular reflection of this light (not physical; 1 leaves it alone).
+    pub specular: f32,
+}
+
+impl LightRecord {
+    /// A light of `kind` with identity axes at the origin, radiance 1 and nothing else set.
+    pub fn new(kind: LightKind) -> Self {
+        Self {
+            kind,
+            to_world: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
+            radiance: [1.0; 3],
+            shaping: Shaping::default(),
+            texture: None,
+            angle: 0.0,
+            area: 0.0,
+            two_sided: false,
+            visible_to_camera: true,
+            casts_shadow: true,
+            diffuse: 1.0,
+            specular: 1.0,
+        }
+    }
+}
+
+/// A linear Rec.709 image, top row first: seen upright by what a rectangle lights; latitude–longitude for domes, top row +Y, centre column +Z,
+/// longitude growing to the left (OpenEXR).
+#[derive(Clone, Debug, Default)]
+pub struct LightTexture {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Three values a pixel, row by row.
+    pub rgb: Vec<f32>,
+}

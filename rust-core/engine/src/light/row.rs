@@ -1,0 +1,129 @@
+//! The table's rows: what is known of one light, read lane by lane.
+
+use super::record::LightKind;
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// Values in a row: four cache lines.
+pub(crate) const ROW: usize = 64;
+
+/// Where a row keeps what.
+pub(crate) mod field {
+    /// Centre of the shape (corner of a triangle), 3.
+    pub(crate) const ORIGIN: usize = 0;
+    /// Columns of the sampling frame, in which the emitter has its simplest form, 9.
+    pub(crate) const FRAME: usize = 3;
+    /// Rows of the frame's inverse, 9.
+    pub(crate) const INVERSE: usize = 12;
+    /// Magnitude of the inverse's determinant.
+    pub(crate) const DENSITY: usize = 21;
+    /// Half extents of a rectangle in its frame, 2; half length of a cylinder, 1.
+    pub(crate) const HALF: usize = 22;
+    /// Emitted radiance, 3.
+    pub(crate) const RADIANCE: usize = 24;
+    /// Unit shaping axis; a distant light's points the way its light goes, 3.
+    pub(crate) const AXIS: usize = 27;
+    /// Cone's half angle.
+    pub(crate) const CUTOFF: usize = 30;
+    /// Angle where the cone's falloff begins.
+    pub(crate) const SMOOTH_START: usize = 31;
+    /// Exponent.
+    pub(crate) const FOCUS: usize = 32;
+    /// Tint, 3.
+    pub(crate) const TINT: usize = 33;
+    /// First value of the texture in the pool, as bits.
+    pub(crate) const TEXTURE: usize = 36;
+    /// Width of the texture as bits, 0 without one.
+    pub(crate) const TEXTURE_WIDTH: usize = 37;
+    /// Height of the texture as bits.
+    pub(crate) const TEXTURE_HEIGHT: usize = 38;
+    /// Kind and switches as bits.
+    pub(crate) const FLAGS: usize = 39;
+    /// Centre of a sphere around the light, 3.
+    pub(crate) const BOUND_CENTRE: usize = 40;
+    /// Radius of that sphere.
+    pub(crate) const BOUND_RADIUS: usize = 43;
+    /// Bound of intensity in cd, or of illuminance in lx for infinite lights.
+    pub(crate) const STRENGTH: usize = 44;
+    /// Cosine of the cone's half angle, less a little.
+    pub(crate) const CONE_COSINE: usize = 45;
+    /// Normal of a flat light's emitting side, 3.
+    pub(crate) const NORMAL: usize = 46;
+    /// 1 − cos of a distant light's half angle.
+    pub(crate) const ONE_MINUS_COSINE: usize = 49;
+    /// Sine of a distant light's half angle, 1 beyond a right angle.
+    pub(crate) const SINE: usize = 50;
+    /// Factor on diffuse reflection.
+    pub(crate) const DIFFUSE: usize = 51;
+    /// Factor on specular reflection.
+    pub(crate) const SPECULAR: usize = 52;
+}
+
+/// Switches in [`field::FLAGS`]; the kind's number is in the low byte.
+pub(crate) mod flag {
+    pub(crate) const KIND: u32 = 0xff;
+    pub(crate) const VISIBLE: u32 = 1 << 8;
+    pub(crate) const CASTS_SHADOW: u32 = 1 << 9;
+    pub(crate) const TWO_SIDED: u32 = 1 << 10;
+    pub(crate) const SHAPED: u32 = 1 << 11;
+    pub(crate) const DELTA: u32 = 1 << 12;
+    pub(crate) const INFINITE: u32 = 1 << 13;
+    pub(crate) const FLAT: u32 = 1 << 14;
+    /// Sends light at all.
+    pub(crate) const LIT: u32 = 1 << 15;
+}
+
+/// Rows read through a light index in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reader<'a, L: Lanes> {
+    l: L,
+    rows: &'a [f32],
+    base: U<L>,
+}
+
+impl<'a, L: Lanes> Reader<'a, L> {
+    #[inline(always)]
+    pub(crate) fn new(l: L, rows: &'a [f32], light: U<L>) -> Self {
+        Self { l, rows, base: light * ROW as u32 }
+    }
+    #[inline(always)]
+    pub(crate) fn value(&self, field: usize) -> F<L> {
+        self.l.gather(self.rows, self.base + field as u32)
+    }
+    #[inline(always)]
+    pub(crate) fn vector(&self, field: usize) -> Vec3<L> {
+        Vec3::gather(self.l, self.rows, self.base + field as u32)
+    }
+    #[inline(always)]
+    pub(crate) fn colour(&self, field: usize) -> Rgb<L> {
+        Rgb::gather(self.l, self.rows, self.base + field as u32)
+    }
+    #[inline(always)]
+    pub(crate) fn integer(&self, field: usize) -> U<L> {
+        self.value(field).to_bits()
+    }
+    #[inline(always)]
+    pub(crate) fn flag(&self, bit: u32) -> M<L> {
+        (self.integer(field::FLAGS) & bit).ne(0)
+    }
+    #[inline(always)]
+    pub(crate) fn is_kind(&self, kind: LightKind) -> M<L> {
+        (self.integer(field::FLAGS) & flag::KIND).eq(kind as u32)
+    }
+    /// Columns of the sampling frame.
+    #[inline(always)]
+    pub(crate) fn frame(&self) -> [Vec3<L>; 3] {
+        [self.vector(field::FRAME), self.vector(field::FRAME + 3), self.vector(field::FRAME + 6)]
+    }
+    /// A world vector in the sampling frame.
+    #[inline(always)]
+    pub(crate) fn to_local(&self, v: Vec3<L>) -> Vec3<L> {
+        let row = |k: usize| self.vector(field::INVERSE + 3 * k);
+        Vec3::new(row(0).dot(v), row(1).dot(v), row(2).dot(v))
+    }
+    /// Solid angle in the sampling frame per solid angle in the world, towards unit `wi`: |det N| / |N wi|³ for the linear map N.
+    #[inline(always)]
+    pub(crate) fn solid_angle_ratio(&self, wi: Vec3<L>) -> F<L> {
+        let squared = self.to_local(wi).length_squared();
+        self.value(field::DENSITY) / (squared * squared.sqrt())
+    }
+}

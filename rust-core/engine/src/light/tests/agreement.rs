@@ -1,0 +1,176 @@
+//! `sample`, `eval_hit` and the levels agree.
+
+use super::harness::{draw, light, numbers, turned};
+use super::shape::seen;
+use crate::light::vector::{Vector, narrow, widen};
+use crate::light::{LightKind, LightRecord, LightTable, Shaping};
+use gonio_simd::{Column, Execution, Lanes, One, Vec3};
+
+fn lights() -> Vec<LightRecord> {
+    let at = [0.2, 0.1, 2.0];
+    let mut all = Vec::new();
+    for kind in [LightKind::Rectangle, LightKind::Disk, LightKind::Sphere, LightKind::Cylinder] {
+        all.push(light(kind, turned([0.8, 0.5, 0.6], [0.0; 3]), at));
+        all.push(light(kind, turned([0.9, 0.3, 0.5], [0.3, -0.2, 0.7]), at));
+        all.push(light(kind, [[0.7, 0.2, 0.1], [0.4, 0.6, -0.1], [0.05, 0.1, 0.9]], at));
+    }
+    let flipped = [[0.7, 0.2, 0.1], [-0.4, -0.6, 0.1], [0.05, 0.1, 0.9]];
+    all.push(light(LightKind::Triangle, flipped, at));
+    all.push(LightRecord { two_sided: true, ..light(LightKind::Rectangle, turned([0.8, 0.5, 0.6], [0.0, 3.0, 0.0]), at) });
+    for record in &mut all {
+        record.shaping = Shaping { cone_angle: 1.3, softness: 0.5, focus: 2.0, focus_tint: [0.2, 0.1, 0.0] };
+    }
+    all
+}
+
+const POINTS: [[f32; 3]; 5] = [[0.0, 0.0, 0.0], [0.3, 0.2, 0.9], [0.4, 0.2, 1.75], [1.3, -0.4, 1.7], [5.0, 7.0, -30.0]];
+
+#[test]
+fn eval_hit_gives_what_sample_gave() {
+    let records = lights();
+    let table = LightTable::build(&records, Vec::new());
+    let count = 1 << 14;
+    for p in POINTS {
+        let drawn = draw(Execution::best(), &table, p, [0.0, 0.0, 1.0], &numbers(11, count));
+        let mut lit = 0;
+        for i in 0..count {
+            let pdf = f64::from(drawn.pdf[i]);
+            if pdf <= 0.0 {
+                continue;
+            }
+            lit += 1;
+            let eval = f64::from(drawn.eval_pdf[i]);
+            let record = &records[drawn.light[i] as usize];
+            // The hit is rounded to single precision, which at grazing angles moves the density.
+            assert!((eval / pdf - 1.0).abs() < 5e-3, "{:?} from {p:?}: {eval} for {pdf}", record.kind);
+            for k in 0..3 {
+                let (a, b) = (drawn.radiance[k][i], drawn.eval_radiance[k][i]);
+                assert!((a - b).abs() <= 1e-5 * a.abs(), "{:?} from {p:?}: radiance {b} for {a}", record.kind);
+            }
+        }
+        assert!(lit > count / 2, "{lit} of {count} samples carry light from {p:?}");
+    }
+}
+
+#[inline(always)]
+fn densities<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], hits: &[Column; 3], pdf: &mut Column) {
+    let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, [0.0, 0.0, 1.0]));
+    for at in (0..hits[0].len()).step_by(L::COUNT) {
+        let hit = Vec3::load(l, [&hits[0], &hits[1], &hits[2]], at);
+        let wi = (hit - p).normalize();
+        table.eval_hit(l, l.u(0), p, n, wi, hit, l.m(true)).1.store(pdf, at);
+    }
+}
+
+/// The place `(s, t)` of a direction's point on the surface: the element that lies nearest, by search over the bins' corners.
+fn bin_of(record: &LightRecord, point: Vector, bins: usize) -> usize {
+    let columns = record.to_world.map(widen);
+    let inverse = crate::light::vector::inverse_rows([columns[0], columns[1], columns[2]]).expect("shapes of the test are regular");
+    let v = [0, 1, 2].map(|k| point[k] - columns[3][k]);
+    let q = [0, 1, 2].map(|k| crate::light::vector::dot(inverse[k], v));
+    let turn = |y: f64, x: f64| (y.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0);
+    let (s, t) = match record.kind {
+        LightKind::Rectangle => ((q[0] + 1.0) / 2.0, (q[1] + 1.0) / 2.0),
+        LightKind::Disk => (q[0] * q[0] + q[1] * q[1], turn(q[1], q[0])),
+        LightKind::Triangle => ((1.0 - q[0]).powi(2), q[1] / (1.0 - q[0])),
+        LightKind::Cylinder => ((q[0] + 1.0) / 2.0, turn(q[2], q[1])),
+        _ => ((q[2] + 1.0) / 2.0, turn(q[1], q[0])),
+    };
+    let cell = |x: f64| ((x * bins as f64) as usize).min(bins - 1);
+    cell(s) * bins + cell(t)
+}
+
+/// Expected share of each bin: the density `eval_hit` gives, integrated over the solid angle of the bin's surface.
+fn expected_shares(record: &LightRecord, table: &LightTable, p: [f32; 3], bins: usize, fine: usize) -> Vec<f64> {
+    let side = bins * fine;
+    let mut hits = [Column::new(side * side), Column::new(side * side), Column::new(side * side)];
+    let mut solid = vec![0.0; side * side];
+    let origin = p.map(f64::from);
+    for i in 0..side {
+        for j in 0..side {
+            let (wi, distance, angle) = seen(record, origin, (i as f64 + 0.5) / side as f64, (j as f64 + 0.5) / side as f64);
+            solid[i * side + j] = angle / (side * side) as f64;
+            for k in 0..3 {
+                hits[k][i * side + j] = (origin[k] + wi[k] * distance) as f32;
+            }
+        }
+    }
+    let mut pdf = Column::new(side * side);
+    densities(One, table, p, &hits, &mut pdf);
+    let mut shares = vec![0.0; bins * bins];
+    for i in 0..side {
+        for j in 0..side {
+            shares[i / fine * bins + j / fine] += f64::from(pdf[i * side + j]) * solid[i * side + j];
+        }
+    }
+    shares
+}
+
+#[test]
+fn samples_are_distributed_by_their_density() {
+    const BINS: usize = 12;
+    let count = 1 << 16;
+    for record in lights() {
+        let record = LightRecord { shaping: Shaping::default(), ..record };
+        let table = LightTable::build(&[record], Vec::new());
+        for p in POINTS {
+            let shares = expected_shares(&record, &table, p, BINS, 48);
+            let drawn = draw(Execution::best(), &table, p, [0.0, 0.0, 1.0], &numbers(5, count));
+            let mut observed = vec![0.0; BINS * BINS];
+            let mut alive = 0.0;
+            for i in 0..count {
+                if drawn.pdf[i] > 0.0 {
+                    let (wi, distance) = (drawn.direction(i), f64::from(drawn.distance[i]));
+                    let point = [0, 1, 2].map(|k| f64::from(p[k]) + wi[k] * distance);
+                    observed[bin_of(&record, point, BINS)] += 1.0;
+                    alive += 1.0;
+                }
+            }
+            let total: f64 = shares.iter().sum();
+            // What is not drawn at all is drawn on the far side, which the density leaves out.
+            let deviation = (total * (1.0 - total).max(0.0) / count as f64).sqrt();
+            let case = format!("{:?} {:?} from {p:?}", record.kind, record.to_world);
+            assert!((alive / count as f64 - total).abs() < 5.0 * deviation + 3e-3, "{case}: {} drawn, {total} expected", alive / count as f64);
+            let (mut chi, mut cells) = (0.0, 0);
+            for (share, seen) in shares.iter().zip(&observed) {
+                let expected = share / total * alive;
+                if expected > 8.0 {
+                    // The expectation's own error, from the edge of the visible side.
+                    chi += (seen - expected).powi(2) / (expected + (0.01 * expected).powi(2));
+                    cells += 1;
+                }
+            }
+            // Wilson and Hilferty's normal approximation; 1 − 1e-6 one-sided.
+            let k = f64::from(cells.max(2));
+            let z = ((chi / k).cbrt() - (1.0 - 2.0 / (9.0 * k))) / (2.0 / (9.0 * k)).sqrt();
+            assert!(alive == 0.0 || z < 4.75, "{case}: chi-square {chi} over {cells} cells (z = {z})");
+        }
+    }
+}
+
+#[test]
+fn all_levels_agree_with_the_scalar_one() {
+    let mut records = lights();
+    records.push(LightRecord { angle: 0.3, ..light(LightKind::Distant, turned([1.0; 3], [0.2, 0.1, 0.0]), [0.0; 3]) });
+    records.push(LightRecord::new(LightKind::Dome));
+    records.push(light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [1.0, 1.0, 1.0]));
+    let table = LightTable::build(&records, Vec::new());
+    let count = 1 << 12;
+    let u = numbers(2, count);
+    for p in POINTS {
+        let scalar = draw(Execution::Scalar, &table, p, narrow([0.0, 0.0, 1.0]), &u);
+        for execution in Execution::all() {
+            let wide = draw(execution, &table, p, [0.0, 0.0, 1.0], &u);
+            let mut different = 0;
+            for i in 0..count {
+                let close = |a: f32, b: f32| (a - b).abs() <= 2e-3 * a.abs().max(1e-3);
+                let same = wide.light[i] == scalar.light[i]
+                    && close(scalar.pdf[i], wide.pdf[i])
+                    && (0..3).all(|k| close(scalar.radiance[k][i], wide.radiance[k][i]) && close(scalar.wi[k][i], wide.wi[k][i]));
+                different += usize::from(!same);
+            }
+            // Roundings tip a choice here and there.
+            assert!(different <= count / 500, "{}: {different} of {count} samples differ from {p:?}", execution.name());
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Choosing among lights.
+
+use super::harness::{draw, light, numbers, turned, uniform};
+use crate::light::{LightKind, LightRecord, LightTable, Shaping};
+use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
+
+fn crowd(count: usize) -> Vec<LightRecord> {
+    let kinds = [LightKind::Rectangle, LightKind::Disk, LightKind::Sphere, LightKind::Cylinder, LightKind::Point, LightKind::Distant, LightKind::Dome];
+    (0..count)
+        .map(|i| {
+            let random = |k: u64| uniform(17, 16 * i as u64 + k);
+            let axes = turned([0.1 + random(0), 0.1 + random(1), 0.2], [6.0 * random(2), 6.0 * random(3), 6.0 * random(4)]);
+            let origin = [10.0 * random(5) - 5.0, 10.0 * random(6) - 5.0, 3.0 * random(7) + 0.5];
+            let mut record = light(kinds[i % kinds.len()], axes, origin);
+            record.angle = 0.1;
+            record.radiance = [random(8) * random(9) * 10.0; 3];
+            if i % 3 == 0 {
+                record.shaping = Shaping { cone_angle: 0.7, softness: 0.5, ..Shaping::default() };
+            }
+            record
+        })
+        .collect()
+}
+
+#[inline(always)]
+fn probabilities<L: Lanes>(l: L, table: &LightTable, points: &[Column; 3], sums: &mut Column) {
+    for at in (0..sums.len()).step_by(L::COUNT) {
+        let p = Vec3::load(l, [&points[0], &points[1], &points[2]], at);
+        let n = Vec3::splat(l, [0.0, 0.0, 1.0]);
+        let mut sum = l.f(0.0);
+        for light in 0..table.len() as u32 {
+            sum += table.choice_probability(l, p, n, l.u(light));
+        }
+        sum.store(sums, at);
+    }
+}
+
+#[test]
+fn probabilities_add_up_to_one() {
+    for count in [1, 2, 7, 40, 64, 65, 300] {
+        let table = LightTable::build(&crowd(count), Vec::new());
+        let points = numbers(23, 64);
+        let mut sums = Column::new(64);
+        for execution in Execution::all() {
+            dispatch!(execution, l => probabilities(l, &table, &points, &mut sums));
+            for sum in sums.iter() {
+                // A few lights may all look away from a point.
+                assert!((sum - 1.0).abs() < 2e-5 || (*sum == 0.0 && count < 7), "{count} lights: {sum}");
+            }
+        }
+    }
+}
+
+#[test]
+fn lights_are_drawn_as_often_as_their_probability_says() {
+    for lights in [7usize, 64, 100] {
+        let table = LightTable::build(&crowd(lights), Vec::new());
+        let count = 1 << 16;
+        let drawn = draw(Execution::best(), &table, [0.5, 0.5, 0.0], [0.0, 0.0, 1.0], &numbers(29, count));
+        let mut observed = vec![0.0f64; lights];
+        for i in 0..count {
+            observed[drawn.light[i] as usize] += 1.0;
+        }
+        let probability = |light: usize| {
+            #[inline(always)]
+            fn one<L: Lanes>(l: L, table: &LightTable, light: u32) -> f32 {
+                table.choice_probability(l, Vec3::splat(l, [0.5, 0.5, 0.0]), Vec3::splat(l, [0.0, 0.0, 1.0]), l.u(light)).to_array()[0]
+            }
+            f64::from(one(One, &table, light as u32))
+        };
+        for (light, seen) in observed.iter().enumerate() {
+            let p = probability(light);
+            let deviation = (count as f64 * p * (1.0 - p)).sqrt();
+            assert!((seen - count as f64 * p).abs() < 5.0 * deviation + 3.0, "light {light} of {lights}: {seen} drawn, {} expected", count as f64 * p);
+        }
+    }
+}
+
+#[test]
+fn many_lights_give_the_sum_of_their_illuminances() {
+    let n = [0.0, 0.0, 1.0];
+    let p = [0.5, -0.7, 0.0];
+    for count in [20, 90] {
+        let records: Vec<LightRecord> = crowd(count)
+            .into_iter()
+            .filter(|r| matches!(r.kind, LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder))
+            .collect();
+        let expected: f64 =
+            records.iter().map(|r| super::shape::illuminance(r, p.map(f64::from), n.map(f64::from), 200)[1]).sum();
+        let table = LightTable::build(&records, Vec::new());
+        let samples = 1 << 18;
+        let drawn = draw(Execution::best(), &table, p, n, &numbers(31, samples));
+        let (mean, error) = super::harness::estimate(&drawn, n.map(f64::from), samples);
+        assert!((mean[1] - expected).abs() < 4.9 * error[1] + 2e-3 * expected, "{count}: {} ± {} for {expected}", mean[1], error[1]);
+    }
+}

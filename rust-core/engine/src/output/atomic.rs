@@ -1,0 +1,32 @@
+//! Writing a file whole or not at all.
+
+use crate::error::{Error, Result};
+use std::{
+    fs::{self, File},
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+/// Writes through a temporary file in the same folder, which takes the name once it is complete and on disk.
+pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<()> {
+    let temporary = temporary_name(path);
+    let result = write_to(&temporary, write).and_then(|()| fs::rename(&temporary, path));
+    result.map_err(|error| {
+        // The temporary file may not even exist; the error worth telling is the first one.
+        let _ = fs::remove_file(&temporary);
+        Error::io(path, error)
+    })
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
+fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> std::io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    write(&mut file)?;
+    file.flush()?;
+    file.get_ref().sync_all()
+}

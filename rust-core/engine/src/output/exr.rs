@@ -1,0 +1,126 @@
+//! OpenEXR: all passes of an image in one part, named as compositors expect, with units in the header.
+
+use super::write_atomically;
+use crate::{
+    error::{Error, Result},
+    film::{Image, Layer, channel_names, is_absolute},
+    scene::Aov,
+};
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, ImageAttributes, IntegerBounds, Layer as ExrLayer, LayerAttributes,
+    Text, Vec2, WritableImage, f16,
+};
+use std::{io::Cursor, path::Path};
+
+/// How colour is stored, and what the header says.
+#[derive(Clone, Debug, Default)]
+pub struct ExrOptions {
+    /// Half floats for passes that are not absolute.
+    pub half: bool,
+    /// Exposure that the colour pass was multiplied by; 0 counts as 1.
+    pub exposure: f32,
+    /// Further text attributes.
+    pub attributes: Vec<(String, String)>,
+}
+
+/// Writes all passes of an image; absolute ones always as 32-bit floats.
+pub fn write_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()> {
+    let mut bytes = Cursor::new(Vec::new());
+    let encoded = picture(image, options).write().to_buffered(&mut bytes);
+    encoded.map_err(|error| Error::io(path, std::io::Error::other(error.to_string())))?;
+    write_atomically(path, |file| file.write_all(bytes.get_ref()))
+}
+
+fn picture(image: &Image, options: &ExrOptions) -> exr::image::Image<ExrLayer<AnyChannels<FlatSamples>>> {
+    let [width, height] = image.size();
+    let channels = image.layers.iter().flat_map(|layer| channels_of(layer, options.half)).collect();
+    let mut attributes = LayerAttributes {
+        layer_position: Vec2(signed(image.window.min[0]), signed(image.window.min[1])),
+        software_name: Some(Text::from(concat!("gonio ", env!("CARGO_PKG_VERSION")))),
+        white_luminance: Some(1.0 / if options.exposure > 0.0 { options.exposure } else { 1.0 }),
+        ..LayerAttributes::default()
+    };
+    let mut note = |name: &str, text: &str| {
+        attributes.other.insert(Text::from(name), AttributeValue::Text(Text::from(text)));
+    };
+    note("gonio:samples", &image.samples.to_string());
+    for layer in &image.layers {
+        if let Some(unit) = unit(layer.aov) {
+            note(&format!("gonio:unit:{}", name(layer.aov)), unit);
+        }
+    }
+    for (key, value) in &options.attributes {
+        note(key, value);
+    }
+    let layer = ExrLayer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    let display = IntegerBounds::new((0, 0), (image.resolution[0] as usize, image.resolution[1] as usize));
+    let mut out = exr::image::Image::from_layer(layer);
+    out.attributes = ImageAttributes { display_window: display, ..out.attributes };
+    out
+}
+
+fn signed(x: u32) -> i32 {
+    i32::try_from(x).unwrap_or(i32::MAX)
+}
+
+/// A pass's name in files.
+fn name(aov: Aov) -> &'static str {
+    match aov {
+        Aov::Color => "color",
+        Aov::Alpha => "alpha",
+        Aov::Depth => "depth",
+        Aov::Normal => "normal",
+        Aov::P => "P",
+        Aov::Albedo => "albedo",
+        Aov::PrimId => "primId",
+        Aov::Luminance => "Luminance",
+        Aov::Illuminance => "Illuminance",
+    }
+}
+
+fn unit(aov: Aov) -> Option<&'static str> {
+    match aov {
+        Aov::Luminance => Some("cd/m2"),
+        Aov::Illuminance => Some("lx"),
+        Aov::Depth | Aov::P => Some("m"),
+        Aov::Color => Some("linear Rec.709, luminance in cd/m2 times exposure"),
+        _ => None,
+    }
+}
+
+fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
+    let names = channel_names(layer.aov);
+    let single = names.len() == 1;
+    let full_name = |channel: &str| match layer.aov {
+        Aov::Color => channel.to_owned(),
+        aov if single && aov != Aov::Depth => name(aov).to_owned(),
+        aov => format!("{}.{channel}", name(aov)),
+    };
+    let values = |channel: usize| layer.values.iter().skip(channel).step_by(layer.channels);
+    let samples = |channel: usize| {
+        if half && !is_absolute(layer.aov) {
+            // Beyond half's range the largest half is nearer than infinity.
+            FlatSamples::F16(values(channel).map(|v| f16::from_f32(v.clamp(-65504.0, 65504.0))).collect())
+        } else {
+            FlatSamples::F32(values(channel).copied().collect())
+        }
+    };
+    names.iter().enumerate().map(|(i, channel)| AnyChannel::new(Text::from(full_name(channel).as_str()), samples(i))).collect()
+}
+
+/// Channels of an EXR file by name, with width and height; for comparing.
+pub fn read_exr(path: &Path) -> Result<(Vec<(String, Vec<f32>)>, [usize; 2])> {
+    let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
+    let image = exr::prelude::read_all_flat_layers_from_file(path).map_err(failed)?;
+    let mut channels = Vec::new();
+    let mut size = [0, 0];
+    for layer in image.layer_data {
+        size = [layer.size.width(), layer.size.height()];
+        let prefix = layer.attributes.layer_name.as_ref().map(|name| format!("{name}.")).unwrap_or_default();
+        for channel in layer.channel_data.list {
+            let values = channel.sample_data.values_as_f32().collect();
+            channels.push((format!("{prefix}{}", channel.name), values));
+        }
+    }
+    Ok((channels, size))
+}

@@ -1,0 +1,13 @@
+//! Files: EXR with all passes, PNG and JPEG for looking at, and comparing images.
+
+mod atomic;
+mod compare;
+mod exr;
+mod picture;
+mod tone_map;
+
+pub use atomic::write_atomically;
+pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
+pub use exr::{ExrOptions, read_exr, write_exr};
+pub use picture::{encode_png, write_picture};
+pub use tone_map::{ToneMap, display};

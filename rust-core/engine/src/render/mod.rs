@@ -1,0 +1,134 @@
+//! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
+
+mod progress;
+mod schedule;
+mod worker;
+
+pub use progress::Progress;
+pub use schedule::TileReady;
+
+use crate::{
+    compile::{CompiledScene, View},
+    error::{Error, Result},
+    film::Film,
+    scene::Settings,
+};
+use schedule::Schedule;
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread::JoinHandle,
+    time::Duration,
+};
+
+/// A render under way; dropping it cancels and waits for the workers.
+#[derive(Debug)]
+pub struct Render {
+    shared: Arc<Shared>,
+    workers: Vec<JoinHandle<()>>,
+    ready: crossbeam_channel::Receiver<TileReady>,
+}
+
+/// What host and workers share.
+#[derive(Debug)]
+pub(crate) struct Shared {
+    pub(crate) scene: Arc<CompiledScene>,
+    pub(crate) view: View,
+    pub(crate) film: Film,
+    pub(crate) schedule: Schedule,
+    pub(crate) cancel: AtomicBool,
+    pub(crate) failure: std::sync::Mutex<Option<String>>,
+    pub(crate) rays: std::sync::atomic::AtomicU64,
+}
+
+impl Render {
+    /// Starts rendering; settings are those of the compiled view.
+    pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
+        let view = View::new(&scene, settings, execution)?;
+        let film = Film::new(settings.resolution, view.window, &settings.aovs);
+        let schedule = Schedule::new(film.tile_count(), settings.samples, settings.time_limit_s);
+        let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
+        let shared = Arc::new(Shared {
+            scene,
+            view,
+            film,
+            schedule,
+            cancel: AtomicBool::new(false),
+            failure: std::sync::Mutex::new(None),
+            rays: std::sync::atomic::AtomicU64::new(0),
+        });
+        let (send, ready) = crossbeam_channel::bounded(shared.film.tile_count().max(1) * 2);
+        let spawn = |_| {
+            let (shared, send) = (shared.clone(), send.clone());
+            std::thread::spawn(move || worker::work(&shared, &send))
+        };
+        let workers = (0..threads.max(1)).map(spawn).collect();
+        Ok(Self { shared, workers, ready })
+    }
+
+    /// The next tile with new samples; `None` when the time is out or the render has ended (see [`Render::is_finished`]).
+    pub fn next_tile(&self, timeout: Duration) -> Option<TileReady> {
+        self.ready.recv_timeout(timeout).ok()
+    }
+
+    /// Whether all workers have ended.
+    pub fn is_finished(&self) -> bool {
+        self.workers.iter().all(JoinHandle::is_finished)
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.shared.schedule.progress(self.shared.rays.load(Ordering::Relaxed))
+    }
+
+    /// Asks the workers to stop after the stage under way.
+    pub fn cancel(&self) {
+        self.shared.cancel.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether a stop was asked for.
+    pub fn is_cancelled(&self) -> bool {
+        self.shared.cancel.load(Ordering::Relaxed)
+    }
+
+    /// The film so far.
+    pub fn film(&self) -> &Film {
+        &self.shared.film
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &CompiledScene {
+        &self.shared.scene
+    }
+
+    /// Waits for the end; a worker's failure comes out as an error, a cancelled render as [`Error::Cancelled`].
+    pub fn finish(&mut self) -> Result<()> {
+        for worker in self.workers.drain(..) {
+            if worker.join().is_err() {
+                return Err(Error::Internal("a worker ended unexpectedly".into()));
+            }
+        }
+        let failure = self.shared.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take();
+        match failure {
+            Some(message) => Err(Error::Internal(message)),
+            None if self.is_cancelled() => Err(Error::Cancelled),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for Render {
+    fn drop(&mut self) {
+        self.cancel();
+        for worker in self.workers.drain(..) {
+            // A panic was already turned into a failure; there is nobody left to tell.
+            let _ = worker.join();
+        }
+    }
+}
+
+fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}

@@ -1,0 +1,58 @@
+//! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
+
+use super::{Shared, TileReady, schedule::Work};
+use crate::{
+    film::Block,
+    integrator::{Tracer, Workspace},
+};
+use crossbeam_channel::Sender;
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{PoisonError, atomic::Ordering},
+};
+
+/// Works until nothing is left, the render is cancelled, or something fails.
+pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
+    let result = catch_unwind(AssertUnwindSafe(|| {
+        let mut workspace = Workspace::default();
+        while !shared.cancel.load(Ordering::Relaxed) {
+            let Some(work) = shared.schedule.take() else { break };
+            if let Some(samples) = trace_block(shared, &work, &mut workspace) {
+                shared.schedule.finished_one();
+                // A slow host misses intermediate news of a tile, never its data.
+                let _ = ready.try_send(TileReady { tile: work.tile, samples });
+            }
+        }
+    }));
+    if let Err(panic) = result {
+        let message = panic.downcast_ref::<&str>().map(ToString::to_string).or_else(|| panic.downcast_ref::<String>().cloned());
+        *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(message.unwrap_or_else(|| "unknown panic".into()));
+        shared.cancel.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Traces a block and adds it; `None` if it was cancelled on the way.
+fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace) -> Option<u32> {
+    let tracer = Tracer {
+        tables: &shared.scene.tables,
+        camera: &shared.view.camera,
+        filter: &shared.view.filter,
+        transport: shared.view.transport.clone(),
+    };
+    let area = shared.film.tile_area(work.tile);
+    let cancelled = || shared.cancel.load(Ordering::Relaxed);
+    workspace.first_hit.clear();
+    for sample in work.samples.clone() {
+        tracer.trace(area.min, area.max, sample, workspace, &cancelled);
+        if cancelled() {
+            return None;
+        }
+    }
+    let statistics = std::mem::take(&mut workspace.statistics);
+    shared.rays.fetch_add(statistics.rays + statistics.shadow_rays, Ordering::Relaxed);
+    let samples = work.samples.end - work.samples.start;
+    let origin = shared.scene.tables.origin;
+    let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.view.exposure, origin);
+    shared.film.add(work.tile, work.block, block);
+    Some(work.samples.end)
+}

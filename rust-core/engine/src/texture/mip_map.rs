@@ -1,0 +1,215 @@
+//! A texture ready for lookups: its levels, finest first, in one buffer.
+
+use super::encoder::Encoder;
+use super::error::{TextureError, TextureErrorKind};
+use super::image::{Image, Texels};
+use super::pyramid::{half_size, shrink};
+use super::resolve::Conversion;
+use super::texel::{TexelFormat, pack_bytes, pack_halves, unpack_halves};
+use crate::colour::{ColourSpace, Transfer};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Sizes and places of the levels in tables that lanes look up; places behind the last level repeat it.
+#[derive(Clone, Debug)]
+pub(crate) struct Levels {
+    pub(crate) count: usize,
+    pub(crate) widths: [f32; 32],
+    pub(crate) heights: [f32; 32],
+    /// The first texel of each level, as the bits of an integer.
+    pub(crate) offsets: [f32; 32],
+    texels: usize,
+}
+
+impl Levels {
+    fn new(width: usize, height: usize) -> Self {
+        let mut levels = Self { count: 0, widths: [1.0; 32], heights: [1.0; 32], offsets: [0.0; 32], texels: 0 };
+        let mut size = [width, height];
+        loop {
+            let k = levels.count;
+            // The last level is one texel: places behind it read that texel.
+            levels.offsets[k..].fill(f32::from_bits(levels.texels as u32));
+            (levels.widths[k], levels.heights[k]) = (size[0] as f32, size[1] as f32);
+            levels.count += 1;
+            levels.texels += size[0] * size[1];
+            if size == [1, 1] {
+                return levels;
+            }
+            size = size.map(half_size);
+        }
+    }
+}
+
+/// A texture with all its levels, as linear Rec.709 (or raw numbers) once read.
+#[derive(Clone, Debug)]
+pub struct MipMap {
+    pub(crate) format: TexelFormat,
+    /// How 8-bit colour codes are decoded after the fetch.
+    pub(crate) transfer: Transfer,
+    /// The linear values of 8-bit colour codes.
+    pub(crate) table: Box<[f32; 256]>,
+    pub(crate) levels: Levels,
+    pub(crate) words: Vec<f32>,
+}
+
+/// More words than hardware gathers can index.
+const MAX_WORDS: usize = i32::MAX as usize;
+
+impl MipMap {
+    /// Builds the pyramid of an image whose numbers mean `space`; `fallback` is the space that `Auto` takes where the file says nothing.
+    ///
+    /// Errors: the image's values do not match its size, the pyramid is too large to index, or `cancel` was raised.
+    pub fn build(image: &Image, space: ColourSpace, fallback: Option<ColourSpace>, cancel: &AtomicBool) -> Result<Self, TextureError> {
+        let conversion = Conversion::resolve(space, fallback, image);
+        check(image)?;
+        let format = choose_format(image, &conversion);
+        let levels = Levels::new(image.width as usize, image.height as usize);
+        // One texel of padding: a pair read at the last texel stays in bounds unclamped.
+        let words = (levels.texels + 1) * format.words();
+        if words > MAX_WORDS {
+            return Err(TextureError::new(
+                TextureErrorKind::TooLarge,
+                format!("the pyramid takes {words} words, the limit is {MAX_WORDS}"),
+            )
+            .hint("split the image into UDIM tiles"));
+        }
+        let transfer = if format == TexelFormat::Byte { conversion.transfer } else { Transfer::Linear };
+        let mut map = Self { format, transfer, table: Box::new(transfer.table()), levels, words: vec![0.0; words] };
+        map.fill_finest(image, &conversion);
+        map.fill_coarser(cancel)?;
+        Ok(map)
+    }
+
+    /// Texels of the finest level: width, height.
+    pub fn resolution(&self) -> [u32; 2] {
+        [self.levels.widths[0] as u32, self.levels.heights[0] as u32]
+    }
+
+    /// Levels of the pyramid.
+    pub fn level_count(&self) -> usize {
+        self.levels.count
+    }
+
+    /// How the texels are stored.
+    pub fn format(&self) -> TexelFormat {
+        self.format
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.words.len() * 4
+    }
+
+    /// One texel of a level as linear RGBA; `y` counts from the image's top. Nothing outside the level.
+    pub fn texel(&self, level: usize, x: usize, y: usize) -> Option<[f32; 4]> {
+        let (width, height, offset) = self.level(level)?;
+        (x < width && y < height).then(|| self.read(offset + y * width + x))
+    }
+
+    fn level(&self, level: usize) -> Option<(usize, usize, usize)> {
+        let Levels { count, widths, heights, offsets, .. } = &self.levels;
+        (level < *count).then(|| (widths[level] as usize, heights[level] as usize, offsets[level].to_bits() as usize))
+    }
+
+    fn read(&self, texel: usize) -> [f32; 4] {
+        let at = texel * self.format.words();
+        match self.format {
+            TexelFormat::Byte => {
+                let [r, g, b, a] = self.words[at].to_bits().to_le_bytes();
+                let [r, g, b] = [r, g, b].map(|code| self.table[usize::from(code)]);
+                [r, g, b, f32::from(a) / 255.0]
+            }
+            TexelFormat::Grey => [self.words[at], self.words[at], self.words[at], 1.0],
+            TexelFormat::Half => unpack_halves([self.words[at], self.words[at + 1]]),
+            TexelFormat::Float => [self.words[at], self.words[at + 1], self.words[at + 2], self.words[at + 3]],
+        }
+    }
+
+    fn fill_finest(&mut self, image: &Image, conversion: &Conversion) {
+        let texels = &mut self.words[..image.len() * self.format.words()];
+        if let (TexelFormat::Byte, Texels::Byte(values)) = (self.format, &image.texels) {
+            let channels = image.channels as usize;
+            texels.par_iter_mut().zip(values.par_chunks_exact(channels)).for_each(|(word, codes)| {
+                *word = pack_bytes(match *codes {
+                    [grey] => [grey, grey, grey, 255],
+                    [grey, alpha] => [grey, grey, grey, alpha],
+                    [r, g, b] => [r, g, b, 255],
+                    [r, g, b, a, ..] => [r, g, b, a],
+                    [] => [0; 4],
+                });
+            });
+            return;
+        }
+        let format = self.format;
+        texels.par_chunks_exact_mut(format.words()).enumerate().for_each(|(index, words)| {
+            store(format, words, conversion.convert(image.rgba(index)));
+        });
+    }
+
+    fn fill_coarser(&mut self, cancel: &AtomicBool) -> Result<(), TextureError> {
+        let encoder = Encoder::new(self.transfer);
+        // Each level is made from the unrounded one above it, so that rounding does not add up.
+        let mut above: Option<Vec<[f32; 4]>> = None;
+        for level in 1..self.levels.count {
+            if cancel.load(Ordering::Relaxed) {
+                return Err(TextureError::new(TextureErrorKind::Cancelled, "loading was cancelled"));
+            }
+            let (width, height, offset) = self.level(level - 1).expect("the level above exists");
+            let texels = match &above {
+                None => shrink([width, height], |x, y| self.read(offset + y * width + x)),
+                Some(texels) => shrink([width, height], |x, y| texels[y * width + x]),
+            };
+            let (format, first) = (self.format, (offset + width * height) * self.format.words());
+            let words = &mut self.words[first..first + texels.len() * format.words()];
+            words.par_chunks_exact_mut(format.words()).zip(&texels).for_each(|(words, texel)| match format {
+                TexelFormat::Byte => words[0] = pack_bytes(encode(&encoder, *texel)),
+                _ => store(format, words, *texel),
+            });
+            above = Some(texels);
+        }
+        Ok(())
+    }
+}
+
+fn encode(encoder: &Encoder, [r, g, b, a]: [f32; 4]) -> [u8; 4] {
+    [encoder.encode(r), encoder.encode(g), encoder.encode(b), (a * 255.0 + 0.5) as u8]
+}
+
+/// Writes a linear texel in a float format.
+fn store(format: TexelFormat, words: &mut [f32], texel: [f32; 4]) {
+    match format {
+        TexelFormat::Byte => {}
+        TexelFormat::Grey => words[0] = texel[0],
+        TexelFormat::Half => words.copy_from_slice(&pack_halves(texel)),
+        TexelFormat::Float => words.copy_from_slice(&texel),
+    }
+}
+
+fn check(image: &Image) -> Result<(), TextureError> {
+    let expected = image.len() * image.channels as usize;
+    if !(1..=4).contains(&image.channels) || image.is_empty() || image.texels.len() != expected {
+        let found = image.texels.len();
+        return Err(TextureError::malformed(format!(
+            "{} × {} texels of {} channels hold {found} values, expected {expected}",
+            image.width, image.height, image.channels
+        )));
+    }
+    Ok(())
+}
+
+/// The smallest storage that keeps what the file says: bytes stay bytes, colours become halves, numbers that halves would round stay floats.
+fn choose_format(image: &Image, conversion: &Conversion) -> TexelFormat {
+    if image.is_byte() && conversion.gamut.is_none() {
+        return TexelFormat::Byte;
+    }
+    if image.channels == 1 {
+        return TexelFormat::Grey;
+    }
+    let halves_are_enough = match &image.texels {
+        Texels::Half(_) => true,
+        Texels::Byte(_) | Texels::Short(_) => conversion.is_colour,
+        Texels::Float(values) if conversion.is_colour => values.par_iter().all(|x| !x.is_finite() || x.abs() <= 65504.0),
+        Texels::Float(values) => values.par_iter().all(|x| half::f16::from_f32(*x).to_f32() == *x),
+    };
+    if halves_are_enough { TexelFormat::Half } else { TexelFormat::Float }
+}

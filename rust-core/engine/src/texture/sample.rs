@@ -1,0 +1,126 @@
+//! Filtered lookups in one mip map.
+
+use super::mip_map::{Levels, MipMap};
+use super::texel::{Byte, Float, Grey, Half, LinearCode, Rgba, SrgbCode, TableCode, Texel, TexelFormat};
+use super::wrap::{Filter, Wrap};
+use crate::colour::Transfer;
+use gonio_simd::{F, Lanes, U, Vec2};
+
+/// The levels that lanes read from.
+#[derive(Clone, Copy)]
+struct Level<L: Lanes> {
+    width: F<L>,
+    height: F<L>,
+    /// The level's first texel.
+    offset: U<L>,
+}
+
+impl Levels {
+    /// Level 0 in every lane.
+    #[inline(always)]
+    fn finest<L: Lanes>(&self, l: L) -> Level<L> {
+        Level { width: l.f(self.widths[0]), height: l.f(self.heights[0]), offset: l.u(0) }
+    }
+
+    /// A level for each lane.
+    #[inline(always)]
+    fn at<L: Lanes>(&self, l: L, level: F<L>) -> Level<L> {
+        let index = level.to_i32();
+        Level {
+            width: l.lookup32(&self.widths, index),
+            height: l.lookup32(&self.heights, index),
+            offset: l.lookup32(&self.offsets, index).to_bits(),
+        }
+    }
+
+    /// The level, with fraction, whose texels are as wide as a footprint of `width` (in uv units).
+    #[inline(always)]
+    fn level_of<L: Lanes>(&self, l: L, width: F<L>) -> F<L> {
+        let texels = width * self.widths[0].max(self.heights[0]);
+        let coarse = texels.gt(1.0);
+        if !coarse.any() {
+            return l.f(0.0);
+        }
+        // Comparisons first: a NaN footprint reads the finest level.
+        coarse.select(texels, l.f(1.0)).min(f32::MAX).log2().clamp(0.0, (self.count - 1) as f32)
+    }
+}
+
+impl MipMap {
+    /// The texture at `uv` (origin at the image's bottom left) over a footprint of `width` in uv units, 0 for the finest level: linear RGBA.
+    ///
+    /// Any `uv` and `width` are safe, NaN included.
+    #[inline(always)]
+    pub fn sample<L: Lanes>(&self, l: L, uv: Vec2<L>, width: F<L>, wrap: [Wrap; 2], filter: Filter) -> [F<L>; 4] {
+        let position = Vec2 { x: wrap[0].position(uv.x), y: 1.0 - wrap[1].position(uv.y) };
+        match (self.format, self.transfer) {
+            (TexelFormat::Byte, Transfer::Linear) => self.filtered::<L, Byte<LinearCode>>(l, position, width, wrap, filter),
+            (TexelFormat::Byte, Transfer::Srgb) => self.filtered::<L, Byte<SrgbCode>>(l, position, width, wrap, filter),
+            (TexelFormat::Byte, _) => self.filtered::<L, Byte<TableCode>>(l, position, width, wrap, filter),
+            (TexelFormat::Grey, _) => self.filtered::<L, Grey>(l, position, width, wrap, filter),
+            (TexelFormat::Half, _) => self.filtered::<L, Half>(l, position, width, wrap, filter),
+            (TexelFormat::Float, _) => self.filtered::<L, Float>(l, position, width, wrap, filter),
+        }
+    }
+
+    #[inline(always)]
+    fn filtered<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, width: F<L>, wrap: [Wrap; 2], filter: Filter) -> Rgba<L> {
+        match filter {
+            Filter::Nearest => self.nearest::<L, T>(l, position, wrap),
+            Filter::Trilinear => self.trilinear::<L, T>(l, position, width, wrap),
+        }
+    }
+
+    #[inline(always)]
+    fn nearest<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, wrap: [Wrap; 2]) -> Rgba<L> {
+        let level = self.levels.finest(l);
+        let (x, inside_x) = wrap[0].nearest(position.x, level.width);
+        let (y, inside_y) = wrap[1].nearest(position.y, level.height);
+        let mut texel = T::one(l, &self.words, &self.table, y * level.width.to_i32() + x);
+        for channel in &mut texel {
+            *channel = channel.keep_if(inside_x & inside_y);
+        }
+        texel
+    }
+
+    #[inline(always)]
+    fn trilinear<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, width: F<L>, wrap: [Wrap; 2]) -> Rgba<L> {
+        let level = self.levels.level_of(l, width);
+        let is_finest = !level.gt(0.0).any();
+        let finer = level.floor();
+        let fraction = level - finer;
+        let mut sum = [l.f(0.0); 4];
+        for (step, weight) in [(0.0, 1.0 - fraction), (1.0, fraction)] {
+            // The last level has no fraction: the place behind it in the tables is filled, and read with no weight.
+            if !weight.gt(0.0).any() {
+                continue;
+            }
+            let level = if is_finest { self.levels.finest(l) } else { self.levels.at(l, finer + step) };
+            for (channel, value) in sum.iter_mut().zip(self.bilinear::<L, T>(l, position, level, wrap)) {
+                *channel = value.mul_add(weight, *channel);
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn bilinear<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, level: Level<L>, wrap: [Wrap; 2]) -> Rgba<L> {
+        let (x, y) = (wrap[0].taps(position.x, level.width), wrap[1].taps(position.y, level.height));
+        let width = level.width.to_i32();
+        let adjacent = x.high.eq(x.low + 1).all();
+        let mut sum = [l.f(0.0); 4];
+        for (row, row_weight) in [(y.low, y.weights[0]), (y.high, y.weights[1])] {
+            let start = row * width + level.offset;
+            let [a, mut b] = T::pair(l, &self.words, &self.table, start + x.low);
+            // Only at the image's edge is the right neighbour not the next texel.
+            if !adjacent {
+                b = T::one(l, &self.words, &self.table, start + x.high);
+            }
+            let (weight_a, weight_b) = (x.weights[0] * row_weight, x.weights[1] * row_weight);
+            for (channel, value) in sum.iter_mut().enumerate() {
+                *value = a[channel].mul_add(weight_a, b[channel].mul_add(weight_b, *value));
+            }
+        }
+        sum
+    }
+}

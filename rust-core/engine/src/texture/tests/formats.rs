@@ -1,0 +1,266 @@
+//! What is written is read: each format, depth and channel count.
+
+use super::made::{Random, bytes, hdr, jpeg, png};
+use crate::colour::{ColourSpace, Gamut, Primaries};
+use crate::texture::{DomeFormat, Image, LatLong, TexelFormat, Texels, decode};
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, write::WritableImage};
+use exr::math::Vec2;
+use exr::meta::attribute::{Chromaticities, IntegerBounds};
+use exr::meta::header::{ImageAttributes, LayerAttributes};
+use half::f16;
+use std::io::Cursor;
+
+#[test]
+fn png_of_each_kind() {
+    for channels in 1..=4 {
+        let image = bytes(7, 5, channels, 1);
+        assert_eq!(decode(&png(&image)).unwrap(), image);
+        let mut random = Random(2);
+        let values = (0..7 * 5 * channels).map(|_| random.next() as u16).collect();
+        let image = Image { texels: Texels::Short(values), ..image };
+        assert_eq!(decode(&png(&image)).unwrap(), image);
+    }
+}
+
+#[test]
+fn png_with_a_palette_of_two_bits() {
+    // 4 × 1 texels, palette red, green, blue, white, half of it transparent; made with Pillow.
+    let image = decode(&PALETTE_PNG).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (4, 1, 3));
+    assert_eq!(image.texels, Texels::Byte(vec![255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255]));
+}
+
+#[test]
+fn jpeg_grey_and_colour() {
+    for channels in [1, 3] {
+        let values =
+            (0..32 * 16).flat_map(|i| [(i % 32) * 8, (i / 32) * 16, 128].into_iter().take(channels as usize)).map(|v| v as u8).collect();
+        let image = Image { width: 32, height: 16, channels, texels: Texels::Byte(values), primaries: None };
+        let found = decode(&jpeg(&image)).unwrap();
+        assert_eq!((found.width, found.height, found.channels), (32, 16, channels));
+        for i in 0..image.texels.len() {
+            assert!((found.texels.value(i) - image.texels.value(i)).abs() < 12.0 / 255.0, "value {i}");
+        }
+    }
+}
+
+#[test]
+fn jpeg_in_cmyk() {
+    // 8 × 8 texels of cyan 20 %, magenta 60 %, yellow 80 %, key 10 %, inverted as Adobe writes them.
+    let image = decode(&CMYK_JPEG).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (8, 8, 3));
+    for (channel, ink) in [0.2, 0.6, 0.8].into_iter().enumerate() {
+        let expected = (1.0 - ink) * 0.9;
+        assert!((image.texels.value(channel) - expected).abs() < 3.0 / 255.0, "{channel}: {}", image.texels.value(channel));
+    }
+}
+
+fn hdr_texels() -> Vec<[f32; 3]> {
+    let mut random = Random(3);
+    (0..16 * 9).map(|i| [random.unit(), random.unit() * 4.0, random.unit()].map(|x| x * 2_f32.powi(i % 20 - 10))).collect()
+}
+
+#[test]
+fn radiance_hdr_with_either_signature() {
+    let texels = hdr_texels();
+    let mut file = hdr(16, 9, &texels);
+    for signature in ["#?RADIANCE\n", "#?RGBE\n"] {
+        let header = file.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        file.splice(..header, signature.bytes());
+        let image = decode(&file).unwrap();
+        assert_eq!((image.width, image.height, image.channels), (16, 9, 3));
+        for (i, texel) in texels.iter().enumerate() {
+            let largest = texel.iter().fold(0.0_f32, |a, b| a.max(*b));
+            for (channel, value) in texel.iter().enumerate() {
+                assert!((image.rgba(i)[channel] - value).abs() <= largest / 128.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn radiance_xyze_and_primaries() {
+    let file = hdr(16, 9, &vec![[1.0; 3]; 16 * 9]);
+    let at = file.windows(4).position(|word| word == b"rgbe").unwrap();
+    let mut xyze = file.clone();
+    xyze[at..at + 4].copy_from_slice(b"xyze");
+    assert_eq!(decode(&xyze).unwrap().primaries, Some(Gamut::XyzE.primaries()));
+    let line = file.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+    let mut stated = file.clone();
+    stated.splice(line..line, b"PRIMARIES= 0.7 0.3 0.2 0.7 0.1 0.1 0.3333 0.3333\n".iter().copied());
+    let primaries = Primaries { red: [0.7, 0.3], green: [0.2, 0.7], blue: [0.1, 0.1], white: [0.3333, 0.3333] };
+    assert_eq!(decode(&stated).unwrap().primaries, Some(primaries));
+    assert_eq!(decode(&file).unwrap().primaries, None);
+}
+
+pub(super) struct Exr {
+    pub(super) size: Vec2<usize>,
+    pub(super) channels: Vec<(&'static str, FlatSamples)>,
+    pub(super) attributes: ImageAttributes,
+    pub(super) position: Vec2<i32>,
+    pub(super) encoding: Encoding,
+}
+
+impl Exr {
+    pub(super) fn new(width: usize, height: usize, channels: Vec<(&'static str, FlatSamples)>) -> Self {
+        let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(width, height)));
+        Self { size: Vec2(width, height), channels, attributes, position: Vec2(0, 0), encoding: Encoding::FAST_LOSSLESS }
+    }
+
+    pub(super) fn write(self) -> Vec<u8> {
+        let channels = self.channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect();
+        let attributes = LayerAttributes { layer_position: self.position, ..LayerAttributes::default() };
+        let layer = Layer::new(self.size, attributes, self.encoding, AnyChannels::sort(channels));
+        let mut image = exr::image::Image::from_layer(layer);
+        image.attributes = self.attributes;
+        let mut file = Cursor::new(Vec::new());
+        image.write().non_parallel().to_buffered(&mut file).unwrap();
+        file.into_inner()
+    }
+}
+
+pub(super) fn ramp(count: usize, offset: f32) -> FlatSamples {
+    FlatSamples::F32((0..count).map(|i| offset + i as f32 / 64.0).collect())
+}
+
+fn half_ramp(count: usize, offset: f32) -> FlatSamples {
+    FlatSamples::F16((0..count).map(|i| f16::from_f32(offset + i as f32 / 64.0)).collect())
+}
+
+#[test]
+fn exr_channels_by_name() {
+    let value = |offset: f32, i: usize| offset + i as f32 / 64.0;
+    type Named = Vec<(&'static str, f32)>;
+    let cases: [(Named, Vec<f32>); 7] = [
+        (vec![("R", 0.0), ("G", 1.0), ("B", 2.0)], vec![0.0, 1.0, 2.0]),
+        (vec![("R", 0.0), ("G", 1.0), ("B", 2.0), ("A", 3.0), ("Z", 9.0)], vec![0.0, 1.0, 2.0, 3.0]),
+        (vec![("Y", 5.0)], vec![5.0]),
+        (vec![("Y", 5.0), ("A", 1.0)], vec![5.0, 1.0]),
+        (vec![("beauty.R", 0.0), ("beauty.G", 1.0), ("beauty.B", 2.0), ("depth.Z", 7.0)], vec![0.0, 1.0, 2.0]),
+        (vec![("N.X", 0.0), ("N.Y", 1.0), ("N.Z", 2.0)], vec![0.0, 1.0, 2.0]),
+        (vec![("height", 4.0)], vec![4.0]),
+    ];
+    for (channels, expected) in cases {
+        for half in [false, true] {
+            let samples = |offset| if half { half_ramp(24, offset) } else { ramp(24, offset) };
+            let file = Exr::new(6, 4, channels.iter().map(|(name, offset)| (*name, samples(*offset))).collect()).write();
+            let image = decode(&file).unwrap();
+            assert_eq!((image.width, image.height, image.channels as usize), (6, 4, expected.len()), "{channels:?}");
+            assert_eq!(matches!(image.texels, Texels::Half(_)), half);
+            for i in 0..24 {
+                for (channel, offset) in expected.iter().enumerate() {
+                    assert_eq!(image.texels.value(i * expected.len() + channel), value(*offset, i), "{channels:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exr_in_each_encoding() {
+    use exr::compression::Compression;
+    use exr::image::Blocks;
+    use exr::meta::attribute::LineOrder;
+    for compression in [Compression::Uncompressed, Compression::RLE, Compression::ZIP1, Compression::ZIP16, Compression::PIZ] {
+        for blocks in [Blocks::ScanLines, Blocks::Tiles(Vec2(16, 8))] {
+            let mut exr =
+                Exr::new(40, 30, vec![("R", ramp(1200, 0.0)), ("G", half_ramp(1200, 1.0)), ("B", FlatSamples::U32(vec![7; 1200]))]);
+            exr.encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+            let image = decode(&exr.write()).unwrap();
+            assert_eq!(image.rgba(1199)[0], 1199.0 / 64.0, "{compression} {blocks:?}");
+            assert_eq!(image.rgba(64), [1.0, 2.0, 7.0, 1.0]);
+        }
+    }
+}
+
+#[test]
+fn exr_of_many_parts_gives_the_first() {
+    let part = |name: &str, size: usize, offset: f32| {
+        let channels = AnyChannels::sort([AnyChannel::new("Y", ramp(size * size, offset))].into_iter().collect());
+        Layer::new(Vec2(size, size), LayerAttributes::named(name), Encoding::FAST_LOSSLESS, channels)
+    };
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(4, 4)));
+    let layers = exr::image::Layers::from_iter([part("first", 4, 1.0), part("second", 4, 9.0)]);
+    let mut file = Cursor::new(Vec::new());
+    exr::image::Image::from_layers(attributes, layers).write().non_parallel().to_buffered(&mut file).unwrap();
+    let image = decode(file.get_ref()).unwrap();
+    assert_eq!((image.width, image.channels, image.texels.value(0), image.texels.value(15)), (4, 1, 1.0, 1.0 + 15.0 / 64.0));
+}
+
+#[test]
+fn exr_data_window_inside_and_outside_the_display_window() {
+    let mut exr = Exr::new(4, 4, vec![("Y", ramp(16, 1.0))]);
+    exr.attributes = ImageAttributes::new(IntegerBounds::new(Vec2(10, 20), Vec2(4, 4)));
+    exr.position = Vec2(12, 19);
+    let image = decode(&exr.write()).unwrap();
+    assert_eq!((image.width, image.height), (4, 4));
+    // The data begin two columns right of and one row above the display window.
+    assert_eq!(image.texels.value(0), 0.0);
+    assert_eq!(image.texels.value(2), 1.0 + 4.0 / 64.0);
+    assert_eq!(image.texels.value(3 * 4 + 2), 0.0);
+}
+
+#[test]
+fn exr_chromaticities_count_when_auto() {
+    let mut exr = Exr::new(
+        2,
+        2,
+        vec![("R", FlatSamples::F32(vec![0.5; 4])), ("G", FlatSamples::F32(vec![0.25; 4])), ("B", FlatSamples::F32(vec![0.125; 4]))],
+    );
+    let ap1 = Gamut::Ap1.primaries();
+    let xy = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
+    exr.attributes.chromaticities =
+        Some(Chromaticities { red: xy(ap1.red), green: xy(ap1.green), blue: xy(ap1.blue), white: xy(ap1.white) });
+    let image = decode(&exr.write()).unwrap();
+    let expected = crate::colour::apply(&Gamut::Ap1.to_rec709().unwrap(), [0.5, 0.25, 0.125]);
+    for (space, expected) in [(ColourSpace::Auto, expected), (ColourSpace::ACES_CG, expected), (ColourSpace::Raw, [0.5, 0.25, 0.125])] {
+        let texel = super::made::build(&image, space).texel(0, 1, 1).unwrap();
+        let lat_long = LatLong::from_image(&image, DomeFormat::LatLong, space, None).unwrap().rgb[0];
+        for channel in 0..3 {
+            assert!((f64::from(texel[channel]) - expected[channel]).abs() < 3e-4, "{space:?}");
+            assert!((f64::from(lat_long[channel]) - expected[channel]).abs() < 1e-6, "{space:?}");
+        }
+    }
+}
+
+#[test]
+fn auto_follows_depth_and_channels() {
+    let table = crate::colour::Transfer::Srgb.table();
+    let colour = bytes(1, 1, 3, 5);
+    let Texels::Byte(codes) = &colour.texels else { unreachable!() };
+    let map = super::made::build(&colour, ColourSpace::Auto);
+    assert_eq!(map.format(), TexelFormat::Byte);
+    assert_eq!(map.texel(0, 0, 0).unwrap()[0], table[usize::from(codes[0])]);
+    let grey = bytes(1, 1, 1, 5);
+    assert_eq!(super::made::build(&grey, ColourSpace::Auto).texel(0, 0, 0).unwrap()[1], f32::from(codes[0]) / 255.0);
+    let short = Image { texels: Texels::Short(vec![32_768; 3]), ..colour };
+    let map = super::made::build(&short, ColourSpace::Auto);
+    assert_eq!((map.format(), map.texel(0, 0, 0).unwrap()[2]), (TexelFormat::Float, 32_768.0 / 65_535.0));
+}
+
+/// Made with Pillow, 2 bits a texel.
+#[rustfmt::skip]
+const PALETTE_PNG: [u8; 91] = [
+    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 4, 0, 0, 0, 1, 2, 3, 0, 0,
+    0, 132, 82, 231, 94, 0, 0, 0, 12, 80, 76, 84, 69, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 251, 0, 96,
+    246, 0, 0, 0, 10, 73, 68, 65, 84, 120, 156, 99, 144, 6, 0, 0, 29, 0, 28, 142, 244, 245, 33, 0, 0, 0, 0, 73,
+    69, 78, 68, 174, 66, 96, 130,
+];
+
+/// Made with Pillow from (51, 153, 204, 26).
+#[rustfmt::skip]
+const CMYK_JPEG: [u8; 352] = [
+    255, 216, 255, 238, 0, 14, 65, 100, 111, 98, 101, 0, 100, 0, 0, 0, 0, 0, 255, 219, 0, 67, 0, 3, 2, 2, 3, 2,
+    2, 3, 3, 3, 3, 4, 3, 3, 4, 5, 8, 5, 5, 4, 4, 5, 10, 7, 7, 6, 8, 12, 10, 12, 12, 11, 10, 11,
+    11, 13, 14, 18, 16, 13, 14, 17, 14, 11, 11, 16, 22, 16, 17, 19, 20, 21, 21, 21, 12, 15, 23, 24, 22, 20, 24, 18,
+    20, 21, 20, 255, 192, 0, 20, 8, 0, 8, 0, 8, 4, 67, 17, 0, 77, 17, 0, 89, 17, 0, 75, 17, 0, 255, 196, 0,
+    31, 0, 0, 1, 5, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9,
+    10, 11, 255, 196, 0, 181, 16, 0, 2, 1, 3, 3, 2, 4, 3, 5, 5, 4, 4, 0, 0, 1, 125, 1, 2, 3, 0, 4,
+    17, 5, 18, 33, 49, 65, 6, 19, 81, 97, 7, 34, 113, 20, 50, 129, 145, 161, 8, 35, 66, 177, 193, 21, 82, 209, 240, 36,
+    51, 98, 114, 130, 9, 10, 22, 23, 24, 25, 26, 37, 38, 39, 40, 41, 42, 52, 53, 54, 55, 56, 57, 58, 67, 68, 69, 70,
+    71, 72, 73, 74, 83, 84, 85, 86, 87, 88, 89, 90, 99, 100, 101, 102, 103, 104, 105, 106, 115, 116, 117, 118, 119, 120, 121, 122,
+    131, 132, 133, 134, 135, 136, 137, 138, 146, 147, 148, 149, 150, 151, 152, 153, 154, 162, 163, 164, 165, 166, 167, 168, 169, 170, 178, 179,
+    180, 181, 182, 183, 184, 185, 186, 194, 195, 196, 197, 198, 199, 200, 201, 202, 210, 211, 212, 213, 214, 215, 216, 217, 218, 225, 226, 227,
+    228, 229, 230, 231, 232, 233, 234, 241, 242, 243, 244, 245, 246, 247, 248, 249, 250, 255, 218, 0, 14, 4, 67, 0, 77, 0, 89, 0,
+    75, 0, 0, 63, 0, 251, 46, 188, 234, 190, 50, 175, 208, 218, 255, 217,
+];

@@ -1,0 +1,33 @@
+//! `_gonio`: what the Python package `gonio` is made of.
+
+mod buffer;
+mod error;
+mod film;
+mod render;
+mod scene;
+mod usd;
+
+use pyo3::prelude::*;
+
+/// Physically exact rendering on SIMD lanes.
+#[pymodule]
+mod _gonio {
+    #[pymodule_export]
+    use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
+    #[pymodule_export]
+    use crate::film::{Film, Pass};
+    #[pymodule_export]
+    use crate::render::{Progress, Render, Tile};
+    #[pymodule_export]
+    use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::usd::{_main, load_usd};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("simd_level", gonio_simd::Execution::detect().name())
+    }
+}

@@ -1,1 +1,0 @@
-//! Elementary functions on lanes with stated error bounds.

@@ -1,0 +1,134 @@
+// Embree 3 behind a few plain functions: rays come as columns, one entry a ray.
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <xmmintrin.h>
+
+typedef struct {
+  const float *origin[3], *direction[3], *t_min, *t_max;
+} Rays;
+
+typedef struct {
+  RTCDevice device;
+  RTCScene scene;
+} Peer;
+
+static double seconds(clockid_t clock) {
+  struct timespec now;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// The processor time of this thread, which other processes do not lengthen.
+double peer_thread_seconds(void) { return seconds(CLOCK_THREAD_CPUTIME_ID); }
+
+void peer_flush_denormals(void) {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+}
+
+// Builds a scene of one mesh and returns the seconds of the commit.
+double peer_new(Peer *peer, const float *positions, size_t points, const uint32_t *triangles, size_t count, int robust, const char *config) {
+  peer->device = rtcNewDevice(config);
+  peer->scene = rtcNewScene(peer->device);
+  rtcSetSceneFlags(peer->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneBuildQuality(peer->scene, RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry mesh = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, points), positions, 12 * points);
+  memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, count), triangles, 12 * count);
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometry(peer->scene, mesh);
+  rtcReleaseGeometry(mesh);
+  double start = seconds(CLOCK_MONOTONIC);
+  rtcCommitScene(peer->scene);
+  return seconds(CLOCK_MONOTONIC) - start;
+}
+
+void peer_free(Peer *peer) {
+  rtcReleaseScene(peer->scene);
+  rtcReleaseDevice(peer->device);
+}
+
+void peer_version(char *out, size_t size) {
+  RTCDevice device = rtcNewDevice("threads=1");
+  snprintf(out, size, "%ld.%ld.%ld", (long)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+           (long)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
+           (long)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
+  rtcReleaseDevice(device);
+}
+
+static void fill(struct RTCRay *ray, const Rays *rays, size_t i) {
+  ray->org_x = rays->origin[0][i], ray->org_y = rays->origin[1][i], ray->org_z = rays->origin[2][i];
+  ray->dir_x = rays->direction[0][i], ray->dir_y = rays->direction[1][i], ray->dir_z = rays->direction[2][i];
+  ray->tnear = rays->t_min[i], ray->tfar = rays->t_max[i];
+  ray->time = 0, ray->mask = ~0u, ray->id = 0, ray->flags = 0;
+}
+
+static void start(struct RTCIntersectContext *context, int coherent) {
+  rtcInitIntersectContext(context);
+  context->flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+}
+
+void peer_first_hit(const Peer *peer, const Rays *rays, size_t n, int coherent, float *t, uint32_t *primitive) {
+  struct RTCIntersectContext context;
+  start(&context, coherent);
+  for (size_t i = 0; i < n; i++) {
+    struct RTCRayHit hit;
+    fill(&hit.ray, rays, i);
+    hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(peer->scene, &context, &hit);
+    t[i] = hit.ray.tfar, primitive[i] = hit.hit.primID;
+  }
+}
+
+void peer_occluded(const Peer *peer, const Rays *rays, size_t n, int coherent, uint8_t *out) {
+  struct RTCIntersectContext context;
+  start(&context, coherent);
+  for (size_t i = 0; i < n; i++) {
+    struct RTCRay ray;
+    fill(&ray, rays, i);
+    rtcOccluded1(peer->scene, &context, &ray);
+    out[i] = ray.tfar < 0;
+  }
+}
+
+static void fill16(struct RTCRay16 *ray, const Rays *rays, size_t i) {
+  memcpy(ray->org_x, rays->origin[0] + i, 64), memcpy(ray->org_y, rays->origin[1] + i, 64), memcpy(ray->org_z, rays->origin[2] + i, 64);
+  memcpy(ray->dir_x, rays->direction[0] + i, 64), memcpy(ray->dir_y, rays->direction[1] + i, 64);
+  memcpy(ray->dir_z, rays->direction[2] + i, 64);
+  memcpy(ray->tnear, rays->t_min + i, 64), memcpy(ray->tfar, rays->t_max + i, 64);
+  memset(ray->time, 0, 64), memset(ray->mask, 0xff, 64), memset(ray->id, 0, 64), memset(ray->flags, 0, 64);
+}
+
+// n is a multiple of 16.
+void peer_first_hit16(const Peer *peer, const Rays *rays, size_t n, int coherent, float *t, uint32_t *primitive) {
+  struct RTCIntersectContext context;
+  start(&context, coherent);
+  int valid[16] __attribute__((aligned(64)));
+  memset(valid, 0xff, sizeof valid);
+  for (size_t i = 0; i < n; i += 16) {
+    struct RTCRayHit16 hit;
+    fill16(&hit.ray, rays, i);
+    memset(hit.hit.geomID, 0xff, 64), memset(hit.hit.primID, 0xff, 64), memset(hit.hit.instID[0], 0xff, 64);
+    rtcIntersect16(valid, peer->scene, &context, &hit);
+    memcpy(t + i, hit.ray.tfar, 64), memcpy(primitive + i, hit.hit.primID, 64);
+  }
+}
+
+// n is a multiple of 16.
+void peer_occluded16(const Peer *peer, const Rays *rays, size_t n, int coherent, uint8_t *out) {
+  struct RTCIntersectContext context;
+  start(&context, coherent);
+  int valid[16] __attribute__((aligned(64)));
+  memset(valid, 0xff, sizeof valid);
+  for (size_t i = 0; i < n; i += 16) {
+    struct RTCRay16 ray;
+    fill16(&ray, rays, i);
+    rtcOccluded16(valid, peer->scene, &context, &ray);
+    for (int lane = 0; lane < 16; lane++) out[i + lane] = ray.tfar[lane] < 0;
+  }
+}

@@ -1,0 +1,110 @@
+//! Embree through the C shim.
+
+use gonio::accel::RayBatch;
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+
+#[repr(C)]
+struct Columns {
+    origin: [*const f32; 3],
+    direction: [*const f32; 3],
+    t_min: *const f32,
+    t_max: *const f32,
+}
+
+impl Columns {
+    fn new(rays: &RayBatch) -> Self {
+        Columns {
+            origin: rays.origin.map(<[f32]>::as_ptr),
+            direction: rays.direction.map(<[f32]>::as_ptr),
+            t_min: rays.t_min.as_ptr(),
+            t_max: rays.t_max.as_ptr(),
+        }
+    }
+}
+
+#[repr(C)]
+struct Peer {
+    device: *mut c_void,
+    scene: *mut c_void,
+}
+
+unsafe extern "C" {
+    fn peer_flush_denormals();
+    fn peer_thread_seconds() -> f64;
+    fn peer_new(peer: *mut Peer, positions: *const f32, points: usize, triangles: *const u32, count: usize, robust: c_int, config: *const c_char) -> f64;
+    fn peer_free(peer: *mut Peer);
+    fn peer_version(out: *mut c_char, size: usize);
+    fn peer_first_hit(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
+    fn peer_first_hit16(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
+    fn peer_occluded(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, out: *mut u8);
+    fn peer_occluded16(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, out: *mut u8);
+}
+
+/// Denormal numbers count as zero in this thread from now on, as Embree advises.
+pub fn flush_denormals() {
+    // SAFETY: sets two bits of the thread's floating-point control register.
+    unsafe { peer_flush_denormals() }
+}
+
+/// The processor time of this thread in seconds, which other processes do not lengthen.
+pub fn thread_seconds() -> f64 {
+    // SAFETY: reads a clock.
+    unsafe { peer_thread_seconds() }
+}
+
+/// Embree's version.
+pub fn version() -> String {
+    let mut text = [0 as c_char; 32];
+    // SAFETY: the shim writes a terminated string of at most the given size.
+    unsafe {
+        peer_version(text.as_mut_ptr(), text.len());
+        CStr::from_ptr(text.as_ptr()).to_string_lossy().into_owned()
+    }
+}
+
+/// One mesh in Embree, medium quality.
+pub struct EmbreeScene {
+    peer: Peer,
+    /// Seconds of the build by the clock.
+    pub build_seconds: f64,
+    /// Processor seconds of the calling thread during the build.
+    pub build_processor_seconds: f64,
+}
+
+impl EmbreeScene {
+    pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], robust: bool, threads: usize) -> Self {
+        let mut peer = Peer { device: std::ptr::null_mut(), scene: std::ptr::null_mut() };
+        let config = CString::new(format!("threads={threads}")).expect("no zero byte");
+        let processor = thread_seconds();
+        // SAFETY: the shim copies the two arrays, whose lengths it is told.
+        let build_seconds = unsafe {
+            peer_new(&mut peer, positions.as_ptr().cast(), positions.len(), triangles.as_ptr().cast(), triangles.len(), robust.into(), config.as_ptr())
+        };
+        EmbreeScene { peer, build_seconds, build_processor_seconds: thread_seconds() - processor }
+    }
+
+    /// Nearest hits; `packets` uses `rtcIntersect16`.
+    pub fn first_hit(&self, rays: &RayBatch, packets: bool, coherent: bool, t: &mut [f32], primitive: &mut [u32]) {
+        assert!(rays.len().is_multiple_of(16) && t.len() == rays.len() && primitive.len() == rays.len());
+        let columns = Columns::new(rays);
+        let run = if packets { peer_first_hit16 } else { peer_first_hit };
+        // SAFETY: all columns have the length of the batch, a multiple of 16.
+        unsafe { run(&self.peer, &columns, rays.len(), coherent.into(), t.as_mut_ptr(), primitive.as_mut_ptr()) }
+    }
+
+    /// Any hits; `packets` uses `rtcOccluded16`.
+    pub fn occluded(&self, rays: &RayBatch, packets: bool, coherent: bool, out: &mut [u8]) {
+        assert!(rays.len().is_multiple_of(16) && out.len() == rays.len());
+        let columns = Columns::new(rays);
+        let run = if packets { peer_occluded16 } else { peer_occluded };
+        // SAFETY: all columns have the length of the batch, a multiple of 16.
+        unsafe { run(&self.peer, &columns, rays.len(), coherent.into(), out.as_mut_ptr()) }
+    }
+}
+
+impl Drop for EmbreeScene {
+    fn drop(&mut self) {
+        // SAFETY: both handles are alive until here.
+        unsafe { peer_free(&mut self.peer) }
+    }
+}

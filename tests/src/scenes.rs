@@ -1,0 +1,63 @@
+//! Small scenes built by hand.
+
+use gonio::scene::{
+    Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Shaping, Transform, Visibility,
+};
+use std::sync::Arc;
+
+/// Adds a parallelogram from a corner and two edges, seen counter-clockwise from `u × v`.
+pub fn add_quad(scene: &mut Scene, corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: Material) {
+    let add = |a: [f32; 3], b: [f32; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+    let points = vec![corner, add(corner, u), add(add(corner, u), v), add(corner, v)];
+    add_triangles(scene, &points, &[[0, 1, 2], [0, 2, 3]], material);
+}
+
+/// Adds a mesh with one material at the world's origin.
+pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]], material: Material) {
+    let mesh = scene.add_mesh(Mesh { points: Arc::from(points), triangles: Arc::from(triangles), ..Mesh::default() });
+    let material = scene.add_material(material);
+    scene.instances.push(Instances {
+        origin: Origin::new("test"),
+        mesh,
+        materials: vec![material],
+        transforms: vec![Transform::IDENTITY],
+        primvars: Vec::new(),
+        visibility: Visibility::default(),
+    });
+}
+
+/// A light of a shape with radiance 1 that the camera does not see.
+pub fn light(shape: LightShape, transform: Transform, radiance: [f32; 3]) -> Light {
+    Light {
+        origin: Origin::new("light"),
+        shape,
+        emission: Emission { radiance, normalized: false, metres_per_unit: 1.0 },
+        shaping: Shaping::default(),
+        texture: None,
+        transform,
+        visibility: Visibility { camera: false, ..Visibility::default() },
+        casts_shadow: true,
+    }
+}
+
+/// A camera at `eye` looking down along −y, up along −z, orthographic with the given width and height in metres.
+pub fn camera_from_above(eye: [f64; 3], size: f64) -> Camera {
+    let transform = Transform { columns: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], eye] };
+    let mut camera = Camera::perspective(Origin::new("camera"), transform, 40.0, 1.0);
+    camera.projection = gonio::scene::Projection::Orthographic;
+    camera.aperture = [size, size];
+    camera
+}
+
+/// A floor of 20 × 20 metres at y = 0.
+pub fn floor(reflectance: f32) -> Scene {
+    let mut scene = Scene::default();
+    let material = Material::diffuse(Origin::new("floor"), [reflectance; 3]);
+    add_quad(&mut scene, [-10.0, 0.0, 10.0], [20.0, 0.0, 0.0], [0.0, 0.0, -20.0], material);
+    scene
+}
+
+/// Turns the local −z axis to point along −y: lights in the ceiling.
+pub fn facing_down(position: [f64; 3]) -> Transform {
+    Transform { columns: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], position] }
+}

@@ -1,0 +1,111 @@
+"""UsdGeom cameras: units, lens, exposure, choice, and the automatic camera."""
+
+import math
+
+import pytest
+
+gonio = pytest.importorskip("gonio")
+pytest.importorskip("pxr")
+
+
+def load(tmp_path, text, metres=0.01, up="Y", **options):
+    path = tmp_path / "stage.usda"
+    path.write_text(f'#usda 1.0\n(\n    metersPerUnit = {metres}\n    upAxis = "{up}"\n)\n{text}')
+    return gonio.load_usd(str(path), **options).to_dict()
+
+
+def camera(tmp_path, body, **options):
+    scene = load(tmp_path, f'def Camera "C"\n{{\n{body}\n}}\n', **options)
+    return scene["cameras"][scene["settings"]["camera"]]
+
+
+def slope(camera):
+    focal_length = camera["projection"]["Perspective"]["focal_length"]
+    return [a / focal_length for a in camera["aperture"]]
+
+
+@pytest.mark.parametrize("metres", [1, 0.01])
+def test_field_of_view_does_not_depend_on_the_unit(tmp_path, metres):
+    # The aperture may be conformed to the picture in one direction; the default policy never shrinks it.
+    width, height = slope(camera(tmp_path, "", metres=metres))
+    assert width == pytest.approx(20.955 / 50) or height == pytest.approx(15.2908 / 50)
+    assert width >= 20.955 / 50 - 1e-6
+    assert height >= 15.2908 / 50 - 1e-6
+
+
+def test_lens(tmp_path):
+    c = camera(tmp_path, "float focalLength = 50\nfloat fStop = 2\nfloat focusDistance = 300", metres=0.01)
+    assert c["lens_radius"] == pytest.approx(0.0125)
+    assert c["focus_distance"] == pytest.approx(3)
+    c = camera(tmp_path, "float focalLength = 0.5\nfloat fStop = 2\nfloat focusDistance = 3", metres=1)
+    assert c["lens_radius"] == pytest.approx(0.0125)
+    assert camera(tmp_path, "float fStop = 2")["lens_radius"] == 0
+    assert camera(tmp_path, "float focusDistance = 300")["lens_radius"] == 0
+
+
+def test_clipping_range_in_metres(tmp_path):
+    assert camera(tmp_path, "float2 clippingRange = (10, 1000)")["clipping"] == pytest.approx([0.1, 10])
+
+
+def test_orthographic_apertures_are_metres(tmp_path):
+    body = 'token projection = "orthographic"\nfloat horizontalAperture = 200\nfloat verticalAperture = 112.5'
+    c = camera(tmp_path, body, metres=0.01)
+    assert c["projection"] == "Orthographic"
+    assert c["aperture"] == pytest.approx([0.2, 0.1125], rel=1e-3)
+
+
+def test_exposure(tmp_path):
+    from pxr import UsdGeom
+
+    assert camera(tmp_path, "")["exposure"] == 1
+    assert camera(tmp_path, "float exposure = 3")["exposure"] == pytest.approx(8)
+    if hasattr(UsdGeom.Camera, "ComputeLinearExposureScale"):
+        body = "float exposure:time = 0.01\nfloat exposure:iso = 400\nfloat exposure:fStop = 4"
+        assert camera(tmp_path, body)["exposure"] == pytest.approx(0.01 * 4 / 16)
+
+
+THREE = 'def Xform "A"\n{\n    def Camera "left" {}\n    def Camera "main_cam" {}\n}\ndef Camera "right" {}\n'
+
+
+@pytest.mark.parametrize(("wanted", "expected"), [(None, "/A/main_cam"), ("left", "/A/left"), ("/right", "/right")])
+def test_choice(tmp_path, wanted, expected):
+    options = {} if wanted is None else {"camera": wanted}
+    scene = load(tmp_path, THREE, **options)
+    assert scene["cameras"][scene["settings"]["camera"]]["origin"]["name"] == expected
+
+
+def test_unknown_cameras_are_an_error(tmp_path):
+    with pytest.raises(Exception, match="nope.*left"):
+        load(tmp_path, THREE, camera="nope")
+
+
+MESH = """
+def Mesh "Mesh"
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-100, 0, 0), (300, 0, 50), (300, 200, 0), (-100, 200, 50)]
+    uniform token subdivisionScheme = "none"
+}
+"""
+
+
+@pytest.mark.parametrize("up", ["Y", "Z"])
+def test_stages_without_camera_are_framed(tmp_path, up):
+    scene = load(tmp_path, MESH, up=up)
+    c = scene["cameras"][scene["settings"]["camera"]]
+    columns = c["transform"]["columns"]
+    assert columns[1][1 if up == "Y" else 2] > 0.5
+    half = [0.5 * s for s in slope(c)]
+    for point in [(-1, 0, 0), (3, 0, 0.5), (3, 2, 0), (-1, 2, 0.5)]:
+        offset = [p - e for p, e in zip(point, columns[3])]
+        x, y, z = (sum(a * b for a, b in zip(offset, axis)) for axis in columns[:3])
+        assert z < 0
+        assert abs(x / -z) <= half[0] and abs(y / -z) <= half[1]
+    assert math.isfinite(columns[3][0])
+
+
+def test_stages_without_light_get_a_dome(tmp_path):
+    scene = load(tmp_path, MESH)
+    assert [list(light["shape"])[0] for light in scene["lights"]] == ["Dome"]
+    assert scene["lights"][0]["emission"]["radiance"] == [1, 1, 1]

@@ -1,0 +1,192 @@
+//! What the command line takes.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Physically exact rendering of USD stages, with answers in cd/m² and lux.
+#[derive(Debug, Parser)]
+#[command(name = "gonio", version, about, propagate_version = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Render a USD stage to EXR, PNG or JPEG.
+    Render(Box<RenderOptions>),
+    /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
+    Info(Box<InfoOptions>),
+    /// Compare two EXR files: relative mean squared error and block differences.
+    Compare(CompareOptions),
+}
+
+/// What of the stage is read.
+#[derive(Args, Clone, Debug)]
+pub(super) struct StageArguments {
+    /// The stage: a .usd, .usda, .usdc or .usdz file.
+    pub(super) stage: PathBuf,
+    /// Purposes shown beside 'default': render, proxy, guide, separated by commas.
+    #[arg(long, value_name = "PURPOSES", value_delimiter = ',', default_value = "default,render")]
+    pub(super) purposes: Vec<String>,
+    /// How finely subdivision surfaces are refined.
+    #[arg(long, short = 'C', value_enum, default_value_t = ComplexityArgument::High)]
+    pub(super) complexity: ComplexityArgument,
+    /// Read only these prims (and what they need), separated by commas.
+    #[arg(long, value_name = "PRIMPATHS", value_delimiter = ',')]
+    pub(super) mask: Vec<String>,
+    /// Choose a variant: '/Prim{set=variant}'; may be given several times.
+    #[arg(long, value_name = "SELECTION")]
+    pub(super) variant: Vec<String>,
+    /// A layer put on top of the stage.
+    #[arg(long = "session-layer", alias = "sessionLayer", value_name = "LAYER")]
+    pub(super) session_layer: Option<PathBuf>,
+    /// The RenderSettings prim to follow.
+    #[arg(long, short = 's', alias = "renderSettingsPrimPath", value_name = "PRIMPATH")]
+    pub(super) settings: Option<String>,
+    /// Treat every warning as an error.
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// List all warnings and notes, and timings.
+    #[arg(long, short = 'v')]
+    pub(super) verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum ComplexityArgument {
+    /// No refinement.
+    Low,
+    /// Once.
+    Medium,
+    /// Twice.
+    High,
+    /// Three times.
+    Veryhigh,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct RenderOptions {
+    #[command(flatten)]
+    pub(super) stage: StageArguments,
+    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Camera by name or path; without it the stage's own choice.
+    #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
+    pub(super) camera: Option<String>,
+    /// Frames: '1', '1:10', '1:10x2', separated by commas.
+    #[arg(long, short = 'f', alias = "frame", value_name = "FRAMES")]
+    pub(super) frames: Option<String>,
+    /// Width and height in pixels.
+    #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"])]
+    pub(super) res: Option<Vec<u32>>,
+    /// Width in pixels; the height follows the camera's shape.
+    #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", conflicts_with = "res")]
+    pub(super) image_width: Option<u32>,
+    /// Factor on the resolution.
+    #[arg(long = "res-scale", value_name = "FACTOR", default_value_t = 1.0)]
+    pub(super) res_scale: f64,
+    /// Samples a pixel.
+    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(super) spp: Option<u32>,
+    /// Bounces after the first surface.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(super) max_bounces: Option<u32>,
+    /// The light transport: full global illumination, or direct light alone.
+    #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
+    pub(super) integrator: IntegratorArgument,
+    /// The pixel filter.
+    #[arg(long, value_enum, default_value_t = FilterArgument::BlackmanHarris)]
+    pub(super) filter: FilterArgument,
+    /// Width of the pixel filter in pixels.
+    #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
+    pub(super) filter_width: f32,
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance.
+    #[arg(long, value_name = "PASSES", value_delimiter = ',')]
+    pub(super) aov: Vec<String>,
+    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(super) exposure: f32,
+    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
+    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
+    pub(super) tonemap: String,
+    /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
+    #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true)]
+    pub(super) crop: Option<Vec<String>>,
+    /// Stop after this many seconds, with whole passes over the picture.
+    #[arg(long = "time-limit", alias = "timelimit", value_name = "SECONDS", default_value_t = 0.0)]
+    pub(super) time_limit: f64,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub(super) seed: u32,
+    /// Worker threads; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    pub(super) threads: u32,
+    /// Limit of a direct sample's components in nits; 0 is off.
+    #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
+    pub(super) clamp_direct: f32,
+    /// Limit of an indirect sample's components in nits; 0 is off.
+    #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
+    pub(super) clamp_indirect: f32,
+    /// Half floats for the passes of EXR files that are not absolute.
+    #[arg(long)]
+    pub(super) half: bool,
+    /// No neutral dome for stages without lights.
+    #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
+    pub(super) disable_camera_light: bool,
+    /// List the stage's cameras and end.
+    #[arg(long = "list-cameras")]
+    pub(super) list_cameras: bool,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(super) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum IntegratorArgument {
+    /// Path tracing.
+    Path,
+    /// The same, stopped after direct light.
+    Direct,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum FilterArgument {
+    /// Constant.
+    Box,
+    /// Linear.
+    Tent,
+    /// Gaussian.
+    Gaussian,
+    /// Blackman–Harris.
+    BlackmanHarris,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct InfoOptions {
+    #[command(flatten)]
+    pub(super) stage: StageArguments,
+    /// The frame to look at.
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    pub(super) frame: Option<f64>,
+    /// For machines.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct CompareOptions {
+    /// The image to judge.
+    pub(super) image: PathBuf,
+    /// The reference.
+    pub(super) reference: PathBuf,
+    /// Fail with status 1 if the 95th percentile of any channel's block differences is above this (0.03 is 3 %).
+    #[arg(long, value_name = "DIFFERENCE")]
+    pub(super) max: Option<f64>,
+    /// Write a picture: red where the image is brighter, blue where it is darker, full at 10 %.
+    #[arg(long, value_name = "FILE")]
+    pub(super) difference: Option<PathBuf>,
+    /// Compare only these channels, separated by commas.
+    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    pub(super) channels: Vec<String>,
+}

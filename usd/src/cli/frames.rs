@@ -1,0 +1,53 @@
+//! Frame specifications as usdrecord has them: `101`, `101:110`, `101:110x2`, separated by commas.
+
+use gonio::{Error, Result};
+
+/// Most frames of one run.
+const MOST_FRAMES: usize = 1_000_000;
+
+/// The frames in order.
+pub(super) fn parse(text: &str) -> Result<Vec<f64>> {
+    let mut frames = Vec::new();
+    for part in text.split(',') {
+        append(part.trim(), &mut frames).ok_or_else(|| Error::Setting {
+            name: "frames".into(),
+            problem: format!("'{part}' was found, expected a frame (12), a range (1:10) or a range with a step (1:10x2)"),
+        })?;
+    }
+    Ok(frames)
+}
+
+fn append(part: &str, frames: &mut Vec<f64>) -> Option<()> {
+    let number = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
+    let Some((start, rest)) = part.split_once(':') else {
+        frames.push(number(part)?);
+        return Some(());
+    };
+    let (end, step) = match rest.split_once('x') {
+        Some((end, step)) => (number(end)?, number(step)?),
+        None => (number(rest)?, 1.0),
+    };
+    let start = number(start)?;
+    let step = if end < start { -step.abs() } else { step.abs() };
+    let count = if step == 0.0 { return None } else { ((end - start) / step + 1e-9).floor() };
+    if !(0.0..MOST_FRAMES as f64).contains(&count) {
+        return None;
+    }
+    frames.extend((0..=count as usize).map(|i| start + step * i as f64));
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse;
+
+    #[test]
+    fn ranges_and_steps() {
+        assert_eq!(parse("1:10x3,20").expect("valid"), [1.0, 4.0, 7.0, 10.0, 20.0]);
+        assert_eq!(parse("3:1").expect("valid"), [3.0, 2.0, 1.0]);
+        assert_eq!(parse("-2:0").expect("valid"), [-2.0, -1.0, 0.0]);
+        for bad in ["", "a", "1:", "1:2x0", "1:1e30", "nan"] {
+            assert!(parse(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The `gonio` command.
+
+mod arguments;
+mod compare;
+mod file_name;
+mod frames;
+mod info;
+mod output;
+mod progress;
+mod render;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use gonio::{Diagnostic, Error, Severity};
+use pyo3::Python;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by the first Ctrl-C.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Exit status of a run that was interrupted.
+const INTERRUPTED_STATUS: i32 = 130;
+
+/// Runs the command with its arguments, the program's name first; gives the exit status.
+pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
+    let parsed = match Arguments::try_parse_from(arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            // Help and version are errors of status 0 to clap; if printing fails there is nobody to tell.
+            let _ = error.print();
+            return error.exit_code();
+        }
+    };
+    INTERRUPTED.store(false, Ordering::Relaxed);
+    interrupt::install();
+    let result = match parsed.command {
+        Command::Render(options) => render::render(py, &options, &INTERRUPTED),
+        Command::Info(options) => info::info(py, &options, &INTERRUPTED),
+        Command::Compare(options) => compare::compare(&options),
+    };
+    match result {
+        Ok(status) => status,
+        Err(Error::Cancelled) => {
+            say("interrupted");
+            INTERRUPTED_STATUS
+        }
+        Err(error) => {
+            say(&format!("error: {error}"));
+            1
+        }
+    }
+}
+
+/// A line on standard error.
+fn say(line: &str) {
+    use std::io::Write;
+    // A closed standard error leaves nobody to tell.
+    let _ = writeln!(std::io::stderr(), "gonio: {line}");
+}
+
+/// A line on standard output.
+fn print(line: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// Lists what is not as asked: warnings line by line, at most `most`, and how many more there are.
+fn list(diagnostics: &[Diagnostic], most: usize) {
+    let warnings: Vec<_> = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).collect();
+    for warning in warnings.iter().take(most) {
+        say(&format!("warning: {warning}"));
+    }
+    if warnings.len() > most {
+        say(&format!("{} more warnings; --verbose lists them all", warnings.len() - most));
+    }
+}
+
+mod interrupt {
+    //! Ctrl-C through Python's own machinery, so that nothing unsafe is needed.
+
+    use super::INTERRUPTED;
+    use pyo3::{prelude::*, types::PyCFunction};
+    use std::sync::atomic::Ordering;
+
+    /// Makes the first Ctrl-C end the render in order, and later ones as well; outside the main thread nothing is installed.
+    pub(super) fn install() {
+        Python::attach(|py| {
+            let installed = || -> PyResult<()> {
+                let handler = PyCFunction::new_closure(py, None, None, |_, _| INTERRUPTED.store(true, Ordering::Relaxed))?;
+                let signal = py.import("signal")?;
+                signal.call_method1("signal", (signal.getattr("SIGINT")?, handler))?;
+                Ok(())
+            };
+            // Python installs handlers in its main thread alone; elsewhere Ctrl-C belongs to the host.
+            let _ = installed();
+        });
+    }
+}

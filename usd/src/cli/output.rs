@@ -1,0 +1,60 @@
+//! Writing a picture under the names asked for.
+
+use super::arguments::RenderOptions;
+use gonio::{
+    Error, Result,
+    film::Image,
+    output::{ExrOptions, ToneMap, write_exr, write_picture},
+};
+use gonio_simd::Execution;
+use std::path::Path;
+
+/// What file names and options say about writing.
+#[derive(Clone, Debug)]
+pub(super) struct Writer {
+    tone_map: ToneMap,
+    stops: f32,
+    half: bool,
+    execution: Execution,
+}
+
+impl Writer {
+    /// Checks the options and the names' endings before anything is rendered.
+    pub(super) fn new(options: &RenderOptions, execution: Execution) -> Result<Self> {
+        for path in &options.output {
+            let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+            if !matches!(ending.as_str(), "exr" | "png" | "jpg" | "jpeg") {
+                return Err(Error::Setting {
+                    name: "output".into(),
+                    problem: format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display()),
+                });
+            }
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            if let Some(folder) = folder {
+                std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
+            }
+        }
+        Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, execution })
+    }
+
+    /// Writes one file.
+    pub(super) fn write(&self, path: &Path, image: &Image, exposure: f32, attributes: &[(String, String)]) -> Result<()> {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
+            write_exr(path, image, &ExrOptions { half: self.half, exposure, attributes: attributes.to_vec() })
+        } else {
+            write_picture(path, image, self.tone_map, self.stops, self.execution)
+        }
+    }
+}
+
+fn tone_map(text: &str) -> Result<ToneMap> {
+    let unknown = || Error::Setting { name: "tonemap".into(), problem: format!("'{text}' was found, expected photographic, none or ev100=NUMBER") };
+    match text {
+        "photographic" => Ok(ToneMap::Photographic),
+        "none" => Ok(ToneMap::None),
+        _ => {
+            let ev = text.strip_prefix("ev100=").and_then(|ev| ev.parse::<f32>().ok()).filter(|ev| ev.is_finite());
+            ev.map(ToneMap::Ev100).ok_or_else(unknown)
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! `gonio render`.
+
+use super::{
+    arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
+    file_name, frames, list,
+    output::Writer,
+    print,
+    progress::{Reporter, clock},
+    say,
+};
+use crate::{
+    Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
+    framing::{ConformPolicy, aperture_aspect, auto_camera, neutral_dome},
+    settings::{aov_by_name, conform_cameras},
+};
+use gonio::{
+    Error, Result,
+    compile::{Bounds, CompiledScene, compile},
+    render::Render,
+    scene::{Aov, Crop, Filter, Integrator, Scene},
+};
+use gonio_simd::Execution;
+use pyo3::prelude::*;
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+/// Warnings listed without `--verbose`.
+const MOST_WARNINGS: usize = 20;
+/// Width of pictures where nothing says otherwise, as usdrecord has it.
+const DEFAULT_WIDTH: u32 = 960;
+
+/// Renders all frames asked for.
+pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    let mut stage_options = stage_options(&options.stage)?;
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    if options.list_cameras {
+        for camera in &stage.info().cameras {
+            print(&camera.path);
+        }
+        return Ok(0);
+    }
+    if options.output.is_empty() {
+        return Err(Error::Setting { name: "output".into(), problem: "no file was given; say -o picture.exr".into() });
+    }
+    let execution = Execution::detect();
+    let writer = Writer::new(options, execution)?;
+    let frames = frames_of(options)?;
+    let mut previous: Option<Arc<CompiledScene>> = None;
+    for frame in &frames {
+        stage_options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
+        let start = Instant::now();
+        let loaded = stage.load(py, &stage_options, interrupted)?;
+        let loading = start.elapsed();
+        let outputs: Vec<PathBuf> = options.output.iter().map(|path| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f))).collect();
+        let job = Job { options, writer: &writer, execution, outputs, loading, interrupted };
+        let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
+        previous = Some(compiled);
+    }
+    Ok(0)
+}
+
+fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
+    let Some(text) = &options.frames else { return Ok(vec![None]) };
+    let frames = frames::parse(text)?;
+    if let (true, Some(path)) = (frames.len() > 1, options.output.iter().find(|path| !file_name::has_frame(path))) {
+        return Err(Error::Setting {
+            name: "output".into(),
+            problem: format!("{}: several frames need a place for the frame number, such as '####' or '$F4'", path.display()),
+        });
+    }
+    Ok(frames.into_iter().map(Some).collect())
+}
+
+/// What of the stage is read, from the command line.
+pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> {
+    let setting = |name: &str, problem: String| Error::Setting { name: name.into(), problem };
+    let purpose = |token: &String| {
+        let problem = || setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
+        Purpose::from_token(token).ok_or_else(problem)
+    };
+    let variant = |text: &String| {
+        let problem = || setting("variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
+        VariantSelection::parse(text).ok_or_else(problem)
+    };
+    Ok(StageOptions {
+        purposes: arguments.purposes.iter().map(purpose).collect::<Result<_>>()?,
+        complexity: match arguments.complexity {
+            ComplexityArgument::Low => Complexity::Low,
+            ComplexityArgument::Medium => Complexity::Medium,
+            ComplexityArgument::High => Complexity::High,
+            ComplexityArgument::Veryhigh => Complexity::VeryHigh,
+        },
+        population_mask: arguments.mask.clone(),
+        variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,
+        session_layer: arguments.session_layer.clone(),
+        render_settings: arguments.settings.clone(),
+        strict: arguments.strict,
+        ..StageOptions::default()
+    })
+}
+
+/// One picture to make.
+struct Job<'a> {
+    options: &'a RenderOptions,
+    writer: &'a Writer,
+    execution: Execution,
+    outputs: Vec<PathBuf>,
+    loading: Duration,
+    interrupted: &'static AtomicBool,
+}
+
+impl Job<'_> {
+    /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
+    fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
+        if !self.options.quiet {
+            list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        }
+        self.apply_settings(&mut loaded)?;
+        let mut compiled = compile(&loaded.scene, previous, self.interrupted)?;
+        self.complain(&compiled)?;
+        self.frame_camera(&mut loaded, &mut compiled);
+        let policy = loaded.settings.as_ref().map_or(ConformPolicy::default(), |settings| settings.conform);
+        conform_cameras(&mut loaded.scene, policy);
+        compiled.cameras.clone_from(&loaded.scene.cameras);
+        self.tell_sizes(&compiled);
+        let compiled = Arc::new(compiled);
+        self.trace(&loaded.scene, &compiled)?;
+        Ok(compiled)
+    }
+
+    /// Command line over render settings over defaults.
+    fn apply_settings(&self, loaded: &mut Loaded) -> Result<()> {
+        let options = self.options;
+        let of_settings = loaded.settings.as_ref().and_then(|settings| settings.camera.clone());
+        let primary = Python::attach(camera::primary_camera_name);
+        let chosen = camera::choose(&loaded.scene.cameras, options.camera.as_deref(), of_settings.as_deref(), &primary)?;
+        loaded.scene.settings.camera = chosen.unwrap_or(0);
+        let has_settings = loaded.settings.is_some();
+        let scene = &mut loaded.scene;
+        self.set_resolution(scene, has_settings)?;
+        let settings = &mut scene.settings;
+        settings.samples = options.spp.unwrap_or(settings.samples);
+        settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
+        settings.integrator = match options.integrator {
+            IntegratorArgument::Path => Integrator::Path,
+            IntegratorArgument::Direct => Integrator::Direct,
+        };
+        settings.filter = match options.filter {
+            FilterArgument::Box => Filter::Box,
+            FilterArgument::Tent => Filter::Tent,
+            FilterArgument::Gaussian => Filter::Gaussian,
+            FilterArgument::BlackmanHarris => Filter::BlackmanHarris,
+        };
+        settings.filter_width = options.filter_width;
+        settings.seed = options.seed;
+        settings.threads = options.threads;
+        settings.clamp_direct = options.clamp_direct;
+        settings.clamp_indirect = options.clamp_indirect;
+        settings.time_limit_s = options.time_limit;
+        if !options.aov.is_empty() {
+            settings.aovs = aovs(&options.aov)?;
+        }
+        if !settings.aovs.contains(&Aov::Color) {
+            // Pictures for looking at are made of it, and it costs nothing.
+            settings.aovs.insert(0, Aov::Color);
+        }
+        if let Some(crop) = &options.crop {
+            settings.crop = Some(crop_of(crop, settings.resolution)?);
+        }
+        if scene.lights.is_empty() && !options.disable_camera_light && !emits(scene) {
+            say("the stage has no light; a neutral dome of 1 cd/m² lights it (--disable-camera-light takes it away)");
+            scene.lights.push(neutral_dome());
+        }
+        Ok(())
+    }
+
+    fn set_resolution(&self, scene: &mut Scene, has_settings: bool) -> Result<()> {
+        let options = self.options;
+        let camera = scene.cameras.get(scene.settings.camera as usize);
+        let aspect = camera.map_or(16.0 / 9.0, aperture_aspect);
+        let by_width = |width: u32| [width, ((f64::from(width) / aspect).round() as u32).max(1)];
+        let mut resolution = match (&options.res, options.image_width) {
+            (Some(res), _) => [res[0], res[1]],
+            (None, Some(width)) => by_width(width),
+            (None, None) if has_settings => scene.settings.resolution,
+            (None, None) => by_width(DEFAULT_WIDTH),
+        };
+        if !(options.res_scale > 0.0 && options.res_scale.is_finite()) {
+            return Err(Error::Setting { name: "res-scale".into(), problem: format!("{} was found, expected a number above 0", options.res_scale) });
+        }
+        resolution = resolution.map(|side| ((f64::from(side) * options.res_scale).round() as u32).max(u32::from(side > 0)));
+        scene.settings.resolution = resolution;
+        Ok(())
+    }
+
+    /// Diagnostics of the compile step; errors with `--strict`.
+    fn complain(&self, compiled: &CompiledScene) -> Result<()> {
+        if !self.options.quiet {
+            list(&compiled.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        }
+        match compiled.diagnostics.first() {
+            Some(first) if self.options.stage.strict => Err(Error::scene(&first.origin, first.message.clone())),
+            _ => Ok(()),
+        }
+    }
+
+    /// A camera that sees everything, for stages that have none.
+    fn frame_camera(&self, loaded: &mut Loaded, compiled: &mut CompiledScene) {
+        if !loaded.scene.cameras.is_empty() {
+            return;
+        }
+        say("the stage has no camera; one that sees everything is used");
+        let Bounds { min, max } = compiled.bounds;
+        let [width, height] = loaded.scene.settings.resolution.map(f64::from);
+        let z_up = loaded.info.up_axis == crate::context::UpAxis::Z;
+        loaded.scene.cameras.push(auto_camera([min, max], z_up, width / height.max(1.0)));
+        loaded.scene.settings.camera = 0;
+    }
+
+    fn tell_sizes(&self, compiled: &CompiledScene) {
+        if self.options.stage.verbose {
+            let s = &compiled.statistics;
+            let megabytes = |bytes: u64| bytes as f64 / 1e6;
+            say(&format!("{} triangles in {} instances, {} lights, SIMD level {}", s.triangles, s.instances, s.lights, self.execution.name()));
+            say(&format!("{:.1} MB of geometry, {:.1} MB of textures", megabytes(s.geometry_bytes), megabytes(s.texture_bytes)));
+            say(&format!("read in {}, trees built in {:.2} s, compiled in {:.2} s", clock(self.loading), s.build_s, s.total_s));
+        }
+    }
+
+    /// Renders and writes; an interrupted render leaves the picture so far.
+    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>) -> Result<()> {
+        let start = Instant::now();
+        let mut render = Render::start(compiled.clone(), &scene.settings, self.execution)?;
+        let mut reporter = Reporter::new(self.options.quiet);
+        while !render.is_finished() {
+            if self.interrupted.load(Ordering::Relaxed) {
+                render.cancel();
+            }
+            // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
+            let _ = render.next_tile(Duration::from_millis(20));
+            while render.next_tile(Duration::ZERO).is_some() {}
+            reporter.show(&render.progress());
+            Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
+        }
+        reporter.clear();
+        let result = render.finish();
+        if let Err(error) = &result
+            && !matches!(error, Error::Cancelled)
+        {
+            return result;
+        }
+        let image = render.film().develop();
+        if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
+            self.write(scene, &image)?;
+        }
+        if !self.options.quiet && result.is_ok() {
+            let rays = render.progress().rays as f64 * 1e-6;
+            let seconds = start.elapsed().as_secs_f64();
+            say(&format!("{} samples a pixel in {}, {:.1} Mrays/s", image.samples, clock(start.elapsed()), rays / seconds.max(1e-3)));
+        }
+        result
+    }
+
+    fn write(&self, scene: &Scene, image: &gonio::film::Image) -> Result<()> {
+        let camera = &scene.cameras[scene.settings.camera as usize];
+        let attributes = [
+            ("gonio:camera".to_owned(), camera.origin.name.to_string()),
+            ("gonio:stage".to_owned(), self.options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
+            ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
+        ];
+        for path in &self.outputs {
+            self.writer.write(path, image, camera.exposure.0, &attributes)?;
+            if !self.options.quiet {
+                print(&path.display().to_string());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether any material shines by itself.
+fn emits(scene: &Scene) -> bool {
+    scene.materials.iter().any(|material| match material.input("emission_color") {
+        Some(gonio::scene::Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
+        Some(gonio::scene::Input::Node(..)) => true,
+        None => false,
+    })
+}
+
+fn aovs(names: &[String]) -> Result<Vec<Aov>> {
+    let known = "color, alpha, depth, normal, P, albedo, primId, luminance, illuminance";
+    let one = |name: &String| {
+        let problem = || Error::Setting { name: "aov".into(), problem: format!("'{name}' was found, expected one of {known}") };
+        aov_by_name(name.trim()).ok_or_else(problem)
+    };
+    names.iter().map(one).collect()
+}
+
+/// Pixels, or parts of the picture where a number has a decimal point.
+fn crop_of(texts: &[String], resolution: [u32; 2]) -> Result<Crop> {
+    let parts = texts.iter().any(|text| text.contains('.'));
+    let mut bounds = [0; 4];
+    for (i, text) in texts.iter().enumerate() {
+        let number: f64 = text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| Error::Setting {
+            name: "crop".into(),
+            problem: format!("'{text}' was found, expected a number"),
+        })?;
+        let scale = if parts { f64::from(resolution[i % 2]) } else { 1.0 };
+        bounds[i] = (number * scale).round().max(0.0) as u32;
+    }
+    Ok(Crop { min: [bounds[0], bounds[1]], max: [bounds[2], bounds[3]] })
+}

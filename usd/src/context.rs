@@ -1,0 +1,191 @@
+//! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
+
+use crate::options::StageOptions;
+use crate::prim::{Attribute, Prim};
+use crate::pxr;
+use crate::vt::FromValue;
+use gonio::scene::{MaterialId, Origin, Scene, TextureId};
+use gonio::{Diagnostic, Error, Result};
+use pyo3::prelude::*;
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The stage's vertical axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// +Y.
+    #[default]
+    Y,
+    /// +Z.
+    Z,
+}
+
+/// How often something was met that is reported once.
+#[derive(Debug)]
+struct Tally {
+    diagnostic: usize,
+    count: usize,
+}
+
+/// Everything that reading a stage needs at hand.
+pub struct Context<'a, 'py> {
+    /// The interpreter.
+    pub py: Python<'py>,
+    /// The `Usd.Stage`.
+    pub stage: Bound<'py, PyAny>,
+    /// The `Usd.TimeCode` at which attributes are read.
+    pub time: Bound<'py, PyAny>,
+    /// What is read, and how.
+    pub options: &'a StageOptions,
+    /// The scene so far; its transforms are in metres, its up axis is the stage's.
+    pub scene: Scene,
+    /// Metres in a unit of the stage; all transforms handed on contain it already.
+    pub metres_per_unit: f64,
+    /// The stage's vertical axis.
+    pub up_axis: UpAxis,
+    /// Materials by the path of their prim; `None` for those that could not be read.
+    pub material_ids: HashMap<String, Option<MaterialId>>,
+    /// Textures by a key of the material reader's choice.
+    pub texture_ids: HashMap<String, TextureId>,
+    /// Prims met, by type.
+    pub prim_counts: HashMap<String, usize>,
+    diagnostics: Vec<Diagnostic>,
+    tallies: HashMap<(&'static str, String), Tally>,
+    cancel: &'a AtomicBool,
+}
+
+impl std::fmt::Debug for Context<'_, '_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Context").field("stage", &self.stage).field("time", &self.time).finish_non_exhaustive()
+    }
+}
+
+impl<'a, 'py> Context<'a, 'py> {
+    /// For an open stage at a time.
+    pub fn new(stage: Bound<'py, PyAny>, time: Bound<'py, PyAny>, options: &'a StageOptions, cancel: &'a AtomicBool) -> Self {
+        Self {
+            py: stage.py(),
+            stage,
+            time,
+            options,
+            scene: Scene::default(),
+            metres_per_unit: 0.01,
+            up_axis: UpAxis::Y,
+            material_ids: HashMap::new(),
+            texture_ids: HashMap::new(),
+            prim_counts: HashMap::new(),
+            diagnostics: Vec::new(),
+            tallies: HashMap::new(),
+            cancel,
+        }
+    }
+
+    /// Fails when the caller asked to stop.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn check_cancel(&self) -> Result<()> {
+        if self.cancel.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+    }
+
+    /// What the caller sets to stop.
+    pub fn cancel_flag(&self) -> &'a AtomicBool {
+        self.cancel
+    }
+
+    /// Reports something that changes the picture.
+    pub fn warn(&mut self, origin: &Origin, message: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::warning(origin, message));
+    }
+
+    /// Reports something worth knowing.
+    pub fn note(&mut self, origin: &Origin, message: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::info(origin, message));
+    }
+
+    /// Reports a diagnostic.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Warns once for each `kind` and `name`, however often it is met; the message gets the number of places at the end.
+    pub fn once(&mut self, kind: &'static str, name: &str, origin: &Origin, message: impl FnOnce() -> String) {
+        let next = self.diagnostics.len();
+        let tally = self.tallies.entry((kind, name.to_owned())).or_insert(Tally { diagnostic: next, count: 0 });
+        tally.count += 1;
+        if tally.count == 1 {
+            self.diagnostics.push(Diagnostic::warning(origin, message()));
+        }
+    }
+
+    /// Says once for each `feature` that it is not supported.
+    pub fn unsupported(&mut self, feature: &str, origin: &Origin) {
+        self.once("unsupported", feature, origin, || format!("{feature} is not supported, it is left out"));
+    }
+
+    /// The value of a prim's attribute at the time, converted; `None` where there is no value. A value that cannot be read or is of another
+    /// type is reported with the attribute's path.
+    pub fn get<T: FromValue>(&mut self, prim: &Prim<'py>, name: &str) -> Option<T> {
+        let attribute = prim.attribute(name)?;
+        self.get_attribute(&attribute)
+    }
+
+    /// As [`Context::get`], without asking for the schema's fallback: `None` at once where nothing is authored.
+    pub fn get_authored<T: FromValue>(&mut self, prim: &Prim<'py>, name: &str) -> Option<T> {
+        if prim.has_authored(name) { self.get(prim, name) } else { None }
+    }
+
+    /// As [`Context::get`] with a value for where there is none.
+    pub fn get_or<T: FromValue>(&mut self, prim: &Prim<'py>, name: &str, otherwise: T) -> T {
+        self.get(prim, name).unwrap_or(otherwise)
+    }
+
+    /// The value of an attribute at the time, converted; see [`Context::get`].
+    pub fn get_attribute<T: FromValue>(&mut self, attribute: &Attribute<'py>) -> Option<T> {
+        let value = self.get_value(attribute)?;
+        let converted = T::from_value(&value);
+        if converted.is_none() {
+            let found = attribute.type_name();
+            self.warn(&Origin::new(attribute.path()), format!("value of type {found}, expected {}; it is ignored", T::EXPECTED));
+        }
+        converted
+    }
+
+    /// The Python value of an attribute at the time; what `Get` raises is reported.
+    pub fn get_value(&mut self, attribute: &Attribute<'py>) -> Option<Bound<'py, PyAny>> {
+        match attribute.get(&self.time) {
+            Ok(value) => value,
+            Err(error) => {
+                let message = pxr::message_of(self.py, &error);
+                self.warn(&Origin::new(attribute.path()), format!("the value cannot be read: {message}"));
+                None
+            }
+        }
+    }
+
+    /// The prim at a path.
+    pub fn prim_at(&self, path: &str) -> Option<Prim<'py>> {
+        let prim = Prim::new(self.stage.call_method1(pyo3::intern!(self.py, "GetPrimAtPath"), (path,)).ok()?);
+        prim.is_valid().then_some(prim)
+    }
+
+    /// `Some` of what a call into `pxr` gave, or a warning at `origin` that says what could not be done.
+    pub fn attempt<T>(&mut self, origin: &Origin, what: &str, result: PyResult<T>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let message = pxr::message_of(self.py, &error);
+                self.warn(origin, format!("{what}: {message}"));
+                None
+            }
+        }
+    }
+
+    /// The scene and the diagnostics, with the numbers of places written in.
+    pub fn finish(mut self) -> (Scene, Vec<Diagnostic>) {
+        for Tally { diagnostic, count } in self.tallies.values().filter(|tally| tally.count > 1) {
+            self.diagnostics[*diagnostic].message.push_str(&format!(" ({count} places, this is the first)"));
+        }
+        (self.scene, self.diagnostics)
+    }
+}

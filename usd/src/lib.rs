@@ -1,0 +1,32 @@
+//! USD stages as gonio scenes, read through the Python package `pxr` (usd-core).
+//!
+//! [`load_stage`] does it all; [`Stage::open`] and [`Stage::load`] apart read one stage at many times. Traversal makes *models* of the world
+//! and of each prototype (`traverse`), which are then multiplied out into the scene's instances (`place`).
+
+pub mod build;
+pub mod camera;
+pub mod cli;
+pub mod context;
+pub mod framing;
+pub mod instancer;
+pub mod light;
+pub mod material;
+pub mod mesh;
+pub mod model;
+mod nesting;
+pub mod options;
+pub mod place;
+pub mod prim;
+pub mod primvar;
+pub mod pxr;
+pub mod quadrics;
+pub mod settings;
+pub mod skeleton;
+pub mod stage;
+pub mod subset;
+pub mod traverse;
+pub mod vt;
+pub mod xform;
+
+pub use options::{Complexity, Purpose, SampleTime, StageOptions, VariantSelection};
+pub use stage::{CameraInfo, Loaded, Stage, StageInfo, load_stage};

@@ -1,0 +1,354 @@
+//! UsdLux lights as light sources of the scene, by the formulas of its schema: intensity 1 is 1 cd/m².
+
+use crate::context::{Context, UpAxis};
+use crate::material::{stated_colour_space, texture, to_linear_rec709};
+use crate::prim::Prim;
+use crate::pxr::Module;
+use crate::vt::{AssetPath, FromValue};
+use gonio::scene::{
+    Channel, DomeFormat, Emission, Input, Light, LightShape, Material, MaterialId, Operation, Shaping, TextureId, Transform, Visibility,
+};
+use pyo3::{intern, prelude::*};
+
+/// Half angle from which on a cone takes nothing away, degrees.
+const FULL_CONE: f32 = 180.0;
+/// Ninety degrees about x: +y goes to +z, as UsdLux turns domes to a vertical z.
+const Y_TO_Z: Transform = Transform { columns: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [0.0; 3]] };
+
+/// Whether prims of this type are lights.
+pub fn is_light(type_name: &str) -> bool {
+    matches!(
+        type_name,
+        "SphereLight"
+            | "DiskLight"
+            | "RectLight"
+            | "CylinderLight"
+            | "DistantLight"
+            | "DomeLight"
+            | "DomeLight_1"
+            | "PortalLight"
+            | "GeometryLight"
+            | "PluginLight"
+    )
+}
+
+/// The light at a prim; `transform` takes its local space to metres. `None`, with a report, for types that are not supported.
+pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &Transform) -> Option<Light> {
+    let type_name = prim.type_name();
+    let shape = shape(context, prim, &type_name)?;
+    let is_dome = matches!(shape, LightShape::Dome { .. });
+    let emission = Emission {
+        radiance: radiance(context, prim)?,
+        normalized: !is_dome && input(context, prim, "normalize").unwrap_or(false),
+        metres_per_unit: context.metres_per_unit,
+    };
+    let has_texture = is_dome || matches!(shape, LightShape::Rectangle { .. });
+    report_left_out(context, prim);
+    Some(Light {
+        origin: prim.origin(),
+        shape,
+        emission,
+        shaping: shaping(context, prim, &shape),
+        texture: if has_texture { light_texture(context, prim) } else { None },
+        transform: if is_dome { dome_transform(context, prim, &type_name, transform) } else { *transform },
+        visibility: Visibility { camera: is_seen_by_camera(context, prim), ..Visibility::default() },
+        casts_shadow: casts_shadow(context, prim),
+    })
+}
+
+/// A light's input; stages of before USD 21.02 have the names without prefix.
+fn input<'py, T: FromValue>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<T> {
+    let full_name = format!("inputs:{name}");
+    let is_old = prim.has_authored(name) && !prim.has_authored(&full_name);
+    context.get(prim, if is_old { name } else { &full_name })
+}
+
+/// A length, which must be a finite number.
+fn length<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str, default: f64) -> f64 {
+    let found: f64 = input(context, prim, name).unwrap_or(default);
+    if found.is_finite() && found >= 0.0 {
+        return found;
+    }
+    context.warn(&prim.origin(), format!("{name} is {found}, expected a length; {default} is used"));
+    default
+}
+
+fn shape<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &str) -> Option<LightShape> {
+    Some(match type_name {
+        "RectLight" => LightShape::Rectangle { width: length(context, prim, "width", 1.0), height: length(context, prim, "height", 1.0) },
+        "DiskLight" => LightShape::Disk { radius: length(context, prim, "radius", 0.5) },
+        "SphereLight" => LightShape::Sphere { radius: length(context, prim, "radius", 0.5) },
+        "CylinderLight" => {
+            LightShape::Cylinder { radius: length(context, prim, "radius", 0.5), length: length(context, prim, "length", 1.0) }
+        }
+        "DistantLight" => LightShape::Distant { angle_deg: length(context, prim, "angle", 0.53) },
+        "DomeLight" | "DomeLight_1" => LightShape::Dome { format: dome_format(context, prim) },
+        other => {
+            context.unsupported(&format!("a light of type {other}"), &prim.origin());
+            return None;
+        }
+    })
+}
+
+fn dome_format<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> DomeFormat {
+    let token: String = input(context, prim, "texture:format").unwrap_or_default();
+    match token.as_str() {
+        "" | "automatic" => DomeFormat::Automatic,
+        "latlong" => DomeFormat::LatLong,
+        "mirroredBall" => DomeFormat::MirroredBall,
+        "angular" => DomeFormat::Angular,
+        "cubeMapVerticalCross" => DomeFormat::CubeMapVerticalCross,
+        other => {
+            context.warn(&prim.origin(), format!("texture:format is '{other}', which is not a known layout; automatic is used"));
+            DomeFormat::Automatic
+        }
+    }
+}
+
+/// `intensity · 2^exposure · color`, times the colour of the temperature if that is enabled.
+fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<[f32; 3]> {
+    let intensity: f32 = input(context, prim, "intensity").unwrap_or(1.0);
+    let exposure: f32 = input(context, prim, "exposure").unwrap_or(0.0);
+    let colour = colour(context, prim);
+    let temperature = if input(context, prim, "enableColorTemperature").unwrap_or(false) { temperature(context, prim) } else { [1.0; 3] };
+    let strength = intensity * exposure.exp2();
+    let radiance = std::array::from_fn(|i| strength * colour[i] * temperature[i]);
+    if radiance.iter().all(|x: &f32| x.is_finite()) {
+        return Some(radiance);
+    }
+    context
+        .warn(&prim.origin(), format!("the light's strength is not finite (intensity {intensity}, exposure {exposure}); it is left out"));
+    None
+}
+
+fn colour<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
+    let Some([r, g, b]) = input::<[f32; 3]>(context, prim, "color") else {
+        return [1.0; 3];
+    };
+    let space = prim.attribute("inputs:color").map(|attribute| stated_colour_space(&attribute)).unwrap_or_default();
+    match to_linear_rec709([r, g, b, 1.0], &space) {
+        Ok([r, g, b, _]) => [r, g, b],
+        Err(unknown) => {
+            context.warn(&prim.origin(), format!("the colour space '{unknown}' is not known; linear Rec.709 is used"));
+            [r, g, b]
+        }
+    }
+}
+
+/// The colour of a black body as UsdLux computes it: of luminance 1, and 6500 K is not exactly white.
+fn temperature<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
+    let kelvin: f32 = input(context, prim, "colorTemperature").unwrap_or(6500.0);
+    let rgb = Module::UsdLux.item(context.py, "BlackbodyTemperatureAsRgb").and_then(|function| function.call1((kelvin,)));
+    let rgb = context.attempt(&prim.origin(), "the colour temperature cannot be evaluated", rgb);
+    rgb.and_then(|rgb| <[f32; 3]>::from_value(&rgb)).unwrap_or([1.0; 3])
+}
+
+fn light_texture<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<TextureId> {
+    let name = ["inputs:texture:file", "texture:file"].into_iter().find(|name| prim.has_authored(name))?;
+    let attribute = prim.attribute(name)?;
+    let path: AssetPath = context.get_attribute(&attribute)?;
+    if path.authored.is_empty() {
+        return None;
+    }
+    let space = stated_colour_space(&attribute);
+    texture(context, &prim.origin(), &path, &attribute, if space.is_empty() { "auto" } else { &space })
+}
+
+/// The scene's domes stand upright on +y; those of `DomeLight_1` on the axis they say.
+fn dome_transform<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &str, transform: &Transform) -> Transform {
+    if type_name != "DomeLight_1" {
+        return *transform;
+    }
+    let axis: String = context.get(prim, "poleAxis").unwrap_or_default();
+    let is_z = match axis.as_str() {
+        "Z" => true,
+        "Y" => false,
+        _ => context.up_axis == UpAxis::Z,
+    };
+    if is_z { transform.after(&Y_TO_Z) } else { *transform }
+}
+
+fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightShape) -> Shaping {
+    let is_applied = prim.applied_schemas().iter().any(|schema| schema == "ShapingAPI");
+    let is_authored = prim.has_authored_prefix("inputs:shaping:") || prim.has_authored_prefix("shaping:");
+    if !is_applied && !is_authored {
+        return Shaping::default();
+    }
+    let profile: Option<AssetPath> = input(context, prim, "shaping:ies:file");
+    if let Some(AssetPath { authored, .. }) = profile.filter(|path| !path.authored.is_empty()) {
+        let message = format!("the light distribution '{authored}' is not supported for UsdLux lights; the light counts as uniform");
+        context.once("ies", &authored, &prim.origin(), || message.clone());
+    }
+    if matches!(shape, LightShape::Dome { .. } | LightShape::Distant { .. }) {
+        context.unsupported("shaping of lights at infinity", &prim.origin());
+        return Shaping::default();
+    }
+    let angle: Option<f32> = input(context, prim, "shaping:cone:angle").map(|angle: f32| angle.max(0.0));
+    let softness: f32 = input(context, prim, "shaping:cone:softness").unwrap_or(0.0);
+    let focus: f32 = input(context, prim, "shaping:focus").unwrap_or(0.0);
+    Shaping {
+        cone_angle_deg: angle.filter(|angle| *angle < FULL_CONE),
+        cone_softness: softness.clamp(0.0, 1.0),
+        focus: focus.max(0.0),
+        focus_tint: input(context, prim, "shaping:focusTint").unwrap_or([0.0; 3]),
+    }
+}
+
+fn casts_shadow<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
+    if !prim.has_authored_prefix("inputs:shadow:") && !prim.has_authored_prefix("shadow:") {
+        return true;
+    }
+    for (name, off) in [("shadow:distance", -1.0), ("shadow:falloff", -1.0)] {
+        if input::<f32>(context, prim, name).is_some_and(|value| value >= 0.0 && value != off) {
+            context.unsupported(&format!("{name} of lights"), &prim.origin());
+        }
+    }
+    if input::<[f32; 3]>(context, prim, "shadow:color").is_some_and(|colour| colour != [0.0; 3]) {
+        context.unsupported("shadow:color of lights", &prim.origin());
+    }
+    input(context, prim, "shadow:enable").unwrap_or(true)
+}
+
+/// Says once by name what changes the light and is not done.
+fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
+    let origin = prim.origin();
+    for name in ["diffuse", "specular"] {
+        if input::<f32>(context, prim, name).is_some_and(|factor| factor != 1.0) {
+            context.unsupported(&format!("the {name} multiplier of lights"), &origin);
+        }
+    }
+    for (relationship, feature) in [("light:filters", "light filters"), ("filters", "light filters"), ("portals", "portals of dome lights")]
+    {
+        if prim.has_authored(relationship) && !prim.targets(relationship).is_empty() {
+            context.unsupported(feature, &origin);
+        }
+    }
+    for (collection, feature) in [("lightLink", "light linking"), ("shadowLink", "shadow linking")] {
+        let prefix = format!("collection:{collection}");
+        let has_targets = ["includes", "excludes"].iter().any(|name| {
+            let name = format!("{prefix}:{name}");
+            prim.has_authored(&name) && !prim.targets(&name).is_empty()
+        });
+        let is_rootless = context.get_authored::<bool>(prim, &format!("{prefix}:includeRoot")) == Some(false);
+        if has_targets || is_rootless {
+            context.unsupported(feature, &origin);
+        }
+    }
+    if ["inputs:color", "inputs:intensity"].iter().any(|name| is_connected(prim, name)) {
+        context.unsupported("shader networks on lights", &origin);
+    }
+}
+
+fn is_connected(prim: &Prim<'_>, name: &str) -> bool {
+    if !prim.has_authored(name) {
+        return false;
+    }
+    let connected = |object: &Bound<'_, PyAny>| object.call_method0(intern!(object.py(), "HasAuthoredConnections"))?.is_truthy();
+    prim.attribute(name).is_some_and(|attribute| connected(attribute.object()).unwrap_or(false))
+}
+
+/// Whether camera rays see the emitter: UsdLux has no say in it, renderers have names of their own.
+pub fn is_seen_by_camera<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
+    const FLAGS: [&str; 5] = [
+        "primvars:gonio:visibility:camera",
+        "primvars:ri:attributes:visibility:camera",
+        "primvars:arnold:visibility:camera",
+        "inputs:visibility:camera",
+        "visibleInPrimaryRay",
+    ];
+    let is_hidden = FLAGS.iter().any(|name| context.get_authored::<bool>(prim, name) == Some(false));
+    let karma = context.get_authored::<String>(prim, "primvars:karma:object:rendervisibility");
+    !is_hidden && karma.is_none_or(|expression| karma_shows_primary(&expression))
+}
+
+/// Karma's expression: names of ray kinds joined by `|`, `*` for all, a leading `-` for all but the named.
+fn karma_shows_primary(expression: &str) -> bool {
+    let expression = expression.trim();
+    let (is_exclusion, names) = expression.strip_prefix('-').map_or((false, expression), |names| (true, names));
+    let names_primary = names.split(['|', '&', ' ', ',']).any(|name| name.trim().trim_start_matches('-') == "primary");
+    if is_exclusion { !names_primary } else { names_primary || expression.is_empty() || expression.contains('*') }
+}
+
+/// Whether a light is made of the prim's geometry.
+pub fn is_geometry_light(prim: &Prim<'_>) -> bool {
+    prim.applied_schemas().iter().any(|schema| matches!(schema.as_str(), "MeshLightAPI" | "VolumeLightAPI"))
+}
+
+/// The material of a prim that `MeshLightAPI` makes a light: the bound one with the light's emission. `area` is the mesh's in square units of
+/// the stage, for `normalize`.
+pub fn mesh_light_material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bound: MaterialId, area: Option<f64>) -> MaterialId {
+    let origin = prim.origin();
+    if !prim.applied_schemas().iter().any(|schema| schema == "MeshLightAPI") {
+        context.unsupported("VolumeLightAPI", &origin);
+        return bound;
+    }
+    let Some(mut radiance) = radiance(context, prim) else {
+        return bound;
+    };
+    if input(context, prim, "normalize").unwrap_or(false) {
+        match area.filter(|area| *area > 0.0) {
+            Some(area) => radiance = radiance.map(|x| (f64::from(x) / area) as f32),
+            None => context.warn(&origin, "normalize of a mesh light needs the mesh's area, which is zero or unknown; it is ignored"),
+        }
+    }
+    report_left_out(context, prim);
+    if prim.has_authored_prefix("inputs:shaping:") {
+        context.unsupported("shaping of mesh lights", &origin);
+    }
+    let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
+    let Some(base) = context.scene.materials.get(bound.index()) else {
+        return bound;
+    };
+    let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
+    material.origin = origin;
+    emit(&mut material, radiance, mode != "independent");
+    context.scene.add_material(material)
+}
+
+/// Adds the light to what the material emits itself, or tints a material's glow with it.
+fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
+    let light = Input::Constant([r, g, b, 1.0]);
+    let glow = material.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
+    let emission = match (glow, tints) {
+        (None, _) => light,
+        (Some(Input::Constant(glow)), true) => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
+        (Some(Input::Constant(glow)), false) => Input::Constant([glow[0] + r, glow[1] + g, glow[2] + b, 1.0]),
+        (Some(node), tints) => {
+            let operation = if tints { Operation::Multiply } else { Operation::Add };
+            Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
+        }
+    };
+    material.set_input("emission_color", emission);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn karma_expressions() {
+        for (expression, shown) in
+            [("-primary", false), ("*", true), ("", true), ("primary", true), ("shadow|diffuse", false), ("-shadow", true)]
+        {
+            assert_eq!(karma_shows_primary(expression), shown, "{expression}");
+        }
+    }
+
+    #[test]
+    fn vertical_z_turns_the_pole() {
+        assert_eq!(Y_TO_Z.vector([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
+        assert_eq!(Y_TO_Z.vector([0.0, 0.0, 1.0]), [0.0, -1.0, 0.0]);
+        assert!((Y_TO_Z.determinant() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_light_tints_a_glow_or_adds_to_it() {
+        let mut material = Material::default();
+        material.set_colour("emission_color", [1.0, 0.5, 0.0]);
+        let mut sum = material.clone();
+        emit(&mut material, [2.0; 3], true);
+        emit(&mut sum, [2.0; 3], false);
+        assert_eq!(material.input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
+        assert_eq!(sum.input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
+    }
+}

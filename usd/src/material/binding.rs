@@ -1,0 +1,58 @@
+//! Which material a prim has: UsdShade's resolution over inheritance, strength, collections and purposes.
+
+use super::{fallback, material};
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::pxr::Module;
+use gonio::scene::{MaterialId, Origin};
+use pyo3::{intern, prelude::*, types::PyList};
+
+/// The material of a prim (a geometry prim or a GeomSubset), or the one that shows its displayColor.
+pub fn bound<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> MaterialId {
+    bound_all(context, std::slice::from_ref(prim)).first().copied().unwrap_or_else(|| fallback(context, false))
+}
+
+/// The materials of many prims in one call; the result has their order.
+pub fn bound_all<'py>(context: &mut Context<'_, 'py>, prims: &[Prim<'py>]) -> Vec<MaterialId> {
+    let origin = prims.first().map_or_else(|| Origin::new("stage"), Prim::origin);
+    let computed = compute(context, prims);
+    let materials = context.attempt(&origin, "the bound materials cannot be found", computed).unwrap_or_default();
+    let mut ids = Vec::with_capacity(prims.len());
+    for (index, prim) in prims.iter().enumerate() {
+        let id = materials.get(index).and_then(Option::as_ref).and_then(|bound| material(context, bound));
+        ids.push(id.unwrap_or_else(|| fallback(context, has_display_opacity(context, prim))));
+    }
+    ids
+}
+
+/// The bound material of each prim: by the first purpose of the options that gives one.
+fn compute<'py>(context: &Context<'_, 'py>, prims: &[Prim<'py>]) -> PyResult<Vec<Option<Prim<'py>>>> {
+    let py = context.py;
+    let api = Module::UsdShade.item(py, "MaterialBindingAPI")?;
+    let mut found: Vec<Option<Prim<'py>>> = prims.iter().map(|_| None).collect();
+    for purpose in &context.options.material_binding_purposes {
+        let open: Vec<usize> = (0..prims.len()).filter(|&index| found[index].is_none()).collect();
+        if open.is_empty() {
+            break;
+        }
+        let list = PyList::new(py, open.iter().map(|&index| prims[index].object()))?;
+        let computed = api.call_method1(intern!(py, "ComputeBoundMaterials"), (list, purpose))?;
+        for (&index, material) in open.iter().zip(computed.get_item(0)?.try_iter()?) {
+            let material = material?;
+            if material.is_truthy()? {
+                found[index] = Some(Prim::new(material.call_method0(intern!(py, "GetPrim"))?));
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn has_display_opacity<'py>(context: &Context<'_, 'py>, prim: &Prim<'py>) -> bool {
+    let py = context.py;
+    let find = || -> PyResult<bool> {
+        let primvars = Module::UsdGeom.wrap("PrimvarsAPI", prim.object())?;
+        let primvar = primvars.call_method1(intern!(py, "FindPrimvarWithInheritance"), (intern!(py, "displayOpacity"),))?;
+        primvar.call_method0(intern!(py, "HasValue"))?.is_truthy()
+    };
+    find().unwrap_or(false)
+}

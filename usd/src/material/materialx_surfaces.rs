@@ -1,0 +1,272 @@
+//! MaterialX's surface shaders as parameters of the surface block.
+
+use super::arithmetic::{component, constant_scalar, is_constant, luminance, multiply, scalar};
+use super::network::{Network, Shader};
+use gonio::scene::{Channel, Input, Material, Model, NodeId, Operation};
+
+/// Nanometres in a micrometre.
+const NM_PER_UM: f32 = 1000.0;
+
+/// A surface that is being filled from a shader.
+struct Surface<'n, 'c, 'a, 'py> {
+    network: &'n mut Network<'c, 'a, 'py>,
+    shader: &'n Shader<'py>,
+    material: Material,
+}
+
+impl Surface<'_, '_, '_, '_> {
+    fn scalar(&mut self, name: &str, default: f32) -> Input {
+        self.network.scalar(self.shader, name, default)
+    }
+    fn colour(&mut self, name: &str, default: [f32; 3]) -> Input {
+        self.network.colour(self.shader, name, default)
+    }
+    /// Sets scalar parameters from inputs: (parameter, input, default).
+    fn scalars(&mut self, table: &[(&str, &str, f32)]) {
+        for (parameter, input, default) in table {
+            let value = self.scalar(input, *default);
+            self.material.set_input(parameter, value);
+        }
+    }
+    /// Sets colour parameters from inputs: (parameter, input, default).
+    fn colours(&mut self, table: &[(&str, &str, [f32; 3])]) {
+        for (parameter, input, default) in table {
+            let value = self.colour(input, *default);
+            self.material.set_input(parameter, value);
+        }
+    }
+    /// Sets a parameter to the product of two inputs.
+    fn product(&mut self, parameter: &str, a: Input, b: Input) {
+        let product = multiply(&mut self.network.graph, a, b);
+        self.material.set_input(parameter, product);
+    }
+    /// Lengths are in units of the stage.
+    fn length(&mut self, parameter: &str, input: Input) {
+        let metres = scalar(self.network.context.metres_per_unit as f32);
+        self.product(parameter, input, metres);
+    }
+    /// Says by name which inputs are left out although they are not at the value that means off.
+    fn left_out(&mut self, inputs: &[(&str, f32)]) {
+        for (name, off) in inputs {
+            if self.network.input(self.shader, name).is_some_and(|input| !is_constant(input, *off)) {
+                self.network.unsupported(&format!("input '{name}' of {}", self.shader.id), self.shader);
+            }
+        }
+    }
+    /// Says by name which connected vectors are left out.
+    fn left_out_vectors(&mut self, names: &[&str]) {
+        for name in names {
+            if matches!(self.network.input(self.shader, name), Some(Input::Node(..))) {
+                self.network.unsupported(&format!("input '{name}' of {}", self.shader.id), self.shader);
+            }
+        }
+    }
+    /// The shading normal, if the input is connected to a normal map.
+    fn normal(&mut self, name: &str) -> Option<NodeId> {
+        let Some(Input::Node(node, Channel::Rgb)) = self.network.input(self.shader, name) else {
+            return None;
+        };
+        let is_map = matches!(self.network.graph.nodes.get(usize::from(node.0))?.operation, Operation::NormalMap { .. });
+        if !is_map {
+            self.network.warn(self.shader, format!("input '{name}' is not a normal map's output; the surface's own normal is used"));
+        }
+        is_map.then_some(node)
+    }
+}
+
+/// The material of a MaterialX surface shader; `None` where the node is not one that is known.
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Material> {
+    let fill = match shader.id.as_str() {
+        "ND_standard_surface_surfaceshader" => standard_surface,
+        "ND_standard_surface_surfaceshader_100" => standard_surface_100,
+        "ND_open_pbr_surface_surfaceshader" => open_pbr_surface,
+        "ND_gltf_pbr_surfaceshader" => gltf_pbr,
+        _ => return None,
+    };
+    let mut surface = Surface { network, shader, material: Material::default() };
+    fill(&mut surface);
+    Some(surface.material)
+}
+
+/// OpenPBR 1.1: the block's own model.
+fn open_pbr_surface(surface: &mut Surface<'_, '_, '_, '_>) {
+    surface.material.model = Model::OpenPbr;
+    let (weight, base) = (surface.scalar("base_weight", 1.0), surface.colour("base_color", [0.8; 3]));
+    surface.product("base_color", base, weight);
+    surface.scalars(&[
+        ("diffuse_roughness", "base_diffuse_roughness", 0.0),
+        ("metalness", "base_metalness", 0.0),
+        ("metal_weight", "specular_weight", 1.0),
+        ("specular_weight", "specular_weight", 1.0),
+        ("specular_roughness", "specular_roughness", 0.3),
+        ("specular_anisotropy", "specular_roughness_anisotropy", 0.0),
+        ("specular_ior", "specular_ior", 1.5),
+        ("transmission_weight", "transmission_weight", 0.0),
+        ("subsurface_weight", "subsurface_weight", 0.0),
+        ("subsurface_scatter_anisotropy", "subsurface_scatter_anisotropy", 0.0),
+        ("coat_weight", "coat_weight", 0.0),
+        ("coat_roughness", "coat_roughness", 0.0),
+        ("coat_ior", "coat_ior", 1.6),
+        ("coat_darkening", "coat_darkening", 1.0),
+        ("fuzz_weight", "fuzz_weight", 0.0),
+        ("fuzz_roughness", "fuzz_roughness", 0.5),
+        ("thin_film_weight", "thin_film_weight", 0.0),
+        ("thin_film_ior", "thin_film_ior", 1.4),
+        ("geometry_opacity", "geometry_opacity", 1.0),
+    ]);
+    surface.colours(&[
+        ("metal_edge_tint", "specular_color", [1.0; 3]),
+        ("specular_color", "specular_color", [1.0; 3]),
+        ("transmission_color", "transmission_color", [1.0; 3]),
+        ("subsurface_color", "subsurface_color", [0.8; 3]),
+        ("coat_color", "coat_color", [1.0; 3]),
+        ("fuzz_color", "fuzz_color", [1.0; 3]),
+    ]);
+    let depth = surface.scalar("transmission_depth", 0.0);
+    surface.length("transmission_depth", depth);
+    let (radius, scale) = (surface.scalar("subsurface_radius", 1.0), surface.colour("subsurface_radius_scale", [1.0, 0.5, 0.25]));
+    let radius = multiply(&mut surface.network.graph, scale, radius);
+    surface.length("subsurface_radius", radius);
+    let thickness = surface.scalar("thin_film_thickness", 0.5);
+    surface.product("thin_film_thickness", thickness, scalar(NM_PER_UM));
+    let (luminance, emission) = (surface.scalar("emission_luminance", 0.0), surface.colour("emission_color", [1.0; 3]));
+    surface.product("emission_color", emission, luminance);
+    surface.material.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
+    surface.material.normal = surface.normal("geometry_normal");
+    surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
+    surface.left_out_vectors(&["geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent"]);
+}
+
+/// Version 1.0.1 of standard_surface.
+fn standard_surface(surface: &mut Surface<'_, '_, '_, '_>) {
+    fill_standard_surface(surface, 1.0, 0.8);
+}
+
+/// Version 1.0.0, which differs in two defaults.
+fn standard_surface_100(surface: &mut Surface<'_, '_, '_, '_>) {
+    fill_standard_surface(surface, 0.8, 1.0);
+}
+
+fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32, base_color: f32) {
+    surface.material.model = Model::StandardSurface;
+    let (weight, base) = (surface.scalar("base", base_weight), surface.colour("base_color", [base_color; 3]));
+    surface.product("base_color", base, weight);
+    surface.scalars(&[
+        ("diffuse_roughness", "diffuse_roughness", 0.0),
+        ("metalness", "metalness", 0.0),
+        ("specular_scale", "specular", 1.0),
+        ("specular_roughness", "specular_roughness", 0.2),
+        ("specular_anisotropy", "specular_anisotropy", 0.0),
+        ("specular_rotation", "specular_rotation", 0.0),
+        ("specular_ior", "specular_IOR", 1.5),
+        ("transmission_weight", "transmission", 0.0),
+        ("transmission_extra_roughness", "transmission_extra_roughness", 0.0),
+        ("subsurface_weight", "subsurface", 0.0),
+        ("subsurface_scatter_anisotropy", "subsurface_anisotropy", 0.0),
+        ("coat_weight", "coat", 0.0),
+        ("coat_roughness", "coat_roughness", 0.1),
+        ("coat_ior", "coat_IOR", 1.5),
+        ("coat_affect_color", "coat_affect_color", 0.0),
+        ("coat_affect_roughness", "coat_affect_roughness", 0.0),
+        ("fuzz_weight", "sheen", 0.0),
+        ("fuzz_roughness", "sheen_roughness", 0.3),
+        ("thin_film_thickness", "thin_film_thickness", 0.0),
+        ("thin_film_ior", "thin_film_IOR", 1.5),
+    ]);
+    surface.colours(&[
+        ("specular_color", "specular_color", [1.0; 3]),
+        ("transmission_color", "transmission_color", [1.0; 3]),
+        ("subsurface_color", "subsurface_color", [1.0; 3]),
+        ("coat_color", "coat_color", [1.0; 3]),
+        ("fuzz_color", "sheen_color", [1.0; 3]),
+    ]);
+    surface.material.set("coat_darkening", 0.0);
+    // The metal's edge tint is specular · specular_color, its whole lobe has the weight 1.
+    let (specular, tint) = (surface.scalar("specular", 1.0), surface.colour("specular_color", [1.0; 3]));
+    surface.product("metal_edge_tint", tint, specular);
+    let depth = surface.scalar("transmission_depth", 0.0);
+    surface.length("transmission_depth", depth);
+    let (radius, scale) = (surface.colour("subsurface_radius", [1.0; 3]), surface.scalar("subsurface_scale", 1.0));
+    let radius = multiply(&mut surface.network.graph, radius, scale);
+    surface.length("subsurface_radius", radius);
+    let has_film = surface.material.input("thin_film_thickness").and_then(constant_scalar).is_none_or(|nm| nm > 0.0);
+    surface.material.set("thin_film_weight", f32::from(u8::from(has_film)));
+    let (weight, emission) = (surface.scalar("emission", 0.0), surface.colour("emission_color", [1.0; 3]));
+    surface.product("emission_color", emission, weight);
+    let opacity = surface.colour("opacity", [1.0; 3]);
+    let opacity = luminance(&mut surface.network.graph, opacity);
+    surface.material.set_input("geometry_opacity", opacity);
+    surface.material.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
+    surface.material.normal = surface.normal("normal");
+    surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
+    surface.left_out_vectors(&["coat_normal", "tangent"]);
+}
+
+/// glTF 2.0's metallic-roughness material with its extensions.
+fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
+    surface.material.model = Model::Gltf;
+    surface.scalars(&[
+        ("metalness", "metallic", 1.0),
+        ("specular_roughness", "roughness", 1.0),
+        ("specular_scale", "specular", 1.0),
+        ("specular_ior", "ior", 1.5),
+        ("specular_anisotropy", "anisotropy_strength", 0.0),
+        ("transmission_weight", "transmission", 0.0),
+        ("coat_weight", "clearcoat", 0.0),
+        ("coat_roughness", "clearcoat_roughness", 0.0),
+        ("thin_film_weight", "iridescence", 0.0),
+        ("thin_film_ior", "iridescence_ior", 1.3),
+        ("thin_film_thickness", "iridescence_thickness", 100.0),
+    ]);
+    surface.colours(&[("base_color", "base_color", [1.0; 3]), ("specular_color", "specular_color", [1.0; 3])]);
+    surface.material.set("coat_ior", 1.5);
+    surface.material.set("coat_darkening", 0.0);
+    surface.material.set_colour("metal_edge_tint", [1.0; 3]);
+    let radians = surface.scalar("anisotropy_rotation", 0.0);
+    surface.product("specular_rotation", radians, scalar(std::f32::consts::TAU.recip()));
+    gltf_sheen(surface);
+    gltf_volume(surface);
+    let (emissive, strength) = (surface.colour("emissive", [0.0; 3]), surface.scalar("emissive_strength", 1.0));
+    surface.product("emission_color", emissive, strength);
+    let mode = surface.network.number(surface.shader, "alpha_mode", 0.0);
+    if mode != 0.0 {
+        let alpha = surface.scalar("alpha", 1.0);
+        surface.material.set_input("geometry_opacity", alpha);
+    }
+    if mode == 1.0 {
+        surface.material.opacity_threshold = surface.network.number(surface.shader, "alpha_cutoff", 0.5);
+    }
+    surface.material.normal = surface.normal("normal");
+    surface.left_out(&[("dispersion", 0.0)]);
+    surface.left_out_vectors(&["clearcoat_normal", "tangent"]);
+}
+
+/// The fuzz takes by its largest coloured channel, so the colour may keep its strength and the weight be one.
+fn gltf_sheen(surface: &mut Surface<'_, '_, '_, '_>) {
+    let sheen = surface.colour("sheen_color", [0.0; 3]);
+    surface.material.set("fuzz_weight", f32::from(u8::from(!is_constant(sheen, 0.0))));
+    surface.material.set_input("fuzz_color", sheen);
+    let roughness = surface.scalar("sheen_roughness", 0.0);
+    surface.product("fuzz_roughness", roughness, roughness);
+}
+
+/// What passes is tinted by the base colour; thickness 0 is a sheet, other surfaces enclose an absorbing volume.
+fn gltf_volume(surface: &mut Surface<'_, '_, '_, '_>) {
+    let transmits = surface.material.input("transmission_weight").is_some_and(|weight| !is_constant(weight, 0.0));
+    let base = surface.colour("base_color", [1.0; 3]);
+    let is_sheet = is_constant(component(surface.scalar("thickness", 0.0), 0), 0.0);
+    surface.material.thin_walled = transmits && is_sheet;
+    let attenuation = surface.colour("attenuation_color", [1.0; 3]);
+    let distance = surface.scalar("attenuation_distance", 0.0);
+    if is_sheet || is_constant(attenuation, 1.0) || is_constant(distance, 0.0) {
+        surface.material.set_input("transmission_color", base);
+        return;
+    }
+    surface.material.set_input("transmission_color", attenuation);
+    surface.length("transmission_depth", distance);
+    if transmits && !is_constant(base, 1.0) {
+        surface
+            .network
+            .warn(surface.shader, "a base colour that tints an absorbing volume is not supported; the attenuation alone is used");
+    }
+}

@@ -1,0 +1,113 @@
+//! Materials of a stage: which is bound to a prim, and its shading network as a surface of the scene.
+//!
+//! A material's surface is looked for in the render contexts `gonio`, `mtlx` and the universal one, in this order.
+
+mod arithmetic;
+mod binding;
+mod document;
+mod materialx_nodes;
+mod materialx_surfaces;
+mod network;
+mod preview_surface;
+mod textures;
+mod usd_nodes;
+mod value;
+mod xml;
+
+pub use binding::{bound, bound_all};
+pub use document::{Substitution, substitute_documents};
+pub(crate) use textures::texture;
+pub(crate) use value::{stated_colour_space, to_linear_rec709};
+
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::pxr::Module;
+use gonio::scene::{Channel, Input, Material, MaterialId, Model, Operation, Origin};
+use network::{Network, Shader};
+use pyo3::{intern, prelude::*};
+
+/// Render contexts in the order of preference; the last is the universal one.
+const RENDER_CONTEXTS: [&str; 3] = ["gonio", "mtlx", ""];
+/// Reflectance of surfaces that say nothing about themselves.
+const FALLBACK_REFLECTANCE: f32 = 0.18;
+
+/// The scene's material for the material prim at `path`, converted when first asked for; `None` where its surface cannot be converted, which
+/// is reported once.
+pub fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<MaterialId> {
+    let path = prim.path();
+    if let Some(known) = context.material_ids.get(&path) {
+        return *known;
+    }
+    let id = convert(context, prim, &path).map(|material| context.scene.add_material(material));
+    context.material_ids.insert(path, id);
+    id
+}
+
+fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) -> Option<Material> {
+    let origin = Origin::new(path);
+    let surfaces = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
+    let mut unknown = Vec::new();
+    for surface in surfaces {
+        let shader = Shader::new(surface, &context.time);
+        let mut network = Network::new(context);
+        if let Some(mut material) = convert_surface(&mut network, &shader) {
+            material.graph = network.graph;
+            material.origin = origin;
+            return Some(material);
+        }
+        unknown.push(format!("'{}'", shader.id));
+    }
+    let found = match unknown.as_slice() {
+        [] => "the material has no surface in the render contexts gonio, mtlx and universal".to_owned(),
+        ids => format!("the surface shader {} is not supported", ids.join(", ")),
+    };
+    context.warn(&origin, format!("{found}; displayColor takes its place"));
+    None
+}
+
+fn convert_surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Material> {
+    match shader.id.as_str() {
+        "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
+        _ => materialx_surfaces::convert(network, shader),
+    }
+}
+
+/// The surface shader prims of a material, the preferred render context's first.
+fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<Prim<'py>>> {
+    let py = prim.py();
+    let material = Module::UsdShade.wrap("Material", prim.object())?;
+    let mut surfaces = Vec::new();
+    for render_context in RENDER_CONTEXTS {
+        let output = material.call_method1(intern!(py, "GetSurfaceOutput"), (render_context,))?;
+        // A missing context falls back to the universal one, which has its own turn.
+        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
+            continue;
+        }
+        let source = material.call_method1(intern!(py, "ComputeSurfaceSource"), (render_context,))?;
+        let shader = source.get_item(0)?;
+        if shader.is_truthy()? {
+            surfaces.push(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?));
+        }
+    }
+    Ok(surfaces)
+}
+
+/// What surfaces without a material look like: Lambert's law with the prim's displayColor, and its displayOpacity where it has one.
+pub fn fallback(context: &mut Context<'_, '_>, with_opacity: bool) -> MaterialId {
+    let key = if with_opacity { " displayColor, displayOpacity" } else { " displayColor" };
+    if let Some(Some(known)) = context.material_ids.get(key) {
+        return *known;
+    }
+    let mut material = Material { origin: Origin::new(key.trim()), model: Model::OpenPbr, ..Material::default() };
+    let primvar = |name: &str, fallback: f32| Operation::Primvar { name: name.to_owned(), fallback: [fallback, fallback, fallback, 1.0] };
+    let colour = material.graph.add(primvar("displayColor", FALLBACK_REFLECTANCE), vec![]);
+    material.set_input("base_color", Input::Node(colour, Channel::Rgb));
+    material.set("specular_weight", 0.0);
+    if with_opacity {
+        let opacity = material.graph.add(primvar("displayOpacity", 1.0), vec![]);
+        material.set_input("geometry_opacity", Input::Node(opacity, Channel::R));
+    }
+    let id = context.scene.add_material(material);
+    context.material_ids.insert(key.to_owned(), Some(id));
+    id
+}

@@ -1,0 +1,110 @@
+//! Images by asset path: files, tiles, and files inside packages; each is in the scene once a colour space.
+
+use super::network::{Network, Shader};
+use super::value::{Source, Value, stated_colour_space};
+use crate::context::Context;
+use crate::prim::Attribute;
+use crate::pxr::{self, Module};
+use crate::vt::AssetPath;
+use gonio::colour::ColourSpace;
+use gonio::scene::{Input, Operation, Origin, Texture, TextureId, TextureSource};
+use pyo3::{intern, prelude::*};
+use std::{path::Path, sync::Arc};
+
+/// What stands for the tile number in a file name.
+const UDIM: &str = "<UDIM>";
+
+/// The path of a tiled image with the tile number's place kept; empty if there is no tile.
+fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
+    let py = attribute.object().py();
+    let resolve = || -> PyResult<String> {
+        let time = Module::Usd.item(py, "TimeCode")?.call_method0(intern!(py, "EarliestTime"))?;
+        let specs = attribute.object().call_method1(intern!(py, "GetPropertyStack"), (time,))?;
+        let Some(spec) = specs.try_iter()?.next() else {
+            return Ok(String::new());
+        };
+        let layer = spec?.getattr(intern!(py, "layer"))?;
+        Module::UsdShade.item(py, "UdimUtils")?.call_method1(intern!(py, "ResolveUdimPath"), (authored, layer))?.extract()
+    };
+    resolve().unwrap_or_default()
+}
+
+/// The content of what a resolved path names.
+fn open(py: Python<'_>, place: &str) -> Result<TextureSource, String> {
+    if place.contains(UDIM) || Path::new(place).is_file() {
+        return Ok(TextureSource::File(place.into()));
+    }
+    // Inside a package, or behind a resolver of its own: only the asset system can open it.
+    let read = || -> PyResult<Option<Vec<u8>>> {
+        let resolved = Module::Ar.item(py, "ResolvedPath")?.call1((place,))?;
+        let asset = Module::Ar.item(py, "GetResolver")?.call0()?.call_method1(intern!(py, "OpenAsset"), (resolved,))?;
+        if asset.is_none() {
+            return Ok(None);
+        }
+        asset.call_method0(intern!(py, "GetBuffer"))?.extract().map(Some)
+    };
+    let name = place.trim_end_matches(']').rsplit(['/', '[']).next().unwrap_or(place).to_owned();
+    match read() {
+        Ok(Some(bytes)) => Ok(TextureSource::Encoded { name, bytes: Arc::from(bytes) }),
+        Ok(None) => Err(format!("the image '{place}' cannot be opened")),
+        Err(error) => Err(format!("the image '{place}' cannot be opened: {}", pxr::message_of(py, &error))),
+    }
+}
+
+/// The image that an asset-valued attribute names, added to the scene once for each file and colour space; `None`, with a warning that names
+/// the prim and the file, where there is no such image.
+pub(crate) fn texture(
+    context: &mut Context<'_, '_>,
+    origin: &Origin,
+    path: &AssetPath,
+    attribute: &Attribute<'_>,
+    colour_space: &str,
+) -> Option<TextureId> {
+    let AssetPath { authored, resolved } = path;
+    let place = if authored.contains(UDIM) && resolved.is_empty() { resolve_tiles(attribute, authored) } else { resolved.clone() };
+    let key = format!("{place}\n{colour_space}");
+    if let Some(id) = context.texture_ids.get(&key) {
+        return Some(*id);
+    }
+    let source = if place.is_empty() { Err(format!("the image '{authored}' does not exist")) } else { open(context.py, &place) };
+    match source {
+        Ok(source) => {
+            let id = context.scene.add_texture(Texture { origin: origin.clone(), source, colour_space: colour_space.to_owned() });
+            context.texture_ids.insert(key, id);
+            Some(id)
+        }
+        Err(problem) => {
+            let file = if place.is_empty() { authored } else { &place };
+            context.once("image", file, origin, || format!("{problem}; a constant value takes its place"));
+            None
+        }
+    }
+}
+
+impl<'py> Network<'_, '_, 'py> {
+    /// The image in a shader's `file` input; `stated` is the colour space that the shader says, `unstated` what holds where nobody says one.
+    /// `None`, with a warning, where there is no image.
+    pub(super) fn texture(&mut self, shader: &Shader<'py>, stated: Option<&str>, unstated: &str) -> Option<TextureId> {
+        let (path, attribute) = match self.source(shader, "file") {
+            Source::Value(Value::Asset(path), attribute) if !path.authored.is_empty() => (path, attribute),
+            Source::Value(Value::Text(authored), attribute) => (AssetPath { authored, resolved: String::new() }, attribute),
+            _ => {
+                self.warn(shader, "no image file is named; the fallback value is used");
+                return None;
+            }
+        };
+        let own = stated.map_or_else(|| stated_colour_space(&attribute), str::to_owned);
+        let mut space = if own.is_empty() { unstated } else { &own };
+        if ColourSpace::parse(space).is_err() {
+            self.warn(shader, format!("the image '{}' has the unknown colour space '{space}'; '{unstated}' is used", path.authored));
+            space = unstated;
+        }
+        texture(self.context, &Origin::new(&shader.path), &path, &attribute, space)
+    }
+
+    /// The texture coordinates of the given set: `st`, `st1`, …
+    pub(super) fn texture_coordinates(&mut self, set: u32) -> Input {
+        let name = if set == 0 { "st".to_owned() } else { format!("st{set}") };
+        self.node(Operation::Primvar { name, fallback: [0.0; 4] }, vec![])
+    }
+}

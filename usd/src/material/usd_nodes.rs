@@ -1,0 +1,118 @@
+//! The nodes of the UsdPreviewSurface specification: textures, primvar readers and 2D transforms.
+
+use super::arithmetic::{binary, scalar};
+use super::network::{Network, Shader};
+use super::value::{Source, Value};
+use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
+
+/// Where images lie without wrapping when nothing is said: outside them there is nothing.
+const UNSTATED_WRAP: &str = "useMetadata";
+
+/// Whether `node` (without MaterialX's prefix) is one of the specification's.
+pub(super) fn is_usd_node(node: &str) -> bool {
+    node.starts_with("UsdUVTexture") || node.starts_with("UsdPrimvarReader_") || node.starts_with("UsdTransform2d")
+}
+
+/// The component that a named output of a texture or of a scalar reader stands for.
+pub(super) fn output_component(id: &str, output: &str) -> Option<usize> {
+    let node = id.strip_prefix("ND_").unwrap_or(id);
+    match (node, output) {
+        ("UsdPrimvarReader_float" | "UsdPrimvarReader_int" | "UsdPrimvarReader_integer", _) => Some(0),
+        (node, output) if node.starts_with("UsdUVTexture") => ["r", "g", "b", "a"].iter().position(|name| *name == output),
+        _ => None,
+    }
+}
+
+/// Builds a node of the specification; `is_materialx` says that MaterialX's defaults hold.
+pub(super) fn build<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, node: &str, is_materialx: bool) -> Option<Input> {
+    match node {
+        _ if node.starts_with("UsdUVTexture") => Some(texture(network, shader, is_materialx)),
+        "UsdTransform2d" => Some(transform(network, shader)),
+        _ => primvar_reader(network, shader, node.strip_prefix("UsdPrimvarReader_")?),
+    }
+}
+
+fn wrap_mode(network: &mut Network<'_, '_, '_>, shader: &Shader<'_>, name: &str, mode: &str) -> WrapMode {
+    match mode {
+        "repeat" | "periodic" => WrapMode::Repeat,
+        "clamp" => WrapMode::Clamp,
+        "mirror" => WrapMode::Mirror,
+        "black" | "constant" | UNSTATED_WRAP => WrapMode::Black,
+        other => {
+            network.warn(shader, format!("{name} is '{other}', expected useMetadata, black, clamp, repeat or mirror; repeat is used"));
+            WrapMode::Repeat
+        }
+    }
+}
+
+fn texture<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, is_materialx: bool) -> Input {
+    let unstated = if is_materialx { "periodic" } else { UNSTATED_WRAP };
+    let wrap = ["wrapS", "wrapT"].map(|name| {
+        let mode = network.text(shader, name).unwrap_or_else(|| unstated.to_owned());
+        wrap_mode(network, shader, name, &mode)
+    });
+    let fallback = network.uniform(shader, "fallback", [0.0, 0.0, 0.0, 1.0]);
+    let scale = network.uniform(shader, "scale", [1.0; 4]);
+    let bias = network.uniform(shader, "bias", [0.0; 4]);
+    let stated = network.text(shader, "sourceColorSpace").filter(|space| space != "auto");
+    let Some(texture) = network.texture(shader, stated.as_deref(), "auto") else {
+        return Input::Constant(fallback);
+    };
+    let st = match network.input(shader, "st") {
+        Some(input) => input,
+        None if is_materialx => network.texture_coordinates(0),
+        None => scalar(0.0),
+    };
+    network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![st])
+}
+
+fn transform<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+    let input = network.input(shader, "in").unwrap_or(scalar(0.0));
+    let [scale_x, scale_y, ..] = network.uniform(shader, "scale", [1.0; 4]);
+    let [x, y, ..] = network.uniform(shader, "translation", [0.0; 4]);
+    let rotation_deg = network.number(shader, "rotation", 0.0);
+    network.node(Operation::Transform2d { scale: [scale_x, scale_y], rotation_deg, translation: [x, y] }, vec![input])
+}
+
+fn primvar_reader<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, kind: &str) -> Option<Input> {
+    if !matches!(
+        kind,
+        "float" | "float2" | "float3" | "float4" | "int" | "integer" | "normal" | "point" | "vector" | "vector2" | "vector3" | "vector4"
+    ) {
+        return None;
+    }
+    let fallback = network.uniform(shader, "fallback", [0.0; 4]);
+    match network.text(shader, "varname").filter(|name| !name.is_empty()) {
+        Some(name) => Some(network.node(Operation::Primvar { name, fallback }, vec![])),
+        None => {
+            network.warn(shader, "varname names no primvar; the reader's fallback is used");
+            Some(Input::Constant(fallback))
+        }
+    }
+}
+
+/// Whether a normal map's texture says neither scale nor bias, so that its numbers are still in [0, 1].
+fn is_unscaled<'py>(network: &mut Network<'_, '_, 'py>, texture: &Shader<'py>) -> bool {
+    ["scale", "bias"].iter().all(|name| matches!(network.source(texture, name), Source::Nothing))
+        && matches!(network.source(texture, "file"), Source::Value(Value::Asset(path), _) if is_unsigned_format(&path.authored))
+}
+
+fn is_unsigned_format(file: &str) -> bool {
+    let end = file.trim_end_matches(']').rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+    matches!(end.as_str(), "png" | "jpg" | "jpeg" | "tga" | "bmp")
+}
+
+/// The preview surface's `normal` input as a tangent-space normal in [-1, 1]; `None` if it is not connected.
+pub(super) fn tangent_normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
+    let Source::Output(prim, _) = network.source(shader, "normal") else {
+        return None;
+    };
+    let input = network.input(shader, "normal")?;
+    let texture = Shader::new(prim, &network.context.time);
+    if texture.id == "UsdUVTexture" && is_unscaled(network, &texture) {
+        network.warn(&texture, "a normal map without scale and bias; (2, 2, 2) and (-1, -1, -1) are used");
+        let doubled = binary(&mut network.graph, Operation::Multiply, input, scalar(2.0));
+        return Some(binary(&mut network.graph, Operation::Subtract, doubled, scalar(1.0)));
+    }
+    Some(input)
+}

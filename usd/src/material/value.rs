@@ -1,0 +1,135 @@
+//! Values of shader inputs: what an attribute holds, or the shader output that it is connected to.
+
+use crate::prim::{Attribute, Prim};
+use crate::pxr::Module;
+use crate::vt::{AssetPath, FromValue};
+use gonio::colour::{ColourSpace, apply};
+use pyo3::{intern, prelude::*, types::PyString};
+
+/// What an attribute holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    /// Numbers, flags and vectors: up to four components and their count; the fourth of fewer is 1.
+    Numbers([f32; 4], usize),
+    /// Tokens and strings.
+    Text(String),
+    /// Files.
+    Asset(AssetPath),
+}
+
+impl Value {
+    /// The value behind a Python object; `None` for kinds that shading does not use.
+    pub(crate) fn from_python(object: &Bound<'_, PyAny>) -> Option<Self> {
+        if let Ok(number) = object.extract::<f64>() {
+            return Some(Self::Numbers([number as f32; 4], 1));
+        }
+        if object.is_instance_of::<PyString>() {
+            return object.extract().ok().map(Self::Text);
+        }
+        if object.hasattr(intern!(object.py(), "resolvedPath")).unwrap_or(false) {
+            return AssetPath::from_value(object).map(Self::Asset);
+        }
+        let mut values = [0.0, 0.0, 0.0, 1.0];
+        let mut count = 0;
+        for item in object.try_iter().ok()? {
+            *values.get_mut(count)? = item.ok()?.extract::<f64>().ok()? as f32;
+            count += 1;
+        }
+        (count > 0).then_some(Self::Numbers(values, count))
+    }
+
+    /// Text, also of assets.
+    pub(crate) fn text(&self) -> Option<&str> {
+        match self {
+            Self::Text(text) | Self::Asset(AssetPath { authored: text, .. }) => Some(text),
+            Self::Numbers(..) => None,
+        }
+    }
+}
+
+/// Where a shader input's value comes from.
+#[derive(Debug)]
+pub(super) enum Source<'py> {
+    /// Nothing is said.
+    Nothing,
+    /// A value, and the attribute that holds it.
+    Value(Value, Attribute<'py>),
+    /// A shader's output: the prim and the output's name.
+    Output(Prim<'py>, String),
+}
+
+/// The source of the input `name` of a shader prim at a time, through interfaces of node graphs and materials.
+pub(super) fn source<'py>(shader: &Prim<'py>, name: &str, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
+    let py = shader.py();
+    let name = format!("inputs:{name}");
+    // Shaders have no schema that would give unauthored inputs a value.
+    let Some(attribute) = shader.has_authored(&name).then(|| shader.attribute(&name)).flatten() else {
+        return Ok(Source::Nothing);
+    };
+    if !attribute.object().call_method0(intern!(py, "HasAuthoredConnections"))?.is_truthy()? {
+        return value_of(attribute, time);
+    }
+    let input = Module::UsdShade.wrap("Input", attribute.object())?;
+    let producers = input.call_method0(intern!(py, "GetValueProducingAttributes"))?;
+    let Some(producer) = producers.try_iter()?.next() else {
+        return Ok(Source::Nothing);
+    };
+    let producer = producer?;
+    let full_name: String = producer.call_method0(intern!(py, "GetName"))?.extract()?;
+    match full_name.strip_prefix("outputs:") {
+        Some(output) => Ok(Source::Output(Prim::new(producer.call_method0(intern!(py, "GetPrim"))?), output.to_owned())),
+        None => value_of(Attribute::new(producer), time),
+    }
+}
+
+fn value_of<'py>(attribute: Attribute<'py>, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
+    let value = attribute.get(time)?;
+    Ok(match value.as_ref().and_then(Value::from_python) {
+        Some(value) => Source::Value(value, attribute),
+        None => Source::Nothing,
+    })
+}
+
+/// The colour space that is said for an attribute, by itself or by the prims above; empty if none is.
+pub(crate) fn stated_colour_space(attribute: &Attribute<'_>) -> String {
+    let object = attribute.object();
+    let py = object.py();
+    let own = || -> PyResult<String> { object.call_method0(intern!(py, "GetColorSpace"))?.extract() };
+    let inherited = || -> PyResult<String> {
+        Module::Usd.item(py, "ColorSpaceAPI")?.call_method1(intern!(py, "ComputeColorSpaceName"), (object,))?.extract()
+    };
+    // Older versions of the package have no ColorSpaceAPI.
+    own().ok().filter(|space| !space.is_empty()).or_else(|| inherited().ok()).unwrap_or_default()
+}
+
+/// Whether an attribute's type is a colour.
+pub(super) fn is_colour(attribute: &Attribute<'_>) -> bool {
+    attribute.type_name().starts_with("color")
+}
+
+/// Linear Rec.709 of a colour given in the space called `space`; `Err` gives the name back if it is not known.
+pub(crate) fn to_linear_rec709(rgba: [f32; 4], space: &str) -> Result<[f32; 4], String> {
+    match ColourSpace::parse(space) {
+        Ok(ColourSpace::Auto | ColourSpace::Raw) => Ok(rgba),
+        Ok(ColourSpace::Colour { transfer, gamut }) => {
+            let linear = [rgba[0], rgba[1], rgba[2]].map(|x| transfer.decode(f64::from(x)));
+            let [r, g, b] = gamut.to_rec709().map_or(linear, |matrix| apply(&matrix, linear));
+            Ok([r as f32, g as f32, b as f32, rgba[3]])
+        }
+        Err(unknown) => Err(unknown.name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn acescg_red_leaves_rec709() {
+        let [r, g, b, a] = to_linear_rec709([0.5, 0.2, 0.1, 0.7], "lin_ap1_scene").expect("known space");
+        for (found, expected) in [(r, 0.7198409), (g, 0.161_977_92), (b, 0.077_501_76), (a, 0.7)] {
+            assert!((found - expected).abs() < 2e-3, "{found} {expected}");
+        }
+        assert_eq!(to_linear_rec709([0.5; 4], "no such space"), Err("no such space".to_owned()));
+    }
+}

@@ -1,0 +1,129 @@
+//! Meshes: what a `Mesh` prim says, as a source that is built into triangles later, without the interpreter.
+
+use crate::build::{MeshSource, Surface};
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::{primvar, subset};
+use gonio::mesh::refine::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
+use gonio::mesh::PolygonMesh;
+
+/// Most faces that subdivision makes of one mesh; denser meshes are refined less.
+const MAX_REFINED_FACES: usize = 1 << 22;
+
+/// A mesh prim as read: the source and the prims of its slots, the mesh first.
+#[derive(Debug)]
+pub struct ReadMesh {
+    /// What triangles are made of.
+    pub source: MeshSource,
+    /// The prims that slots look up their material at.
+    pub slot_prims: Vec<String>,
+}
+
+/// Reads a `Mesh` prim; `None` where there is nothing to show or, with a report, nothing that can be used.
+pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<ReadMesh> {
+    let origin = prim.origin();
+    let points = context.get_authored::<Vec<[f32; 3]>>(prim, "points");
+    let face_counts = context.get_authored::<Vec<i32>>(prim, "faceVertexCounts");
+    let corners = context.get_authored::<Vec<i32>>(prim, "faceVertexIndices");
+    let (Some(points), Some(face_counts), Some(corners)) = (points, face_counts, corners) else {
+        context.once("mesh", "incomplete", &origin, || "the mesh has no usable points, faceVertexCounts or faceVertexIndices".into());
+        return None;
+    };
+    if points.is_empty() || face_counts.is_empty() {
+        context.once("mesh", "empty", &origin, || "the mesh has no points or faces".into());
+        return None;
+    }
+    let mut polygons = match PolygonMesh::from_signed(points, &face_counts, &corners) {
+        Ok(polygons) => polygons,
+        Err(problem) => {
+            context.warn(&origin, format!("{problem}; the mesh is left out"));
+            return None;
+        }
+    };
+    polygons.hole_faces = unsigned(context.get_authored::<Vec<i32>>(prim, "holeIndices"));
+    polygons.left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    polygons.primvars = primvar::authored(context, prim);
+    let (surface, normals) = surface(context, prim);
+    polygons.primvars.extend(normals);
+    let subsets = subset::read(context, prim, polygons.face_counts.len());
+    let mut slot_prims = vec![prim.path()];
+    slot_prims.extend(subsets.prims);
+    report_blur(context, prim);
+    Some(ReadMesh { source: MeshSource { origin, polygons, surface, face_slots: subsets.face_slots }, slot_prims })
+}
+
+/// Negative indices become ones that are out of range, which the mesh's check reports.
+fn unsigned(indices: Option<Vec<i32>>) -> Vec<u32> {
+    indices.unwrap_or_default().into_iter().map(|index| u32::try_from(index).unwrap_or(u32::MAX)).collect()
+}
+
+/// The surface's kind, and the authored normals where they count: not on subdivision surfaces.
+fn surface<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> (Surface, Option<gonio::mesh::FacePrimvar>) {
+    let scheme = context.get_authored::<String>(prim, "subdivisionScheme").unwrap_or_else(|| "catmullClark".into());
+    let scheme = match scheme.as_str() {
+        "none" => None,
+        "catmullClark" => Some(Scheme::CatmullClark),
+        "loop" => Some(Scheme::Loop),
+        "bilinear" => Some(Scheme::Bilinear),
+        other => {
+            context.warn(&prim.origin(), format!("subdivisionScheme is '{other}', expected catmullClark, loop, bilinear or none; none is used"));
+            None
+        }
+    };
+    let Some(scheme) = scheme else { return (Surface::Polygons, primvar::normals(context, prim)) };
+    let options = RefineOptions {
+        scheme,
+        level: context.options.complexity.levels(),
+        boundary: boundary(context, prim),
+        face_varying: face_varying(context, prim),
+        triangles: triangle_rule(context, prim),
+        max_faces: MAX_REFINED_FACES,
+        ..RefineOptions::default()
+    };
+    (Surface::Subdivision(creases(context, prim), options), None)
+}
+
+fn boundary<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> BoundaryInterpolation {
+    match context.get_authored::<String>(prim, "interpolateBoundary").as_deref() {
+        Some("none") => BoundaryInterpolation::None,
+        Some("edgeOnly") => BoundaryInterpolation::EdgeOnly,
+        _ => BoundaryInterpolation::EdgeAndCorner,
+    }
+}
+
+fn face_varying<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> FaceVaryingInterpolation {
+    match context.get_authored::<String>(prim, "faceVaryingLinearInterpolation").as_deref() {
+        Some("none") => FaceVaryingInterpolation::None,
+        Some("cornersOnly") => FaceVaryingInterpolation::CornersOnly,
+        Some("cornersPlus2") => FaceVaryingInterpolation::CornersPlus2,
+        Some("boundaries") => FaceVaryingInterpolation::Boundaries,
+        Some("all") => FaceVaryingInterpolation::All,
+        _ => FaceVaryingInterpolation::CornersPlus1,
+    }
+}
+
+fn triangle_rule<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> TriangleRule {
+    match context.get_authored::<String>(prim, "triangleSubdivisionRule").as_deref() {
+        Some("smooth") => TriangleRule::Smooth,
+        _ => TriangleRule::CatmullClark,
+    }
+}
+
+fn creases<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Creases {
+    Creases {
+        crease_indices: unsigned(context.get_authored(prim, "creaseIndices")),
+        crease_lengths: unsigned(context.get_authored(prim, "creaseLengths")),
+        crease_sharpnesses: context.get_authored(prim, "creaseSharpnesses").unwrap_or_default(),
+        corner_indices: unsigned(context.get_authored(prim, "cornerIndices")),
+        corner_sharpnesses: context.get_authored(prim, "cornerSharpnesses").unwrap_or_default(),
+    }
+}
+
+/// Motion is not blurred.
+fn report_blur(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
+    for name in ["velocities", "accelerations"] {
+        if prim.has_authored(name) {
+            context.unsupported(&format!("motion blur ({name})"), &prim.origin());
+        }
+    }
+}

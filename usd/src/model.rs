@@ -1,0 +1,98 @@
+//! What the traversal makes of a part of a stage: a list of elements in the part's own frame, which groups place many times.
+//!
+//! The world is a model, and so is each prototype of native instances and of point instancers: read once, placed often.
+
+use crate::options::Purpose;
+use gonio::scene::{MaterialId, MeshId, Transform};
+use std::rc::Rc;
+
+/// A named value that things inherit from the prims above them or from their placement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inherited {
+    /// The name without prefix.
+    pub name: String,
+    /// Floats a value, 1 to 4.
+    pub components: usize,
+    /// One value, or one a placement.
+    pub values: Rc<[f32]>,
+    /// Whether there is one value a placement.
+    pub is_varying: bool,
+}
+
+/// The material of one slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// A bound one.
+    Bound(MaterialId),
+    /// No binding is authored at or above the prim: what displayColor and displayOpacity say.
+    Unbound,
+}
+
+/// A mesh with its materials.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The mesh.
+    pub mesh: MeshId,
+    /// The material of each slot.
+    pub slots: Vec<Slot>,
+    /// The prim that each slot's binding is looked up at: the mesh, then its subsets.
+    pub slot_prims: Vec<String>,
+    /// Whether the mesh has displayOpacity itself.
+    pub has_opacity: bool,
+    /// Whether MeshLightAPI or its like makes it a light.
+    pub is_light: bool,
+}
+
+/// A model placed once or many times.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What is placed.
+    pub model: Rc<Model>,
+    /// From the model's frame to that of the element.
+    pub transforms: Vec<Transform>,
+    /// Values of the placements.
+    pub primvars: Vec<Inherited>,
+    /// For native instances, the prim that stands for the model's root; material bindings from there count inside.
+    pub instance: Option<String>,
+}
+
+/// What an element is.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// A surface.
+    Shape(Shape),
+    /// A light prim.
+    Light,
+    /// A camera prim.
+    Camera,
+    /// Other models.
+    Group(Group),
+}
+
+/// Something that is placed with its model.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// Path of the prim.
+    pub path: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Local space to the model's frame, in stage units; to the stage's where `is_detached`.
+    pub to_model: Transform,
+    /// Whether a reset of the transformation stack takes the element out of the model's frame.
+    pub is_detached: bool,
+    /// Purpose authored inside the model; otherwise the placement's counts.
+    pub purpose: Option<Purpose>,
+    /// Values from the prims above, nearest first.
+    pub primvars: Rc<[Inherited]>,
+    /// Whether a material binding may be authored at or above the prim, inside the model.
+    pub is_bound: bool,
+}
+
+/// A part of a stage.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// Path of its root prim.
+    pub root: String,
+    /// What is in it.
+    pub elements: Vec<Element>,
+}

@@ -1,0 +1,158 @@
+//! What of a stage is read, and how.
+
+use std::path::PathBuf;
+
+/// The time at which attributes are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SampleTime {
+    /// The stage's start time code; where it has none, the earliest sample of each attribute.
+    #[default]
+    Start,
+    /// Default values, time samples are not looked at.
+    Default,
+    /// A time code.
+    Code(f64),
+}
+
+/// How finely subdivision surfaces and quadrics are cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Complexity {
+    /// Control meshes as they are.
+    Low,
+    /// One level.
+    Medium,
+    /// Two levels; the default.
+    #[default]
+    High,
+    /// Three levels.
+    VeryHigh,
+}
+
+impl Complexity {
+    /// The complexity by usdrecord's name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "low" => Self::Low,
+            "medium" => Self::Medium,
+            "high" => Self::High,
+            "veryhigh" => Self::VeryHigh,
+            _ => return None,
+        })
+    }
+
+    /// Levels of uniform subdivision.
+    pub fn levels(self) -> u32 {
+        self as u32
+    }
+}
+
+/// `UsdGeomImageable`'s purpose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Purpose {
+    /// Always of interest.
+    #[default]
+    Default,
+    /// For final pictures.
+    Render,
+    /// A light stand-in.
+    Proxy,
+    /// For people's orientation.
+    Guide,
+}
+
+impl Purpose {
+    /// The purpose by its token; `geometry` is husk's word for default.
+    pub fn from_token(token: &str) -> Option<Self> {
+        Some(match token {
+            "default" | "geometry" => Self::Default,
+            "render" => Self::Render,
+            "proxy" => Self::Proxy,
+            "guide" => Self::Guide,
+            _ => return None,
+        })
+    }
+}
+
+/// A choice in a variant set.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VariantSelection {
+    /// Path of the prim.
+    pub prim: String,
+    /// The variant set.
+    pub set: String,
+    /// The variant.
+    pub variant: String,
+}
+
+impl VariantSelection {
+    /// From `/Prim{set=variant}`.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (prim, rest) = text.split_once('{')?;
+        let (set, variant) = rest.strip_suffix('}')?.split_once('=')?;
+        let [prim, set, variant] = [prim, set, variant].map(|part| part.trim().to_owned());
+        (prim.starts_with('/') && !set.is_empty()).then_some(Self { prim, set, variant })
+    }
+}
+
+/// What of a stage is read, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageOptions {
+    /// When attributes are read.
+    pub time: SampleTime,
+    /// Purposes that are shown; `Default` always is.
+    pub purposes: Vec<Purpose>,
+    /// How finely curved surfaces are cut.
+    pub complexity: Complexity,
+    /// Prim paths to which the stage is limited; empty means all of it.
+    pub population_mask: Vec<String>,
+    /// Choices that replace those of the files.
+    pub variants: Vec<VariantSelection>,
+    /// A layer that is put over the stage.
+    pub session_layer: Option<PathBuf>,
+    /// Whether payloads are loaded.
+    pub load_payloads: bool,
+    /// Purposes of material bindings in the order in which they are tried; the empty one is the all-purpose binding.
+    pub material_binding_purposes: Vec<String>,
+    /// Path of the RenderSettings prim; `None` takes the one that the stage names.
+    pub render_settings: Option<String>,
+    /// Whether warnings end the reading.
+    pub strict: bool,
+}
+
+impl Default for StageOptions {
+    fn default() -> Self {
+        Self {
+            time: SampleTime::Start,
+            purposes: vec![Purpose::Default, Purpose::Render],
+            complexity: Complexity::default(),
+            population_mask: Vec::new(),
+            variants: Vec::new(),
+            session_layer: None,
+            load_payloads: true,
+            material_binding_purposes: vec!["full".into(), String::new()],
+            render_settings: None,
+            strict: false,
+        }
+    }
+}
+
+impl StageOptions {
+    /// Whether things of this purpose are shown.
+    pub fn shows(&self, purpose: Purpose) -> bool {
+        purpose == Purpose::Default || self.purposes.contains(&purpose)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variants_are_parsed() {
+        let parsed = VariantSelection::parse("/A/B{look=red}").expect("valid");
+        assert_eq!(parsed, VariantSelection { prim: "/A/B".into(), set: "look".into(), variant: "red".into() });
+        for bad in ["A{x=y}", "/A", "/A{x}", "/A{=y}", "/A{x=y"] {
+            assert_eq!(VariantSelection::parse(bad), None, "{bad}");
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! From models to the scene: groups multiplied out, shapes of equal mesh and materials gathered into one set of instances.
+
+use crate::context::Context;
+use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
+use crate::options::Purpose;
+use crate::prim::Prim;
+use crate::{camera, light, material, primvar};
+use gonio::scene::{Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
+use gonio::{Error, Result};
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+/// Most placed shapes of a stage.
+const MAX_PLACEMENTS: usize = 1 << 25;
+
+/// Where a model is placed.
+#[derive(Clone, Debug)]
+struct Placement {
+    /// The model's frame to the world, metres.
+    transforms: Vec<Transform>,
+    /// Values that come from outside the model.
+    primvars: Rc<[Inherited]>,
+    purpose: Option<Purpose>,
+    /// For models of native instances: the model's root and the path that stands for it.
+    renamed: Option<(String, String)>,
+    /// Whether a material binding outside the model may count inside.
+    is_rebound: bool,
+}
+
+impl Placement {
+    fn path(&self, path: &str) -> String {
+        let renamed = self.renamed.as_ref().and_then(|(from, to)| Some(format!("{to}{}", path.strip_prefix(from.as_str())?)));
+        renamed.unwrap_or_else(|| path.to_owned())
+    }
+}
+
+/// Instances that share a mesh, materials and the names of their values.
+type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>);
+
+/// Instances under construction: the values of all placements, one after the other, for each name of the key.
+#[derive(Debug)]
+struct Gathered {
+    instances: Instances,
+    names: Vec<(String, usize)>,
+    values: Vec<Vec<f32>>,
+}
+
+/// Fills the scene's instances, lights and cameras.
+#[derive(Debug)]
+pub struct Placer<'w, 'a, 'py> {
+    context: &'w mut Context<'a, 'py>,
+    failed: HashSet<MeshId>,
+    places: HashMap<Key, usize>,
+    gathered: Vec<Gathered>,
+    placement_count: usize,
+    geometry_lights: HashMap<(String, MaterialId), MaterialId>,
+}
+
+/// Places the world. `failed` are the meshes that could not be built; they are removed from the scene.
+///
+/// # Errors
+/// Cancellation, or more placements than are reasonable.
+pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: HashSet<MeshId>) -> Result<()> {
+    let placement = Placement {
+        transforms: vec![Transform::scale(context.metres_per_unit)],
+        primvars: Rc::from([]),
+        purpose: None,
+        renamed: None,
+        is_rebound: false,
+    };
+    let mut placer = Placer {
+        context,
+        failed,
+        places: HashMap::new(),
+        gathered: Vec::new(),
+        placement_count: 0,
+        geometry_lights: HashMap::new(),
+    };
+    placer.place(world, &placement)?;
+    placer.finish();
+    Ok(())
+}
+
+impl<'py> Placer<'_, '_, 'py> {
+    fn place(&mut self, model: &Model, placement: &Placement) -> Result<()> {
+        for element in &model.elements {
+            self.context.check_cancel()?;
+            let purpose = element.purpose.or(placement.purpose);
+            match &element.kind {
+                Kind::Group(group) => self.group(element, group, purpose, placement)?,
+                _ if !self.context.options.shows(purpose.unwrap_or_default()) => {}
+                Kind::Shape(shape) => self.shape(element, shape, placement)?,
+                Kind::Light => self.lights(element, placement),
+                Kind::Camera => self.cameras(element, placement),
+            }
+        }
+        Ok(())
+    }
+
+    fn transforms(&self, element: &Element, placement: &Placement) -> Vec<Transform> {
+        if element.is_detached {
+            let root = Transform::scale(self.context.metres_per_unit);
+            return vec![root.after(&element.to_model); placement.transforms.len()];
+        }
+        placement.transforms.iter().map(|transform| transform.after(&element.to_model)).collect()
+    }
+
+    fn count(&mut self, element: &Element, added: usize) -> Result<()> {
+        self.placement_count = self.placement_count.saturating_add(added);
+        if self.placement_count <= MAX_PLACEMENTS {
+            return Ok(());
+        }
+        Err(Error::scene(&Origin::new(&element.path), format!("the stage has more than {MAX_PLACEMENTS} instances with those placed here")))
+    }
+
+    fn group(&mut self, element: &Element, group: &Group, purpose: Option<Purpose>, placement: &Placement) -> Result<()> {
+        let outer = self.transforms(element, placement);
+        self.count(element, outer.len().saturating_mul(group.transforms.len()))?;
+        let mut transforms = Vec::with_capacity(outer.len() * group.transforms.len());
+        for transform in &outer {
+            transforms.extend(group.transforms.iter().map(|inner| transform.after(inner)));
+        }
+        let repeated: Vec<Inherited> = placement.primvars.iter().map(|value| each_repeated(value, group.transforms.len())).collect();
+        let tiled: Vec<Inherited> = group.primvars.iter().map(|value| tiled(value, outer.len())).collect();
+        let near = primvar::merged(&tiled, &element.primvars);
+        let renamed = match &group.instance {
+            Some(instance) => Some((group.model.root.clone(), placement.path(instance))),
+            None => placement.renamed.clone(),
+        };
+        let is_rebound = placement.is_rebound || group.instance.is_some() && element.is_bound;
+        self.place(&group.model, &Placement { transforms, primvars: primvar::merged(&near, &repeated), purpose, renamed, is_rebound })
+    }
+
+    fn shape(&mut self, element: &Element, shape: &Shape, placement: &Placement) -> Result<()> {
+        if self.failed.contains(&shape.mesh) {
+            return Ok(());
+        }
+        self.count(element, placement.transforms.len())?;
+        let mesh = &self.context.scene.meshes[shape.mesh.index()];
+        let inherited = primvar::merged(&element.primvars, &placement.primvars);
+        let primvars: Vec<Inherited> = inherited.iter().filter(|value| mesh.primvar(&value.name).is_none()).cloned().collect();
+        let transforms = self.transforms(element, placement);
+        let materials = self.materials(element, shape, placement, &primvars, &transforms);
+        let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
+        let key = (shape.mesh, materials, names);
+        let place = match self.places.get(&key) {
+            Some(place) => *place,
+            None => self.new_set(element, &key, placement),
+        };
+        let gathered = &mut self.gathered[place];
+        for (values, primvar) in gathered.values.iter_mut().zip(&primvars) {
+            let repeats = if primvar.is_varying { 1 } else { transforms.len() };
+            (0..repeats).for_each(|_| values.extend_from_slice(&primvar.values));
+        }
+        gathered.instances.transforms.extend(transforms);
+        Ok(())
+    }
+
+    fn new_set(&mut self, element: &Element, key: &Key, placement: &Placement) -> usize {
+        let place = self.gathered.len();
+        let instances = Instances {
+            origin: Origin::new(placement.path(&element.path)),
+            mesh: key.0,
+            materials: key.1.clone(),
+            transforms: Vec::new(),
+            primvars: Vec::new(),
+            visibility: Visibility::default(),
+        };
+        self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
+        self.places.insert(key.clone(), place);
+        place
+    }
+
+    fn materials(
+        &mut self,
+        element: &Element,
+        shape: &Shape,
+        placement: &Placement,
+        primvars: &[Inherited],
+        transforms: &[Transform],
+    ) -> Vec<MaterialId> {
+        let has_opacity = shape.has_opacity || primvars.iter().any(|value| value.name == "displayOpacity");
+        let rebound = if placement.is_rebound { self.rebound(shape, placement) } else { None };
+        let mut materials = rebound.unwrap_or_else(|| {
+            let unbound = |slot: &Slot| match slot {
+                Slot::Bound(material) => *material,
+                Slot::Unbound => material::fallback(self.context, has_opacity),
+            };
+            shape.slots.iter().map(unbound).collect()
+        });
+        if shape.is_light {
+            let area = transforms.first().map(|transform| self.area(shape.mesh, transform));
+            materials.iter_mut().for_each(|material| *material = self.glowing(&element.path, *material, area));
+        }
+        materials
+    }
+
+    /// The materials by the bindings that count where the instance stands.
+    fn rebound(&mut self, shape: &Shape, placement: &Placement) -> Option<Vec<MaterialId>> {
+        let prims: Option<Vec<Prim<'py>>> = shape.slot_prims.iter().map(|path| self.context.prim_at(&placement.path(path))).collect();
+        Some(material::bound_all(self.context, &prims?))
+    }
+
+    fn glowing(&mut self, path: &str, material: MaterialId, area: Option<f64>) -> MaterialId {
+        let key = (path.to_owned(), material);
+        if let Some(known) = self.geometry_lights.get(&key) {
+            return *known;
+        }
+        let Some(prim) = self.context.prim_at(path) else { return material };
+        let glowing = light::mesh_light_material(self.context, &prim, material, area);
+        self.geometry_lights.insert(key, glowing);
+        glowing
+    }
+
+    /// The area of a placed mesh in square units of the stage.
+    fn area(&self, mesh: MeshId, to_world: &Transform) -> f64 {
+        let mesh = &self.context.scene.meshes[mesh.index()];
+        let point = |index: u32| to_world.point(mesh.points[index as usize].map(f64::from));
+        let doubled = |[a, b, c]: [u32; 3]| {
+            let ([ax, ay, az], b, c) = (point(a), point(b), point(c));
+            let (u, v) = ([b[0] - ax, b[1] - ay, b[2] - az], [c[0] - ax, c[1] - ay, c[2] - az]);
+            let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+            cross.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        let square_metres: f64 = mesh.triangles.iter().map(|&triangle| 0.5 * doubled(triangle)).sum();
+        square_metres / (self.context.metres_per_unit * self.context.metres_per_unit)
+    }
+
+    fn lights(&mut self, element: &Element, placement: &Placement) {
+        let path = placement.path(&element.path);
+        let Some(prim) = self.context.prim_at(&path) else { return };
+        for transform in self.transforms(element, placement) {
+            if let Some(light) = light::light(self.context, &prim, &transform) {
+                self.context.scene.lights.push(light);
+            }
+        }
+    }
+
+    fn cameras(&mut self, element: &Element, placement: &Placement) {
+        let path = placement.path(&element.path);
+        let Some(prim) = self.context.prim_at(&path) else { return };
+        for transform in self.transforms(element, placement) {
+            let camera = camera::camera(self.context, &prim, &transform);
+            self.context.scene.cameras.push(camera);
+        }
+    }
+
+    fn finish(self) {
+        let Self { context, failed, gathered, .. } = self;
+        let instances = gathered.into_iter().map(|Gathered { mut instances, names, values }| {
+            let primvars = names.iter().zip(values);
+            instances.primvars = primvars.map(|((name, components), values)| gathered_primvar(name, *components, values)).collect();
+            instances
+        });
+        context.scene.instances = instances.collect();
+        drop_meshes(context, &failed);
+    }
+}
+
+/// The values of all placements; one value where they agree.
+fn gathered_primvar(name: &str, components: usize, mut values: Vec<f32>) -> Primvar {
+    let is_constant = values.chunks_exact(components).all(|value| value == &values[..components]);
+    if is_constant {
+        values.truncate(components);
+    }
+    Primvar {
+        name: name.to_owned(),
+        interpolation: if is_constant { PrimvarInterpolation::Constant } else { PrimvarInterpolation::Uniform },
+        components: components as u8,
+        values: values.into(),
+        indices: None,
+    }
+}
+
+/// Removes the meshes that could not be built.
+fn drop_meshes(context: &mut Context<'_, '_>, failed: &HashSet<MeshId>) {
+    if failed.is_empty() {
+        return;
+    }
+    let mut kept = 0;
+    let numbers: Vec<u32> = (0..context.scene.meshes.len() as u32)
+        .map(|id| {
+            let number = kept;
+            kept += u32::from(!failed.contains(&MeshId(id)));
+            number
+        })
+        .collect();
+    let mut id = 0;
+    context.scene.meshes.retain(|_| {
+        id += 1;
+        !failed.contains(&MeshId(id - 1))
+    });
+    for instances in &mut context.scene.instances {
+        instances.mesh = MeshId(numbers[instances.mesh.index()]);
+    }
+}
+
+/// A value of the outer placements for each of the `inner` placements in every one.
+fn each_repeated(value: &Inherited, inner: usize) -> Inherited {
+    if !value.is_varying {
+        return value.clone();
+    }
+    let mut values = Vec::with_capacity(value.values.len() * inner);
+    for one in value.values.chunks_exact(value.components) {
+        (0..inner).for_each(|_| values.extend_from_slice(one));
+    }
+    Inherited { values: values.into(), ..value.clone() }
+}
+
+/// The values of the inner placements for each of the `outer` ones.
+fn tiled(value: &Inherited, outer: usize) -> Inherited {
+    if !value.is_varying || outer == 1 {
+        return value.clone();
+    }
+    Inherited { values: value.values.repeat(outer).into(), ..value.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn varying(values: &[f32]) -> Inherited {
+        Inherited { name: "a".into(), components: 1, values: values.into(), is_varying: true }
+    }
+
+    #[test]
+    fn values_follow_nested_placements() {
+        assert_eq!(each_repeated(&varying(&[1.0, 2.0]), 3).values.as_ref(), [1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
+        assert_eq!(tiled(&varying(&[1.0, 2.0]), 2).values.as_ref(), [1.0, 2.0, 1.0, 2.0]);
+    }
+
+    #[test]
+    fn equal_values_become_one() {
+        assert_eq!(gathered_primvar("a", 2, vec![1.0, 2.0, 1.0, 2.0]).interpolation, PrimvarInterpolation::Constant);
+        assert_eq!(gathered_primvar("a", 2, vec![1.0, 2.0, 1.0, 3.0]).values.len(), 4);
+    }
+}

@@ -1,0 +1,55 @@
+//! Local transformations at the time that is read.
+
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::pxr::Module;
+use crate::vt::FromValue;
+use gonio::scene::Transform;
+use pyo3::intern;
+use pyo3::prelude::*;
+
+/// A prim's own transformation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalTransform {
+    /// Local space to the parent's, or to the stage's where `resets`.
+    pub transform: Transform,
+    /// Whether the transformations of the ancestors do not count (`!resetXformStack!`).
+    pub resets: bool,
+}
+
+/// Reads local transformations; `UsdGeom.XformCache` is the fastest of the ways that `pxr` has (measured: 3.5 µs a prim).
+#[derive(Debug)]
+pub struct Xforms<'py> {
+    cache: Bound<'py, PyAny>,
+}
+
+impl<'py> Xforms<'py> {
+    /// For the context's time.
+    ///
+    /// # Errors
+    /// What `pxr` raises.
+    pub fn new(context: &Context<'_, 'py>) -> PyResult<Self> {
+        Ok(Self { cache: Module::UsdGeom.item(context.py, "XformCache")?.call1((&context.time,))? })
+    }
+
+    /// The prim's local transformation; `None` with a report where it cannot be read or is not finite.
+    pub fn local(&self, context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<LocalTransform> {
+        if !prim.has_authored("xformOpOrder") {
+            return Some(LocalTransform { transform: Transform::IDENTITY, resets: false });
+        }
+        let read = || -> PyResult<(Option<Transform>, bool)> {
+            let pair = self.cache.call_method1(intern!(context.py, "GetLocalTransformation"), (prim.object(),))?;
+            Ok((Transform::from_value(&pair.get_item(0)?), pair.get_item(1)?.is_truthy()?))
+        };
+        let result = read();
+        let origin = prim.origin();
+        let (transform, resets) = context.attempt(&origin, "the transformation cannot be read, the prim is left out", result)?;
+        match transform.filter(Transform::is_finite) {
+            Some(transform) => Some(LocalTransform { transform, resets }),
+            None => {
+                context.warn(&origin, "the transformation has numbers that are not finite, the prim is left out");
+                None
+            }
+        }
+    }
+}
