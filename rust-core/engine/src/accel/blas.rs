@@ -38,7 +38,7 @@ impl BlasMemory {
 impl Blas {
     /// Builds the tree of a mesh: points `positions[n][3]` and triangles `triangles[m][3]` of point numbers.
     ///
-    /// A triangle with a point that is missing, not finite, or beyond 1e12 is left out; no ray hits it. Runs in the current rayon pool.
+    /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.
     /// `cancel` is read between the steps of the build, which ends with [`Cancelled`] when it is set.
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         let corners = |triangle: &[u32; 3]| -> Option<[[f32; 3]; 3]> {
@@ -52,11 +52,7 @@ impl Blas {
         }
         assert!(boxes.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
         let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
-        let mut bounds = Bounds::EMPTY;
-        for b in &boxes {
-            bounds.extend(b.min);
-            bounds.extend(b.max);
-        }
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
         Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len() })
     }
 
@@ -70,16 +66,17 @@ impl Blas {
     }
 }
 
-/// The padded box of a triangle, if all its coordinates are usable.
+/// The padded box of a triangle, if all its coordinates are usable and it is more than a point or a line along an axis.
 fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
-    let usable = corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE);
-    usable.then(|| {
-        let mut bounds = Bounds::EMPTY;
-        for &corner in corners {
-            bounds.extend(corner);
-        }
-        bounds.padded()
-    })
+    if !corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE) {
+        return None;
+    }
+    let mut bounds = Bounds::EMPTY;
+    for &corner in corners {
+        bounds.extend(corner);
+    }
+    let flat = (0..3).filter(|&axis| bounds.min[axis] == bounds.max[axis]).count();
+    (flat < 2).then(|| bounds.padded())
 }
 
 /// Makes blocks of up to eight triangles.

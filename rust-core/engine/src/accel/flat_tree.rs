@@ -15,8 +15,8 @@ pub(super) struct FlatNode {
     pub(super) payload: u32,
 }
 
-/// Brings a builder's tree, which must not be empty, into preorder.
-pub(super) fn flatten(tree: &Bvh2) -> Vec<FlatNode> {
+/// Brings a builder's tree, which must not be empty, into preorder, with the true boxes of the primitives.
+pub(super) fn flatten(tree: &Bvh2, boxes: &[Bounds]) -> Vec<FlatNode> {
     let mut flat: Vec<FlatNode> = Vec::with_capacity(tree.nodes.len());
     // A pending right child carries the place of its parent.
     let mut stack: Vec<(u32, u32)> = vec![(0, u32::MAX)];
@@ -27,15 +27,19 @@ pub(super) fn flatten(tree: &Bvh2) -> Vec<FlatNode> {
         let mut index = index as usize;
         loop {
             let node = &tree.nodes[index];
-            let (min, max) = (node.aabb().min, node.aabb().max);
-            let bounds = Bounds { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };
             let place = flat.len() as u32;
-            flat.push(FlatNode { bounds, right: 0, payload: node.first_index });
             if node.is_leaf() {
+                flat.push(FlatNode { bounds: boxes[node.first_index as usize], right: 0, payload: node.first_index });
                 break;
             }
+            flat.push(FlatNode { bounds: Bounds::EMPTY, right: 0, payload: 0 });
             stack.push((node.first_index + 1, place));
             index = node.first_index as usize;
+        }
+    }
+    for place in (0..flat.len()).rev() {
+        if flat[place].right != 0 {
+            flat[place].bounds = flat[place + 1].bounds.union(&flat[flat[place].right as usize].bounds);
         }
     }
     flat
@@ -56,8 +60,7 @@ pub(super) fn balanced(boxes: &[Bounds]) -> Vec<FlatNode> {
         loop {
             let mut bounds = Bounds::EMPTY;
             for &i in &order[start..end] {
-                bounds.extend(boxes[i as usize].min);
-                bounds.extend(boxes[i as usize].max);
+                bounds = bounds.union(&boxes[i as usize]);
             }
             let place = flat.len() as u32;
             flat.push(FlatNode { bounds, right: 0, payload: order[start] });

@@ -102,6 +102,15 @@ impl Bounds {
         }
     }
 
+    pub(super) fn union(&self, other: &Bounds) -> Bounds {
+        let mut out = *self;
+        for axis in 0..3 {
+            out.min[axis] = if other.min[axis] < out.min[axis] { other.min[axis] } else { out.min[axis] };
+            out.max[axis] = if other.max[axis] > out.max[axis] { other.max[axis] } else { out.max[axis] };
+        }
+        out
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.min[0] > self.max[0]
     }

@@ -1,4 +1,7 @@
-//! Directional albedos of rough interfaces, from tables that `examples/energy_tables.rs` recomputes.
+//! Directional albedos of rough interfaces, from tables that `examples/energy_tables.rs` recomputes, and the fuzz lobe's tables.
+//!
+//! The fuzz tables were measured: for each node, albedo as the emission that a layer of fuzz leaves, and the two coefficients from the
+//! lobe's values under five small suns in Cycles 5.0.1 (residuals below 2e-4).
 //!
 //! Axes are uniform from 0 to 1 with the last one fastest: roughness r (alpha = r²), z = F0^(1/4), cosine mu. Reads are linear between nodes
 //! and clamped at the ends. The grids are those of Cycles, since interpolation at grazing angles is part of its look.

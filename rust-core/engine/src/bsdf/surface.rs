@@ -80,6 +80,17 @@ impl Surface {
     }
 }
 
+impl Surface {
+    /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
+    #[inline(always)]
+    pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Rgb<L> {
+        let depth = values.get(l, parameter::TRANSMISSION_DEPTH, at);
+        let colour = values.rgb(l, parameter::TRANSMISSION_COLOR, at).saturate().max(1e-6);
+        let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
+        Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()) * rate
+    }
+}
+
 /// What values a parameter can take.
 struct Reach<'a> {
     constants: &'a [f32; COUNT],

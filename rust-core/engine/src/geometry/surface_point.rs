@@ -88,7 +88,7 @@ impl GeometryTable {
         let double_area = cross.length();
         let geometric_normal = (cross * sign).normalize_or(Vec3::splat(l, [0.0, 0.0, 1.0]));
         let shading_normal = self.shading_normal(l, hit, cofactors, sign, geometric_normal);
-        let error = self.position_error(l, [p0, p1, p2], local, columns, origin, geometric_normal);
+        let error = self.position_error([p0, p1, p2], local, columns, origin, edges);
         SurfacePoint { position, error, geometric_normal, shading_normal, edges, double_area }
     }
 
@@ -110,23 +110,17 @@ impl GeometryTable {
         present.select(same.select(world, -world), flat)
     }
 
-    /// A bound on the position's error along the normal: interpolation and transformation in single precision (pbrt-v4 section 6.8.4).
+    /// A bound on how far position and later intersections may be off the plane, in single precision: interpolation, transformation to the
+    /// world and of a new ray back to the object (pbrt-v4 section 6.8.4), and the distance test of a triangle of this size.
     #[inline(always)]
     fn position_error<L: Lanes>(
-        &self, l: L, corners: [Vec3<L>; 3], local: Vec3<L>, columns: [Vec3<L>; 3], origin: Vec3<L>, normal: Vec3<L>,
+        &self, corners: [Vec3<L>; 3], local: Vec3<L>, columns: [Vec3<L>; 3], origin: Vec3<L>, edges: [Vec3<L>; 2],
     ) -> F<L> {
-        let largest = |axis: fn(&Vec3<L>) -> F<L>| axis(&corners[0]).abs().max(axis(&corners[1]).abs()).max(axis(&corners[2]).abs());
-        let extent = Vec3::new(largest(|p| p.x), largest(|p| p.y), largest(|p| p.z));
-        let mut error = l.f(0.0);
-        let axes: [(fn(&Vec3<L>) -> F<L>, F<L>); 3] = [(|v| v.x, normal.x), (|v| v.y, normal.y), (|v| v.z, normal.z)];
-        for (axis, n) in axes {
-            let moved = axis(&columns[0]).abs() * extent.x + axis(&columns[1]).abs() * extent.y + axis(&columns[2]).abs() * extent.z;
-            let rotated =
-                (axis(&columns[0]) * local.x).abs() + (axis(&columns[1]) * local.y).abs() + (axis(&columns[2]) * local.z).abs();
-            let bound = moved * gamma(9) + (rotated + axis(&origin).abs()) * gamma(5);
-            error = bound.mul_add(n.abs(), error);
-        }
-        error
+        let extent = corners[0].max_abs().max(corners[1].max_abs()).max(corners[2].max_abs());
+        let stretch = columns[0].max_abs() + columns[1].max_abs() + columns[2].max_abs();
+        let moved = stretch * (extent * gamma(9) + local.max_abs() * gamma(5));
+        let size = edges[0].max_abs() + edges[1].max_abs();
+        origin.max_abs().mul_add(gamma(5), size.mul_add(gamma(8), moved))
     }
 }
 

@@ -75,7 +75,9 @@ fn bound(kind: LightKind, axes: [Vector; 3], origin: Vector) -> (Vector, f64) {
 /// Emitting area in the units of the axes, squared.
 fn area(kind: LightKind, axes: [Vector; 3]) -> f64 {
     match kind {
-        LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder | LightKind::Triangle => super::size::size_factor(kind, axes, 0.0),
+        LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder | LightKind::Triangle => {
+            super::size::size_factor(kind, axes, 0.0)
+        }
         LightKind::Distant | LightKind::Dome | LightKind::Point => 0.0,
     }
 }

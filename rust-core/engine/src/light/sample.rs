@@ -73,14 +73,48 @@ impl LightTable {
     /// Aims at lights that have a place.
     #[inline(always)]
     fn aim_near<L: Lanes>(&self, l: L, light: &Reader<'_, L>, p: Vec3<L>, u: [F<L>; 2], aim: &mut Aim<L>) {
-        self.aim_kind(LightKind::Rectangle, light, aim, #[inline(always)] || Rectangle::sample(l, light, p, u));
-        self.aim_kind(LightKind::Disk, light, aim, #[inline(always)] || Disk::sample(l, light, p, u));
-        self.aim_kind(LightKind::Sphere, light, aim, #[inline(always)] || Sphere::sample(l, light, p, u));
-        self.aim_kind(LightKind::Cylinder, light, aim, #[inline(always)] || Cylinder::sample(l, light, p, u));
-        self.aim_kind(LightKind::Triangle, light, aim, #[inline(always)] || Triangle::sample(l, light, p, u));
-        self.aim_kind(LightKind::Point, light, aim, #[inline(always)] || {
-            Aim { pdf: l.f(1.0), ..Aim::towards(light.vector(field::ORIGIN) - p) }
-        });
+        self.aim_kind(
+            LightKind::Rectangle,
+            light,
+            aim,
+            #[inline(always)]
+            || Rectangle::sample(l, light, p, u),
+        );
+        self.aim_kind(
+            LightKind::Disk,
+            light,
+            aim,
+            #[inline(always)]
+            || Disk::sample(l, light, p, u),
+        );
+        self.aim_kind(
+            LightKind::Sphere,
+            light,
+            aim,
+            #[inline(always)]
+            || Sphere::sample(l, light, p, u),
+        );
+        self.aim_kind(
+            LightKind::Cylinder,
+            light,
+            aim,
+            #[inline(always)]
+            || Cylinder::sample(l, light, p, u),
+        );
+        self.aim_kind(
+            LightKind::Triangle,
+            light,
+            aim,
+            #[inline(always)]
+            || Triangle::sample(l, light, p, u),
+        );
+        self.aim_kind(
+            LightKind::Point,
+            light,
+            aim,
+            #[inline(always)]
+            || Aim { pdf: l.f(1.0), ..Aim::towards(light.vector(field::ORIGIN) - p) },
+        );
     }
 
     /// Runs one kind's sampling where some lane has it.
@@ -183,11 +217,41 @@ impl LightTable {
         let index = light.keep_if(mask);
         let light = self.reader(l, index);
         let mut density = (l.f(0.0), [l.f(0.0); 2]);
-        self.density_kind(LightKind::Rectangle, &light, &mut density, #[inline(always)] || Rectangle::density(l, &light, from, wi, hit));
-        self.density_kind(LightKind::Disk, &light, &mut density, #[inline(always)] || Disk::density(l, &light, from, wi, hit));
-        self.density_kind(LightKind::Sphere, &light, &mut density, #[inline(always)] || Sphere::density(l, &light, from, wi, hit));
-        self.density_kind(LightKind::Cylinder, &light, &mut density, #[inline(always)] || Cylinder::density(l, &light, from, wi, hit));
-        self.density_kind(LightKind::Triangle, &light, &mut density, #[inline(always)] || Triangle::density(l, &light, from, wi, hit));
+        self.density_kind(
+            LightKind::Rectangle,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Rectangle::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Disk,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Disk::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Sphere,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Sphere::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Cylinder,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Cylinder::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Triangle,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Triangle::density(l, &light, from, wi, hit),
+        );
         let (pdf, uv) = density;
         let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
         let probability = self.choice_probability(l, from, n, index);
@@ -219,16 +283,7 @@ impl LightTable {
     /// which sees visible lights alone) or was sent by a delta lobe (`delta`).
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-    pub fn escaped<L: Lanes>(
-        &self,
-        l: L,
-        from: Vec3<L>,
-        n: Vec3<L>,
-        wi: Vec3<L>,
-        bsdf_pdf: F<L>,
-        first: M<L>,
-        delta: M<L>,
-    ) -> Rgb<L> {
+    pub fn escaped<L: Lanes>(&self, l: L, from: Vec3<L>, n: Vec3<L>, wi: Vec3<L>, bsdf_pdf: F<L>, first: M<L>, delta: M<L>) -> Rgb<L> {
         let mut sum = Rgb::zero(l);
         for infinite in &self.infinite {
             let (radiance, pdf) = self.infinite_radiance(l, infinite, n, wi);

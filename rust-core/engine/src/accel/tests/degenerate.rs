@@ -58,10 +58,17 @@ fn unusable_rays_hit_nothing() {
     }
 }
 
-/// Thousands of triangles at one place, and triangles that halve in size again and again: trees without good splits.
+/// Thousands of triangles at one place, equal triangles in a row, and triangles that halve in size again and again: trees without good splits.
 #[test]
 fn trees_without_good_splits_stay_correct() {
     let stacked = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], triangles: vec![[0, 1, 2]; 20_000] };
+    let mut row = Mesh::default();
+    for i in 0..20_000u32 {
+        let x = i as f32 - 1e4;
+        row.positions.extend([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]]);
+        row.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    assert!(first_hits(&row.scene(), levels()[0], &OwnedRays::random(&mut Random(43), 100, 1.0, false)).t.len() == 100);
     let mut nested = Mesh::default();
     for i in 0..2000u32 {
         let size = 0.5f32.powf(i as f32 / 20.0);

@@ -60,7 +60,7 @@ fn no_ray_slips_through_a_closed_mesh() {
     for (subdivisions, scale, shift) in [(2, 1.0, 0.0), (5, 1.0, 0.0), (6, 1e-3, 0.0), (4, 100.0, 1e4)] {
         let mut mesh = ball(subdivisions);
         let rays = {
-            let mut rays = rays_at_edges(&mesh, &mut random, 400_000, 0.5);
+            let mut rays = rays_at_edges(&mesh, &mut random, 256_000, 0.5);
             for axis in 0..3 {
                 rays.origin[axis].iter_mut().for_each(|x| *x = *x * scale + shift);
                 rays.direction[axis].iter_mut().for_each(|x| *x *= scale);

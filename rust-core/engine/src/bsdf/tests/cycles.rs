@@ -1,7 +1,7 @@
 //! Directional albedos and values measured in Cycles (Blender 5.0.1), see the comment at each table.
 
 use super::harness::{View, direction};
-use super::rows::{diffuse, glass, glossy, metallic, principled, surface, transmission};
+use super::rows::{Values, diffuse, glass, glossy, metallic, principled, surface, transmission};
 use crate::bsdf::parameter as p;
 use crate::bsdf::{Metal, Surface, Switches};
 
@@ -128,6 +128,27 @@ fn layered() -> Vec<Row> {
     ]
 }
 
+fn fuzzy() -> Vec<Row> {
+    let red: &[f32] = &[1.0, 0.2, 0.2];
+    let both: Values = &[(p::METALNESS, &[0.5]), (p::BASE_COLOR, &[0.9, 0.6, 0.3]), (p::COAT_WEIGHT, &[0.5]), (p::FUZZ_WEIGHT, &[0.3])];
+    vec![
+        row("S1", sheen(0.3), [0.00080, 0.00442, 0.15432].map(GREY)),
+        row("S2", sheen(0.8), [0.17589, 0.27854, 0.53359].map(GREY)),
+        row("P16", principled(&[(p::FUZZ_WEIGHT, &[1.0])]), [0.81108, 0.82176, 0.88401].map(GREY)),
+        row(
+            "P17",
+            principled(&[(p::BASE_COLOR, &[0.2; 3]), (p::FUZZ_WEIGHT, &[1.0]), (p::FUZZ_COLOR, red)]),
+            [[0.24423, 0.22931, 0.22931], [0.28849, 0.23472, 0.23472], [0.54607, 0.25997, 0.25997]],
+        ),
+        row("P24", principled(both), [[0.90335, 0.61425, 0.32801], [0.90505, 0.62277, 0.34471], [0.92788, 0.72066, 0.52091]]),
+    ]
+}
+
+/// Fuzz over nothing.
+fn sheen(roughness: f32) -> Surface {
+    black(0.5, &[(p::SPECULAR_WEIGHT, &[0.0]), (p::FUZZ_WEIGHT, &[1.0]), (p::FUZZ_ROUGHNESS, &[roughness])])
+}
+
 fn coated_metal() -> Surface {
     principled(&[(p::METALNESS, &[1.0]), (p::COAT_WEIGHT, &[0.5]), (p::COAT_ROUGHNESS, &[0.5]), (p::COAT_COLOR, &[0.9, 0.5, 0.2])])
 }
@@ -173,6 +194,10 @@ fn layers_have_cycles_albedo() {
     check(layered());
 }
 #[test]
+fn fuzz_has_cycles_albedo() {
+    check(fuzzy());
+}
+#[test]
 fn transmission_has_cycles_albedo() {
     check(transmissive());
 }
@@ -201,6 +226,9 @@ fn suns() -> Vec<(&'static str, Surface, [f32; 7])> {
         ("L2", glass(0.5, true), [N, 0.08963, 0.003651, 0.393, 0.000_648_8, 0.1296, 13.4]),
         ("L3", glass(1.0, true), [N, 0.004985, 0.00446, 0.02134, 0.004291, 0.9023, 1.165]),
         ("M2", metallic(Metal::Conductor, true), [0.2061, 1.152, 0.05835, 1.643, 0.0106, 0.0, 0.0]),
+        ("S1", sheen(0.3), [6.239e-5, 0.000_328_1, 0.000_213, 0.01687, 0.003069, 0.0, 0.0]),
+        ("S2", sheen(0.8), [0.03663, 0.05259, 0.05536, 0.09201, 0.08717, 0.0, 0.0]),
+        ("P16", principled(&[(p::FUZZ_WEIGHT, &[1.0])]), [0.2232, 0.2519, 0.2065, 0.3651, 0.1353, 0.0, 0.0]),
         ("P1", principled(&[]), [0.225, 0.2602, 0.2137, 0.4797, 0.1191, 0.0, 0.0]),
         ("P2", principled(&[(p::DIFFUSE_ROUGHNESS, &[1.0])]), [0.2145, 0.1766, 0.1968, 0.3861, 0.2386, 0.0, 0.0]),
         ("P3", black(0.5, &[]), [0.01272, 0.08866, 0.003612, 0.3681, 0.000_631_2, 0.0, 0.0]),
@@ -235,6 +263,15 @@ fn emission_shows_what_layers_leave() {
     for (angle, expected) in [0.0, 45.0, 75.0].into_iter().zip(expected) {
         let found = View::new(&coat, angle, true).summary().emission;
         assert!(found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 5e-4), "at {angle}: found {found:?}, expected {expected:?}");
+    }
+}
+
+#[test]
+fn emission_shows_what_fuzz_leaves() {
+    let fuzz = black(0.5, &[(p::EMISSION_COLOR, &[1.0; 3]), (p::SPECULAR_WEIGHT, &[0.0]), (p::FUZZ_WEIGHT, &[1.0])]);
+    for (angle, expected) in [(0.0, 0.98135), (45.0, 0.93277), (75.0, 0.64234)] {
+        let found = View::new(&fuzz, angle, true).summary().emission[0];
+        assert!((found - expected).abs() < 5e-4, "at {angle}: found {found}, expected {expected}");
     }
 }
 

@@ -98,7 +98,8 @@ fn shaped_illuminance_matches_quadrature() {
 #[test]
 fn distant_light_matches_the_projected_solid_angle() {
     for angle in [0.53f64, 10.0, 60.0, 179.0] {
-        let mut record = LightRecord { angle: angle.to_radians() as f32, ..light(LightKind::Distant, turned([1.0; 3], [0.4, 0.1, 0.3]), [0.0; 3]) };
+        let mut record =
+            LightRecord { angle: angle.to_radians() as f32, ..light(LightKind::Distant, turned([1.0; 3], [0.4, 0.1, 0.3]), [0.0; 3]) };
         record.radiance = [2.0, 1.0, 0.25];
         let n = record.to_world[2].map(f64::from);
         let table = LightTable::build(&[record], Vec::new());
@@ -106,7 +107,12 @@ fn distant_light_matches_the_projected_solid_angle() {
         let (mean, error) = estimate(&drawn, n, 1 << 16);
         for k in 0..3 {
             let expected = f64::from(record.radiance[k]) * std::f64::consts::PI * (angle.to_radians() / 2.0).sin().powi(2);
-            assert!((mean[k] - expected).abs() <= DEVIATIONS * error[k] + 2e-5 * expected, "{angle}°: {} ± {} for {expected}", mean[k], error[k]);
+            assert!(
+                (mean[k] - expected).abs() <= DEVIATIONS * error[k] + 2e-5 * expected,
+                "{angle}°: {} ± {} for {expected}",
+                mean[k],
+                error[k]
+            );
         }
     }
 }

@@ -39,7 +39,8 @@ fn area_by_quadrature(record: &LightRecord) -> f64 {
 
 #[test]
 fn size_factors_are_areas() {
-    let axes = [turned([0.8, 0.5, 1.3], [0.3, 0.2, 0.5]), [[0.7, 0.2, 0.1], [0.4, 0.6, -0.1], [0.05, 0.1, 0.9]], turned([2.0; 3], [0.0; 3])];
+    let axes =
+        [turned([0.8, 0.5, 1.3], [0.3, 0.2, 0.5]), [[0.7, 0.2, 0.1], [0.4, 0.6, -0.1], [0.05, 0.1, 0.9]], turned([2.0; 3], [0.0; 3])];
     for axes in axes {
         for (kind, tolerance) in [
             (LightKind::Rectangle, 1e-6),
@@ -76,7 +77,16 @@ fn odd_lights_and_odd_places_stay_finite() {
         [[f32::NAN; 3]; 3],
         turned([1.0, 1e-5, 1e3], [0.3, 0.2, 0.1]),
     ];
-    let places = [[0.0; 3], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1e6], [1e-6, 0.0, -1e-6], [0.5, 0.5, 0.0], [0.0, -1e-20, -1e-20], [3e7, 1e8, -2e7]];
+    let places = [
+        [0.0; 3],
+        [0.0, 0.0, -1.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 0.0, 1e6],
+        [1e-6, 0.0, -1e-6],
+        [0.5, 0.5, 0.0],
+        [0.0, -1e-20, -1e-20],
+        [3e7, 1e8, -2e7],
+    ];
     let mut u = numbers(41, 256);
     for (k, edge) in [0.0, 1.0 - f32::EPSILON / 2.0, 0.5].into_iter().enumerate() {
         for column in &mut u {
@@ -92,7 +102,8 @@ fn odd_lights_and_odd_places_stay_finite() {
                     for n in [[0.0, 0.0, 1.0], [0.0; 3]] {
                         let drawn = draw(Execution::best(), &table, p, n, &u);
                         for i in 0..u[0].len() {
-                            let values = [drawn.pdf[i], drawn.distance[i], drawn.eval_pdf[i], drawn.radiance[0][i], drawn.eval_radiance[0][i]];
+                            let values =
+                                [drawn.pdf[i], drawn.distance[i], drawn.eval_pdf[i], drawn.radiance[0][i], drawn.eval_radiance[0][i]];
                             let fine = values.iter().all(|x| x.is_finite() && *x >= 0.0) && (length(drawn.direction(i)) - 1.0).abs() < 1e-4;
                             assert!(fine, "{kind:?} {axes:?} from {p:?}: {values:?}, wi {:?}", drawn.direction(i));
                         }
@@ -130,6 +141,11 @@ fn rectangle_images_are_upright_for_what_they_light() {
     // What the samples carry is what the hits carry.
     let drawn = draw(Execution::best(), &table, [0.2, 0.3, -1.0], [0.0, 0.0, 1.0], &numbers(3, 4096));
     for i in 0..4096 {
-        assert!((drawn.radiance[0][i] - drawn.eval_radiance[0][i]).abs() < 1e-4, "{} and {}", drawn.radiance[0][i], drawn.eval_radiance[0][i]);
+        assert!(
+            (drawn.radiance[0][i] - drawn.eval_radiance[0][i]).abs() < 1e-4,
+            "{} and {}",
+            drawn.radiance[0][i],
+            drawn.eval_radiance[0][i]
+        );
     }
 }

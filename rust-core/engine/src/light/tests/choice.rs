@@ -5,7 +5,15 @@ use crate::light::{LightKind, LightRecord, LightTable, Shaping};
 use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
 
 fn crowd(count: usize) -> Vec<LightRecord> {
-    let kinds = [LightKind::Rectangle, LightKind::Disk, LightKind::Sphere, LightKind::Cylinder, LightKind::Point, LightKind::Distant, LightKind::Dome];
+    let kinds = [
+        LightKind::Rectangle,
+        LightKind::Disk,
+        LightKind::Sphere,
+        LightKind::Cylinder,
+        LightKind::Point,
+        LightKind::Distant,
+        LightKind::Dome,
+    ];
     (0..count)
         .map(|i| {
             let random = |k: u64| uniform(17, 16 * i as u64 + k);
@@ -71,7 +79,11 @@ fn lights_are_drawn_as_often_as_their_probability_says() {
         for (light, seen) in observed.iter().enumerate() {
             let p = probability(light);
             let deviation = (count as f64 * p * (1.0 - p)).sqrt();
-            assert!((seen - count as f64 * p).abs() < 5.0 * deviation + 3.0, "light {light} of {lights}: {seen} drawn, {} expected", count as f64 * p);
+            assert!(
+                (seen - count as f64 * p).abs() < 5.0 * deviation + 3.0,
+                "light {light} of {lights}: {seen} drawn, {} expected",
+                count as f64 * p
+            );
         }
     }
 }
@@ -85,8 +97,7 @@ fn many_lights_give_the_sum_of_their_illuminances() {
             .into_iter()
             .filter(|r| matches!(r.kind, LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder))
             .collect();
-        let expected: f64 =
-            records.iter().map(|r| super::shape::illuminance(r, p.map(f64::from), n.map(f64::from), 200)[1]).sum();
+        let expected: f64 = records.iter().map(|r| super::shape::illuminance(r, p.map(f64::from), n.map(f64::from), 200)[1]).sum();
         let table = LightTable::build(&records, Vec::new());
         let samples = 1 << 18;
         let drawn = draw(Execution::best(), &table, p, n, &numbers(31, samples));

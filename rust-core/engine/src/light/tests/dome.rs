@@ -47,7 +47,8 @@ fn images_are_placed_as_openexr_says() {
     let texture = image(8, 4, |x, y| [x as f32 + 1.0, y as f32 + 1.0, 0.5]);
     let table = LightTable::build(&[dome(Some(0))], vec![texture]);
     let direction = |column: f32, row: f32| {
-        let (longitude, latitude) = (std::f32::consts::TAU * (0.5 - (column + 0.5) / 8.0), std::f32::consts::PI * (0.5 - (row + 0.5) / 4.0));
+        let (longitude, latitude) =
+            (std::f32::consts::TAU * (0.5 - (column + 0.5) / 8.0), std::f32::consts::PI * (0.5 - (row + 0.5) / 4.0));
         [longitude.sin() * latitude.cos(), latitude.sin(), longitude.cos() * latitude.cos()]
     };
     for (column, row) in [(0, 0), (3, 1), (7, 3), (5, 2), (2, 0)] {
@@ -91,7 +92,13 @@ fn quadrature(table: &LightTable, n: [f64; 3]) -> f64 {
 
 #[test]
 fn bright_spots_are_found() {
-    let record = LightRecord { to_world: { let [x, y, z] = turned([1.0; 3], [0.4, 1.0, 0.2]); [x, y, z, [0.0; 3]] }, ..dome(Some(0)) };
+    let record = LightRecord {
+        to_world: {
+            let [x, y, z] = turned([1.0; 3], [0.4, 1.0, 0.2]);
+            [x, y, z, [0.0; 3]]
+        },
+        ..dome(Some(0))
+    };
     let table = LightTable::build(&[record], vec![starry()]);
     for n in [[0.0, 1.0, 0.0], [0.6, 0.0, 0.8], [0.0, 0.0, -1.0]] {
         let expected = quadrature(&table, n);

@@ -9,6 +9,7 @@ mod loop_scheme;
 mod mask;
 mod options;
 mod pipeline;
+mod result;
 mod sector;
 mod sharpness;
 mod split;
@@ -16,4 +17,5 @@ mod stage;
 mod topology;
 
 pub use options::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
-pub use pipeline::{RefineError, Refined, refine};
+pub use pipeline::refine;
+pub use result::{RefineError, Refined};

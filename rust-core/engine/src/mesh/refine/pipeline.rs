@@ -2,6 +2,7 @@
 
 use super::face_varying::{self, Channel};
 use super::limit_normals::{Surface, normals};
+use super::result::{RefineError, Refined};
 use super::sharpness::sharpen;
 use super::stage::{Linear, Rule, Stage};
 use super::topology::Level;
@@ -9,49 +10,7 @@ use super::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOpti
 use crate::mesh::triangulate::triangulate_faces;
 use crate::mesh::vector::Vec3;
 use crate::mesh::{FacePrimvar, Interpolation, MeshProblem, PolygonMesh, Severity};
-use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// A refined mesh and the way back.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refined {
-    /// The refined polygons with all primvars carried over; holes are marked, not removed.
-    pub mesh: PolygonMesh,
-    /// Face of the original mesh that each face comes from.
-    pub face_of: Vec<u32>,
-    /// Face-varying, indexed primvar `normals`, split at sharp edges; outward also for left-handed meshes.
-    pub normals: Option<FacePrimvar>,
-    /// Level reached.
-    pub level: u32,
-    /// What was left out.
-    pub problems: Vec<MeshProblem>,
-}
-
-/// Why a mesh was not refined.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RefineError {
-    /// The topology is broken; all that was found, with at least one fatal problem.
-    Invalid(Vec<MeshProblem>),
-    /// The caller asked to stop.
-    Cancelled,
-}
-
-impl fmt::Display for RefineError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Cancelled => out.write_str("cancelled"),
-            Self::Invalid(problems) => {
-                let fatal = problems.iter().find(|problem| problem.severity() == Severity::Fatal);
-                match fatal {
-                    Some(problem) => problem.fmt(out),
-                    None => out.write_str("the mesh cannot be subdivided"),
-                }
-            }
-        }
-    }
-}
-
-impl std::error::Error for RefineError {}
 
 /// Subdivides `mesh`. Primvars are carried by their interpolation: vertex like the points, varying linearly,
 /// face-varying by `options.face_varying`, uniform and constant as they are; broken ones are dropped. Unindexed

@@ -19,13 +19,9 @@ pub(crate) fn for_each_sector(level: &Level, is_barrier: impl Fn(usize) -> bool,
         if visited[seed] {
             continue;
         }
-        let (start, is_closed) = walker.first_of(seed);
-        corners.clear();
-        let mut corner = Some(start);
-        while let Some(here) = corner {
-            visited[here] = true;
-            corners.push(here as u32);
-            corner = walker.after(here).filter(|&next| next != start);
+        let is_closed = walker.collect(seed, &mut corners);
+        for &corner in &corners {
+            visited[corner as usize] = true;
         }
         visit(&Sector { vertex: level.corner_vertex[seed], corners: &corners, is_closed });
     }
@@ -37,16 +33,28 @@ struct Walker<'a, Barrier> {
 }
 
 impl<Barrier: Fn(usize) -> bool> Walker<'_, Barrier> {
-    /// Turns clockwise from `seed` to the first corner of its sector.
-    fn first_of(&self, seed: usize) -> (usize, bool) {
+    /// Sets `corners` to the sector of `seed`; returns whether it is closed, in which case it starts at `seed`.
+    fn collect(&self, seed: usize, corners: &mut Vec<u32>) -> bool {
+        corners.clear();
+        corners.push(seed as u32);
         let mut corner = seed;
-        while let Some(before) = self.before(corner) {
-            if before == seed {
-                return (seed, true);
+        while let Some(next) = self.after(corner) {
+            if next == seed {
+                return true;
             }
-            corner = before;
+            corners.push(next as u32);
+            corner = next;
         }
-        (corner, false)
+        let forward = corners.len();
+        corner = seed;
+        while let Some(previous) = self.before(corner) {
+            corners.push(previous as u32);
+            corner = previous;
+        }
+        // What lies clockwise of the seed comes first.
+        corners[forward..].reverse();
+        corners.rotate_left(forward);
+        false
     }
 
     /// The next corner counter-clockwise around the same vertex.

@@ -10,7 +10,7 @@ pub(crate) const INFINITE: f32 = 10.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Level {
     pub(crate) vertex_count: usize,
-    /// Corners of every face where they are all the same by construction (refined levels), else 0.
+    /// Corners of every face where all are triangles or all are quads, else 0.
     pub(crate) face_size: usize,
     /// First corner of each face, and the end.
     pub(crate) face_start: Vec<u32>,
@@ -28,8 +28,11 @@ impl Level {
     /// Finds the edges of faces given by `face_start` and `corner_vertex`. Sharpness is 0 inside and infinite at
     /// boundaries and at edges that more than two faces, or two faces of opposite orientation, share.
     pub(crate) fn new(vertex_count: usize, face_start: Vec<u32>, corner_vertex: Vec<u32>) -> Self {
+        let is_all = |size: u32| face_start.windows(2).all(|pair| pair[1] - pair[0] == size);
+        let face_size = [3, 4].into_iter().find(|&size| is_all(size)).unwrap_or(0) as usize;
         let mut level = Self {
             vertex_count,
+            face_size,
             corner_edge: vec![0; corner_vertex.len()],
             face_start,
             corner_vertex,
