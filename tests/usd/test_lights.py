@@ -164,7 +164,8 @@ def test_luxtest_is_read_at_the_frame(frame, radius, normalized):
 
     path = str(shared("luxtest", "usd", "sphere.usda"))
     found = gonio.load_usd(path, frame=frame).to_dict()["lights"][0]
-    schema = UsdLux.SphereLight.Get(Usd.Stage.Open(path), "/lights/sphere_light")
+    stage = Usd.Stage.Open(path)
+    schema = UsdLux.SphereLight.Get(stage, "/lights/sphere_light")
     expected = [c * schema.GetIntensityAttr().Get(frame) * 2 ** schema.GetExposureAttr().Get(frame) for c in schema.GetColorAttr().Get(frame)]
     if schema.GetEnableColorTemperatureAttr().Get(frame):
         black_body = UsdLux.BlackbodyTemperatureAsRgb(schema.GetColorTemperatureAttr().Get(frame))

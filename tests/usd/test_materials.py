@@ -432,3 +432,18 @@ def test_flattened_materialx_stage():
     texture = scene["textures"][image["operation"]["Image"]["texture"]]
     assert texture["source"]["File"].endswith("brass_roughness.jpg")
     assert texture["colour_space"] == "raw"
+
+
+def test_materialx_documents_are_read_in_place_of_references():
+    scene = gonio.load_usd(str(shared("wg-assets", "test_assets", "MaterialXTest", "basic.usda"))).to_dict()
+    plastic = bound_material(scene)
+    assert plastic["origin"]["name"] == "/MaterialX/Materials/USD_Plastic"
+    assert constant(plastic, "base_color")[:3] == pytest.approx([0.10470402, 0.24188282, 0.818])
+    assert constant(plastic, "specular_roughness")[0] == pytest.approx(0.32467532)
+
+
+def test_bad_materialx_documents_do_not_stop_the_reading(tmp_path):
+    for number, text in enumerate(["", "<a", "<other/>", "<!DOCTYPE m><materialx/>", "<materialx>"]):
+        (tmp_path / f"doc{number}.mtlx").write_text(text)
+        reference = f'def Scope "Looks" (references = @doc{number}.mtlx@</MaterialX/Materials>) {{}}\n'
+        load(tmp_path, f'def Mesh "Mesh"\n{{{TRIANGLE}\n}}\n{reference}')

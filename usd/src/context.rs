@@ -145,7 +145,7 @@ impl<'a, 'py> Context<'a, 'py> {
         let value = self.get_value(attribute)?;
         let converted = T::from_value(&value);
         if converted.is_none() {
-            let found = attribute.type_name();
+            let found = value.get_type().name().map_or_else(|_| attribute.type_name(), |name| name.to_string());
             self.warn(&Origin::new(attribute.path()), format!("value of type {found}, expected {}; it is ignored", T::EXPECTED));
         }
         converted
@@ -178,6 +178,14 @@ impl<'a, 'py> Context<'a, 'py> {
                 self.warn(origin, format!("{what}: {message}"));
                 None
             }
+        }
+    }
+
+    /// As [`Context::attempt`] with the prim as the place, whose path is asked for only where it is needed.
+    pub fn attempt_at<T>(&mut self, prim: &Prim<'py>, what: &str, result: PyResult<T>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            error => self.attempt(&prim.origin(), what, error),
         }
     }
 

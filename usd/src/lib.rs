@@ -25,6 +25,7 @@ pub mod skeleton;
 pub mod stage;
 pub mod subset;
 pub mod traverse;
+pub mod view;
 pub mod vt;
 pub mod xform;
 

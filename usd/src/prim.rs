@@ -10,12 +10,14 @@ use std::cell::OnceCell;
 pub struct Prim<'py> {
     object: Bound<'py, PyAny>,
     authored: OnceCell<Vec<String>>,
+    path: OnceCell<String>,
+    is_instance: OnceCell<bool>,
 }
 
 impl<'py> Prim<'py> {
     /// Around a `Usd.Prim`.
     pub fn new(object: Bound<'py, PyAny>) -> Self {
-        Self { object, authored: OnceCell::new() }
+        Self { object, authored: OnceCell::new(), path: OnceCell::new(), is_instance: OnceCell::new() }
     }
 
     /// The `Usd.Prim`.
@@ -36,8 +38,8 @@ impl<'py> Prim<'py> {
     /// The path, `/World/Chair`.
     pub fn path(&self) -> String {
         let py = self.py();
-        let path = || self.object.getattr(intern!(py, "GetPath"))?.call0()?.getattr(intern!(py, "pathString"))?.extract();
-        path().unwrap_or_else(|_: PyErr| "<invalid prim>".to_owned())
+        let path = || self.object.call_method0(intern!(py, "GetPath"))?.getattr(intern!(py, "pathString"))?.extract();
+        self.path.get_or_init(|| path().unwrap_or_else(|_: PyErr| "<invalid prim>".to_owned())).clone()
     }
 
     /// The last part of the path.
@@ -65,7 +67,7 @@ impl<'py> Prim<'py> {
 
     /// Whether the prim is the root of a native instance.
     pub fn is_instance(&self) -> bool {
-        self.flag(intern!(self.py(), "IsInstance"))
+        *self.is_instance.get_or_init(|| self.flag(intern!(self.py(), "IsInstance")))
     }
 
     /// Whether the prim stands inside an instance.
@@ -112,6 +114,9 @@ impl<'py> Prim<'py> {
     /// The attribute, if the prim has it by schema or by authoring.
     pub fn attribute(&self, name: &str) -> Option<Attribute<'py>> {
         let object = self.object.call_method1(intern!(self.py(), "GetAttribute"), (name,)).ok()?;
+        if self.authored.get().is_some_and(|names| names.iter().any(|authored| authored == name)) {
+            return Some(Attribute { object });
+        }
         object.is_truthy().unwrap_or(false).then_some(Attribute { object })
     }
 

@@ -131,11 +131,15 @@ fn most_specific(commentaries: Vec<String>) -> String {
     commentaries.into_iter().nth(place).unwrap_or_default()
 }
 
-/// One line without the C++ namespaces that carry the library's version.
+/// One line without the C++ namespaces that carry the library's version, and without the names of anonymous layers.
 pub fn one_line(text: &str) -> String {
     let mut line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     while let Some(start) = line.find("pxrInternal_") {
         let end = line[start..].find("__::").map_or(line.len(), |offset| start + offset + 4);
+        line.replace_range(start..end, "");
+    }
+    while let Some(start) = line.find(",@anon:") {
+        let end = line[start + 2..].find('@').map_or(line.len(), |offset| start + 2 + offset + 1);
         line.replace_range(start..end, "");
     }
     line
@@ -170,15 +174,22 @@ fn split_place(text: &str) -> Option<(&str, u64, u64)> {
 
 /// Collects what `pxr` warns about in place of letting it reach standard error; does nothing in versions without `Tf.DiagnosticTrap`.
 #[derive(Debug)]
-pub struct Trap<'py>(Option<Bound<'py, PyAny>>);
+pub struct Trap<'py>(Option<OpenTrap<'py>>);
+
+/// A trap, and what entering it gave: the one ends it, the other has the messages.
+#[derive(Debug)]
+struct OpenTrap<'py> {
+    manager: Bound<'py, PyAny>,
+    messages: Bound<'py, PyAny>,
+}
 
 impl<'py> Trap<'py> {
     /// Starts to collect.
     pub fn set(py: Python<'py>) -> Self {
-        let enter = || -> PyResult<Bound<'py, PyAny>> {
-            let trap = Module::Tf.item(py, "DiagnosticTrap")?.call0()?;
-            trap.call_method0(intern!(py, "__enter__"))?;
-            Ok(trap)
+        let enter = || -> PyResult<OpenTrap<'py>> {
+            let manager = Module::Tf.item(py, "DiagnosticTrap")?.call0()?;
+            let messages = manager.call_method0(intern!(py, "__enter__"))?;
+            Ok(OpenTrap { manager, messages })
         };
         Self(enter().ok())
     }
@@ -186,28 +197,30 @@ impl<'py> Trap<'py> {
     /// Stops, and returns the warnings.
     pub fn release(mut self) -> Vec<String> {
         let Some(trap) = self.0.take() else { return Vec::new() };
-        let warnings = Self::warnings(&trap).unwrap_or_default();
-        Self::leave(&trap);
+        let warnings = trap.warnings().unwrap_or_default();
+        trap.leave();
         warnings
     }
+}
 
-    fn warnings(trap: &Bound<'py, PyAny>) -> PyResult<Vec<String>> {
-        let list = trap.call_method0("GetWarnings")?;
+impl OpenTrap<'_> {
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        let list = self.messages.call_method0("GetWarnings")?;
         Ok(list.try_iter()?.filter_map(|warning| warning.ok()?.getattr("commentary").ok()?.extract::<String>().ok()).map(|text| one_line(&text)).collect())
     }
 
-    /// Clears first: what is left in a trap is passed on when it ends.
-    fn leave(trap: &Bound<'py, PyAny>) {
-        let none = trap.py().None();
-        let _ = trap.call_method0("Clear");
-        let _ = trap.call_method1("__exit__", (&none, &none, &none));
+    /// Warnings are cleared first, because what is left in a trap is passed on when it ends; errors are not, so that none is lost.
+    fn leave(&self) {
+        let none = self.manager.py().None();
+        let _ = self.messages.call_method0("ClearWarnings");
+        let _ = self.manager.call_method1("__exit__", (&none, &none, &none));
     }
 }
 
 impl Drop for Trap<'_> {
     fn drop(&mut self) {
         if let Some(trap) = self.0.take() {
-            Self::leave(&trap);
+            trap.leave();
         }
     }
 }
@@ -226,6 +239,7 @@ mod tests {
 
     #[test]
     fn versioned_namespaces_are_removed() {
+        assert_eq!(one_line("@a.usda@,@anon:0x55:session.usda@</a> CANNOT"), "@a.usda@</a> CANNOT");
         assert_eq!(one_line("in pxrInternal_v0_26_11__pxrReserved__::Sdf_Parser\n at 'x'"), "in Sdf_Parser at 'x'");
     }
 }

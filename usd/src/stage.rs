@@ -92,12 +92,10 @@ impl Stage {
         pxr::ensure(py)?;
         check_file(path)?;
         let trap = Trap::set(py);
-        let opened = open_layers(py, path, options);
-        let messages = trap.release();
-        let (stage, session) = opened?;
-        select_variants(&stage, options)?;
         let mut diagnostics = Vec::new();
-        let baked = prepare(&stage, &session, &mut diagnostics).map_err(|error| unreadable(py, path, &error))?;
+        let opened = open_prepared(py, path, options, &mut diagnostics);
+        let messages = trap.release();
+        let (stage, baked) = opened?;
         let mut info = read_info(&stage, path, &mut diagnostics).map_err(|error| unreadable(py, path, &error))?;
         info.composition_errors = composition_errors(&stage, path);
         diagnostics.extend(info.composition_errors.iter().cloned());
@@ -213,11 +211,32 @@ fn unreadable(py: Python<'_>, path: &Path, error: &PyErr) -> Error {
     }
 }
 
-/// The stage, and its anonymous session layer, which is the edit target.
-fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions) -> Result<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+/// The stage with variants chosen and skeletons' instances taken apart, and the layer for skinned points, which is the edit target.
+fn open_prepared<'py>(
+    py: Python<'py>,
+    path: &Path,
+    options: &StageOptions,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    let unreadable = |error: PyErr| unreadable(py, path, &error);
+    let anonymous = |name: &str| Module::Sdf.item(py, "Layer")?.call_method1("CreateAnonymous", (name,));
+    let session = anonymous("session.usda").map_err(unreadable)?;
+    let baked = anonymous("skinned.usda").map_err(unreadable)?;
+    let add = || session.getattr("subLayerPaths")?.call_method1("append", (baked.getattr("identifier")?,));
+    add().map_err(unreadable)?;
+    let stage = open_layers(py, path, options, &session)?;
+    select_variants(&stage, options)?;
+    let apart = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
+    if let Some(first) = apart.first() {
+        diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one", apart.len())));
+    }
+    stage.call_method1("SetEditTarget", (&baked,)).map_err(unreadable)?;
+    Ok((stage, baked))
+}
+
+/// The stage, with the session layer as the edit target.
+fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, session: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>> {
     let root = find_layer(py, path)?;
-    let session = (|| Module::Sdf.item(py, "Layer")?.call_method1("CreateAnonymous", ("session.usda",)))();
-    let session = session.map_err(|error| unreadable(py, path, &error))?;
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
         let found = find_layer(py, layer)?;
@@ -229,14 +248,13 @@ fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions) -> Res
         let class = Module::Usd.item(py, "Stage")?;
         let load = class.getattr(if options.load_payloads { "LoadAll" } else { "LoadNone" })?;
         let stage = match mask {
-            Some(mask) => class.call_method1("OpenMasked", (&root, &session, mask, load))?,
-            None => class.call_method1("Open", (&root, &session, load))?,
+            Some(mask) => class.call_method1("OpenMasked", (&root, session, mask, load))?,
+            None => class.call_method1("Open", (&root, session, load))?,
         };
-        stage.call_method1("SetEditTarget", (&session,))?;
+        stage.call_method1("SetEditTarget", (session,))?;
         Ok(stage)
     };
-    let stage = open().map_err(|error| unreadable(py, path, &error))?;
-    Ok((stage, session))
+    open().map_err(|error| unreadable(py, path, &error))
 }
 
 fn find_layer<'py>(py: Python<'py>, path: &Path) -> Result<Bound<'py, PyAny>> {
@@ -287,18 +305,6 @@ fn select_variants(stage: &Bound<'_, PyAny>, options: &StageOptions) -> Result<(
         }
     }
     Ok(())
-}
-
-/// Takes instances with skeletons apart and puts a layer for skinned points on top, which becomes the edit target; returns it.
-fn prepare<'py>(stage: &Bound<'py, PyAny>, session: &Bound<'py, PyAny>, diagnostics: &mut Vec<Diagnostic>) -> PyResult<Bound<'py, PyAny>> {
-    let py = stage.py();
-    if let [first, rest @ ..] = skeleton::take_instances_apart(stage)?.as_slice() {
-        diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one", rest.len() + 1)));
-    }
-    let baked = Module::Sdf.item(py, "Layer")?.call_method1("CreateAnonymous", ("skinned.usda",))?;
-    session.getattr("subLayerPaths")?.call_method1("insert", (0, baked.getattr("identifier")?))?;
-    stage.call_method1("SetEditTarget", (&baked,))?;
-    Ok(baked)
 }
 
 fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut Vec<Diagnostic>) -> PyResult<StageInfo> {

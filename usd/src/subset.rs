@@ -32,16 +32,21 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, mesh: &Prim<'py>, face_count: u
             context.warn(&child.origin(), message);
         }
         if overlapping > 0 {
-            context.warn(&child.origin(), format!("{overlapping} faces are in an earlier subset too, which keeps them"));
+            context.warn(&child.origin(), format!("an earlier subset has {overlapping} of its faces too, and keeps them"));
         }
     }
     subsets
 }
 
 fn children<'py>(mesh: &Prim<'py>) -> Vec<Prim<'py>> {
-    // An instanced mesh has its subsets as instance proxies.
-    let proxies = || Module::Usd.item(mesh.py(), "TraverseInstanceProxies")?.call0();
-    let list = proxies().and_then(|predicate| mesh.object().call_method1(intern!(mesh.py(), "GetFilteredChildren"), (predicate,)));
+    let py = mesh.py();
+    let list = if mesh.is_instance() {
+        // An instanced mesh has its subsets as instance proxies.
+        let proxies = || Module::Usd.item(py, "TraverseInstanceProxies")?.call0();
+        proxies().and_then(|predicate| mesh.object().call_method1(intern!(py, "GetFilteredChildren"), (predicate,)))
+    } else {
+        mesh.object().call_method0(intern!(py, "GetChildren"))
+    };
     list.and_then(|list| list.try_iter()?.map(|child| child.map(Prim::new)).collect()).unwrap_or_default()
 }
 

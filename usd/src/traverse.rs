@@ -130,8 +130,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
     fn children(&mut self, prim: &Prim<'py>, predicate: &Bound<'py, PyAny>, branch: &Rc<Branch>) -> Stack<'py> {
         let list = prim.object().call_method1(intern!(self.context.py, "GetFilteredChildren"), (predicate,));
         let list = list.and_then(|list| list.try_iter()?.map(|child| child.map(|child| (Prim::new(child), branch.clone()))).collect());
-        let origin = prim.origin();
-        let mut children: Stack<'py> = self.context.attempt(&origin, "the children cannot be listed", list).unwrap_or_default();
+        let mut children: Stack<'py> = self.context.attempt_at(prim, "the children cannot be listed", list).unwrap_or_default();
         children.reverse();
         children
     }

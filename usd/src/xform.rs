@@ -42,12 +42,11 @@ impl<'py> Xforms<'py> {
             Ok((Transform::from_value(&pair.get_item(0)?), pair.get_item(1)?.is_truthy()?))
         };
         let result = read();
-        let origin = prim.origin();
-        let (transform, resets) = context.attempt(&origin, "the transformation cannot be read, the prim is left out", result)?;
+        let (transform, resets) = context.attempt_at(prim, "the transformation cannot be read, the prim is left out", result)?;
         match transform.filter(Transform::is_finite) {
             Some(transform) => Some(LocalTransform { transform, resets }),
             None => {
-                context.warn(&origin, "the transformation has numbers that are not finite, the prim is left out");
+                context.warn(&prim.origin(), "the transformation has numbers that are not finite, the prim is left out");
                 None
             }
         }

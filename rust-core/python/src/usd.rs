@@ -1,18 +1,25 @@
 //! USD stages and the command line.
 
 use crate::{error::exception, scene::Scene};
-use gonio_usd::{Complexity, Purpose, SampleTime, StageOptions, framing, load_stage, settings::conform_cameras};
+use gonio_usd::{
+    Complexity, Purpose, SampleTime, StageOptions,
+    camera::primary_camera_name,
+    load_stage,
+    view::{ViewOptions, complete},
+};
 use pyo3::prelude::*;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for.
 #[pyfunction]
-#[pyo3(signature = (path, *, frame = None, purposes = None, complexity = "high", strict = false))]
+#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", neutral_dome = true, strict = false))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd(
-    py: Python<'_>, path: PathBuf, frame: Option<f64>, purposes: Option<Vec<String>>, complexity: &str, strict: bool,
+    py: Python<'_>, path: PathBuf, frame: Option<f64>, camera: Option<String>, render_settings: Option<String>,
+    purposes: Option<Vec<String>>, complexity: &str, neutral_dome: bool, strict: bool,
 ) -> PyResult<Scene> {
     let setting = |name: &str, problem: String| exception(gonio::Error::Setting { name: name.into(), problem });
-    let mut options = StageOptions { strict, ..StageOptions::default() };
+    let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
         .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high or veryhigh")))?;
@@ -24,8 +31,9 @@ pub(crate) fn load_usd(
         options.purposes = tokens.iter().map(purpose).collect::<PyResult<_>>()?;
     }
     let mut loaded = load_stage(py, &path, &options, &AtomicBool::new(false)).map_err(exception)?;
-    let policy = loaded.settings.as_ref().map_or(framing::ConformPolicy::default(), |settings| settings.conform);
-    conform_cameras(&mut loaded.scene, policy);
+    let view = ViewOptions { camera, neutral_dome, ..ViewOptions::default() };
+    let notes = complete(&mut loaded, &primary_camera_name(py), &view).map_err(exception)?;
+    loaded.diagnostics.extend(notes);
     Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics })
 }
 

@@ -10,12 +10,12 @@ use super::{
 };
 use crate::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
-    framing::{ConformPolicy, aperture_aspect, auto_camera, neutral_dome},
-    settings::{aov_by_name, conform_cameras},
+    settings::aov_by_name,
+    view::{Resolution, ViewOptions, complete},
 };
 use gonio::{
     Error, Result,
-    compile::{Bounds, CompiledScene, compile},
+    compile::{CompiledScene, compile},
     render::Render,
     scene::{Aov, Crop, Filter, Integrator, Scene},
 };
@@ -32,8 +32,6 @@ use std::{
 
 /// Warnings listed without `--verbose`.
 const MOST_WARNINGS: usize = 20;
-/// Width of pictures where nothing says otherwise, as usdrecord has it.
-const DEFAULT_WIDTH: u32 = 960;
 
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -122,14 +120,9 @@ impl Job<'_> {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
         self.apply_settings(&mut loaded)?;
-        let mut compiled = compile(&loaded.scene, previous, self.interrupted)?;
+        let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;
-        self.frame_camera(&mut loaded, &mut compiled);
-        let policy = loaded.settings.as_ref().map_or(ConformPolicy::default(), |settings| settings.conform);
-        conform_cameras(&mut loaded.scene, policy);
-        compiled.cameras.clone_from(&loaded.scene.cameras);
         self.tell_sizes(&compiled);
-        let compiled = Arc::new(compiled);
         self.trace(&loaded.scene, &compiled)?;
         Ok(compiled)
     }
@@ -137,14 +130,20 @@ impl Job<'_> {
     /// Command line over render settings over defaults.
     fn apply_settings(&self, loaded: &mut Loaded) -> Result<()> {
         let options = self.options;
-        let of_settings = loaded.settings.as_ref().and_then(|settings| settings.camera.clone());
-        let primary = Python::attach(camera::primary_camera_name);
-        let chosen = camera::choose(&loaded.scene.cameras, options.camera.as_deref(), of_settings.as_deref(), &primary)?;
-        loaded.scene.settings.camera = chosen.unwrap_or(0);
-        let has_settings = loaded.settings.is_some();
-        let scene = &mut loaded.scene;
-        self.set_resolution(scene, has_settings)?;
-        let settings = &mut scene.settings;
+        let view = ViewOptions {
+            camera: options.camera.clone(),
+            resolution: match (options.res.as_deref(), options.image_width) {
+                (Some([width, height]), _) => Resolution::Exact([*width, *height]),
+                (_, Some(width)) => Resolution::Width(width),
+                _ => Resolution::Stage,
+            },
+            scale: options.res_scale,
+            neutral_dome: !options.disable_camera_light,
+        };
+        for note in complete(loaded, &Python::attach(camera::primary_camera_name), &view)? {
+            say(&note.to_string());
+        }
+        let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
         settings.integrator = match options.integrator {
@@ -173,29 +172,6 @@ impl Job<'_> {
         if let Some(crop) = &options.crop {
             settings.crop = Some(crop_of(crop, settings.resolution)?);
         }
-        if scene.lights.is_empty() && !options.disable_camera_light && !emits(scene) {
-            say("the stage has no light; a neutral dome of 1 cd/m² lights it (--disable-camera-light takes it away)");
-            scene.lights.push(neutral_dome());
-        }
-        Ok(())
-    }
-
-    fn set_resolution(&self, scene: &mut Scene, has_settings: bool) -> Result<()> {
-        let options = self.options;
-        let camera = scene.cameras.get(scene.settings.camera as usize);
-        let aspect = camera.map_or(16.0 / 9.0, aperture_aspect);
-        let by_width = |width: u32| [width, ((f64::from(width) / aspect).round() as u32).max(1)];
-        let mut resolution = match (&options.res, options.image_width) {
-            (Some(res), _) => [res[0], res[1]],
-            (None, Some(width)) => by_width(width),
-            (None, None) if has_settings => scene.settings.resolution,
-            (None, None) => by_width(DEFAULT_WIDTH),
-        };
-        if !(options.res_scale > 0.0 && options.res_scale.is_finite()) {
-            return Err(Error::Setting { name: "res-scale".into(), problem: format!("{} was found, expected a number above 0", options.res_scale) });
-        }
-        resolution = resolution.map(|side| ((f64::from(side) * options.res_scale).round() as u32).max(u32::from(side > 0)));
-        scene.settings.resolution = resolution;
         Ok(())
     }
 
@@ -208,19 +184,6 @@ impl Job<'_> {
             Some(first) if self.options.stage.strict => Err(Error::scene(&first.origin, first.message.clone())),
             _ => Ok(()),
         }
-    }
-
-    /// A camera that sees everything, for stages that have none.
-    fn frame_camera(&self, loaded: &mut Loaded, compiled: &mut CompiledScene) {
-        if !loaded.scene.cameras.is_empty() {
-            return;
-        }
-        say("the stage has no camera; one that sees everything is used");
-        let Bounds { min, max } = compiled.bounds;
-        let [width, height] = loaded.scene.settings.resolution.map(f64::from);
-        let z_up = loaded.info.up_axis == crate::context::UpAxis::Z;
-        loaded.scene.cameras.push(auto_camera([min, max], z_up, width / height.max(1.0)));
-        loaded.scene.settings.camera = 0;
     }
 
     fn tell_sizes(&self, compiled: &CompiledScene) {
@@ -282,15 +245,6 @@ impl Job<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether any material shines by itself.
-fn emits(scene: &Scene) -> bool {
-    scene.materials.iter().any(|material| match material.input("emission_color") {
-        Some(gonio::scene::Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
-        Some(gonio::scene::Input::Node(..)) => true,
-        None => false,
-    })
 }
 
 fn aovs(names: &[String]) -> Result<Vec<Aov>> {

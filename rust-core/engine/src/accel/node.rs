@@ -96,9 +96,9 @@ impl Bounds {
     pub(super) const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [-f32::INFINITY; 3] };
 
     pub(super) fn extend(&mut self, point: [f32; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(point[axis]);
-            self.max[axis] = self.max[axis].max(point[axis]);
+        for ((min, max), x) in self.min.iter_mut().zip(&mut self.max).zip(point) {
+            *min = min.min(x);
+            *max = max.max(x);
         }
     }
 

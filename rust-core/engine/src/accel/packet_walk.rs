@@ -21,7 +21,7 @@ pub(super) struct PacketEntry {
 pub(super) type PacketStack = [PacketEntry; STACK];
 
 /// An empty stack.
-pub(super) const EMPTY_PACKET_STACK: PacketStack = [PacketEntry { near: [0.0; PACKET], child: ChildRef::ROOT, lanes: 0 }; STACK];
+pub(super) static EMPTY_PACKET_STACK: PacketStack = [PacketEntry { near: [0.0; PACKET], child: ChildRef::ROOT, lanes: 0 }; STACK];
 
 /// What happens at the leaves of a packet's walk.
 pub(super) trait PacketVisitor<S: Simd> {

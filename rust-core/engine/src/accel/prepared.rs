@@ -43,8 +43,7 @@ impl PreparedRay {
         // The sum catches NaN, which the maxima drop.
         let sum = x + y + z + origin[0].abs() + origin[1].abs() + origin[2].abs();
         let t_min = if t_min > 0.0 { t_min } else { 0.0 };
-        if !(largest >= DIRECTION_RANGE[0]
-            && largest <= DIRECTION_RANGE[1]
+        if !((DIRECTION_RANGE[0]..=DIRECTION_RANGE[1]).contains(&largest)
             && start <= LARGEST_COORDINATE
             && sum < f32::INFINITY
             && t_min <= t_max)

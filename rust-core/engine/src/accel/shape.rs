@@ -2,7 +2,7 @@
 
 use super::node::Bounds;
 
-/// A shape in its own space; both sides are hit.
+/// A shape in its own space. Flat ones are hit from both sides, closed ones from outside alone, where lights shine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The square [-0.5, 0.5]^2 in the plane z = 0; u = x + 0.5, v = y + 0.5.
@@ -55,13 +55,7 @@ impl Shape {
                 let keep = |t: f64| (self == Shape::Sphere || point(t)[0].abs() <= 0.5).then_some(t);
                 let roots = unit_roots(&o[first..], &d[first..]);
                 let hit = |t: f64| Some(ShapeHit { t: inside(keep(t)?)?, u: 0.0, v: 0.0 });
-                match roots {
-                    Some([near, far]) => match hit(near) {
-                        Some(first) => [Some(first), hit(far)],
-                        None => [hit(far), None],
-                    },
-                    None => [None, None],
-                }
+                [roots.and_then(|[near, _]| hit(near)), None]
             }
         }
     }

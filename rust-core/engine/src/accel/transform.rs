@@ -18,8 +18,8 @@ pub(super) fn inverse(m: &[[f64; 4]; 3]) -> Option<[[f64; 4]; 3]> {
     }
     let mut inverse = [[0.0; 4]; 3];
     for (row, out) in inverse.iter_mut().enumerate() {
-        for column in 0..3 {
-            out[column] = cofactor(column, row) / determinant;
+        for (column, x) in out[..3].iter_mut().enumerate() {
+            *x = cofactor(column, row) / determinant;
         }
         out[3] = -(0..3).map(|k| out[k] * m[k][3]).sum::<f64>();
     }
@@ -32,16 +32,16 @@ pub(super) fn transformed_bounds(m: &[[f64; 4]; 3], bounds: &Bounds) -> Bounds {
         return Bounds::EMPTY;
     }
     let mut image = Bounds::EMPTY;
-    for axis in 0..3 {
-        let (mut low, mut high) = (m[axis][3], m[axis][3]);
-        for k in 0..3 {
-            let (a, b) = (m[axis][k] * f64::from(bounds.min[k]), m[axis][k] * f64::from(bounds.max[k]));
+    for (axis, row) in m.iter().enumerate() {
+        let (mut low, mut high, mut terms) = (row[3], row[3], row[3].abs());
+        for (k, scale) in row[..3].iter().enumerate() {
+            let (a, b) = (scale * f64::from(bounds.min[k]), scale * f64::from(bounds.max[k]));
             low += a.min(b);
             high += a.max(b);
+            terms += a.abs().max(b.abs());
         }
         // The map to object space is rounded to f32, so the surface moves by some units in the last place of the terms summed up here.
-        let terms: f64 = (0..3).map(|k| m[axis][k].abs() * f64::from(bounds.min[k].abs().max(bounds.max[k].abs()))).sum();
-        let pad = f64::from(ROUNDING_PAD) * (terms + m[axis][3].abs());
+        let pad = f64::from(ROUNDING_PAD) * terms;
         image.min[axis] = (low - pad) as f32;
         image.max[axis] = (high + pad) as f32;
     }

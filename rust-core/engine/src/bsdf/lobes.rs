@@ -103,12 +103,12 @@ fn above<L: Lanes>(wi: Vec3<L>) -> (Vec3<L>, M<L>) {
 impl<L: Lanes> Slot<L> {
     /// A direction in the frame that the shape is defined in.
     #[inline(always)]
-    fn to_shape(self, v: Vec3<L>) -> Vec3<L> {
+    fn in_shape_frame(&self, v: Vec3<L>) -> Vec3<L> {
         turned(v, self.turn)
     }
     /// A direction back in the shading frame.
     #[inline(always)]
-    fn to_frame(self, v: Vec3<L>) -> Vec3<L> {
+    fn in_shading_frame(&self, v: Vec3<L>) -> Vec3<L> {
         let z = if self.mirrored { -v.z } else { v.z };
         match self.turn {
             Some([cos, sin]) => Vec3::new(cos.mul_add(v.x, -(sin * v.y)), cos.mul_add(v.y, sin * v.x), z),
@@ -118,8 +118,8 @@ impl<L: Lanes> Slot<L> {
     /// Value × cosine and pdf of the lobe alone, with its weight.
     #[inline(always)]
     fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
-        let wo = self.to_shape(wo);
-        let mut wi = self.to_shape(wi);
+        let wo = self.in_shape_frame(wo);
+        let mut wi = self.in_shape_frame(wi);
         if self.mirrored {
             wi.z = -wi.z;
         }
@@ -137,14 +137,14 @@ impl<L: Lanes> Slot<L> {
     /// A direction of the lobe, and whether it is on the side it was meant for; `u[0]` is what the choice of lobes left over.
     #[inline(always)]
     fn sample(&self, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, M<L>) {
-        let wo = self.to_shape(wo);
+        let wo = self.in_shape_frame(wo);
         let (wi, usable) = match &self.shape {
             Shape::Diffuse(_) => above(DiffuseLobe::sample([u[1], u[2]])),
             Shape::Reflect(lobe) => above(lobe.sample(wo, [u[1], u[2]])),
             Shape::Glass(lobe) => lobe.sample(wo, u),
             Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
         };
-        (self.to_frame(wi), usable)
+        (self.in_shading_frame(wi), usable)
     }
     /// Lanes in which the lobe is a mirror or smooth.
     #[inline(always)]
@@ -220,6 +220,7 @@ impl<L: Lanes> Lobes<L> {
     pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
         let mut sum = Rgb::zero(l);
         let mut density = l.f(0.0);
+        #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         let coat = match &self.coat {
             Some(coat) => Some(coat.colour(wi)),
             None => None,

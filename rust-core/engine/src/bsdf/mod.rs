@@ -6,6 +6,8 @@
 //! A [`Surface`] is compiled once for a material; [`Surface::resolve`] turns the parameter values of a batch of hits into [`Lobes`], in which
 //! all attenuation by layers at the view is contained; evaluation and sampling loop over the lobes' slots, which are the same in all lanes.
 
+mod base;
+mod coat;
 mod diffuse;
 mod energy;
 mod fresnel;
@@ -20,6 +22,7 @@ mod surface;
 mod switches;
 #[cfg(test)]
 mod tests;
+mod transmission;
 
 pub use lobes::{BsdfSample, Lobes, MAXIMUM};
 pub use surface::{LobeSet, ParameterValues, Surface};

@@ -18,6 +18,10 @@ impl Default for Bounds {
 }
 
 impl Bounds {
+    /// World bounds of everything placed in a scene.
+    pub fn of_scene(scene: &Scene) -> Self {
+        of_scene(scene)
+    }
     /// Whether nothing is inside.
     pub fn is_empty(&self) -> bool {
         (0..3).any(|i| self.min[i] > self.max[i])
@@ -62,7 +66,7 @@ impl Bounds {
 }
 
 /// Bounds of a mesh in its own space.
-pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
+fn of_mesh(mesh: &Mesh) -> Bounds {
     let mut bounds = Bounds::default();
     for point in mesh.points.iter() {
         bounds.extend(point.map(f64::from));
@@ -71,7 +75,7 @@ pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
 }
 
 /// Bounds of all instances.
-pub(super) fn of_scene(scene: &Scene) -> Bounds {
+fn of_scene(scene: &Scene) -> Bounds {
     let meshes: Vec<Bounds> = scene.meshes.iter().map(of_mesh).collect();
     let mut bounds = Bounds::default();
     for instances in &scene.instances {

@@ -72,7 +72,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let names = primvars::used_names(scene);
     let materials = materials::compile(scene, &textures, &names, &mut diagnostics)?;
     check(cancel)?;
-    let bounds = bounds::of_scene(scene);
+    let bounds = Bounds::of_scene(scene);
     let origin = bounds.rebase_origin();
     let trees = geometry::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
     let built = start.elapsed().as_secs_f64();

@@ -15,5 +15,5 @@ mod surface;
 
 pub use material::{MaterialTable, SurfaceMaterial, Tables};
 pub use path::{Tracer, Transport};
-pub use state::{BATCH, FirstHit, Statistics, TILE, Workspace, ray_mask};
+pub use state::{BATCH, FirstHit, STAGES, Statistics, TILE, Workspace, ray_mask};
 pub(crate) use generate::tile_place;

@@ -18,6 +18,7 @@ use crate::{
     sampler::Sampler,
 };
 use gonio_simd::{Execution, Lanes, dispatch};
+use std::time::Instant;
 
 /// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
 const MOST_DEPTH: u32 = 256;
@@ -81,19 +82,24 @@ impl Tracer<'_> {
         let tile = [min[0] / super::TILE as u32, min[1] / super::TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
         let area = TileArea { min, max };
+        let mut time = Instant::now();
         dispatch!(execution, l => generate(l, self.camera, self.filter, &sampler, area, sample, &mut ws.paths));
+        time = ws.statistics.spent(0, time);
         for depth in 0..MOST_DEPTH {
             if ws.paths.count == 0 || cancelled() {
                 break;
             }
             let context = SampleContext { sampler, sample, depth };
             intersect(self.tables, &self.transport, depth, ws);
+            ws.statistics.spent(1, time);
             ws.next.count = 0;
             self.shade(&context, ws);
+            time = Instant::now();
             if ws.measure.count > 0 {
                 dispatch!(execution, l => measure(l, self.tables, &context, ws));
             }
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
+            time = ws.statistics.spent(5, time);
             std::mem::swap(&mut ws.paths, &mut ws.next);
             ws.paths.set_masks();
         }
@@ -115,6 +121,7 @@ impl Tracer<'_> {
     #[inline(always)]
     fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
         let material = &self.tables.materials[material];
+        let start = Instant::now();
         let source = ChunkSource {
             order: &ws.order[first..],
             count,
@@ -122,10 +129,13 @@ impl Tracer<'_> {
             cone: Some([&ws.paths.width, &ws.paths.spread]),
         };
         kernels::surface_points(l, self.tables, material, &ws.hits, &source, &mut ws.surface);
+        let mut start = ws.statistics.spent(2, start);
         if !material.program.is_empty() {
             kernels::evaluate(l, self.tables, material, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
         }
+        start = ws.statistics.spent(3, start);
         shade_chunk(l, self.tables, &self.transport, context, material, first, count, ws);
+        ws.statistics.spent(4, start);
     }
 }
 

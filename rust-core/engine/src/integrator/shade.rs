@@ -125,16 +125,17 @@ fn shade_lanes<L: Lanes>(
     }
     record_first(l, tables, transport, point, lobes, present, at, ws);
     let [smooth, only_delta] = lobes.smoothness(l);
+    // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
+    let going_on = present & point.bounces.lt(transport.max_bounces + 1);
     if transport.measure {
-        let measured = present.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(super::state::BATCH as u32);
+        let measured = going_on.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(super::state::BATCH as u32);
         append_measure(point, measured, &mut ws.measure);
     }
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if smooth.any() && !tables.lights.is_empty() {
         let u_light = context.sampler.pair(l, index, base + dimension::LIGHT);
-        light(l, tables, transport, context.depth, point, wo, lobes, u_choice, u_light, present, ws);
+        light(l, tables, transport, context.depth, point, wo, lobes, u_choice, u_light, going_on, ws);
     }
-    let going_on = present & point.bounces.lt(transport.max_bounces + 1);
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     scatter(l, context.depth, point, wo, lobes, [u_lobe, u, v], u_roulette, only_delta, going_on, ws);
 }

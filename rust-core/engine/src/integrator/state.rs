@@ -305,6 +305,28 @@ pub struct Statistics {
     pub lanes_alive: u64,
     /// Lanes shaded.
     pub lanes: u64,
+    /// Nanoseconds spent in each stage, in the order of [`STAGES`].
+    pub time_ns: [u64; STAGES.len()],
+}
+
+/// The stages that are timed.
+pub const STAGES: [&str; 6] = ["generate", "intersect", "surface", "graph", "shade", "shadow"];
+
+impl Statistics {
+    /// Adds the time since `start` to a stage and gives the time now.
+    pub(super) fn spent(&mut self, stage: usize, start: std::time::Instant) -> std::time::Instant {
+        let now = std::time::Instant::now();
+        self.time_ns[stage] += (now - start).as_nanos() as u64;
+        now
+    }
+    /// Adds another's counts.
+    pub fn add(&mut self, other: &Self) {
+        self.rays += other.rays;
+        self.shadow_rays += other.shadow_rays;
+        self.lanes_alive += other.lanes_alive;
+        self.lanes += other.lanes;
+        self.time_ns.iter_mut().zip(other.time_ns).for_each(|(sum, time)| *sum += time);
+    }
 }
 
 const _: () = assert!(CHUNK % gonio_simd::PADDING == 0);

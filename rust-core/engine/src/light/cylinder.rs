@@ -53,7 +53,7 @@ impl<L: Lanes> Line<L> {
 /// Sine of half the visible angle around, and the direction to the point across the axis; NaN from where only the inside is seen.
 #[inline(always)]
 fn visible<L: Lanes>(light: &Reader<'_, L>, p: Vec3<L>) -> (F<L>, F<L>, F<L>) {
-    let local = light.to_local(p - light.vector(field::ORIGIN));
+    let local = light.in_frame(p - light.vector(field::ORIGIN));
     let squared = local.y * local.y + local.z * local.z;
     let inverse = squared.sqrt().recip();
     ((1.0 - squared.recip()).sqrt(), local.y * inverse, local.z * inverse)
@@ -75,7 +75,7 @@ impl Emitter for Cylinder {
     #[inline(always)]
     fn density<L: Lanes>(l: L, light: &Reader<'_, L>, from: Vec3<L>, _: Vec3<L>, hit: Vec3<L>) -> (F<L>, [F<L>; 2]) {
         let (limit, toward_y, toward_z) = visible(light, from);
-        let local = light.to_local(hit - light.vector(field::ORIGIN));
+        let local = light.in_frame(hit - light.vector(field::ORIGIN));
         let inverse = (local.y * local.y + local.z * local.z).sqrt().recip();
         let (y, z) = (local.y * inverse, local.z * inverse);
         let cosine = y * toward_y + z * toward_z;

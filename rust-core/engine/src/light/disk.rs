@@ -69,7 +69,7 @@ impl<L: Lanes> Seen<L> {
     }
     /// A point of the disk relative to the foot.
     #[inline(always)]
-    fn from_near(&self, u: [F<L>; 2]) -> [F<L>; 2] {
+    fn near_point(&self, u: [F<L>; 2]) -> [F<L>; 2] {
         let (sine_turn, cosine_turn) = u[1].sin_cos_turns();
         let sine_wedge = (u[1] * 2.0 - 1.0) / self.f.max(1.0);
         let sine = self.inside.select(sine_turn, sine_wedge);
@@ -88,13 +88,13 @@ pub(crate) struct Disk;
 impl Emitter for Disk {
     #[inline(always)]
     fn sample<L: Lanes>(l: L, light: &Reader<'_, L>, p: Vec3<L>, u: [F<L>; 2]) -> Aim<L> {
-        let from = light.to_local(p - light.vector(field::ORIGIN));
+        let from = light.in_frame(p - light.vector(field::ORIGIN));
         let seen = Seen::new(l, from);
         let radius = u[0].sqrt();
         let (sine, cosine) = u[1].sin_cos_turns();
         let mut local = Vec3::new(radius * cosine - from.x, radius * sine - from.y, -from.z);
         if seen.near.any() {
-            let [x, y] = seen.from_near(u);
+            let [x, y] = seen.near_point(u);
             local = seen.near.select(Vec3::new(x, y, -from.z), local);
         }
         let aim = Aim::towards(local.transform(light.frame()));
@@ -103,8 +103,8 @@ impl Emitter for Disk {
     #[inline(always)]
     fn density<L: Lanes>(l: L, light: &Reader<'_, L>, from: Vec3<L>, wi: Vec3<L>, hit: Vec3<L>) -> (F<L>, [F<L>; 2]) {
         let origin = light.vector(field::ORIGIN);
-        let from = light.to_local(from - origin);
-        let on = light.to_local(hit - origin);
+        let from = light.in_frame(from - origin);
+        let on = light.in_frame(hit - origin);
         // The hit's height over the disk is rounding; the point's own is known better.
         let local = Vec3::new(on.x - from.x, on.y - from.y, -from.z);
         (Seen::new(l, from).density(local) * light.solid_angle_ratio(wi), [l.f(0.0); 2])

@@ -30,7 +30,7 @@ fn triangle<L: Lanes>(volume: F<L>, a: Vec3<L>, b: Vec3<L>, c: Vec3<L>) -> F<L> 
 impl<L: Lanes> Seen<L> {
     #[inline(always)]
     fn new(light: &Reader<'_, L>, from: Vec3<L>) -> Self {
-        let local = light.to_local(from - light.vector(field::ORIGIN));
+        let local = light.in_frame(from - light.vector(field::ORIGIN));
         let (half_x, half_y) = (light.value(field::HALF), light.value(field::HALF + 1));
         // Both sides of a two-sided light look alike.
         let (x, y, h) = ([-half_x - local.x, half_x - local.x], [-half_y - local.y, half_y - local.y], local.z.abs());
@@ -104,7 +104,7 @@ impl Emitter for Rectangle {
     #[inline(always)]
     fn density<L: Lanes>(_: L, light: &Reader<'_, L>, from: Vec3<L>, wi: Vec3<L>, hit: Vec3<L>) -> (F<L>, [F<L>; 2]) {
         let seen = Seen::new(light, from);
-        let local = light.to_local(hit - light.vector(field::ORIGIN));
+        let local = light.in_frame(hit - light.vector(field::ORIGIN));
         let (half_x, half_y) = (light.value(field::HALF), light.value(field::HALF + 1));
         let (x, y) = (local.x + seen.x[0] + half_x, local.y + seen.y[0] + half_y);
         let uv = [(half_x - local.x) / (half_x * 2.0), (half_y - local.y) / (half_y * 2.0)];

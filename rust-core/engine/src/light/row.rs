@@ -72,30 +72,36 @@ pub(crate) mod flag {
     pub(crate) const LIT: u32 = 1 << 15;
 }
 
-/// Rows read through a light index in each lane.
+/// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reader<'a, L: Lanes> {
     l: L,
     rows: &'a [f32],
     base: U<L>,
+    common: Option<&'a [f32; ROW]>,
 }
 
 impl<'a, L: Lanes> Reader<'a, L> {
     #[inline(always)]
     pub(crate) fn new(l: L, rows: &'a [f32], light: U<L>) -> Self {
-        Self { l, rows, base: light * ROW as u32 }
+        let first = light.to_array()[0];
+        let common = rows.as_chunks::<ROW>().0.get(first as usize).filter(|_| light.eq(first).all());
+        Self { l, rows, base: light * ROW as u32, common }
     }
     #[inline(always)]
     pub(crate) fn value(&self, field: usize) -> F<L> {
-        self.l.gather(self.rows, self.base + field as u32)
+        match self.common {
+            Some(row) => self.l.f(row[field]),
+            None => self.l.gather(self.rows, self.base + field as u32),
+        }
     }
     #[inline(always)]
     pub(crate) fn vector(&self, field: usize) -> Vec3<L> {
-        Vec3::gather(self.l, self.rows, self.base + field as u32)
+        Vec3::new(self.value(field), self.value(field + 1), self.value(field + 2))
     }
     #[inline(always)]
     pub(crate) fn colour(&self, field: usize) -> Rgb<L> {
-        Rgb::gather(self.l, self.rows, self.base + field as u32)
+        Rgb::new(self.value(field), self.value(field + 1), self.value(field + 2))
     }
     #[inline(always)]
     pub(crate) fn integer(&self, field: usize) -> U<L> {
@@ -114,16 +120,16 @@ impl<'a, L: Lanes> Reader<'a, L> {
     pub(crate) fn frame(&self) -> [Vec3<L>; 3] {
         [self.vector(field::FRAME), self.vector(field::FRAME + 3), self.vector(field::FRAME + 6)]
     }
-    /// A world vector in the sampling frame.
+    /// A world vector in the sampling frame's coordinates.
     #[inline(always)]
-    pub(crate) fn to_local(&self, v: Vec3<L>) -> Vec3<L> {
+    pub(crate) fn in_frame(&self, v: Vec3<L>) -> Vec3<L> {
         let row = |k: usize| self.vector(field::INVERSE + 3 * k);
         Vec3::new(row(0).dot(v), row(1).dot(v), row(2).dot(v))
     }
     /// Solid angle in the sampling frame per solid angle in the world, towards unit `wi`: |det N| / |N wi|³ for the linear map N.
     #[inline(always)]
     pub(crate) fn solid_angle_ratio(&self, wi: Vec3<L>) -> F<L> {
-        let squared = self.to_local(wi).length_squared();
+        let squared = self.in_frame(wi).length_squared();
         self.value(field::DENSITY) / (squared * squared.sqrt())
     }
 }

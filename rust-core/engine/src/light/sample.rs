@@ -214,7 +214,8 @@ impl LightTable {
         if self.count == 0 || !mask.any() {
             return (Rgb::zero(l), l.f(0.0));
         }
-        let index = light.keep_if(mask);
+        // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.
+        let index = mask.select(light, l.u(light.to_array()[mask.bits().trailing_zeros() as usize]));
         let light = self.reader(l, index);
         let mut density = (l.f(0.0), [l.f(0.0); 2]);
         self.density_kind(
@@ -305,7 +306,7 @@ impl LightTable {
         let light = self.reader(l, l.u(infinite.light));
         match (&infinite.distribution, infinite.kind) {
             (Some(distribution), _) => {
-                let local = light.to_local(wi);
+                let local = light.in_frame(wi);
                 let place = dome::place(local);
                 (self.emitted(l, &light, wi, place), distribution.pdf(l, local, place))
             }

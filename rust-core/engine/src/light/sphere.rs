@@ -22,7 +22,7 @@ fn cone<L: Lanes>(squared: F<L>) -> (F<L>, F<L>) {
 impl Emitter for Sphere {
     #[inline(always)]
     fn sample<L: Lanes>(_: L, light: &Reader<'_, L>, p: Vec3<L>, u: [F<L>; 2]) -> Aim<L> {
-        let centre = light.to_local(light.vector(field::ORIGIN) - p);
+        let centre = light.in_frame(light.vector(field::ORIGIN) - p);
         let squared = centre.length_squared();
         let (density, one_minus_cosine) = cone(squared);
         let distance = squared.sqrt();
@@ -40,7 +40,7 @@ impl Emitter for Sphere {
     }
     #[inline(always)]
     fn density<L: Lanes>(l: L, light: &Reader<'_, L>, from: Vec3<L>, wi: Vec3<L>, _: Vec3<L>) -> (F<L>, [F<L>; 2]) {
-        let centre = light.to_local(light.vector(field::ORIGIN) - from);
+        let centre = light.in_frame(light.vector(field::ORIGIN) - from);
         let (density, _) = cone(centre.length_squared());
         (density * light.solid_angle_ratio(wi), [l.f(0.0); 2])
     }

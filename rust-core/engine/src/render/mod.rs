@@ -11,6 +11,7 @@ use crate::{
     compile::{CompiledScene, View},
     error::{Error, Result},
     film::Film,
+    integrator::Statistics,
     scene::Settings,
 };
 use schedule::Schedule;
@@ -41,6 +42,7 @@ pub(crate) struct Shared {
     pub(crate) cancel: AtomicBool,
     pub(crate) failure: std::sync::Mutex<Option<String>>,
     pub(crate) rays: std::sync::atomic::AtomicU64,
+    pub(crate) statistics: std::sync::Mutex<Statistics>,
 }
 
 impl Render {
@@ -58,6 +60,7 @@ impl Render {
             cancel: AtomicBool::new(false),
             failure: std::sync::Mutex::new(None),
             rays: std::sync::atomic::AtomicU64::new(0),
+            statistics: std::sync::Mutex::default(),
         });
         let (send, ready) = crossbeam_channel::bounded(shared.film.tile_count().max(1) * 2);
         let spawn = |_| {
@@ -81,6 +84,11 @@ impl Render {
     /// How far it is.
     pub fn progress(&self) -> Progress {
         self.shared.schedule.progress(self.shared.rays.load(Ordering::Relaxed))
+    }
+
+    /// Rays, lanes and the time of each stage so far, over all workers.
+    pub fn statistics(&self) -> Statistics {
+        *self.shared.statistics.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
     /// Asks the workers to stop after the stage under way.

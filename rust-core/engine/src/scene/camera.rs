@@ -59,7 +59,7 @@ impl Camera {
             aperture_offset: [0.0; 2],
             lens_radius: 0.0,
             focus_distance: 1.0,
-            clipping: [0.0, f64::INFINITY],
+            clipping: [0.0, f64::MAX],
             transform,
             exposure: CameraExposure::default(),
         }

@@ -137,8 +137,11 @@ def load_usd(
     path: str | PathLike[str],
     *,
     frame: float | None = None,
+    camera: str | None = None,
+    render_settings: str | None = None,
     purposes: Sequence[str] | None = None,
     complexity: str = "high",
+    neutral_dome: bool = True,
     strict: bool = False,
 ) -> Scene: ...
 def _main(arguments: Sequence[str]) -> int: ...

@@ -31,7 +31,15 @@ struct Peer {
 unsafe extern "C" {
     fn peer_flush_denormals();
     fn peer_thread_seconds() -> f64;
-    fn peer_new(peer: *mut Peer, positions: *const f32, points: usize, triangles: *const u32, count: usize, robust: c_int, config: *const c_char) -> f64;
+    fn peer_new(
+        peer: *mut Peer,
+        positions: *const f32,
+        points: usize,
+        triangles: *const u32,
+        count: usize,
+        robust: c_int,
+        config: *const c_char,
+    ) -> f64;
     fn peer_free(peer: *mut Peer);
     fn peer_version(out: *mut c_char, size: usize);
     fn peer_first_hit(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
@@ -78,7 +86,15 @@ impl EmbreeScene {
         let processor = thread_seconds();
         // SAFETY: the shim copies the two arrays, whose lengths it is told.
         let build_seconds = unsafe {
-            peer_new(&mut peer, positions.as_ptr().cast(), positions.len(), triangles.as_ptr().cast(), triangles.len(), robust.into(), config.as_ptr())
+            peer_new(
+                &mut peer,
+                positions.as_ptr().cast(),
+                positions.len(),
+                triangles.as_ptr().cast(),
+                triangles.len(),
+                robust.into(),
+                config.as_ptr(),
+            )
         };
         EmbreeScene { peer, build_seconds, build_processor_seconds: thread_seconds() - processor }
     }

@@ -88,7 +88,10 @@ fn traversal(bench: &Bench, mesh: &Mesh) {
     let shadow1 = rays::shadow(mesh, &primary, &first, &mut random);
     let shadow2 = rays::shadow(mesh, &bounce1, &second, &mut random);
     println!("ratios to Embree rtcIntersect1 or rtcOccluded1, robust (median; least to largest)");
-    println!("{:10} {:>8} {:>18} {:>18} {:>18} {:>18} {:>18} {:>8}", "rays", "Mray/s", "own single", "own packet", "own scalar", "Embree packet", "Embree not robust", "differ");
+    println!(
+        "{:10} {:>8} {:>18} {:>18} {:>18} {:>18} {:>18} {:>8}",
+        "rays", "Mray/s", "own single", "own packet", "own scalar", "Embree packet", "Embree not robust", "differ"
+    );
     first_hits(bench, "camera", &primary, true);
     first_hits(bench, "bounce 1", &bounce1, false);
     first_hits(bench, "bounce 2", &bounce2, false);

@@ -1,0 +1,52 @@
+# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make bench`, `make bench-peers`.
+
+PYTHON ?= python3.11
+VENV := $(CURDIR)/.venv
+BIN := $(VENV)/bin
+export VIRTUAL_ENV := $(VENV)
+export PYO3_PYTHON := $(BIN)/python
+
+.PHONY: build render test test-rust test-python lint validate bench bench-peers clean
+
+# The Python environment with everything that building and testing wants.
+$(VENV)/ready: pyproject.toml
+	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(VENV) || python3 -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" numpy pytest pytest-timeout openexr mypy
+	touch $@
+
+build: $(VENV)/ready
+	$(BIN)/maturin develop --release --quiet
+
+render: build
+	mkdir -p out
+	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64
+	@echo "The picture is out/office.png; radiance, luminance (cd/m2) and illuminance (lx) are in out/office.exr."
+
+test: lint build test-rust test-python
+
+lint:
+	cargo fmt --all --check
+	cargo clippy --release --quiet --workspace --all-targets -- --deny warnings
+
+test-rust: $(VENV)/ready
+	cargo test --release --quiet --workspace --exclude gonio-python
+
+test-python: build
+	$(BIN)/python -m pytest tests/python tests/usd
+
+# The long checks: all luxtest frames, kill tests, other renderers where they can be had.
+validate: build
+	$(BIN)/python -m pytest tests/python tests/usd -m "validate or not validate" --timeout 1800
+	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
+
+bench:
+	cargo bench -p gonio-simd
+
+# Needs Debian's libembree-dev and a C compiler.
+bench-peers:
+	cd tests/peers/embree && cargo run --release
+
+clean:
+	cargo clean
+	rm -rf $(VENV) out dist

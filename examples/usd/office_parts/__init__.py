@@ -1,0 +1,1 @@
+"""The parts from which make_office.py builds its stage."""

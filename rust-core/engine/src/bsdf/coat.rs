@@ -1,0 +1,65 @@
+//! The coat: a dielectric layer, its colour, and what its inner reflections take from the base.
+
+use super::energy;
+use super::fresnel::{self, Curve};
+use super::lobes::{CoatTint, Shape};
+use super::microfacet::Widths;
+use super::parameter as p;
+use super::reflect::ReflectLobe;
+use super::resolve::Layers;
+use super::switches::CoatPath;
+use gonio_simd::{F, Lanes, Rgb};
+
+impl<L: Lanes> Layers<'_, '_, L> {
+    #[inline(always)]
+    pub(super) fn coat(&mut self) {
+        let (l, switches) = (self.l, self.surface.switches);
+        let presence = self.get(p::COAT_WEIGHT);
+        let roughness = self.get(p::COAT_ROUGHNESS).saturate();
+        let ior = self.get(if switches.coat_has_base_ior { p::IOR } else { p::COAT_IOR }).max(1.0);
+        let curve = self.dielectric_curve(ior, Rgb::grey(fresnel::normal_reflectance(ior)), self.white());
+        let factor = energy::compensation(energy::reflect(l, roughness, self.mu), curve.mean(l));
+        let albedo = self.albedo(&curve, factor, roughness) * presence;
+        let lobe = ReflectLobe::new(self.wo, Widths::isotropic(roughness * roughness), curve);
+        self.push(Shape::Reflect(lobe), self.weight * factor * presence, self.weight * albedo, None, false);
+        if switches.coat_darkens {
+            self.weight = self.weight * self.darkening(presence, ior, &curve);
+        }
+        if self.surface.lobes.coat_tint {
+            self.coat_tint(presence, ior);
+        }
+        self.attenuate(albedo);
+    }
+
+    #[inline(always)]
+    pub(super) fn coat_tint(&mut self, presence: F<L>, ior: F<L>) {
+        let colour = self.rgb(p::COAT_COLOR).max(1e-6);
+        let view = (1.0 - (1.0 - self.mu * self.mu) / (ior * ior)).max(1e-4).sqrt().recip();
+        let tint = CoatTint { log: Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()), weight: presence, ior, view };
+        match self.surface.switches.coat_path {
+            CoatPath::Both => {
+                self.lobes.coat = Some(tint);
+                self.coated = true;
+            }
+            CoatPath::View => self.weight = self.weight * tint.along(view),
+            CoatPath::Flat => self.weight = self.weight * self.white().lerp(colour, presence),
+        }
+    }
+
+    /// Loss to repeated reflection between base and coat (OpenPBR 1.1, coat darkening).
+    #[inline(always)]
+    pub(super) fn darkening(&self, presence: F<L>, ior: F<L>, coat: &Curve<L>) -> Rgb<L> {
+        let base = self.rgb(p::BASE_COLOR).saturate();
+        let metalness = self.get(p::METALNESS).saturate();
+        let passed = self.get(p::TRANSMISSION_WEIGHT).saturate();
+        let body = base.lerp(self.rgb(p::SUBSURFACE_COLOR).saturate(), self.get(p::SUBSURFACE_WEIGHT).saturate()) * (1.0 - passed);
+        let below = body.lerp(base * self.get(p::METAL_WEIGHT).saturate(), metalness);
+        let roughness = self.get(p::ROUGHNESS).saturate();
+        let f0 = fresnel::normal_reflectance(self.get(p::IOR)) * self.get(p::SPECULAR_WEIGHT);
+        let rough_share = self.l.f(1.0).lerp(roughness, f0.saturate()).lerp(roughness, metalness);
+        let diffuse = 1.0 - (1.0 - coat.mean(self.l).r) / (ior * ior);
+        let inside = coat.reflectance(self.mu).r.lerp(diffuse, rough_share);
+        let kept = Rgb::grey(1.0 - inside) / (self.white() - below * inside);
+        self.white().lerp(kept, presence * self.get(p::COAT_DARKENING))
+    }
+}

@@ -1,0 +1,6 @@
+"""What the tests of the USD front end share."""
+
+import pytest
+
+pytest.importorskip("gonio")
+pytest.importorskip("pxr")

@@ -1,0 +1,153 @@
+"""The Cornell box in Cycles: run by a Python that has `bpy`.
+
+    python cornell_cycles.py VARIANT SAMPLES SEED OUT.npy
+"""
+
+import math
+import sys
+from pathlib import Path
+
+import bpy
+import cornell
+import mathutils
+import numpy
+
+
+def main(variant: str, samples: int, seed: int, out: Path) -> None:
+    """Renders and saves radiance (height, width, 3), top row first."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    settings(scene, samples, seed)
+    world = bpy.data.worlds.new("black")
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.0
+    scene.world = world
+    for part in cornell.parts(variant):
+        place(scene, part.name, mesh(part), None)
+    place(scene, "light", light(), cornell.light_matrix()).visible_camera = True
+    scene.camera = place(scene, "camera", camera(), cornell.camera_matrix())
+    picture = out.with_suffix(".exr")
+    scene.render.filepath = str(picture)
+    bpy.ops.render.render(write_still=True)
+    numpy.save(out, pixels(picture))
+
+
+def settings(scene: bpy.types.Scene, samples: int, seed: int) -> None:
+    """Everything that would bias the picture off, a box filter (always one pixel wide in Cycles)."""
+    scene.render.engine = "CYCLES"
+    scene.render.resolution_x = scene.render.resolution_y = cornell.RESOLUTION
+    scene.render.resolution_percentage = 100
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.samples, cycles.seed = samples, seed
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.pixel_filter_type = "BOX"
+    cycles.blur_glossy = cycles.light_sampling_threshold = 0.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    for kind in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
+        setattr(cycles, "transparent_max_bounces" if kind == "transparent_max" else f"{kind}_bounces", cornell.MAX_BOUNCES)
+
+
+def place(scene: bpy.types.Scene, name: str, data: bpy.types.ID, matrix: list[list[float]] | None) -> bpy.types.Object:
+    """An object of the scene."""
+    thing = bpy.data.objects.new(name, data)
+    scene.collection.objects.link(thing)
+    if matrix is not None:
+        thing.matrix_world = mathutils.Matrix(matrix)
+    return thing
+
+
+def mesh(part: cornell.Part) -> bpy.types.Mesh:
+    """A mesh with flat faces and its material."""
+    made = bpy.data.meshes.new(part.name)
+    made.from_pydata(part.points.tolist(), [], part.triangles.tolist())
+    made.polygons.foreach_set("use_smooth", [False] * len(made.polygons))
+    made.materials.append(material(part))
+    return made
+
+
+def material(part: cornell.Part) -> bpy.types.Material:
+    """One shader node into the output."""
+    made = bpy.data.materials.new(part.name)
+    made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    shader = tree.nodes.new(f"ShaderNodeBsdf{node_name(part.surface)}")
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    if hasattr(shader, "distribution"):
+        # Energy compensation as gonio has it; it has nothing to do at roughness 0.
+        shader.distribution = "MULTI_GGX"
+    for name, value in sockets(part.surface).items():
+        shader.inputs[name].default_value = value
+    return made
+
+
+def node_name(surface: cornell.Surface) -> str:
+    """The end of the node's type name."""
+    match surface:
+        case cornell.Diffuse():
+            return "Diffuse"
+        case cornell.Mirror():
+            return "Anisotropic"
+        case cornell.Glass():
+            return "Glass"
+        case cornell.Principled():
+            return "Principled"
+
+
+def sockets(surface: cornell.Surface) -> dict[str, float | tuple[float, ...]]:
+    """Socket values; the first node of Glossy's name is a constant reflectance."""
+    match surface:
+        case cornell.Diffuse(reflectance):
+            return {"Color": (*reflectance, 1.0), "Roughness": 0.0}
+        case cornell.Mirror(reflectance, roughness):
+            return {"Color": (reflectance, reflectance, reflectance, 1.0), "Roughness": roughness}
+        case cornell.Glass(ior):
+            return {"Color": (1.0, 1.0, 1.0, 1.0), "Roughness": 0.0, "IOR": ior}
+        case cornell.Principled():
+            return {
+                "Base Color": (*surface.base_color, 1.0),
+                "Roughness": surface.roughness,
+                "Metallic": surface.metallic,
+                "Specular Tint": (*surface.specular_tint, 1.0),
+                "Coat Weight": surface.coat_weight,
+                "Coat Roughness": surface.coat_roughness,
+            }
+
+
+def light() -> bpy.types.AreaLight:
+    """The ceiling light: Blender's watts P give the radiance P / (pi * area)."""
+    made = bpy.data.lights.new("light", "AREA")
+    made.shape = "RECTANGLE"
+    made.size, made.size_y = cornell.LIGHT_WIDTH, cornell.LIGHT_DEPTH
+    made.energy = cornell.LIGHT_RADIANCE * math.pi * cornell.LIGHT_WIDTH * cornell.LIGHT_DEPTH
+    made.color = (1.0, 1.0, 1.0)
+    made.cycles.max_bounces = cornell.MAX_BOUNCES
+    return made
+
+
+def camera() -> bpy.types.Camera:
+    """A pinhole."""
+    made = bpy.data.cameras.new("camera")
+    made.sensor_fit = "VERTICAL"
+    made.angle = math.radians(cornell.CAMERA_FOV)
+    made.clip_start = 0.01
+    return made
+
+
+def pixels(path: Path) -> numpy.ndarray:
+    """A rendered EXR file as an array, top row first."""
+    picture = bpy.data.images.load(str(path))
+    picture.colorspace_settings.name = "Non-Color"
+    width, height = picture.size
+    values = numpy.empty(width * height * picture.channels, "f4")
+    picture.pixels.foreach_get(values)
+    return values.reshape(height, width, picture.channels)[::-1, :, :3].astype("f8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), Path(sys.argv[4]))

@@ -1,0 +1,101 @@
+//! What a picture needs beside the stage: which camera, how many pixels, light where there is none.
+
+use crate::camera::choose;
+use crate::context::UpAxis;
+use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, neutral_dome};
+use crate::settings::conform_cameras;
+use crate::stage::Loaded;
+use gonio::compile::Bounds;
+use gonio::scene::{Input, Origin, Scene};
+use gonio::{Diagnostic, Error, Result};
+
+/// Width of pictures where nothing says otherwise, as usdrecord has it.
+const DEFAULT_WIDTH: u32 = 960;
+/// Shape of pictures where there is no camera.
+const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// How many pixels a picture has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resolution {
+    /// The render settings' size, or a width of 960 with the camera's shape.
+    #[default]
+    Stage,
+    /// This width, the height by the camera's shape.
+    Width(u32),
+    /// This width and height.
+    Exact([u32; 2]),
+}
+
+/// What the caller wants of the view.
+#[derive(Clone, Debug)]
+pub struct ViewOptions {
+    /// Camera by path or name; `None` leaves it to the stage.
+    pub camera: Option<String>,
+    /// Pixels.
+    pub resolution: Resolution,
+    /// Factor on both sides.
+    pub scale: f64,
+    /// Whether stages without light get a neutral dome.
+    pub neutral_dome: bool,
+}
+
+impl Default for ViewOptions {
+    fn default() -> Self {
+        Self { camera: None, resolution: Resolution::Stage, scale: 1.0, neutral_dome: true }
+    }
+}
+
+/// Chooses the camera and the size, adds what is missing, and makes the cameras fit the picture; gives notes on what was added.
+///
+/// # Errors
+/// The camera does not exist, or the scale is not a number above zero.
+pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions) -> Result<Vec<Diagnostic>> {
+    let mut notes = Vec::new();
+    let of_settings = loaded.settings.as_ref().and_then(|settings| settings.camera.clone());
+    let chosen = choose(&loaded.scene.cameras, options.camera.as_deref(), of_settings.as_deref(), primary_camera)?;
+    loaded.scene.settings.camera = chosen.unwrap_or(0);
+    set_resolution(loaded, options)?;
+    let note = |message: &str| Diagnostic::info(&Origin::new("stage"), message);
+    let scene = &mut loaded.scene;
+    if scene.lights.is_empty() && options.neutral_dome && !emits(scene) {
+        notes.push(note("there is no light; a neutral dome of 1 cd/m² lights it (--disable-camera-light takes it away)"));
+        scene.lights.push(neutral_dome());
+    }
+    if scene.cameras.is_empty() {
+        notes.push(note("there is no camera; one that sees everything is used"));
+        let Bounds { min, max } = Bounds::of_scene(scene);
+        let [width, height] = scene.settings.resolution.map(f64::from);
+        scene.cameras.push(auto_camera([min, max], loaded.info.up_axis == UpAxis::Z, width / height.max(1.0)));
+    }
+    let policy = loaded.settings.as_ref().map_or(ConformPolicy::default(), |settings| settings.conform);
+    conform_cameras(&mut loaded.scene, policy);
+    Ok(notes)
+}
+
+fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
+    if !(options.scale > 0.0 && options.scale.is_finite()) {
+        let problem = format!("{} was found, expected a number above 0", options.scale);
+        return Err(Error::Setting { name: "res-scale".into(), problem });
+    }
+    let has_settings = loaded.settings.is_some();
+    let scene = &mut loaded.scene;
+    let aspect = scene.cameras.get(scene.settings.camera as usize).map_or(DEFAULT_ASPECT, aperture_aspect);
+    let by_width = |width: u32| [width, ((f64::from(width) / aspect).round() as u32).max(1)];
+    let resolution = match options.resolution {
+        Resolution::Exact(resolution) => resolution,
+        Resolution::Width(width) => by_width(width),
+        Resolution::Stage if has_settings => scene.settings.resolution,
+        Resolution::Stage => by_width(DEFAULT_WIDTH),
+    };
+    scene.settings.resolution = resolution.map(|side| ((f64::from(side) * options.scale).round() as u32).max(u32::from(side > 0)));
+    Ok(())
+}
+
+/// Whether any material shines by itself.
+fn emits(scene: &Scene) -> bool {
+    scene.materials.iter().any(|material| match material.input("emission_color") {
+        Some(Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
+        Some(Input::Node(..)) => true,
+        None => false,
+    })
+}
