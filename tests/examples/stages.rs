@@ -32,7 +32,12 @@ fn main() {
         let share = |(name, ns): (&&str, &u64)| format!("{name} {:.3}", *ns as f64 * 1e-9);
         let stages: Vec<String> = gonio::integrator::STAGES.iter().zip(&statistics.time_ns).map(share).collect();
         let alive = statistics.lanes_alive as f64 / statistics.lanes.max(1) as f64;
-        let line = format!("{:8} {seconds:7.3} s {:7.3} Mrays/s, lanes alive {alive:.2}, {}\n", execution.name(), rays / seconds, stages.join(", "));
+        let line = format!(
+            "{:8} {seconds:7.3} s {:7.3} Mrays/s, lanes alive {alive:.2}, {}\n",
+            execution.name(),
+            rays / seconds,
+            stages.join(", ")
+        );
         std::io::Write::write_all(&mut std::io::stdout(), line.as_bytes()).expect("standard output");
     }
 }

@@ -1,8 +1,6 @@
 //! Small scenes built by hand.
 
-use gonio::scene::{
-    Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Shaping, Transform, Visibility,
-};
+use gonio::scene::{Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Shaping, Transform, Visibility};
 use std::sync::Arc;
 
 /// Adds a parallelogram from a corner and two edges, seen counter-clockwise from `u × v`.

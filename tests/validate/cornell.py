@@ -17,8 +17,8 @@ CAMERA_FOV = 40.0
 # Centre, width along x and depth along z of the ceiling light, which shines downwards. It lies as close under the ceiling as can be: the lights
 # of gonio and Cycles let rays pass, so the ceiling is seen through them; where a light is a surface, it gets the ceiling's reflectance.
 LIGHT_CENTRE = (0.0, 1.999, 0.0)
-LIGHT_WIDTH = 0.9
-LIGHT_DEPTH = 0.7
+LIGHT_WIDTH = 1.3
+LIGHT_DEPTH = 1.1
 LIGHT_RADIANCE = 1.0
 BALL_SUBDIVISIONS = 5
 
@@ -105,7 +105,7 @@ def two_boxes() -> list[Part]:
 def mirror_and_glass() -> list[Part]:
     """Specular chains that all three renderers can be given exactly."""
     return [
-        ball("mirror", (-0.42, 0.4, -0.35), 0.4, Mirror(0.9, 0.3)),
+        ball("mirror", (-0.42, 0.4, -0.35), 0.4, Mirror(0.9, 0.2)),
         ball("glass", (0.42, 0.45, 0.25), 0.4, Glass(1.5)),
     ]
 

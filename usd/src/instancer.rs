@@ -36,9 +36,12 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Vec<Placed
     }
     report_blur(context, prim);
     let result = transforms_and_mask(context, prim);
-    let Some((matrices, mask)) = context.attempt(&origin, "the instances' transformations cannot be had", result) else { return Vec::new() };
+    let Some((matrices, mask)) = context.attempt(&origin, "the instances' transformations cannot be had", result) else {
+        return Vec::new();
+    };
     if matrices.len() != chosen.len() {
-        context.warn(&origin, format!("{} transformations for {} instances; the point instancer is left out", matrices.len(), chosen.len()));
+        context
+            .warn(&origin, format!("{} transformations for {} instances; the point instancer is left out", matrices.len(), chosen.len()));
         return Vec::new();
     }
     let members = members(context, prim, &chosen, &mask, &matrices, prototypes.len());
@@ -114,7 +117,8 @@ fn members(
     }
     let origin = prim.origin();
     if outside > 0 {
-        context.warn(&origin, format!("{outside} protoIndices name no prototype, there are {prototype_count}; these instances are left out"));
+        context
+            .warn(&origin, format!("{outside} protoIndices name no prototype, there are {prototype_count}; these instances are left out"));
     }
     if broken > 0 {
         context.warn(&origin, format!("{broken} instances have transformations that are not finite; they are left out"));

@@ -4,8 +4,8 @@ use crate::build::{MeshSource, Surface};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::{primvar, subset};
-use gonio::mesh::refine::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
 use gonio::mesh::PolygonMesh;
+use gonio::mesh::refine::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
 
 /// Most faces that subdivision makes of one mesh; denser meshes are refined less.
 const MAX_REFINED_FACES: usize = 1 << 22;
@@ -66,7 +66,10 @@ fn surface<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> (Surface, O
         "loop" => Some(Scheme::Loop),
         "bilinear" => Some(Scheme::Bilinear),
         other => {
-            context.warn(&prim.origin(), format!("subdivisionScheme is '{other}', expected catmullClark, loop, bilinear or none; none is used"));
+            context.warn(
+                &prim.origin(),
+                format!("subdivisionScheme is '{other}', expected catmullClark, loop, bilinear or none; none is used"),
+            );
             None
         }
     };

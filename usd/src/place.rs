@@ -68,14 +68,8 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         renamed: None,
         is_rebound: false,
     };
-    let mut placer = Placer {
-        context,
-        failed,
-        places: HashMap::new(),
-        gathered: Vec::new(),
-        placement_count: 0,
-        geometry_lights: HashMap::new(),
-    };
+    let mut placer =
+        Placer { context, failed, places: HashMap::new(), gathered: Vec::new(), placement_count: 0, geometry_lights: HashMap::new() };
     placer.place(world, &placement)?;
     placer.finish();
     Ok(())

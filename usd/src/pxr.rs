@@ -105,7 +105,9 @@ pub fn message_of(py: Python<'_>, error: &PyErr) -> String {
     let value = error.value(py);
     match value.str().and_then(|text| text.extract::<String>()) {
         Ok(text) if !text.trim().is_empty() => one_line(&text),
-        _ => format!("{} without a readable message", error.get_type(py).name().map_or_else(|_| "exception".into(), |name| name.to_string())),
+        _ => {
+            format!("{} without a readable message", error.get_type(py).name().map_or_else(|_| "exception".into(), |name| name.to_string()))
+        }
     }
 }
 
@@ -206,7 +208,11 @@ impl<'py> Trap<'py> {
 impl OpenTrap<'_> {
     fn warnings(&self) -> PyResult<Vec<String>> {
         let list = self.messages.call_method0("GetWarnings")?;
-        Ok(list.try_iter()?.filter_map(|warning| warning.ok()?.getattr("commentary").ok()?.extract::<String>().ok()).map(|text| one_line(&text)).collect())
+        Ok(list
+            .try_iter()?
+            .filter_map(|warning| warning.ok()?.getattr("commentary").ok()?.extract::<String>().ok())
+            .map(|text| one_line(&text))
+            .collect())
     }
 
     /// Warnings are cleared first, because what is left in a trap is passed on when it ends; errors are not, so that none is lost.

@@ -12,17 +12,51 @@ use gonio::scene::Origin;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quadric {
     /// About the origin.
-    Sphere { /** Local units. */ radius: f32 },
+    Sphere {
+        /** Local units. */
+        radius: f32,
+    },
     /// About the origin.
-    Cube { /** Edge length. */ size: f32 },
+    Cube {
+        /** Edge length. */
+        size: f32,
+    },
     /// Closed by flat caps.
-    Cylinder { /** Along the axis. */ height: f32, /** At the bottom and the top. */ radii: [f32; 2], /** Along which it stands. */ axis: Axis },
+    Cylinder {
+        /** Along the axis. */
+        height: f32,
+        /** At the bottom and the top. */
+        radii: [f32; 2],
+        /** Along which it stands. */
+        axis: Axis,
+    },
     /// The tip up.
-    Cone { /** Along the axis. */ height: f32, /** Of the base. */ radius: f32, /** Along which it stands. */ axis: Axis },
+    Cone {
+        /** Along the axis. */
+        height: f32,
+        /** Of the base. */
+        radius: f32,
+        /** Along which it stands. */
+        axis: Axis,
+    },
     /// A cylinder between half spheres.
-    Capsule { /** Between the half spheres. */ height: f32, /** At the bottom and the top. */ radii: [f32; 2], /** Along which it stands. */ axis: Axis },
+    Capsule {
+        /** Between the half spheres. */
+        height: f32,
+        /** At the bottom and the top. */
+        radii: [f32; 2],
+        /** Along which it stands. */
+        axis: Axis,
+    },
     /// A rectangle.
-    Plane { /** Across. */ width: f32, /** Along. */ length: f32, /** The normal. */ axis: Axis },
+    Plane {
+        /** Across. */
+        width: f32,
+        /** Along. */
+        length: f32,
+        /** The normal. */
+        axis: Axis,
+    },
 }
 
 /// Whether prims of this type are quadrics.

@@ -203,9 +203,11 @@ fn format_error(path: &Path, problem: impl Into<String>) -> Error {
 fn unreadable(py: Python<'_>, path: &Path, error: &PyErr) -> Error {
     let message = pxr::message_of(py, error);
     match pxr::place_in(&message) {
-        Some(place) => {
-            Error::Format { path: place.file.into(), line: Some(place.line), problem: format!("column {}: {}", place.column, place.problem) }
-        }
+        Some(place) => Error::Format {
+            path: place.file.into(),
+            line: Some(place.line),
+            problem: format!("column {}: {}", place.column, place.problem),
+        },
         None if message.starts_with("Failed to open layer") => format_error(path, "the file cannot be read as a USD layer"),
         None => format_error(path, message),
     }
@@ -331,7 +333,10 @@ fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut Vec<Diagno
         if range.iter().all(|code| code.is_finite()) && range[0] <= range[1] {
             time_range = Some(range);
         } else {
-            warn(format!("the time range is {} to {}, expected a finite one that begins before it ends; it is ignored", range[0], range[1]));
+            warn(format!(
+                "the time range is {} to {}, expected a finite one that begins before it ends; it is ignored",
+                range[0], range[1]
+            ));
         }
     }
     let cameras = cameras(stage)?;

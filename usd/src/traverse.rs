@@ -291,12 +291,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
     fn point_instancer(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
         for placed in instancer::read(self.context, prim) {
             let Some(prototype) = self.point_prototype(prim, &placed.prototype)? else { continue };
-            let group = Group {
-                model: prototype,
-                transforms: placed.transforms,
-                primvars: placed.primvars,
-                instance: None,
-            };
+            let group = Group { model: prototype, transforms: placed.transforms, primvars: placed.primvars, instance: None };
             push(model, prim, branch, Kind::Group(group));
         }
         Ok(())
@@ -309,7 +304,10 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         }
         let origin = instancer.origin();
         if self.open_prototypes.iter().any(|open| open == path) || self.open_prototypes.len() >= MAX_NESTING {
-            self.context.warn(&origin, format!("the prototype {path} holds itself, or prototypes are nested deeper than {MAX_NESTING}; it is left out"));
+            self.context.warn(
+                &origin,
+                format!("the prototype {path} holds itself, or prototypes are nested deeper than {MAX_NESTING}; it is left out"),
+            );
             return Ok(None);
         }
         let Some(prim) = self.context.prim_at(path) else {
@@ -340,12 +338,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             }
         };
         let own = primvar::handed_down(self.context, prim, &branch.primvars);
-        let group = Group {
-            model: prototype,
-            transforms: vec![Transform::IDENTITY],
-            primvars: Vec::new(),
-            instance: Some(prim.path()),
-        };
+        let group = Group { model: prototype, transforms: vec![Transform::IDENTITY], primvars: Vec::new(), instance: Some(prim.path()) };
         push(model, prim, &Branch { primvars: own, ..branch.clone() }, Kind::Group(group));
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, neutral_dome};
 use crate::settings::conform_cameras;
 use crate::stage::Loaded;
 use gonio::compile::Bounds;
-use gonio::scene::{Input, Origin, Scene};
+use gonio::scene::{Input, Material, Origin};
 use gonio::{Diagnostic, Error, Result};
 
 /// Width of pictures where nothing says otherwise, as usdrecord has it.
@@ -57,7 +57,7 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
     set_resolution(loaded, options)?;
     let note = |message: &str| Diagnostic::info(&Origin::new("stage"), message);
     let scene = &mut loaded.scene;
-    if scene.lights.is_empty() && options.neutral_dome && !emits(scene) {
+    if scene.lights.is_empty() && options.neutral_dome && !scene.materials.iter().any(shines) {
         notes.push(note("there is no light; a neutral dome of 1 cd/m² lights it (--disable-camera-light takes it away)"));
         scene.lights.push(neutral_dome());
     }
@@ -91,11 +91,11 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
     Ok(())
 }
 
-/// Whether any material shines by itself.
-fn emits(scene: &Scene) -> bool {
-    scene.materials.iter().any(|material| match material.input("emission_color") {
+/// Whether a material shines by itself.
+pub fn shines(material: &Material) -> bool {
+    match material.input("emission_color") {
         Some(Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
         Some(Input::Node(..)) => true,
         None => false,
-    })
+    }
 }

@@ -28,7 +28,7 @@ def walls(stage: Usd.Stage, images: str) -> None:
     """Thick walls, so that no light gets in at the joints."""
     room = Asset(stage, "/Office/Room/Walls", images)
     outside = LEFT - 0.35
-    room.add("Planks", sheet((LEFT, 0, FRONT), (RIGHT - LEFT, 0, 0), (0, 0, BACK - FRONT), in_metres=True))
+    room.add("Planks", sheet((RIGHT, 0, FRONT), (0, 0, BACK - FRONT), (LEFT - RIGHT, 0, 0), in_metres=True))
     room.span("WallPaint", (outside, -0.3, BACK - 0.3), (RIGHT + 0.3, -0.01, FRONT + 0.3))
     room.span("WallPaint", (outside, HEIGHT + 0.01, BACK - 0.3), (RIGHT + 0.3, HEIGHT + 0.3, FRONT + 0.3))
     room.span("AccentPaint", (outside, -0.2, BACK - 0.3), (RIGHT + 0.3, HEIGHT + 0.2, BACK), 0.0005)

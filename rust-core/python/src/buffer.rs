@@ -1,6 +1,10 @@
 //! Python buffers as Rust arrays, checked for type and shape and copied at once.
 
-use pyo3::{buffer::PyBuffer, exceptions::{PyTypeError, PyValueError}, prelude::*};
+use pyo3::{
+    buffer::PyBuffer,
+    exceptions::{PyTypeError, PyValueError},
+    prelude::*,
+};
 
 /// Floats of a buffer of any shape, given as float32 or float64.
 pub(crate) fn floats(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f32>> {
@@ -35,7 +39,7 @@ pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<u32
 
 /// Groups of `N`; the length must be a multiple.
 pub(crate) fn grouped<T: Copy + Default, const N: usize>(values: &[T], name: &str) -> PyResult<Vec<[T; N]>> {
-    if values.len() % N != 0 {
+    if !values.len().is_multiple_of(N) {
         return Err(PyValueError::new_err(format!("{name}: {} values were found, expected a multiple of {N}", values.len())));
     }
     Ok(values

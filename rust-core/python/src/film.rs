@@ -71,7 +71,8 @@ impl Film {
     /// A pass by name.
     fn __getitem__(&self, name: &str) -> PyResult<Pass> {
         let layer = self.image.layers.iter().find(|layer| aov_name(layer.aov) == name);
-        let layer = layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))?;
+        let layer =
+            layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))?;
         let [width, height] = self.image.size();
         Ok(Pass { shape: (height, width, layer.channels), channels: channel_names(layer.aov).to_vec(), values: layer.values.clone() })
     }

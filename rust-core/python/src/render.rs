@@ -5,10 +5,7 @@ use gonio::{compile::compile, render};
 use gonio_simd::Execution;
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use std::{
-    sync::{
-        Arc,
-        atomic::AtomicBool,
-    },
+    sync::{Arc, atomic::AtomicBool},
     time::{Duration, Instant},
 };
 

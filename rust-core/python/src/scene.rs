@@ -8,8 +8,8 @@ use crate::{
 use gonio::{
     Diagnostic,
     scene::{
-        self, Aov, Camera, DomeFormat, Emission, Input, Instances, Integrator, Light, LightShape, Material, MaterialId, Mesh, MeshId, Origin,
-        Primvar, PrimvarInterpolation, Shaping, Transform, Visibility,
+        self, Aov, Camera, DomeFormat, Emission, Input, Instances, Integrator, Light, LightShape, Material, MaterialId, Mesh, MeshId,
+        Origin, Primvar, PrimvarInterpolation, Shaping, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
@@ -50,10 +50,14 @@ impl Scene {
     /// points: float buffer (N, 3); triangles: integer buffer (M, 3); normals: float buffer (N, 3) or (3 M, 3) or None for flat triangles;
     /// uvs: float buffer (N, 2) or (3 M, 2); slots: integer buffer (M,) of material slots.
     #[pyo3(signature = (points, triangles, *, normals = None, uvs = None, slots = None, name = "mesh"))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn add_mesh(
-        &mut self, points: &Bound<'_, PyAny>, triangles: &Bound<'_, PyAny>, normals: Option<&Bound<'_, PyAny>>,
-        uvs: Option<&Bound<'_, PyAny>>, slots: Option<&Bound<'_, PyAny>>, name: &str,
+        &mut self,
+        points: &Bound<'_, PyAny>,
+        triangles: &Bound<'_, PyAny>,
+        normals: Option<&Bound<'_, PyAny>>,
+        uvs: Option<&Bound<'_, PyAny>>,
+        slots: Option<&Bound<'_, PyAny>>,
+        name: &str,
     ) -> PyResult<u32> {
         let points = grouped::<f32, 3>(&floats(points, "points")?, "points")?;
         let triangles = grouped::<u32, 3>(&indices(triangles, "triangles")?, "triangles")?;
@@ -110,7 +114,8 @@ impl Scene {
             }
             let known = gonio::bsdf::parameter::find(&key);
             let parameter = known.ok_or_else(|| setting(&key, "the surface has no parameter of this name".into()))?;
-            let numbers: Vec<f32> = if let Ok(number) = value.extract::<f32>() { vec![number; parameter.width()] } else { value.extract()? };
+            let numbers: Vec<f32> =
+                if let Ok(number) = value.extract::<f32>() { vec![number; parameter.width()] } else { value.extract()? };
             if numbers.len() != parameter.width() {
                 return Err(setting(&key, format!("{} numbers were found, expected {}", numbers.len(), parameter.width())));
             }
@@ -143,8 +148,17 @@ impl Scene {
     #[pyo3(signature = (shape, radiance = [1.0; 3], *, transform = None, width = 1.0, height = 1.0, radius = 0.5, length = 1.0, angle = 0.53, visible = true, name = "light"))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn add_light(
-        &mut self, shape: &str, radiance: [f32; 3], transform: Option<&Bound<'_, PyAny>>, width: f64, height: f64, radius: f64, length: f64,
-        angle: f64, visible: bool, name: &str,
+        &mut self,
+        shape: &str,
+        radiance: [f32; 3],
+        transform: Option<&Bound<'_, PyAny>>,
+        width: f64,
+        height: f64,
+        radius: f64,
+        length: f64,
+        angle: f64,
+        visible: bool,
+        name: &str,
     ) -> PyResult<u32> {
         let (shape, normalized) = match shape {
             "rectangle" => (LightShape::Rectangle { width, height }, false),
@@ -185,8 +199,16 @@ impl Scene {
     #[pyo3(signature = (*, width = None, height = None, samples = None, seed = None, threads = None, max_bounces = None, integrator = None, time_limit = None, passes = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn set(
-        &mut self, width: Option<u32>, height: Option<u32>, samples: Option<u32>, seed: Option<u32>, threads: Option<u32>,
-        max_bounces: Option<u32>, integrator: Option<&str>, time_limit: Option<f64>, passes: Option<Vec<String>>,
+        &mut self,
+        width: Option<u32>,
+        height: Option<u32>,
+        samples: Option<u32>,
+        seed: Option<u32>,
+        threads: Option<u32>,
+        max_bounces: Option<u32>,
+        integrator: Option<&str>,
+        time_limit: Option<f64>,
+        passes: Option<Vec<String>>,
     ) -> PyResult<()> {
         let s = &mut self.scene.settings;
         s.resolution = [width.unwrap_or(s.resolution[0]), height.unwrap_or(s.resolution[1])];
@@ -248,4 +270,3 @@ impl Scene {
         )
     }
 }
-

@@ -15,8 +15,15 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 #[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", neutral_dome = true, strict = false))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd(
-    py: Python<'_>, path: PathBuf, frame: Option<f64>, camera: Option<String>, render_settings: Option<String>,
-    purposes: Option<Vec<String>>, complexity: &str, neutral_dome: bool, strict: bool,
+    py: Python<'_>,
+    path: PathBuf,
+    frame: Option<f64>,
+    camera: Option<String>,
+    render_settings: Option<String>,
+    purposes: Option<Vec<String>>,
+    complexity: &str,
+    neutral_dome: bool,
+    strict: bool,
 ) -> PyResult<Scene> {
     let setting = |name: &str, problem: String| exception(gonio::Error::Setting { name: name.into(), problem });
     let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };

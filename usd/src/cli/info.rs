@@ -57,7 +57,13 @@ fn as_text(loaded: &crate::Loaded, compiled: &CompiledScene, diagnostics: &[&Dia
     }
     let prims: Vec<String> = info.prim_counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
     lines.push(format!("prims: {}", if prims.is_empty() { "none".into() } else { prims.join(", ") }));
-    lines.push(format!("{} triangles in {} meshes, {} placed ({} triangles)", s.triangles, loaded.scene.meshes.len(), s.instances, s.instanced_triangles));
+    lines.push(format!(
+        "{} triangles in {} meshes, {} placed ({} triangles)",
+        s.triangles,
+        loaded.scene.meshes.len(),
+        s.instances,
+        s.instanced_triangles
+    ));
     lines.push(format!("{} materials, {} textures", loaded.scene.materials.len(), loaded.scene.textures.len()));
     lines.push(format!("memory: {:.1} MB of geometry, {:.1} MB of textures", s.geometry_bytes as f64 / 1e6, s.texture_bytes as f64 / 1e6));
     if !compiled.bounds.is_empty() {
@@ -92,6 +98,6 @@ fn describe(light: &Light) -> String {
 }
 
 fn emissive(scene: &Scene) -> Vec<String> {
-    let shining = scene.materials.iter().filter(|material| material.input("emission_color").is_some());
+    let shining = scene.materials.iter().filter(|material| crate::view::shines(material));
     shining.map(|material| format!("emissive material {}", material.origin.name)).collect()
 }

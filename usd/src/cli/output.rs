@@ -48,7 +48,8 @@ impl Writer {
 }
 
 fn tone_map(text: &str) -> Result<ToneMap> {
-    let unknown = || Error::Setting { name: "tonemap".into(), problem: format!("'{text}' was found, expected photographic, none or ev100=NUMBER") };
+    let unknown =
+        || Error::Setting { name: "tonemap".into(), problem: format!("'{text}' was found, expected photographic, none or ev100=NUMBER") };
     match text {
         "photographic" => Ok(ToneMap::Photographic),
         "none" => Ok(ToneMap::None),

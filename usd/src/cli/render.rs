@@ -55,7 +55,8 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
         let start = Instant::now();
         let loaded = stage.load(py, &stage_options, interrupted)?;
         let loading = start.elapsed();
-        let outputs: Vec<PathBuf> = options.output.iter().map(|path| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f))).collect();
+        let outputs: Vec<PathBuf> =
+            options.output.iter().map(|path| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f))).collect();
         let job = Job { options, writer: &writer, execution, outputs, loading, interrupted };
         let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
         previous = Some(compiled);
@@ -141,7 +142,9 @@ impl Job<'_> {
             neutral_dome: !options.disable_camera_light,
         };
         for note in complete(loaded, &Python::attach(camera::primary_camera_name), &view)? {
-            say(&note.to_string());
+            if !options.quiet {
+                say(&note.to_string());
+            }
         }
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
@@ -190,7 +193,13 @@ impl Job<'_> {
         if self.options.stage.verbose {
             let s = &compiled.statistics;
             let megabytes = |bytes: u64| bytes as f64 / 1e6;
-            say(&format!("{} triangles in {} instances, {} lights, SIMD level {}", s.triangles, s.instances, s.lights, self.execution.name()));
+            say(&format!(
+                "{} triangles in {} instances, {} lights, SIMD level {}",
+                s.triangles,
+                s.instances,
+                s.lights,
+                self.execution.name()
+            ));
             say(&format!("{:.1} MB of geometry, {:.1} MB of textures", megabytes(s.geometry_bytes), megabytes(s.texture_bytes)));
             say(&format!("read in {}, trees built in {:.2} s, compiled in {:.2} s", clock(self.loading), s.build_s, s.total_s));
         }
@@ -261,10 +270,11 @@ fn crop_of(texts: &[String], resolution: [u32; 2]) -> Result<Crop> {
     let parts = texts.iter().any(|text| text.contains('.'));
     let mut bounds = [0; 4];
     for (i, text) in texts.iter().enumerate() {
-        let number: f64 = text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| Error::Setting {
-            name: "crop".into(),
-            problem: format!("'{text}' was found, expected a number"),
-        })?;
+        let number: f64 = text
+            .parse()
+            .ok()
+            .filter(|x: &f64| x.is_finite())
+            .ok_or_else(|| Error::Setting { name: "crop".into(), problem: format!("'{text}' was found, expected a number") })?;
         let scale = if parts { f64::from(resolution[i % 2]) } else { 1.0 };
         bounds[i] = (number * scale).round().max(0.0) as u32;
     }

@@ -29,9 +29,9 @@ impl Bounds {
     /// Takes a point in; points that are not finite are left out.
     pub fn extend(&mut self, p: [f64; 3]) {
         if p.iter().all(|x| x.is_finite()) {
-            for i in 0..3 {
-                self.min[i] = self.min[i].min(p[i]);
-                self.max[i] = self.max[i].max(p[i]);
+            for (i, x) in p.iter().enumerate() {
+                self.min[i] = self.min[i].min(*x);
+                self.max[i] = self.max[i].max(*x);
             }
         }
     }

@@ -23,7 +23,10 @@ pub(super) struct KeptTree {
 
 /// Trees of all meshes; those whose arrays are the very same as before are kept.
 pub(super) fn build_trees(
-    scene: &Scene, previous: &[KeptTree], cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>,
+    scene: &Scene,
+    previous: &[KeptTree],
+    cancel: &AtomicBool,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<KeptTree>> {
     let mut trees = Vec::with_capacity(scene.meshes.len());
     for mesh in &scene.meshes {
@@ -61,7 +64,11 @@ pub(super) struct CompiledGeometry {
 
 /// Lays meshes and instances out.
 pub(super) fn tables(
-    scene: &Scene, names: &[String], materials: &[SurfaceMaterial], origin: [f64; 3], diagnostics: &mut Vec<Diagnostic>,
+    scene: &Scene,
+    names: &[String],
+    materials: &[SurfaceMaterial],
+    origin: [f64; 3],
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
     for mesh in &scene.meshes {
@@ -78,7 +85,9 @@ pub(super) fn tables(
 
 fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
     let first_point = (table.points.len() / 3) as u64;
-    if (first_point + mesh.points.len() as u64) * 3 >= i32::MAX as u64 || (table.corners.len() + mesh.triangles.len() * 3) >= i32::MAX as usize {
+    if (first_point + mesh.points.len() as u64) * 3 >= i32::MAX as u64
+        || (table.corners.len() + mesh.triangles.len() * 3) >= i32::MAX as usize
+    {
         return Err(Error::scene(&mesh.origin, "the scene has more points or triangles than 2^31 table entries hold"));
     }
     table.mesh_triangle.push((table.corners.len() / 3) as u32);
@@ -102,7 +111,11 @@ fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnos
 }
 
 fn append_checked(
-    primvar: Option<&Primvar>, elements: Elements, mesh: &Mesh, table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>,
+    primvar: Option<&Primvar>,
+    elements: Elements,
+    mesh: &Mesh,
+    table: &mut GeometryTable,
+    diagnostics: &mut Vec<Diagnostic>,
 ) {
     let reference = match primvar {
         None => PrimvarRef::ABSENT,
@@ -119,8 +132,15 @@ fn append_checked(
 
 #[expect(clippy::too_many_arguments, reason = "a set of instances goes to several tables")]
 fn append_instances(
-    scene: &Scene, group: &Instances, set: u32, names: &[String], materials: &[SurfaceMaterial], origin: [f64; 3],
-    table: &mut GeometryTable, instances: &mut Vec<Instance>, diagnostics: &mut Vec<Diagnostic>,
+    scene: &Scene,
+    group: &Instances,
+    set: u32,
+    names: &[String],
+    materials: &[SurfaceMaterial],
+    origin: [f64; 3],
+    table: &mut GeometryTable,
+    instances: &mut Vec<Instance>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) {
     let Some(mesh) = scene.meshes.get(group.mesh.index()) else {
         diagnostics.push(Diagnostic::warning(&group.origin, format!("mesh {} does not exist; left out", group.mesh.0)));
@@ -134,7 +154,11 @@ fn append_instances(
     table.materials.extend((0..slots).map(|slot| known(slot).unwrap_or(default)));
     let transparent = (0..slots).any(|slot| materials[known(slot).unwrap_or(default) as usize].transparent);
     let first_primvar = append_own_primvars(group, names, table, diagnostics);
-    let mask = [(group.visibility.camera, ray_mask::CAMERA), (group.visibility.shadow, ray_mask::SHADOW), (group.visibility.indirect, ray_mask::INDIRECT)];
+    let mask = [
+        (group.visibility.camera, ray_mask::CAMERA),
+        (group.visibility.shadow, ray_mask::SHADOW),
+        (group.visibility.indirect, ray_mask::INDIRECT),
+    ];
     let mask = mask.iter().map(|(seen, bit)| if *seen { *bit } else { 0 }).sum();
     for (number, transform) in group.transforms.iter().enumerate() {
         let rebased = rebased(transform, origin);
@@ -173,8 +197,8 @@ fn append_own_primvars(group: &Instances, names: &[String], table: &mut Geometry
 /// A map with its image moved so that `origin` becomes zero.
 pub(super) fn rebased(transform: &Transform, origin: [f64; 3]) -> Transform {
     let mut moved = *transform;
-    for i in 0..3 {
-        moved.columns[3][i] -= origin[i];
+    for (place, origin) in moved.columns[3].iter_mut().zip(origin) {
+        *place -= origin;
     }
     moved
 }

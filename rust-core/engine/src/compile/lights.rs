@@ -28,7 +28,11 @@ pub(super) struct CompiledLights {
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
 pub(super) fn compile(
-    scene: &Scene, geometry: &GeometryTable, materials: &[SurfaceMaterial], textures: &CompiledTextures, origin: [f64; 3],
+    scene: &Scene,
+    geometry: &GeometryTable,
+    materials: &[SurfaceMaterial],
+    textures: &CompiledTextures,
+    origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> CompiledLights {
     let mut records = Vec::new();
@@ -131,7 +135,11 @@ fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
 
 /// Adds a light for each triangle of meshes with an evenly emitting material; gives the first light of each instance.
 fn emissive_triangles(
-    scene: &Scene, geometry: &GeometryTable, materials: &[SurfaceMaterial], origin: [f64; 3], records: &mut Vec<LightRecord>,
+    scene: &Scene,
+    geometry: &GeometryTable,
+    materials: &[SurfaceMaterial],
+    origin: [f64; 3],
+    records: &mut Vec<LightRecord>,
 ) -> Vec<u32> {
     let even = |m: &SurfaceMaterial| m.emissive && !m.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR);
     if !materials.iter().any(even) {

@@ -15,14 +15,20 @@ const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 
 /// Compiles all materials; the default one stands last.
 pub(super) fn compile(
-    scene: &Scene, textures: &CompiledTextures, names: &[String], diagnostics: &mut Vec<Diagnostic>,
+    scene: &Scene,
+    textures: &CompiledTextures,
+    names: &[String],
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<MaterialTable> {
     let default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
     scene.materials.iter().chain([&default]).map(|material| compile_one(material, textures, names, diagnostics)).collect()
 }
 
 fn compile_one(
-    material: &Material, textures: &CompiledTextures, names: &[String], diagnostics: &mut Vec<Diagnostic>,
+    material: &Material,
+    textures: &CompiledTextures,
+    names: &[String],
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<SurfaceMaterial> {
     let mut program = steps(material, textures, names)?;
     let mut constants = parameter::DEFAULTS;
@@ -121,9 +127,7 @@ fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
     let inherited = inherited.unwrap_or(NodeFacts { column: None, scale: 1.0 });
     match &node.operation {
         Operation::Primvar { name, .. } => NodeFacts { column: column(names, name), scale: 1.0 },
-        Operation::Transform2d { scale, .. } => {
-            NodeFacts { scale: inherited.scale * (scale[0] * scale[1]).abs().sqrt(), ..inherited }
-        }
+        Operation::Transform2d { scale, .. } => NodeFacts { scale: inherited.scale * (scale[0] * scale[1]).abs().sqrt(), ..inherited },
         Operation::Multiply => match node.inputs.get(1) {
             Some(Input::Constant(value)) => NodeFacts { scale: inherited.scale * (value[0] * value[1]).abs().sqrt(), ..inherited },
             _ => inherited,

@@ -92,6 +92,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         build_s: built,
         total_s: start.elapsed().as_secs_f64(),
     };
+    let any_absorbing = scene.materials.iter().any(|material| material.input("transmission_depth").is_some());
     let any_transparent = materials.iter().any(|material| material.transparent);
     let tables = Tables {
         bvh,
@@ -103,6 +104,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         instance_light: lights.instance_light,
         triangle_lights: lights.triangle_lights,
         any_transparent,
+        any_absorbing,
         origin,
     };
     Ok(CompiledScene { tables, cameras: scene.cameras.clone(), bounds, diagnostics, statistics, trees })

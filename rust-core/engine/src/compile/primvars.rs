@@ -9,10 +9,10 @@ use crate::{
 pub(super) fn used_names(scene: &Scene) -> Vec<String> {
     let mut names = Vec::new();
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
-        if let Operation::Primvar { name, .. } = &node.operation {
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
+        if let Operation::Primvar { name, .. } = &node.operation
+            && !names.contains(name)
+        {
+            names.push(name.clone());
         }
     }
     names
@@ -56,9 +56,7 @@ pub(super) fn problem(primvar: &Primvar, elements: Elements) -> Option<String> {
     }
     let largest = primvar.indices.as_ref().and_then(|indices| indices.iter().max().copied());
     match largest {
-        Some(index) if index as usize >= values => {
-            Some(format!("primvar '{}' has index {index}, but only {values} values", primvar.name))
-        }
+        Some(index) if index as usize >= values => Some(format!("primvar '{}' has index {index}, but only {values} values", primvar.name)),
         _ => None,
     }
 }

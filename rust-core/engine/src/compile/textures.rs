@@ -83,10 +83,10 @@ fn report(texture: &Texture, what: &str, diagnostics: &mut Vec<Diagnostic>) {
 fn used_by_materials(scene: &Scene) -> Vec<bool> {
     let mut used = vec![false; scene.textures.len()];
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
-        if let Operation::Image { texture, .. } = &node.operation {
-            if let Some(used) = used.get_mut(texture.index()) {
-                *used = true;
-            }
+        if let Operation::Image { texture, .. } = &node.operation
+            && let Some(used) = used.get_mut(texture.index())
+        {
+            *used = true;
         }
     }
     used

@@ -136,8 +136,7 @@ impl GeometryTable {
         let uniform = reference.per_instance.select(l.gather_integers(&self.instance_number, hit.instance), hit.primitive);
         let element = kind(PrimvarKind::Vertex).select(
             point,
-            kind(PrimvarKind::FaceVarying)
-                .select(hit.primitive * 3 + corner, kind(PrimvarKind::Uniform).select(uniform, l.u(0))),
+            kind(PrimvarKind::FaceVarying).select(hit.primitive * 3 + corner, kind(PrimvarKind::Uniform).select(uniform, l.u(0))),
         );
         let indexed = reference.first_index.ne(NONE);
         let element = if indexed.any() {

@@ -114,7 +114,12 @@ impl GeometryTable {
     /// world and of a new ray back to the object (pbrt-v4 section 6.8.4), and the distance test of a triangle of this size.
     #[inline(always)]
     fn position_error<L: Lanes>(
-        &self, corners: [Vec3<L>; 3], local: Vec3<L>, columns: [Vec3<L>; 3], origin: Vec3<L>, edges: [Vec3<L>; 2],
+        &self,
+        corners: [Vec3<L>; 3],
+        local: Vec3<L>,
+        columns: [Vec3<L>; 3],
+        origin: Vec3<L>,
+        edges: [Vec3<L>; 2],
     ) -> F<L> {
         let extent = corners[0].max_abs().max(corners[1].max_abs()).max(corners[2].max_abs());
         let stretch = columns[0].max_abs() + columns[1].max_abs() + columns[2].max_abs();

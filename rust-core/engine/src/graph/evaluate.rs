@@ -71,10 +71,17 @@ pub struct GraphScratch {
 }
 
 /// Runs a program over the first `count` hits of a chunk: fills `outputs`, and bends the shading normals if it says so.
+#[expect(clippy::too_many_arguments, reason = "tables, hits, scratch and results")]
 #[inline(always)]
 pub fn evaluate<L: Lanes>(
-    l: L, program: &Program, geometry: &GeometryTable, textures: &TextureTable, points: &mut SurfaceColumns, count: usize,
-    scratch: &mut GraphScratch, outputs: &mut OutputColumns,
+    l: L,
+    program: &Program,
+    geometry: &GeometryTable,
+    textures: &TextureTable,
+    points: &mut SurfaceColumns,
+    count: usize,
+    scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
 ) {
     scratch.registers.resize(program.steps.len() * 4 * PADDING, 0.0);
     let places = program.outputs.iter().map(|output| output.width).sum::<usize>();
@@ -97,7 +104,13 @@ pub fn evaluate<L: Lanes>(
 
 #[inline(always)]
 fn run_steps<L: Lanes>(
-    l: L, program: &Program, geometry: &GeometryTable, textures: &TextureTable, points: &SurfaceColumns, at: usize, registers: &mut [f32],
+    l: L,
+    program: &Program,
+    geometry: &GeometryTable,
+    textures: &TextureTable,
+    points: &SurfaceColumns,
+    at: usize,
+    registers: &mut [f32],
 ) {
     let instance = l.load_integers(&points.instance, at);
     let primitive = l.load_integers(&points.primitive, at);
@@ -132,12 +145,10 @@ fn run_steps<L: Lanes>(
                 let [a, b, c] = [read(l, registers, sources[0]), read(l, registers, sources[1]), read(l, registers, sources[2])];
                 arithmetic(l, *operation, a, b, c)
             }
-            Step::Combine(sources) => {
-                [0, 1, 2, 3].map(
-                    #[inline(always)]
-                    |i| read(l, registers, sources[i])[0],
-                )
-            }
+            Step::Combine(sources) => [0, 1, 2, 3].map(
+                #[inline(always)]
+                |i| read(l, registers, sources[i])[0],
+            ),
         };
         for (i, component) in value.iter().enumerate() {
             component.store(registers, (number * 4 + i) * PADDING);

@@ -20,7 +20,13 @@ pub(super) struct TileArea {
 /// Starts a path through every pixel of a tile; four by four pixels follow one another, so that sixteen rays make a packet.
 #[inline(always)]
 pub(super) fn generate<L: Lanes>(
-    l: L, camera: &CameraTable, filter: &FilterTable, sampler: &Sampler, area: TileArea, sample: u32, paths: &mut Paths,
+    l: L,
+    camera: &CameraTable,
+    filter: &FilterTable,
+    sampler: &Sampler,
+    area: TileArea,
+    sample: u32,
+    paths: &mut Paths,
 ) {
     paths.count = 0;
     for first in (0..BATCH as u32).step_by(L::COUNT) {
@@ -51,6 +57,7 @@ pub(super) fn generate<L: Lanes>(
             spread: ray.spread,
             slot: pixel,
             flags: l.u(flag::CAMERA | flag::DELTA),
+            medium: Rgb::zero(l),
         };
         paths.append(&state, inside);
     }

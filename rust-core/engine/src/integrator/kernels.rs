@@ -16,9 +16,7 @@ use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// [`Surface::resolve`].
 #[inline(never)]
-pub(super) fn resolve<L: Lanes>(
-    l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>,
-) -> Lobes<L> {
+pub(super) fn resolve<L: Lanes>(l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>) -> Lobes<L> {
     l.vectorize(
         #[inline(always)]
         || surface.resolve(l, values, at, wo, entering),
@@ -28,7 +26,12 @@ pub(super) fn resolve<L: Lanes>(
 /// [`Surface::transmittance`].
 #[inline(never)]
 pub(super) fn transmittance<L: Lanes>(
-    l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>,
+    l: L,
+    surface: &Surface,
+    values: &ParameterValues<'_>,
+    at: usize,
+    wo: Vec3<L>,
+    entering: M<L>,
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
@@ -85,7 +88,12 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mas
 /// [`super::surface::surface_chunk`].
 #[inline(never)]
 pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
-    l: L, tables: &Tables, material: &SurfaceMaterial, hits: &H, source: &ChunkSource<'_>, out: &mut SurfaceColumns,
+    l: L,
+    tables: &Tables,
+    material: &SurfaceMaterial,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    out: &mut SurfaceColumns,
 ) {
     l.vectorize(
         #[inline(always)]
@@ -96,7 +104,12 @@ pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
 /// [`graph::evaluate`].
 #[inline(never)]
 pub(super) fn evaluate<L: Lanes>(
-    l: L, tables: &Tables, material: &SurfaceMaterial, points: &mut SurfaceColumns, count: usize, scratch: &mut GraphScratch,
+    l: L,
+    tables: &Tables,
+    material: &SurfaceMaterial,
+    points: &mut SurfaceColumns,
+    count: usize,
+    scratch: &mut GraphScratch,
     outputs: &mut OutputColumns,
 ) {
     l.vectorize(

@@ -43,6 +43,8 @@ pub struct Tables {
     pub triangle_lights: Vec<u32>,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
+    /// Whether any material absorbs light inside.
+    pub any_absorbing: bool,
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }

@@ -13,7 +13,7 @@ mod shadow;
 mod state;
 mod surface;
 
+pub(crate) use generate::tile_place;
 pub use material::{MaterialTable, SurfaceMaterial, Tables};
 pub use path::{Tracer, Transport};
 pub use state::{BATCH, FirstHit, STAGES, Statistics, TILE, Workspace, ray_mask};
-pub(crate) use generate::tile_place;

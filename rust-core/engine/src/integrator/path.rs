@@ -11,12 +11,7 @@ use super::{
     state::{Workspace, flag},
     surface::ChunkSource,
 };
-use crate::{
-    camera::CameraTable,
-    film::FilterTable,
-    graph::CHUNK,
-    sampler::Sampler,
-};
+use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, sampler::Sampler};
 use gonio_simd::{Execution, Lanes, dispatch};
 use std::time::Instant;
 

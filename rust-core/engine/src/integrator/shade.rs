@@ -55,25 +55,51 @@ struct Point<L: Lanes> {
     width: F<L>,
     spread: F<L>,
     bounces: U<L>,
+    /// Absorption a metre of what the path is in, and of what is behind the surface.
+    medium: Rgb<L>,
+    behind: Rgb<L>,
+    /// Where all lobes are mirrors or clear glass.
+    only_delta: M<L>,
+}
+
+/// What all hits of a chunk share.
+#[derive(Clone, Copy, Debug)]
+struct Stage<'a, L> {
+    l: L,
+    tables: &'a Tables,
+    transport: &'a Transport,
+    context: &'a SampleContext,
+    material: &'a SurfaceMaterial,
 }
 
 /// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
+#[expect(clippy::too_many_arguments, reason = "the whole state of a stage comes in here")]
 #[inline(always)]
 pub(super) fn shade_chunk<L: Lanes>(
-    l: L, tables: &Tables, transport: &Transport, context: &SampleContext, material: &SurfaceMaterial, first: usize, count: usize,
+    l: L,
+    tables: &Tables,
+    transport: &Transport,
+    context: &SampleContext,
+    material: &SurfaceMaterial,
+    first: usize,
+    count: usize,
     ws: &mut Workspace,
 ) {
+    let stage = Stage { l, tables, transport, context, material };
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         ws.statistics.lanes += L::COUNT as u64;
         ws.statistics.lanes_alive += alive.count() as u64;
-        let point = load_point(l, material, first, at, alive, ws);
+        let mut point = load_point(l, material, first, at, alive, ws);
+        if tables.any_absorbing {
+            absorb(l, material, &values, &mut point, at, ws);
+        }
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let lobes = kernels::resolve(l, &material.surface, &values, at, wo, entering);
-        shade_lanes(l, tables, transport, context, material, &point, wo, &lobes, at, ws);
+        shade_lanes(&stage, &mut point, wo, &lobes, at, ws);
     }
     ws.outputs = outputs;
 }
@@ -101,14 +127,28 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         width: l.gather(&ws.hits.t, path).mul_add(spread, l.gather(&ws.paths.width, path)),
         spread,
         bounces: flags >> flag::BOUNCE_SHIFT,
+        medium: Rgb::zero(l),
+        behind: Rgb::zero(l),
+        only_delta: l.m(false),
     }
 }
 
+/// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
 #[inline(always)]
-fn shade_lanes<L: Lanes>(
-    l: L, tables: &Tables, transport: &Transport, context: &SampleContext, material: &SurfaceMaterial, point: &Point<L>, wo: Vec3<L>,
-    lobes: &Lobes<L>, at: usize, ws: &mut Workspace,
-) {
+fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'_>, point: &mut Point<L>, at: usize, ws: &Workspace) {
+    let sigma = gather3(l, &ws.paths.medium, point.path);
+    point.medium = Rgb::new(sigma.x, sigma.y, sigma.z);
+    let distance = l.gather(&ws.hits.t, point.path);
+    let passed = |sigma: F<L>| (-(sigma * distance)).exp();
+    point.throughput = point.throughput * Rgb::new(passed(sigma.x), passed(sigma.y), passed(sigma.z));
+    // Leaving a solid leads to the open.
+    let inside = material.surface.absorption(l, values, at);
+    point.behind = inside.keep_if(l.load(&ws.surface.side, at).gt(0.0));
+}
+
+#[inline(always)]
+fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, at: usize, ws: &mut Workspace) {
+    let Stage { l, tables, transport, context, material } = *stage;
     let pixel = point.slot & (super::state::BATCH as u32 - 1);
     let index = context.sampler.index(l, pixel, context.sample);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
@@ -121,10 +161,11 @@ fn shade_lanes<L: Lanes>(
         point.alive
     };
     if material.surface.lobes.emission {
-        add_emission(l, tables, transport, context.depth, point, lobes.emission(), present, at, ws);
+        add_emission(stage, point, lobes.emission(), present, at, ws);
     }
-    record_first(l, tables, transport, point, lobes, present, at, ws);
+    record_first(stage, point, lobes, present, at, ws);
     let [smooth, only_delta] = lobes.smoothness(l);
+    point.only_delta = only_delta;
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
     let going_on = present & point.bounces.lt(transport.max_bounces + 1);
     if transport.measure {
@@ -133,11 +174,11 @@ fn shade_lanes<L: Lanes>(
     }
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if smooth.any() && !tables.lights.is_empty() {
-        let u_light = context.sampler.pair(l, index, base + dimension::LIGHT);
-        light(l, tables, transport, context.depth, point, wo, lobes, u_choice, u_light, going_on, ws);
+        let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+        light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
-    scatter(l, context.depth, point, wo, lobes, [u_lobe, u, v], u_roulette, only_delta, going_on, ws);
+    scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], going_on, ws);
 }
 
 /// Opacity after the cut-out threshold.
@@ -167,16 +208,15 @@ fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: &mut Worksp
         spread: point.spread,
         slot: point.slot,
         flags: point.flags,
+        medium: point.medium,
     };
     ws.next.append(&state, chosen);
 }
 
 /// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
 #[inline(always)]
-fn add_emission<L: Lanes>(
-    l: L, tables: &Tables, transport: &Transport, depth: u32, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize,
-    ws: &mut Workspace,
-) {
+fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
+    let Stage { l, tables, transport, context, .. } = *stage;
     let mut value = emission * point.throughput;
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, l.load_integers(&ws.surface.instance, at));
@@ -190,14 +230,13 @@ fn add_emission<L: Lanes>(
             value = value * weight;
         }
     }
-    add_rgb(&mut ws.first_hit.radiance, point.slot, clamped(value, transport.clamp(depth)), present & value.is_lit());
+    add_rgb(&mut ws.first_hit.radiance, point.slot, clamped(value, transport.clamp(context.depth)), present & value.is_lit());
 }
 
 /// Keeps what camera rays met first.
 #[inline(always)]
-fn record_first<L: Lanes>(
-    l: L, tables: &Tables, transport: &Transport, point: &Point<L>, lobes: &Lobes<L>, present: M<L>, at: usize, ws: &mut Workspace,
-) {
+fn record_first<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &Lobes<L>, present: M<L>, at: usize, ws: &mut Workspace) {
+    let Stage { l, tables, transport, .. } = *stage;
     let seen = present & (point.flags & flag::CAMERA).ne(0);
     if !seen.any() {
         return;
@@ -232,18 +271,16 @@ fn append_measure<L: Lanes>(point: &Point<L>, chosen: M<L>, out: &mut MeasurePoi
 
 /// Samples one light and queues the shadow ray to it.
 #[inline(always)]
-fn light<L: Lanes>(
-    l: L, tables: &Tables, transport: &Transport, depth: u32, point: &Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, u_choice: F<L>,
-    u: [F<L>; 2], present: M<L>, ws: &mut Workspace,
-) {
-    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u_choice, u);
+fn light<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, u: [F<L>; 3], present: M<L>, ws: &mut Workspace) {
+    let Stage { l, tables, transport, context, .. } = *stage;
+    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u[0], [u[1], u[2]]);
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {
         return;
     }
     let (value, pdf) = kernels::eval(l, lobes, wo, point.frame.to_local(sample.wi));
     let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf));
-    let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(depth));
+    let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     let free = lit.and_not(sample.casts_shadow);
     add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free);
@@ -256,13 +293,19 @@ fn light<L: Lanes>(
 /// Samples the next direction and appends the paths that go on.
 #[inline(always)]
 fn scatter<L: Lanes>(
-    l: L, depth: u32, point: &Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, u: [F<L>; 3], u_roulette: F<L>, only_delta: M<L>, going_on: M<L>,
+    stage: &Stage<'_, L>,
+    point: &Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<L>,
+    u: [F<L>; 4],
+    going_on: M<L>,
     ws: &mut Workspace,
 ) {
     if !going_on.any() {
         return;
     }
-    let sample = kernels::sample(l, lobes, wo, u);
+    let l = stage.l;
+    let sample = kernels::sample(l, lobes, wo, [u[0], u[1], u[2]]);
     let wi = point.frame.to_world(sample.wi).normalize();
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.geometric.dot(wi).lt(0.0);
@@ -270,16 +313,16 @@ fn scatter<L: Lanes>(
     let throughput = point.throughput * sample.value * sample.pdf.recip();
     let mut alive = going_on & consistent & sample.pdf.gt(0.0) & throughput.is_lit() & throughput.max_component().is_finite();
     let mut throughput = throughput;
-    if depth >= ROULETTE_FROM {
+    if stage.context.depth >= ROULETTE_FROM {
         let survival = throughput.max_component().clamp(0.05, 1.0);
-        alive &= u_roulette.lt(survival);
+        alive &= u[3].lt(survival);
         throughput = throughput * survival.recip();
     }
     if !alive.any() {
         return;
     }
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
-    let measured = (point.flags & flag::MEASURED) | only_delta.select(l.u(0), l.u(flag::MEASURED));
+    let measured = (point.flags & flag::MEASURED) | point.only_delta.select(l.u(0), l.u(flag::MEASURED));
     let scattered = delta | measured | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
@@ -297,6 +340,7 @@ fn scatter<L: Lanes>(
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,
         flags: straight.select(point.flags + (1 << flag::BOUNCE_SHIFT), scattered),
+        medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
     };
     ws.next.append(&state, alive);
 }

@@ -80,6 +80,8 @@ pub(super) struct Paths {
     /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance.
     pub(super) slot: Column<u32>,
     pub(super) flags: Column<u32>,
+    /// Absorption a metre of what the ray goes through.
+    pub(super) medium: Columns3,
     /// Visibility bits of the ray.
     pub(super) mask: Vec<u8>,
 }
@@ -99,6 +101,7 @@ pub(super) struct PathLanes<L: Lanes> {
     pub(super) spread: F<L>,
     pub(super) slot: U<L>,
     pub(super) flags: U<L>,
+    pub(super) medium: Rgb<L>,
 }
 
 impl Default for Paths {
@@ -119,6 +122,7 @@ impl Default for Paths {
             spread: Column::new(room),
             slot: Column::new(room),
             flags: Column::new(room),
+            medium: columns3(room),
             mask: vec![0; room],
         }
     }
@@ -141,6 +145,7 @@ impl Paths {
         p.spread.append(chosen, &mut self.spread, n);
         p.slot.append(chosen, &mut self.slot, n);
         p.flags.append(chosen, &mut self.flags, n);
+        append3(Vec3::new(p.medium.r, p.medium.g, p.medium.b), chosen, &mut self.medium, n);
         self.count += chosen.count();
     }
 
@@ -185,7 +190,13 @@ impl Default for ShadowRays {
 impl ShadowRays {
     #[inline(always)]
     pub(super) fn append<L: Lanes>(
-        &mut self, chosen: M<L>, origin: Vec3<L>, direction: Vec3<L>, t_max: F<L>, contribution: Rgb<L>, slot: U<L>,
+        &mut self,
+        chosen: M<L>,
+        origin: Vec3<L>,
+        direction: Vec3<L>,
+        t_max: F<L>,
+        contribution: Rgb<L>,
+        slot: U<L>,
     ) {
         let n = self.count;
         append3(origin, chosen, &mut self.origin, n);
@@ -329,4 +340,4 @@ impl Statistics {
     }
 }
 
-const _: () = assert!(CHUNK % gonio_simd::PADDING == 0);
+const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

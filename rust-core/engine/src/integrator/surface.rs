@@ -68,7 +68,12 @@ impl HitSource for [crate::accel::PassedHit] {
 /// Fills the surface columns for a chunk.
 #[inline(always)]
 pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
-    l: L, tables: &Tables, material: &SurfaceMaterial, hits: &H, source: &ChunkSource<'_>, out: &mut SurfaceColumns,
+    l: L,
+    tables: &Tables,
+    material: &SurfaceMaterial,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    out: &mut SurfaceColumns,
 ) {
     let mut distance = [0.0; gonio_simd::PADDING];
     let mut rays = [0; gonio_simd::PADDING];
@@ -92,7 +97,13 @@ pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
 
 #[inline(always)]
 fn surface_lanes<L: Lanes>(
-    l: L, tables: &Tables, material: &SurfaceMaterial, direction: Vec3<L>, width: F<L>, out: &mut SurfaceColumns, at: usize,
+    l: L,
+    tables: &Tables,
+    material: &SurfaceMaterial,
+    direction: Vec3<L>,
+    width: F<L>,
+    out: &mut SurfaceColumns,
+    at: usize,
 ) {
     let barycentric = [l.load(&out.barycentric[0], at), l.load(&out.barycentric[1], at)];
     let geometry = &tables.geometry;
@@ -121,7 +132,12 @@ fn surface_lanes<L: Lanes>(
 /// Derivative of the position along u, and how many units of the coordinates a metre has.
 #[inline(always)]
 fn uv_derivatives<L: Lanes>(
-    l: L, tables: &Tables, hit: &HitLanes<L>, column: usize, edges: [Vec3<L>; 2], double_area: F<L>,
+    l: L,
+    tables: &Tables,
+    hit: &HitLanes<L>,
+    column: usize,
+    edges: [Vec3<L>; 2],
+    double_area: F<L>,
 ) -> (Vec3<L>, F<L>) {
     let [a, b, c] = tables.geometry.corner_uvs(l, hit, column);
     let (du1, dv1, du2, dv2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);

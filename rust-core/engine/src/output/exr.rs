@@ -31,7 +31,10 @@ pub fn write_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()>
     write_atomically(path, |file| file.write_all(bytes.get_ref()))
 }
 
-fn picture(image: &Image, options: &ExrOptions) -> exr::image::Image<ExrLayer<AnyChannels<FlatSamples>>> {
+/// An image as the library writes it: one layer of channels of either depth.
+type ExrImage = exr::image::Image<ExrLayer<AnyChannels<FlatSamples>>>;
+
+fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     let [width, height] = image.size();
     let channels = image.layers.iter().flat_map(|layer| channels_of(layer, options.half)).collect();
     let mut attributes = LayerAttributes {
@@ -108,8 +111,11 @@ fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
     names.iter().enumerate().map(|(i, channel)| AnyChannel::new(Text::from(full_name(channel).as_str()), samples(i))).collect()
 }
 
+/// Values of channels by name.
+pub type Channels = Vec<(String, Vec<f32>)>;
+
 /// Channels of an EXR file by name, with width and height; for comparing.
-pub fn read_exr(path: &Path) -> Result<(Vec<(String, Vec<f32>)>, [usize; 2])> {
+pub fn read_exr(path: &Path) -> Result<(Channels, [usize; 2])> {
     let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
     let image = exr::prelude::read_all_flat_layers_from_file(path).map_err(failed)?;
     let mut channels = Vec::new();

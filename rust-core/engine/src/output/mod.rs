@@ -8,6 +8,6 @@ mod tone_map;
 
 pub use atomic::write_atomically;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
-pub use exr::{ExrOptions, read_exr, write_exr};
+pub use exr::{Channels, ExrOptions, read_exr, write_exr};
 pub use picture::{encode_png, write_picture};
 pub use tone_map::{ToneMap, display};

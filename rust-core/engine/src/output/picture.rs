@@ -21,7 +21,7 @@ pub fn write_picture(path: &Path, image: &Image, tone_map: ToneMap, stops: f32, 
             JpegEncoder::new_with_quality(&mut bytes, 92).write_image(&rgb, width, height, image::ExtendedColorType::Rgb8)
         }
         _ => {
-            let opaque: Vec<u8> = rgba.chunks_exact(4).flat_map(|p| unpremultiplied(p)).collect();
+            let opaque: Vec<u8> = rgba.chunks_exact(4).flat_map(unpremultiplied).collect();
             PngEncoder::new(&mut bytes).write_image(&opaque, width, height, image::ExtendedColorType::Rgba8)
         }
     };

@@ -169,10 +169,7 @@ impl Material {
         let [r, g, b] = reflectance;
         Self {
             origin,
-            parameters: vec![
-                ("base_color".into(), Input::Constant([r, g, b, 1.0])),
-                ("specular_weight".into(), Input::Constant([0.0; 4])),
-            ],
+            parameters: vec![("base_color".into(), Input::Constant([r, g, b, 1.0])), ("specular_weight".into(), Input::Constant([0.0; 4]))],
             ..Self::default()
         }
     }

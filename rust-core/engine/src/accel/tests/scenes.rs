@@ -68,7 +68,7 @@ fn masks_hide_instances() {
 }
 
 #[test]
-fn shapes_are_hit_from_both_sides() {
+fn flat_shapes_are_hit_from_both_sides_and_closed_ones_from_outside() {
     let cases = [
         (Shape::Rectangle, [0.25, -0.25, 3.0], [0.0, 0.0, -1.0], Some(3.0)),
         (Shape::Rectangle, [0.25, -0.25, -3.0], [0.0, 0.0, 2.0], Some(1.5)),
@@ -76,7 +76,9 @@ fn shapes_are_hit_from_both_sides() {
         (Shape::Disk, [0.6, 0.6, 3.0], [0.0, 0.0, -1.0], Some(3.0)),
         (Shape::Disk, [0.8, 0.8, 3.0], [0.0, 0.0, -1.0], None),
         (Shape::Sphere, [0.0, 0.0, 3.0], [0.0, 0.0, -1.0], Some(2.0)),
-        (Shape::Sphere, [0.0, 0.0, 0.0], [0.0, 3.0, 4.0], Some(0.2)),
+        (Shape::Sphere, [0.0, 0.0, 0.0], [0.0, 3.0, 4.0], None),
+        (Shape::Sphere, [0.0, 6.0, 8.0], [0.0, -3.0, -4.0], Some(1.8)),
+        (Shape::Cylinder, [0.1, 0.0, 0.0], [0.0, 0.0, 1.0], None),
         (Shape::Cylinder, [0.4, 0.0, 3.0], [0.0, 0.0, -1.0], Some(2.0)),
         (Shape::Cylinder, [0.6, 0.0, 3.0], [0.0, 0.0, -1.0], None),
         (Shape::Cylinder, [3.0, 0.0, 0.0], [-1.0, 0.0, 0.0], None),
