@@ -28,7 +28,7 @@ def reference(stage: Usd.Stage, path: str, layer: str, place: tuple[float, float
 def camera(stage: Usd.Stage) -> None:
     """A shift lens of 24 mm on 36 mm film: looks level, so that verticals stay upright."""
     prim = UsdGeom.Camera.Define(stage, "/Office/Camera")
-    prim.AddTranslateOp().Set(Gf.Vec3d(1.62, 1.38, -0.16))
+    prim.AddTranslateOp().Set(Gf.Vec3d(*textures.EYE))
     prim.AddRotateYOp().Set(20.0)
     # Tenths of a metre.
     prim.CreateFocalLengthAttr(0.24)
@@ -53,7 +53,7 @@ def main() -> None:
     for name in ("chair.usda", "plant.usda", "desk_plant.usda"):
         (layers / name).unlink(missing_ok=True)
     chair.write(layers / "chair.usda")
-    plant.write(layers / "plant.usda", 1.75, 5, 2, 0.27, "Concrete")
+    plant.write(layers / "plant.usda", 1.95, 5, 2, 0.30, "Concrete")
     plant.write(layers / "desk_plant.usda", 0.42, 5, 4, 0.11, "CeramicWhite")
     path = HERE / "office.usda"
     path.unlink(missing_ok=True)
@@ -64,9 +64,9 @@ def main() -> None:
     room.build(stage, IMAGES)
     furniture.build(stage, IMAGES)
     storage.build(stage, IMAGES)
-    reference(stage, "/Office/Furniture/Chair0", "chair.usda", (-0.30, 0, -2.28), -28.0)
+    reference(stage, "/Office/Furniture/Chair0", "chair.usda", (-0.38, 0, -2.22), 24.0)
     reference(stage, "/Office/Furniture/Chair1", "chair.usda", (-0.55, 0, -4.52), 195.0)
-    reference(stage, "/Office/Furniture/Plant", "plant.usda", (-1.72, 0, -5.50), 0.0, is_payload=True)
+    reference(stage, "/Office/Furniture/Plant", "plant.usda", (-1.35, 0, -5.45), 0.0, is_payload=True)
     reference(stage, "/Office/Furniture/DeskPlant", "desk_plant.usda", (2.02, 0.72, -5.15), 40.0, is_payload=True)
     camera(stage)
     settings(stage)

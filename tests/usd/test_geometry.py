@@ -391,8 +391,8 @@ def test_skinning_at_and_between_samples(tmp_path, frame, degrees, instanced):
     skinned(path)
     if instanced:
         path = tmp_path / "instances.usda"
-        one = 'def Xform "{}" ( instanceable = true\nreferences = @skinned.usda@</> )\n{{\n}}\n'
-        path.write_text("#usda 1.0\n(metersPerUnit = 1)\n" + "".join(one.replace("</>", "</R>").format(name) for name in "ab"))
+        one = 'def "{}" ( instanceable = true\nreferences = @skinned.usda@</R> )\n{{\n}}\n'
+        path.write_text("#usda 1.0\n(\n    metersPerUnit = 1\n)\n" + "".join(one.format(name) for name in "ab"))
     before = (tmp_path / "skinned.usda").read_text()
     meshes = gonio.load_usd(str(path), frame=frame).to_dict()["meshes"]
     turn = math.radians(degrees)

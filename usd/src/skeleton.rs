@@ -63,12 +63,12 @@ pub fn take_instances_apart(stage: &Bound<'_, PyAny>) -> PyResult<Vec<Origin>> {
         let before = apart.len();
         for prototype in stage.call_method0("GetPrototypes")?.try_iter()? {
             let prototype = prototype?;
-            if !holds(&prototype, &class)? {
-                continue;
-            }
+            let is_held = holds(&prototype, &class)?;
             for instance in prototype.call_method0("GetInstances")?.try_iter()? {
                 let instance = Prim::new(instance?);
-                if !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
+                // The root of a prototype has no type, its instances have.
+                let is_apart = is_held || instance.is_a(&class);
+                if is_apart && !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
                     instance.object().call_method1("SetInstanceable", (false,))?;
                     apart.push(instance.origin());
                 }

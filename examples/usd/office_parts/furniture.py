@@ -22,7 +22,7 @@ def build(stage: Usd.Stage, images: str) -> None:
         monitor(stage, f"/Office/Furniture/Monitor{n}B", images, other).place(x + 0.33 * (1 - 2 * n), TOP, z - 0.2 * (1 - 2 * n), turn - 9).write()
         keyboard(stage, f"/Office/Furniture/Keyboard{n}", images, x, z + 0.16 * (1 - 2 * n), turn)
         mouse(stage, f"/Office/Furniture/Mouse{n}", images).place(x + 0.34 * (1 - 2 * n), TOP, z + 0.17 * (1 - 2 * n), turn + 8).write()
-    mug(stage, "/Office/Furniture/MugA", images, "CeramicOrange").place(-0.98, TOP, -2.72, 200).write()
+    mug(stage, "/Office/Furniture/MugA", images, "CeramicOrange").place(0.15, TOP, -2.93, 250).write()
     mug(stage, "/Office/Furniture/MugB", images, "CeramicWhite").place(-1.0, TOP, -4.0, 60).write()
     papers(stage, images)
     pencils(stage, images)
@@ -128,7 +128,7 @@ def papers(stage: Usd.Stage, images: str) -> None:
 
 def pencils(stage: Usd.Stage, images: str) -> None:
     """A cup with pencils."""
-    made = Asset(stage, "/Office/Furniture/Pencils", images).place(0.14, TOP, -3.08)
+    made = Asset(stage, "/Office/Furniture/Pencils", images).place(-1.24, TOP, -3.2)
     made.add("BlackMetal", lathe([(0, 0), (0.034, 0), (0.036, 0.002), (0.036, 0.05), (0.036, 0.098), (0.035, 0.1), (0.034, 0.098), (0.034, 0.05), (0.033, 0.004), (0, 0.004)]))
     for n, material in enumerate(("Oak", "CeramicOrange", "CeramicBlue", "Oak", "Steel")):
         angle = n * 1.3
@@ -141,7 +141,7 @@ def pencils(stage: Usd.Stage, images: str) -> None:
 def lamp(stage: Usd.Stage, images: str) -> None:
     """A task lamp with a bulb of 2700 K and 400 lm in a shade that is white inside."""
     path = "/Office/Furniture/TaskLamp"
-    made = Asset(stage, path, images).place(-1.18, TOP, -3.2, -38)
+    made = Asset(stage, path, images).place(0.12, TOP, -3.2, 208)
     elbow, head = (-0.10, 0.36, 0), (0.20, 0.50, 0)
     made.add("BlackMetal", lathe([(0, 0), (0.085, 0), (0.09, 0.003), (0.09, 0.016), (0.086, 0.02), (0.02, 0.022), (0.014, 0.03), (0.012, 0.05), (0, 0.052)], 24))
     made.add("Brass", tube([(0, 0.03, 0), (-0.05, 0.195, 0), elbow], 0.007))

@@ -5,7 +5,7 @@ from pxr import Gf, Usd, UsdGeom, UsdLux
 
 from .asset import Asset
 from .shapes import sheet, tube
-from .textures import SUN
+from .textures import VIEW_CORNER, VIEW_HEIGHT, VIEW_WIDTH
 
 LEFT, RIGHT, BACK, FRONT, HEIGHT = -2.25, 2.25, -6.0, 0.0, 2.8
 # The opening in the left wall.
@@ -27,7 +27,7 @@ def build(stage: Usd.Stage, images: str) -> None:
 def walls(stage: Usd.Stage, images: str) -> None:
     """Thick walls, so that no light gets in at the joints."""
     room = Asset(stage, "/Office/Room/Walls", images)
-    outside = LEFT - 0.35
+    outside = LEFT - 0.33
     room.add("Planks", sheet((RIGHT, 0, FRONT), (0, 0, BACK - FRONT), (LEFT - RIGHT, 0, 0), in_metres=True))
     room.span("WallPaint", (outside, -0.3, BACK - 0.3), (RIGHT + 0.3, -0.01, FRONT + 0.3))
     room.span("WallPaint", (outside, HEIGHT + 0.01, BACK - 0.3), (RIGHT + 0.3, HEIGHT + 0.3, FRONT + 0.3))
@@ -79,7 +79,7 @@ def casement(frame: Asset, x: float, low: float, high: float) -> None:
 
 
 def ceiling(stage: Usd.Stage, images: str) -> None:
-    """Mineral fibre tiles in a metal grid, and four luminous panels of 3500 cd/m² and 4000 K in it."""
+    """Mineral fibre tiles in a metal grid, and four luminous panels of 3200 cd/m² and 4000 K in it."""
     grid = Asset(stage, "/Office/Room/Ceiling", images)
     grid.add("Ceiling", sheet((LEFT, HEIGHT, BACK), (RIGHT - LEFT, 0, 0), (0, 0, FRONT - BACK), in_metres=True))
     rail, drop = 0.024, 0.006
@@ -128,15 +128,11 @@ def door(stage: Usd.Stage, images: str) -> None:
 
 
 def daylight(stage: Usd.Stage, images: str) -> None:
-    """The sky in cd/m², and a hazy afternoon sun of 9000 lx on a surface that faces it."""
-    dome = UsdLux.DomeLight.Define(stage, "/Office/Lights/Sky")
-    dome.CreateTextureFileAttr(f"{images}/sky.hdr")
-    dome.CreateTextureFormatAttr("latlong")
-    sun = UsdLux.DistantLight.Define(stage, "/Office/Lights/Sun")
-    turn = Gf.Matrix4d().SetRotate(Gf.Rotation(Gf.Vec3d(0, 0, 1), Gf.Vec3d(*SUN.tolist())))
-    sun.AddTransformOp().Set(turn)
-    sun.CreateAngleAttr(0.9)
-    sun.CreateNormalizeAttr(True)
-    sun.CreateIntensityAttr(9000.0)
-    sun.CreateEnableColorTemperatureAttr(True)
-    sun.CreateColorTemperatureAttr(4800.0)
+    """Daylight as a luminous picture of the view, in cd/m², before the window's opening."""
+    light = UsdLux.RectLight.Define(stage, "/Office/Lights/Daylight")
+    x, y, z = VIEW_CORNER
+    light.AddTranslateOp().Set(Gf.Vec3d(x, y + VIEW_HEIGHT / 2, z - VIEW_WIDTH / 2))
+    light.AddRotateYOp().Set(-90.0)
+    light.CreateWidthAttr(VIEW_WIDTH)
+    light.CreateHeightAttr(VIEW_HEIGHT)
+    light.CreateTextureFileAttr(f"{images}/view.hdr")

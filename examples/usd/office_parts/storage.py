@@ -22,6 +22,7 @@ def build(stage: Usd.Stage, images: str) -> None:
     picture(stage, images)
     clock(stage, images)
     basket(stage, images)
+    pouf(stage, images)
 
 
 def shelf(stage: Usd.Stage, images: str) -> None:
@@ -140,4 +141,12 @@ def basket(stage: Usd.Stage, images: str) -> None:
     """A waste paper basket beside the desk."""
     made = Asset(stage, "/Office/Furniture/Basket", images).place(0.52, 0, -3.1)
     made.add("BlackMetal", lathe([(0, 0.004), (0.11, 0.004), (0.115, 0.006), (0.14, 0.30), (0.145, 0.303), (0.143, 0.306), (0.137, 0.303), (0.112, 0.012), (0, 0.012)], 24))
+    made.write()
+
+
+def pouf(stage: Usd.Stage, images: str) -> None:
+    """A round stool in velvet."""
+    made = Asset(stage, "/Office/Furniture/Pouf", images).place(0.50, 0, -5.2)
+    made.add("Velvet", lathe([(0, 0.012), (0.22, 0.012), (0.25, 0.03), (0.265, 0.10), (0.27, 0.28), (0.262, 0.36), (0.22, 0.395), (0.1, 0.405), (0, 0.405)], 24))
+    made.add("Brass", lathe([(0.2735, 0.292), (0.2745, 0.294), (0.2745, 0.302), (0.2735, 0.304), (0.265, 0.30)], 24))
     made.write()

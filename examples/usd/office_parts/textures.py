@@ -1,4 +1,4 @@
-"""The office's pictures: woods, fabrics, ceiling tiles, a painting, two screens, and the sky."""
+"""The office's pictures: woods, fabrics, ceiling tiles, a painting, two screens, and the view from the window."""
 
 from pathlib import Path
 
@@ -6,8 +6,11 @@ import numpy
 
 from .images import indices, noise, normals, octaves, ramp, write_hdr, write_png
 
-# Towards the sun, as far as the window sees it; the ground is at the horizon's other side.
-SUN = numpy.array([-0.40, 0.62, 0.68]) / numpy.linalg.norm([-0.40, 0.62, 0.68])
+# The view's left lower corner, its sides, and the eye for which it is painted (the camera's place).
+VIEW_CORNER, VIEW_WIDTH, VIEW_HEIGHT = (-2.585, 0.70, -1.30), 4.2, 1.9
+EYE = (1.62, 1.38, -0.16)
+# The share of the sky's luminance that the tinted glazing lets in.
+GLAZING = 0.6
 
 
 def grain(random: numpy.random.Generator, shape: tuple[int, int], rings: float) -> numpy.ndarray:
@@ -37,7 +40,7 @@ def planks(folder: Path) -> None:
             height[band, columns[0]] = height[band, columns[-1]] = 0
         height[row * tall] = height[(row + 1) * tall - 1] = 0
     value = numpy.where(height == 0, value * 0.45, value)
-    palette = ramp([(84, 60, 40), (150, 113, 78), (188, 150, 108), (206, 172, 132)])
+    palette = ramp([(92, 74, 56), (152, 126, 98), (186, 160, 130), (204, 182, 152)])
     write_png(folder / "planks.png", indices(value), palette)
     soft = (height + numpy.roll(height, 1, 0) + numpy.roll(height, 1, 1)) / 3
     write_png(folder / "planks_normal.png", normals(soft, 1.2))
@@ -103,7 +106,7 @@ def screens(folder: Path) -> None:
         diagram[(abs(radius - ring) < 0.8) & (y > 60)] = (78, 86, 100)
     for spoke in range(-4, 5):
         diagram[(abs(numpy.sin(angle - spoke * numpy.pi / 6)) * radius < 0.7) & (radius < 200) & (dy > 0)] = (64, 71, 84)
-    for colour, curve in (((255, 176, 64), 190 * numpy.cos(angle) ** 1.6), ((92, 196, 255), 130 * (0.55 + 0.6 * abs(numpy.sin(1.6 * angle))))):
+    for colour, curve in (((255, 176, 64), 190 * numpy.abs(numpy.cos(angle)) ** 1.6), ((92, 196, 255), 130 * (0.55 + 0.6 * abs(numpy.sin(1.6 * angle))))):
         diagram[(abs(radius - numpy.where(dy > 0, numpy.abs(curve), 1e3)) < 1.9) & (dy > 0)] = colour
     u, v = (x - 380) / 230, (y - 70) / 250
     lux = sum(numpy.exp(-((u - a) ** 2 + (v - b) ** 2) * 14) for a in (0.27, 0.73) for b in (0.25, 0.75))
@@ -131,35 +134,35 @@ def colours_of_text(random: numpy.random.Generator) -> tuple[int, int, int]:
     return [(198, 204, 216), (198, 204, 216), (120, 180, 250), (240, 170, 110), (150, 210, 140), (200, 150, 230)][int(random.integers(0, 6))]
 
 
-def sky(folder: Path) -> None:
-    """What the window sees, latlong in cd/m²: clouds, hills, a park. The half behind the house is black: its light never comes in."""
-    height, width = 384, 768
-    v, u = (numpy.mgrid[0:height, 0:width] + 0.5) / numpy.array([height, width])[:, None, None]
-    elevation, turn = (0.5 - v) * numpy.pi, (0.5 - u) * 2 * numpy.pi
-    direction = numpy.stack([numpy.sin(turn) * numpy.cos(elevation), numpy.sin(elevation), numpy.cos(turn) * numpy.cos(elevation)], axis=2)
-    up = numpy.clip(direction[..., 1], 0, 1)[..., None]
-    haze = numpy.exp(-up * 5)
-    radiance = 2300 * numpy.array([0.62, 0.92, 1.75]) * (1 - haze) + 4300 * numpy.array([1.0, 1.0, 1.05]) * haze
-    glow = numpy.clip(direction @ SUN, 0, 1)[..., None]
-    radiance = radiance + 2500 * glow**6 * numpy.array([1.0, 0.95, 0.85])
+def view(folder: Path) -> None:
+    """What stands in the window, in cd/m²: clouds, hills and a park, as they are seen from the eye through the glazing."""
+    height, width = 256, 560
+    row, column = numpy.mgrid[0:height, 0:width] + 0.5
+    place = numpy.stack([numpy.zeros_like(row), (1 - row / height) * VIEW_HEIGHT, -column / width * VIEW_WIDTH], axis=2) + VIEW_CORNER - EYE
+    azimuth = numpy.degrees(numpy.arctan2(place[..., 2], -place[..., 0]))
+    elevation = numpy.degrees(numpy.arctan2(place[..., 1], numpy.hypot(place[..., 0], place[..., 2])))
+    haze = numpy.exp(-numpy.clip(elevation, 0, 90) / 7)[..., None]
+    radiance = 1750 * numpy.array([0.62, 0.94, 1.62]) * (1 - haze) + 3300 * numpy.array([1.0, 0.98, 0.96]) * haze
     random = numpy.random.default_rng(12)
-    cloud = octaves(random, (height, width), (10, 10), 5)[..., None]
-    cover = numpy.clip((cloud - 0.50) * 7, 0, 1) * numpy.clip(up * 9, 0, 1)
-    radiance = radiance * (1 - 0.85 * cover) + 0.85 * cover * (4200 + 2600 * cloud) * numpy.array([1.0, 0.99, 0.97])
+    cloud = 0.6 * octaves(random, (height, width), (7, 4), 6) + 0.4 * octaves(random, (height, width), (14, 5), 5)
+    cover = numpy.clip((cloud - 0.47) * 6, 0, 1) * numpy.clip((elevation - 3) / 5, 0, 1)
+    radiance += cover[..., None] * ((2300 + 2600 * cloud)[..., None] * numpy.array([1.0, 0.99, 0.98]) - radiance) * 0.9
     random = numpy.random.default_rng(13)
-    for level, rough, colour in ((4.2, 3.0, (0.72, 0.88, 1.0)), (2.2, 2.6, (0.50, 0.66, 0.48)), (-1.0, 3.5, (0.34, 0.48, 0.22))):
-        line = level + rough * (octaves(random, (2, width), (1, 24), 5)[0] - 0.5)
-        cover = numpy.clip((line - numpy.degrees(elevation)) / 0.5 + 0.5, 0, 1)[..., None]
-        shade = 0.75 + 0.5 * octaves(random, (height, width), (64, 128), 3)[..., None]
-        radiance = radiance * (1 - cover) + cover * shade * 1500 * numpy.array(colour)
-    lawn = numpy.clip(-numpy.degrees(elevation) / 6 - 0.8, 0, 1)[..., None]
-    radiance = radiance * (1 - lawn) + lawn * 1000 * numpy.array([0.62, 0.95, 0.36])
-    radiance *= numpy.clip(0.5 - direction[..., :1] * 8, 0, 1)
-    write_hdr(folder / "sky.hdr", radiance)
+    hills = ((2.6, 2.4, 8, (0.62, 0.78, 0.95), 2100), (1.2, 2.0, 10, (0.42, 0.58, 0.50), 1500), (-0.4, 2.2, 26, (0.25, 0.36, 0.17), 1200))
+    for level, rough, cells, colour, nits in hills:
+        profile = octaves(random, (2, 2048), (1, cells), 6)[0]
+        line = level + rough * (numpy.interp(azimuth, numpy.linspace(-180, 180, 2048) / 2, profile) - 0.5)
+        blend = numpy.clip((line - elevation) / 0.12 + 0.5, 0, 1)[..., None]
+        shade = 0.6 + 0.8 * octaves(random, (height, width), (64, 128), 2)[..., None]
+        radiance += blend * (shade * nits * numpy.array(colour) - radiance)
+    lawn = numpy.clip((-elevation - 1.6) / 0.15, 0, 1)[..., None]
+    mown = 1 + 0.10 * numpy.sign(numpy.sin(1 / numpy.tan(numpy.radians(numpy.clip(-elevation, 0.5, 90))) * 0.7))[..., None]
+    radiance += lawn * (mown * 1050 * numpy.array([0.50, 0.80, 0.27]) - radiance)
+    write_hdr(folder / "view.hdr", radiance * GLAZING)
 
 
 def write_all(folder: Path) -> None:
     """Writes every picture."""
     folder.mkdir(parents=True, exist_ok=True)
-    for make in (planks, woods, weave, ceiling, painting, screens, sky):
+    for make in (planks, woods, weave, ceiling, painting, screens, view):
         make(folder)

@@ -1,4 +1,4 @@
-//! Python buffers as Rust arrays, checked for type and shape and copied at once.
+//! Python buffers as Rust arrays, checked for type, byte order and shape, and copied at once.
 
 use pyo3::{
     buffer::PyBuffer,
@@ -6,48 +6,81 @@ use pyo3::{
     prelude::*,
 };
 
-/// Floats of a buffer of any shape, given as float32 or float64.
-pub(crate) fn floats(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f32>> {
+/// Values of a buffer in groups of `width`, as of shape (N, width) or flat with a whole number of groups.
+#[derive(Clone, Debug)]
+pub(crate) struct Grouped<T> {
+    pub(crate) values: Vec<T>,
+    pub(crate) width: usize,
+}
+
+impl<T: Copy + Default> Grouped<T> {
+    /// Number of groups.
+    pub(crate) fn len(&self) -> usize {
+        self.values.len() / self.width
+    }
+    /// The groups as arrays; `N` is the width.
+    pub(crate) fn arrays<const N: usize>(&self) -> Vec<[T; N]> {
+        let array = |chunk: &[T]| {
+            let mut group = [T::default(); N];
+            group.copy_from_slice(chunk);
+            group
+        };
+        self.values.chunks_exact(N).map(array).collect()
+    }
+}
+
+/// Floats, given as float32 or float64.
+pub(crate) fn floats(object: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Grouped<f32>> {
     let py = object.py();
     if let Ok(buffer) = PyBuffer::<f32>::get(object) {
-        return buffer.to_vec(py);
+        check(&buffer, name, width)?;
+        return Ok(Grouped { values: buffer.to_vec(py)?, width });
     }
     if let Ok(buffer) = PyBuffer::<f64>::get(object) {
-        return Ok(buffer.to_vec(py)?.into_iter().map(|x| x as f32).collect());
+        check(&buffer, name, width)?;
+        return Ok(Grouped { values: buffer.to_vec(py)?.into_iter().map(|x| x as f32).collect(), width });
     }
     Err(PyTypeError::new_err(format!("{name}: expected a buffer of float32 or float64, found {}", object.get_type().name()?)))
 }
 
-/// Integers of a buffer of any shape, given as int32, uint32 or int64; negative ones are refused.
-pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<u32>> {
+/// Integers, given as int32, uint32 or int64; negative ones are refused.
+pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Grouped<u32>> {
     let py = object.py();
     let negative = |at: usize, found: i64| PyValueError::new_err(format!("{name}: element {at} is {found}, expected 0 to 4294967295"));
     let convert = |values: Vec<i64>| -> PyResult<Vec<u32>> {
         values.into_iter().enumerate().map(|(at, value)| u32::try_from(value).map_err(|_| negative(at, value))).collect()
     };
     if let Ok(buffer) = PyBuffer::<u32>::get(object) {
-        return buffer.to_vec(py);
+        check(&buffer, name, width)?;
+        return Ok(Grouped { values: buffer.to_vec(py)?, width });
     }
     if let Ok(buffer) = PyBuffer::<i32>::get(object) {
-        return convert(buffer.to_vec(py)?.into_iter().map(i64::from).collect());
+        check(&buffer, name, width)?;
+        return Ok(Grouped { values: convert(buffer.to_vec(py)?.into_iter().map(i64::from).collect())?, width });
     }
     if let Ok(buffer) = PyBuffer::<i64>::get(object) {
-        return convert(buffer.to_vec(py)?);
+        check(&buffer, name, width)?;
+        return Ok(Grouped { values: convert(buffer.to_vec(py)?)?, width });
     }
     Err(PyTypeError::new_err(format!("{name}: expected a buffer of int32, uint32 or int64, found {}", object.get_type().name()?)))
 }
 
-/// Groups of `N`; the length must be a multiple.
-pub(crate) fn grouped<T: Copy + Default, const N: usize>(values: &[T], name: &str) -> PyResult<Vec<[T; N]>> {
-    if !values.len().is_multiple_of(N) {
-        return Err(PyValueError::new_err(format!("{name}: {} values were found, expected a multiple of {N}", values.len())));
+/// Refuses foreign byte orders and other shapes than (N, width) or flat groups.
+fn check<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str, width: usize) -> PyResult<()> {
+    let format = buffer.format().to_bytes();
+    let foreign = if cfg!(target_endian = "little") { [b'>', b'!'] } else { [b'<', b'<'] };
+    if format.first().is_some_and(|order| foreign.contains(order)) {
+        return Err(PyTypeError::new_err(format!("{name}: the buffer's byte order is not this machine's")));
     }
-    Ok(values
-        .chunks_exact(N)
-        .map(|chunk| {
-            let mut group = [T::default(); N];
-            group.copy_from_slice(chunk);
-            group
-        })
-        .collect())
+    let shape = buffer.shape();
+    let fits = match shape {
+        [n] => n.is_multiple_of(width),
+        [.., last] => *last == width || (width == 1 && shape.len() == 1),
+        [] => false,
+    };
+    if fits {
+        Ok(())
+    } else {
+        Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (N, {width}) or a flat multiple of {width}")))
+    }
 }

@@ -12,10 +12,15 @@ use std::{
 /// A tile with new samples: its pixels are `[x, x + width)` by `[y, y + height)`, rows from the top.
 #[pyclass(frozen, get_all, module = "gonio")]
 pub(crate) struct Tile {
+    /// First column.
     x: u32,
+    /// First row, counted from the top.
     y: u32,
+    /// Columns.
     width: u32,
+    /// Rows.
     height: u32,
+    /// Samples a pixel.
     samples: u32,
 }
 

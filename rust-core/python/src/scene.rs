@@ -1,7 +1,7 @@
 //! Scenes built from Python buffers.
 
 use crate::{
-    buffer::{floats, grouped, indices},
+    buffer::{floats, indices},
     error::exception,
     film::aov_name,
 };
@@ -59,15 +59,15 @@ impl Scene {
         slots: Option<&Bound<'_, PyAny>>,
         name: &str,
     ) -> PyResult<u32> {
-        let points = grouped::<f32, 3>(&floats(points, "points")?, "points")?;
-        let triangles = grouped::<u32, 3>(&indices(triangles, "triangles")?, "triangles")?;
+        let points = floats(points, "points", 3)?.arrays::<3>();
+        let triangles = indices(triangles, "triangles", 3)?.arrays::<3>();
         if let Some(index) = triangles.iter().flatten().find(|index| **index as usize >= points.len()) {
             return Err(PyValueError::new_err(format!("triangles: index {index} is out of range, there are {} points", points.len())));
         }
         let primvar = |object: Option<&Bound<'_, PyAny>>, name: &str, components: u8| -> PyResult<Option<Primvar>> {
             let Some(object) = object else { return Ok(None) };
-            let values = floats(object, name)?;
-            let elements = values.len() / usize::from(components);
+            let grouped = floats(object, name, usize::from(components))?;
+            let (elements, values) = (grouped.len(), grouped.values);
             let interpolation = match elements {
                 n if n == points.len() => PrimvarInterpolation::Vertex,
                 n if n == triangles.len() * 3 => PrimvarInterpolation::FaceVarying,
@@ -82,7 +82,7 @@ impl Scene {
         let uvs = primvar(uvs, "st", 2)?;
         let slots = match slots {
             Some(slots) => {
-                let slots = indices(slots, "slots")?;
+                let slots = indices(slots, "slots", 1)?.values;
                 if slots.len() != triangles.len() || slots.iter().any(|slot| *slot > u32::from(u16::MAX)) {
                     return Err(PyValueError::new_err(format!("slots: expected {} values from 0 to 65535", triangles.len())));
                 }
@@ -131,6 +131,9 @@ impl Scene {
     fn add_instance(&mut self, mesh: u32, materials: Vec<u32>, transform: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<()> {
         if mesh as usize >= self.scene.meshes.len() {
             return Err(setting("mesh", format!("{mesh} was found, the scene has {} meshes", self.scene.meshes.len())));
+        }
+        if let Some(material) = materials.iter().find(|material| **material as usize >= self.scene.materials.len()) {
+            return Err(setting("materials", format!("{material} was found, the scene has {} materials", self.scene.materials.len())));
         }
         self.scene.instances.push(Instances {
             origin: Origin::new(name),
@@ -210,6 +213,12 @@ impl Scene {
         time_limit: Option<f64>,
         passes: Option<Vec<String>>,
     ) -> PyResult<()> {
+        if samples == Some(0) {
+            return Err(setting("samples", "0 was found, expected 1 or more".into()));
+        }
+        if let Some(limit) = time_limit.filter(|limit| !(limit.is_finite() && *limit >= 0.0)) {
+            return Err(setting("time_limit", format!("{limit} was found, expected seconds from 0 (no limit) on")));
+        }
         let s = &mut self.scene.settings;
         s.resolution = [width.unwrap_or(s.resolution[0]), height.unwrap_or(s.resolution[1])];
         s.samples = samples.unwrap_or(s.samples);

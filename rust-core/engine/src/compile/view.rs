@@ -32,6 +32,11 @@ impl View {
     /// Checks the settings and lays the view out.
     pub fn new(scene: &CompiledScene, settings: &Settings, execution: Execution) -> Result<Self> {
         let window = window(settings)?;
+        if settings.samples == 0 || !(settings.time_limit_s >= 0.0) {
+            let problem =
+                format!("{} samples and a limit of {} s, expected 1 or more and 0 or more", settings.samples, settings.time_limit_s);
+            return Err(Error::Setting { name: "samples".into(), problem });
+        }
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
             problem: format!("the scene has {} cameras, number {} was asked for", scene.cameras.len(), settings.camera),

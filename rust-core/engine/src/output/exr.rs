@@ -55,7 +55,7 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     for (key, value) in &options.attributes {
         note(key, value);
     }
-    let layer = ExrLayer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    let layer = ExrLayer::new((width, height), attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels));
     let display = IntegerBounds::new((0, 0), (image.resolution[0] as usize, image.resolution[1] as usize));
     let mut out = exr::image::Image::from_layer(layer);
     out.attributes = ImageAttributes { display_window: display, ..out.attributes };

@@ -20,9 +20,13 @@ pub fn write_picture(path: &Path, image: &Image, tone_map: ToneMap, stops: f32, 
             let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
             JpegEncoder::new_with_quality(&mut bytes, 92).write_image(&rgb, width, height, image::ExtendedColorType::Rgb8)
         }
-        _ => {
+        "png" => {
             let opaque: Vec<u8> = rgba.chunks_exact(4).flat_map(unpremultiplied).collect();
             PngEncoder::new(&mut bytes).write_image(&opaque, width, height, image::ExtendedColorType::Rgba8)
+        }
+        other => {
+            let problem = format!("{}: the ending is '{other}', expected png or jpg", path.display());
+            return Err(Error::Setting { name: "path".into(), problem });
         }
     };
     encoded.map_err(|error| Error::io(path, std::io::Error::other(error)))?;

@@ -6,6 +6,7 @@ from typing import Any, final
 import numpy
 from typing_extensions import Buffer
 
+__all__: list[str]
 __version__: str
 simd_level: str
 
@@ -96,12 +97,12 @@ class Scene:
     ) -> int: ...
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int: ...
     def add_instance(
-        self, mesh: int, materials: Sequence[int] = [], *, transform: Sequence[Sequence[float]] | None = None, name: str = "instance"
+        self, mesh: int, materials: Sequence[int] = ..., *, transform: Sequence[Sequence[float]] | None = None, name: str = "instance"
     ) -> None: ...
     def add_light(
         self,
         shape: str,
-        radiance: Sequence[float] = [1.0, 1.0, 1.0],
+        radiance: Sequence[float] = ...,
         *,
         transform: Sequence[Sequence[float]] | None = None,
         width: float = 1.0,
