@@ -32,6 +32,7 @@ def add_block(scene: gonio.Scene, size: tuple[float, float, float], transform: l
 def cornell_box() -> gonio.Scene:
     """The box, its two blocks, its lamp of 1500 cd/m² and its camera."""
     scene = gonio.Scene()
+    scene.set(width=360, height=360, samples=256)
     white, red, green = (scene.add_material(base_color=colour, specular_weight=0.0) for colour in (WHITE, RED, GREEN))
     h, s = SIZE / 2, SIZE
     add_quad(scene, [(-h, 0, h), (h, 0, h), (h, 0, -h), (-h, 0, -h)], white)
@@ -44,14 +45,13 @@ def cornell_box() -> gonio.Scene:
     # Flat lights shine along their -z, here turned downwards.
     down = [[1, 0, 0, 0], [0, 0, 1, SIZE - 0.001], [0, -1, 0, 0], [0, 0, 0, 1]]
     scene.add_light("rectangle", (1500.0, 1230.0, 840.0), width=0.13, height=0.105, transform=down)
-    scene.add_camera(place(0, SIZE / 2, 1.06), fov=39.0)
+    scene.add_camera(place(0, SIZE / 2, 1.045), fov=39.0)
     return scene
 
 
 def main() -> None:
     """Renders the box into the file that the command line names."""
     scene = cornell_box()
-    scene.set(width=360, height=360, samples=256)
     with gonio.Render(scene) as render:
         render.wait()
         render.film().write_picture(sys.argv[1] if len(sys.argv) > 1 else "cornell_box.png", exposure=0.5)

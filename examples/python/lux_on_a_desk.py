@@ -19,6 +19,7 @@ def add_quad(scene: gonio.Scene, corners: list[tuple[float, float, float]], refl
 def office() -> gonio.Scene:
     """A room with reflectances of 0.7, 0.5 and 0.2, a desk, two panels of 3000 cd/m², and a camera under the ceiling."""
     scene = gonio.Scene()
+    scene.set(width=320, height=320, samples=64, passes=["color", "illuminance", "P"])
     w, d, h = WIDTH / 2, DEPTH / 2, HEIGHT
     add_quad(scene, [(-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)], 0.2)
     add_quad(scene, [(-w, h, -d), (w, h, -d), (w, h, d), (-w, h, d)], 0.7)
@@ -30,7 +31,7 @@ def office() -> gonio.Scene:
     add_quad(scene, [(-x, y, z), (x, y, z), (x, y, -z), (-x, y, -z)], 0.4)
     # Cameras look and flat lights shine along their -z, here turned downwards.
     for place in (-1.0, 1.0):
-        down = [[1, 0, 0, place], [0, 0, 1, h - 0.01], [0, -1, 0, 0], [0, 0, 0, 1]]
+        down = [[1, 0, 0, place], [0, 0, 1, h - 0.01], [0, -1, 0, -0.7], [0, 0, 0, 1]]
         scene.add_light("rectangle", (3000.0,) * 3, width=0.6, height=0.6, transform=down)
     scene.add_camera([[1, 0, 0, 0], [0, 0, 1, h - 0.05], [0, -1, 0, 0], [0, 0, 0, 1]], fov=56.0)
     return scene
@@ -39,7 +40,6 @@ def office() -> gonio.Scene:
 def main() -> None:
     """Renders the illuminance pass and prints the desk's figures."""
     scene = office()
-    scene.set(width=320, height=320, samples=64, passes=["color", "illuminance", "P"])
     with gonio.Render(scene) as render:
         render.wait()
         film = render.film()

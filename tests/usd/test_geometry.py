@@ -2,6 +2,9 @@
 
 import math
 
+import math
+
+import numpy as np
 import pytest
 
 gonio = pytest.importorskip("gonio")
@@ -401,3 +404,72 @@ def test_skinning_at_and_between_samples(tmp_path, frame, degrees, instanced):
     for m in meshes:
         assert m["points"][2] == pytest.approx(expected, abs=1e-5)
     assert (tmp_path / "skinned.usda").read_text() == before
+
+
+# How shapes look: what an orthographic camera four units wide sees of them.
+
+VIEWS = {"X": (0, 90, 0), "Y": (-90, 0, 0), "Z": (0, 0, 0)}
+VIEW = """
+def Xform "View"
+{{
+    double3 xformOp:rotateXYZ = {turn}
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+    def Camera "cam"
+    {{
+        token projection = "orthographic"
+        float horizontalAperture = 40
+        float verticalAperture = 40
+        double3 xformOp:translate = (0, 0, 10)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+}}
+"""
+
+
+def look(tmp_path, text, along, passes, samples=16):
+    scene = read(tmp_path, text + VIEW.format(turn=VIEWS[along]), complexity="veryhigh")
+    scene.set(width=64, height=64, samples=samples, passes=passes)
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        film = render.film()
+    return {name: np.asarray(film[name]) for name in passes}
+
+
+@pytest.mark.parametrize(
+    ("kind", "body", "areas"),
+    [
+        ("Sphere", "double radius = 1.5", {"X": math.pi * 2.25, "Y": math.pi * 2.25, "Z": math.pi * 2.25}),
+        ("Cube", "double size = 2", {"X": 4, "Y": 4, "Z": 4}),
+        ("Cylinder", 'uniform token axis = "X"\ndouble radius = 1\ndouble height = 3', {"X": math.pi, "Y": 6, "Z": 6}),
+        ("Cylinder", "double radius = 1\ndouble height = 3", {"X": 6, "Y": 6, "Z": math.pi}),
+        ("Cone", 'uniform token axis = "Y"\ndouble radius = 1\ndouble height = 3', {"X": 3, "Y": math.pi, "Z": 3}),
+        ("Capsule", "double radius = 0.5\ndouble height = 2", {"X": 2 + math.pi / 4, "Y": 2 + math.pi / 4, "Z": math.pi / 4}),
+        ("Plane", 'uniform token axis = "Y"\ndouble width = 2\ndouble length = 3', {"X": 0, "Y": 6, "Z": 0}),
+        ("Sphere", 'double3 xformOp:scale = (1, 0.5, 1.5)\nuniform token[] xformOpOrder = ["xformOp:scale"]',
+         {"X": math.pi * 0.75, "Y": math.pi * 1.5, "Z": math.pi * 0.5}),
+    ],
+)  # fmt: skip
+def test_silhouettes(tmp_path, kind, body, areas):
+    for along, area in areas.items():
+        alpha = look(tmp_path, f'def {kind} "Shape"\n{{\n{body}\n}}\n', along, ["alpha"])["alpha"]
+        # Facets take up to one part in a hundred of a round outline.
+        assert alpha.mean() * 16 == pytest.approx(area, rel=0.012, abs=0.02), along
+
+
+def test_positions_and_normals_of_a_sphere(tmp_path):
+    seen = look(tmp_path, 'def Sphere "Shape"\n{\ndouble radius = 1.5\n}\n', "Z", ["alpha", "P", "normal", "depth"], samples=4)
+    inside = seen["alpha"][..., 0] == 1
+    # Away from the outline, where a pixel sees much of the turn.
+    inside &= np.hypot(seen["P"][..., 0], seen["P"][..., 1]) < 1.2
+    place, normal = seen["P"][inside], seen["normal"][inside]
+    assert inside.sum() > 500
+    assert np.linalg.norm(place, axis=1) == pytest.approx(1.5, rel=0.005)
+    assert (normal * place).sum(axis=1) / np.linalg.norm(place, axis=1) == pytest.approx(1, abs=0.01)
+    assert place[:, 2] + seen["depth"][inside][:, 0] == pytest.approx(10, abs=0.01)
+
+
+def test_the_picture_is_upright(tmp_path):
+    text = 'def Cube "Shape"\n{\ndouble size = 1\ndouble3 xformOp:translate = (1.5, 0.5, 0)\nuniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    alpha = look(tmp_path, text, "Z", ["alpha"])["alpha"][..., 0]
+    rows, columns = np.nonzero(alpha > 0.5)
+    assert (columns.min(), columns.max()) == (48, 63) and (rows.min(), rows.max()) == (16, 31)

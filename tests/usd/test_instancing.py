@@ -262,3 +262,19 @@ def Xform "a" ( instanceable = true
     assert [light["transform"]["columns"][3] for light in scene["lights"]] == [[3, 0, 0]]
     assert [light["origin"]["name"] for light in scene["lights"]] == ["/a/bulb"]
     assert [camera["origin"]["name"] for camera in scene["cameras"]] == ["/a/eye"]
+
+
+@pytest.mark.timeout(60)
+def test_a_hundred_thousand_instances_share_one_mesh(tmp_path):
+    places_text = ", ".join(f"({k % 300}, {k // 300}, 0)" for k in range(100_000))
+    text = f'def PointInstancer "P"\n{{\n    point3f[] positions = [{places_text}]\n    int[] protoIndices = [{", ".join(["0"] * 100_000)}]\n'
+    scene = read(tmp_path, text + '    rel prototypes = </P/ball>\n    def Sphere "ball"\n    {\n        double radius = 0.4\n    }\n}\n')
+    said = scene.to_dict()
+    assert len(said["meshes"]) == 1
+    assert sum(len(instances["transforms"]) for instances in said["instances"]) == 100_000
+    scene.set(width=32, height=32, samples=1, passes=["alpha"])
+    scene.add_camera([[1, 0, 0, 1.5], [0, 1, 0, 1.5], [0, 0, 1, 3], [0, 0, 0, 1]])
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        alpha = float(memoryview(render.film()["alpha"].tobytes()).cast("f")[16 * 32 + 16])
+    assert alpha in (0.0, 1.0)

@@ -9,8 +9,10 @@ import pytest
 
 # Ten by ten points of the camera's view: with these the inner eight by eight lie on the floor, and the outer ones beside it.
 SIDE = 10
-SAMPLES = 4096
+SAMPLES = {"chosen": 8192, "every": 65536}
 TOLERANCE = 0.01
+# Where the cone cuts the light in two few samples count: twice the largest standard error seen there at 8192 samples a pixel.
+EDGE_TOLERANCE = {"chosen": 0.03, "every": 0.012}
 # Below this share of the frame's largest value the tolerance is that of the share.
 SMALL = 0.01
 
@@ -138,17 +140,28 @@ def floor_points(light, occluder):
     return found
 
 
-def render(run, path, frames, folder):
+def cut(light, point):
+    """Whether part of the light lies outside of its own cone, seen from the point."""
+    angle = light.get("cone_angle")
+    if light["kind"] == "distant" or angle is None or angle >= 180:
+        return False
+    out = point - surface_points(light)
+    axis = -light["to_world"][2, :3]
+    cosines = out @ axis / (np.linalg.norm(out, axis=1) * np.linalg.norm(axis))
+    return bool((cosines < math.cos(math.radians(angle))).any())
+
+
+def render(run, path, frames, folder, samples):
     listed = ",".join(str(frame) for frame in frames)
     done = run(
-        "render", path, "-f", listed, "-o", folder / "f.####.exr", "--res", SIDE, SIDE, "--spp", SAMPLES, "--integrator", "direct",
-        "--aov", "illuminance", "--filter", "box", "--filter-width", 0.01, "-q", timeout=290,
+        "render", path, "-f", listed, "-o", folder / "f.####.exr", "--res", SIDE, SIDE, "--spp", samples, "--integrator", "direct",
+        "--aov", "illuminance", "--filter", "box", "--filter-width", 0.01, "-q", timeout=1700,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return {frame: pictures.read(folder / f"f.{frame:04}.exr")["Illuminance"] for frame in frames}
 
 
-def wrong_points(path, images, every=1):
+def wrong_points(path, images, edge_tolerance, every=1):
     """Points of all frames that differ, as text; and how many were looked at."""
     from pxr import Usd
 
@@ -161,7 +174,8 @@ def wrong_points(path, images, every=1):
         found = np.array([image[row, column] for row, column, _ in points])
         assert np.isfinite(image).all(), f"frame {frame} has values that are no numbers"
         floor = SMALL * expected.max(initial=0.0)
-        bad = np.abs(found - expected) > TOLERANCE * np.maximum(expected, floor)
+        tolerance = np.array([edge_tolerance if cut(light, point) else TOLERANCE for *_, point in points])
+        bad = np.abs(found - expected) > tolerance * np.maximum(expected, floor)
         for k in np.flatnonzero(bad):
             x, _, z = points[k][2]
             wrong.append(f"frame {frame} at ({x:.2f}, {z:.2f}): {found[k]:.5g} lx, expected {expected[k]:.5g} lx")
@@ -174,8 +188,9 @@ def stage_of(shared, kind):
     return shared("usd", "luxtest", "usd", f"{kind}.usda")
 
 
-def check(run, path, frames, folder, every=1):
-    wrong, looked = wrong_points(path, render(run, path, frames, folder), every)
+def check(run, path, frames, folder, extent, every=1):
+    images = render(run, path, frames, folder, SAMPLES[extent])
+    wrong, looked = wrong_points(path, images, EDGE_TOLERANCE[extent], every)
     assert not wrong, f"{len(wrong)} of {looked} points are off:\n" + "\n".join(wrong[:40])
 
 
@@ -185,11 +200,11 @@ SUBSETS += [("distant", name, frames) for name, frames in DISTANT.items()]
 
 @pytest.mark.parametrize(("kind", "name", "frames"), SUBSETS, ids=[f"{kind}-{name}" for kind, name, _ in SUBSETS])
 def test_illuminance_of_chosen_frames(run, shared, tmp_path, kind, name, frames):
-    check(run, stage_of(shared, kind), frames, tmp_path, every=2)
+    check(run, stage_of(shared, kind), frames, tmp_path, "chosen", every=2)
 
 
 @pytest.mark.validate
-@pytest.mark.timeout(1200)
+@pytest.mark.timeout(1800)
 @pytest.mark.parametrize("kind", EVERY)
 def test_illuminance_of_every_frame(run, shared, tmp_path, kind):
-    check(run, stage_of(shared, kind), range(1, EVERY[kind] + 1), tmp_path)
+    check(run, stage_of(shared, kind), range(1, EVERY[kind] + 1), tmp_path, "every")

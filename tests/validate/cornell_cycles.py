@@ -19,7 +19,6 @@ def main(variant: str, samples: int, seed: int, out: Path) -> None:
     scene = bpy.context.scene
     settings(scene, samples, seed)
     world = bpy.data.worlds.new("black")
-    world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.0
     scene.world = world
     for part in cornell.parts(variant):
@@ -47,8 +46,8 @@ def settings(scene: bpy.types.Scene, samples: int, seed: int) -> None:
     cycles.blur_glossy = cycles.light_sampling_threshold = 0.0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    for kind in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
-        setattr(cycles, "transparent_max_bounces" if kind == "transparent_max" else f"{kind}_bounces", cornell.MAX_BOUNCES)
+    for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces"):
+        setattr(cycles, limit, cornell.MAX_BOUNCES)
 
 
 def place(scene: bpy.types.Scene, name: str, data: bpy.types.ID, matrix: list[list[float]] | None) -> bpy.types.Object:
@@ -72,7 +71,6 @@ def mesh(part: cornell.Part) -> bpy.types.Mesh:
 def material(part: cornell.Part) -> bpy.types.Material:
     """One shader node into the output."""
     made = bpy.data.materials.new(part.name)
-    made.use_nodes = True
     tree = made.node_tree
     tree.nodes.clear()
     output = tree.nodes.new("ShaderNodeOutputMaterial")
@@ -87,7 +85,7 @@ def material(part: cornell.Part) -> bpy.types.Material:
 
 
 def node_name(surface: cornell.Surface) -> str:
-    """The end of the node's type name."""
+    """The end of the node's type name; "Anisotropic" is the Glossy node."""
     match surface:
         case cornell.Diffuse():
             return "Diffuse"
@@ -100,7 +98,7 @@ def node_name(surface: cornell.Surface) -> str:
 
 
 def sockets(surface: cornell.Surface) -> dict[str, float | tuple[float, ...]]:
-    """Socket values; the first node of Glossy's name is a constant reflectance."""
+    """Socket values; Glossy's Color is a constant reflectance."""
     match surface:
         case cornell.Diffuse(reflectance):
             return {"Color": (*reflectance, 1.0), "Roughness": 0.0}

@@ -1,5 +1,6 @@
 //! What of a stage is read, and how.
 
+use crate::settings::RenderSettings;
 use std::path::PathBuf;
 
 /// The time at which attributes are read.
@@ -100,7 +101,7 @@ pub struct StageOptions {
     /// When attributes are read.
     pub time: SampleTime,
     /// Purposes that are shown; `Default` always is.
-    pub purposes: Vec<Purpose>,
+    pub purposes: Option<Vec<Purpose>>,
     /// How finely curved surfaces are cut.
     pub complexity: Complexity,
     /// Prim paths to which the stage is limited; empty means all of it.
@@ -112,7 +113,7 @@ pub struct StageOptions {
     /// Whether payloads are loaded.
     pub load_payloads: bool,
     /// Purposes of material bindings in the order in which they are tried; the empty one is the all-purpose binding.
-    pub material_binding_purposes: Vec<String>,
+    pub material_binding_purposes: Option<Vec<String>>,
     /// Path of the RenderSettings prim; `None` takes the one that the stage names.
     pub render_settings: Option<String>,
     /// Whether warnings end the reading.
@@ -123,13 +124,13 @@ impl Default for StageOptions {
     fn default() -> Self {
         Self {
             time: SampleTime::Start,
-            purposes: vec![Purpose::Default, Purpose::Render],
+            purposes: None,
             complexity: Complexity::default(),
             population_mask: Vec::new(),
             variants: Vec::new(),
             session_layer: None,
             load_payloads: true,
-            material_binding_purposes: vec!["full".into(), String::new()],
+            material_binding_purposes: None,
             render_settings: None,
             strict: false,
         }
@@ -137,9 +138,24 @@ impl Default for StageOptions {
 }
 
 impl StageOptions {
+    /// The purposes of material bindings in the order in which they are tried.
+    pub fn binding_purposes(&self) -> Vec<String> {
+        self.material_binding_purposes.clone().unwrap_or_else(|| vec!["full".into(), String::new()])
+    }
+
+    /// These options, with what the stage's render settings say where the caller said nothing.
+    pub fn with_settings(&self, settings: Option<&RenderSettings>) -> Self {
+        let mut options = self.clone();
+        if let Some(settings) = settings {
+            options.purposes.get_or_insert_with(|| settings.purposes.clone());
+            options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());
+        }
+        options
+    }
+
     /// Whether things of this purpose are shown.
     pub fn shows(&self, purpose: Purpose) -> bool {
-        purpose == Purpose::Default || self.purposes.contains(&purpose)
+        purpose == Purpose::Default || self.purposes.as_deref().unwrap_or(&[Purpose::Render]).contains(&purpose)
     }
 }
 

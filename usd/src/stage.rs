@@ -6,7 +6,7 @@ use crate::prim::Prim;
 use crate::pxr::{self, Module, Trap};
 use crate::settings::{self, RenderSettings};
 use crate::traverse::Walker;
-use crate::{nesting, place, skeleton};
+use crate::{material, nesting, place, skeleton};
 use gonio::scene::{Origin, Scene};
 use gonio::{Diagnostic, Error, Result, Severity};
 use pyo3::prelude::*;
@@ -73,6 +73,8 @@ pub struct Stage {
     baked: Py<PyAny>,
     info: StageInfo,
     diagnostics: Vec<Diagnostic>,
+    /// Layers that stand in for MaterialX documents for as long as the stage is open.
+    _documents: Option<material::Substitution>,
 }
 
 /// Opens a stage and reads it: [`Stage::open`], then [`Stage::load`].
@@ -95,12 +97,12 @@ impl Stage {
         let mut diagnostics = Vec::new();
         let opened = open_prepared(py, path, options, &mut diagnostics);
         let messages = trap.release();
-        let (stage, baked) = opened?;
+        let Prepared { stage, baked, documents } = opened?;
         let mut info = read_info(&stage, path, &mut diagnostics).map_err(|error| unreadable(py, path, &error))?;
         info.composition_errors = composition_errors(&stage, path);
         diagnostics.extend(info.composition_errors.iter().cloned());
         diagnostics.extend(passed_on(messages, &info.composition_errors, path));
-        Ok(Self { path: path.to_owned(), object: stage.unbind(), baked: baked.unbind(), info, diagnostics })
+        Ok(Self { path: path.to_owned(), object: stage.unbind(), baked: baked.unbind(), info, diagnostics, _documents: documents })
     }
 
     /// What the stage says about itself.
@@ -139,7 +141,6 @@ impl Stage {
         Ok(Loaded { scene, diagnostics: all, info, settings })
     }
 
-    #[expect(clippy::type_complexity, reason = "taken apart at once by the one caller")]
     fn read(
         &self,
         py: Python<'_>,
@@ -149,19 +150,24 @@ impl Stage {
         let unreadable = |error: PyErr| unreadable(py, &self.path, &error);
         let _ = self.baked.bind(py).call_method0("Clear").map_err(unreadable)?;
         let time = time_code(py, self.info.time_range, options.time).map_err(unreadable)?;
-        let mut context = Context::new(self.object.bind(py).clone(), time, options, cancel);
+        // What is shown depends on the settings, so they are read in a context of their own.
+        let mut first = Context::new(self.object.bind(py).clone(), time.clone(), options, cancel);
+        let settings = settings::render_settings(&mut first, options.render_settings.as_deref())?;
+        let (_, mut diagnostics) = first.finish();
+        let options = options.with_settings(settings.as_ref());
+        let mut context = Context::new(self.object.bind(py).clone(), time, &options, cancel);
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
         let walker = Walker::new(&mut context).map_err(unreadable)?;
         let (world, failed) = walker.world()?;
         place::place_world(&mut context, &world, failed)?;
-        let settings = settings::render_settings(&mut context, options.render_settings.as_deref())?;
         if let Some(settings) = &settings {
             settings.apply(&mut context.scene);
         }
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
-        let (mut scene, diagnostics) = context.finish();
+        let (mut scene, of_world) = context.finish();
+        diagnostics.extend(of_world);
         let wanted = settings.as_ref().and_then(|settings| settings.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
@@ -213,13 +219,15 @@ fn unreadable(py: Python<'_>, path: &Path, error: &PyErr) -> Error {
     }
 }
 
+/// A stage with its layer for skinned points.
+struct Prepared<'py> {
+    stage: Bound<'py, PyAny>,
+    baked: Bound<'py, PyAny>,
+    documents: Option<material::Substitution>,
+}
+
 /// The stage with variants chosen and skeletons' instances taken apart, and the layer for skinned points, which is the edit target.
-fn open_prepared<'py>(
-    py: Python<'py>,
-    path: &Path,
-    options: &StageOptions,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+fn open_prepared<'py>(py: Python<'py>, path: &Path, options: &StageOptions, diagnostics: &mut Vec<Diagnostic>) -> Result<Prepared<'py>> {
     let unreadable = |error: PyErr| unreadable(py, path, &error);
     let anonymous = |name: &str| Module::Sdf.item(py, "Layer")?.call_method1("CreateAnonymous", (name,));
     let session = anonymous("session.usda").map_err(unreadable)?;
@@ -228,12 +236,13 @@ fn open_prepared<'py>(
     add().map_err(unreadable)?;
     let stage = open_layers(py, path, options, &session)?;
     select_variants(&stage, options)?;
+    let documents = material::substitute_documents(&stage, diagnostics);
     let apart = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
     if let Some(first) = apart.first() {
         diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one", apart.len())));
     }
     stage.call_method1("SetEditTarget", (&baked,)).map_err(unreadable)?;
-    Ok((stage, baked))
+    Ok(Prepared { stage, baked, documents })
 }
 
 /// The stage, with the session layer as the edit target.

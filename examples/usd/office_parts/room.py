@@ -94,7 +94,7 @@ def ceiling(stage: Usd.Stage, images: str) -> None:
         light.AddRotateXOp().Set(-90.0)
         light.CreateWidthAttr(MODULE - rail)
         light.CreateHeightAttr(MODULE - rail)
-        light.CreateIntensityAttr(3500.0)
+        light.CreateIntensityAttr(3200.0)
         light.CreateEnableColorTemperatureAttr(True)
         light.CreateColorTemperatureAttr(4000.0)
     grid.write()

@@ -75,8 +75,8 @@ fn check<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str, width: usiz
     let shape = buffer.shape();
     let fits = match shape {
         [n] => n.is_multiple_of(width),
-        [.., last] => *last == width || (width == 1 && shape.len() == 1),
-        [] => false,
+        [_, last] => *last == width,
+        _ => false,
     };
     if fits {
         Ok(())

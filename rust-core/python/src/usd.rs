@@ -35,7 +35,7 @@ pub(crate) fn load_usd(
             let problem = || setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
             Purpose::from_token(token).ok_or_else(problem)
         };
-        options.purposes = tokens.iter().map(purpose).collect::<PyResult<_>>()?;
+        options.purposes = Some(tokens.iter().map(purpose).collect::<PyResult<_>>()?);
     }
     let mut loaded = load_stage(py, &path, &options, &AtomicBool::new(false)).map_err(exception)?;
     let view = ViewOptions { camera, neutral_dome, ..ViewOptions::default() };

@@ -26,8 +26,8 @@ pub(super) enum Command {
 pub(super) struct StageArguments {
     /// The stage: a .usd, .usda, .usdc or .usdz file.
     pub(super) stage: PathBuf,
-    /// Purposes shown beside 'default': render, proxy, guide, separated by commas.
-    #[arg(long, value_name = "PURPOSES", value_delimiter = ',', default_value = "default,render")]
+    /// Purposes shown beside 'default': render, proxy, guide, separated by commas; without it those of the render settings, or render.
+    #[arg(long, value_name = "PURPOSES", value_delimiter = ',')]
     pub(super) purposes: Vec<String>,
     /// How finely subdivision surfaces are refined.
     #[arg(long, short = 'C', value_enum, default_value_t = ComplexityArgument::High)]

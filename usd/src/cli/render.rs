@@ -88,7 +88,10 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         VariantSelection::parse(text).ok_or_else(problem)
     };
     Ok(StageOptions {
-        purposes: arguments.purposes.iter().map(purpose).collect::<Result<_>>()?,
+        purposes: match arguments.purposes.as_slice() {
+            [] => None,
+            tokens => Some(tokens.iter().map(purpose).collect::<Result<_>>()?),
+        },
         complexity: match arguments.complexity {
             ComplexityArgument::Low => Complexity::Low,
             ComplexityArgument::Medium => Complexity::Medium,

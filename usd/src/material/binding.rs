@@ -30,7 +30,7 @@ fn compute<'py>(context: &Context<'_, 'py>, prims: &[Prim<'py>]) -> PyResult<Vec
     let py = context.py;
     let api = Module::UsdShade.item(py, "MaterialBindingAPI")?;
     let mut found: Vec<Option<Prim<'py>>> = prims.iter().map(|_| None).collect();
-    for purpose in &context.options.material_binding_purposes {
+    for purpose in &context.options.binding_purposes() {
         let open: Vec<usize> = (0..prims.len()).filter(|&index| found[index].is_none()).collect();
         if open.is_empty() {
             break;

@@ -1,0 +1,89 @@
+"""Block differences of two renderings, and the pictures and the table that show them."""
+
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy
+
+BLOCK = 16
+# A part of the image's mean that keeps dark blocks from dividing by next to nothing.
+FLOOR = 0.01
+DIFFERENCE_GAIN = 10.0
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A rendering as the mean of two with different seeds, and what it cost."""
+
+    image: numpy.ndarray
+    noise: float
+    samples: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Differences of gonio from a reference, relative: over blocks and channels, and of the whole image's mean."""
+
+    median: float
+    percentile95: float
+    largest: float
+    mean: float
+
+
+def measured(first: numpy.ndarray, second: numpy.ndarray, samples: int, seconds: float) -> Measured:
+    """The mean of two independent renderings of `samples` each; its noise is the standard error of a block, relative, as RMS over blocks."""
+    a, b = blocks(first), blocks(second)
+    mean = 0.5 * (a + b)
+    # The difference of two has twice the standard deviation of their mean.
+    error = 0.5 * numpy.abs(a - b) / (mean + FLOOR * mean.mean())
+    return Measured(0.5 * (first + second), float(numpy.sqrt((error**2).mean())), 2 * samples, seconds)
+
+
+def difference(image: numpy.ndarray, reference: numpy.ndarray) -> Difference:
+    """How far an image is from a reference."""
+    a, b = blocks(image), blocks(reference)
+    relative = numpy.abs(a - b) / (b + FLOOR * b.mean())
+    median, high = numpy.percentile(relative, [50, 95])
+    return Difference(float(median), float(high), float(relative.max()), float(abs(a.mean() / b.mean() - 1.0)))
+
+
+def blocks(image: numpy.ndarray) -> numpy.ndarray:
+    """Means over squares of pixels, per channel."""
+    height, width, channels = image.shape
+    return image.reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, channels).mean(axis=(1, 3))
+
+
+def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> None:
+    """A PNG: the image, the reference, and their relative difference, amplified about middle grey."""
+    exposure = 0.25 / reference.mean()
+    relative = (image - reference) / (reference + FLOOR * reference.mean())
+    shown = [encoded(image * exposure), encoded(reference * exposure), 0.5 + 0.5 * DIFFERENCE_GAIN * relative]
+    pixels = (numpy.clip(numpy.concatenate(shown, axis=1), 0.0, 1.0) * 255 + 0.5).astype("u1")
+    rows = numpy.concatenate([numpy.zeros((len(pixels), 1), "u1"), pixels.reshape(len(pixels), -1)], axis=1)
+    header = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)
+    chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b"")]
+    sealed = [struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks]
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(sealed))
+
+
+def encoded(linear: numpy.ndarray) -> numpy.ndarray:
+    """The sRGB curve, nearly."""
+    return numpy.clip(linear, 0.0, 1.0) ** (1.0 / 2.2)
+
+
+def row(variant: str, other: str, ours: Measured, theirs: Measured, d: Difference, picture: str) -> str:
+    """A line of the table."""
+    cells = [variant, other, f"{d.median:.2%}", f"{d.percentile95:.2%}", f"{d.largest:.2%}", f"{d.mean:.3%}"]
+    cells += [f"{m.noise:.2%}" for m in (ours, theirs)]
+    cells += [f"{m.samples} in {m.seconds:.0f} s" for m in (ours, theirs)]
+    return "| " + " | ".join([*cells, f"[picture]({picture})"]) + " |"
+
+
+def table(rows: list[str]) -> str:
+    """The table as Markdown."""
+    heads = ["variant", "reference", "median", "95th percentile", "largest", "image mean", "noise of gonio", "noise of the reference"]
+    heads += ["samples of gonio", "samples of the reference", "gonio, reference, difference × 10"]
+    return "\n".join(["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads), *rows])
