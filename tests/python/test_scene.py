@@ -168,9 +168,8 @@ def test_exceptions_have_one_root():
     "settings", [{"width": 0}, {"height": 0}, {"width": 2**31, "height": 2**31}, {"samples": 0}, {"time_limit": math.nan}, {"time_limit": -1.0}]
 )
 def test_settings_out_of_range(floor, settings):
-    scene = floor(**settings)
     with pytest.raises(gonio.SettingError):
-        gonio.Render(scene)
+        gonio.Render(floor(**settings))
 
 
 @pytest.mark.parametrize("settings", [{"width": -1}, {"samples": 1.5}, {"seed": 2**40}, {"passes": "color"}, {"width": "wide"}])

@@ -24,7 +24,9 @@ def write(path: Path) -> None:
     made.add("BlackPlastic", tube([(0, 0.40, 0.12), (0, 0.395, 0.24), (0, 0.46, 0.315), (0, 0.62, 0.30), (0, 0.78, 0.305)], 0.02))
     for side in (-1, 1):
         x = 0.265 * side
-        made.add("BlackPlastic", tube([(0.17 * side, 0.405, 0.02), (x, 0.41, 0.02), (x + 0.012 * side, 0.50, 0.02), (x, 0.655, 0.02)], 0.015))
+        made.add(
+            "BlackPlastic", tube([(0.17 * side, 0.405, 0.02), (x, 0.41, 0.02), (x + 0.012 * side, 0.50, 0.02), (x, 0.655, 0.02)], 0.015)
+        )
         made.add("BlackPlastic", cushion((0.075, 0.03, 0.25), 0.012), translation(x, 0.665, -0.02))
     made.write()
     stage.GetRootLayer().Save()

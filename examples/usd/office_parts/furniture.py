@@ -17,9 +17,13 @@ def build(stage: Usd.Stage, images: str) -> None:
         turn = 180.0 * n
         desk(stage, f"/Office/Furniture/Desk{n}", images).place(x, 0, z, turn).write()
         screen = "ScreenDiagram" if n == 0 else "ScreenText"
-        monitor(stage, f"/Office/Furniture/Monitor{n}A", images, screen).place(x - 0.33 * (1 - 2 * n), TOP, z - 0.2 * (1 - 2 * n), turn + 9).write()
+        monitor(stage, f"/Office/Furniture/Monitor{n}A", images, screen).place(
+            x - 0.33 * (1 - 2 * n), TOP, z - 0.2 * (1 - 2 * n), turn + 9
+        ).write()
         other = "ScreenText" if n == 0 else "ScreenDiagram"
-        monitor(stage, f"/Office/Furniture/Monitor{n}B", images, other).place(x + 0.33 * (1 - 2 * n), TOP, z - 0.2 * (1 - 2 * n), turn - 9).write()
+        monitor(stage, f"/Office/Furniture/Monitor{n}B", images, other).place(
+            x + 0.33 * (1 - 2 * n), TOP, z - 0.2 * (1 - 2 * n), turn - 9
+        ).write()
         keyboard(stage, f"/Office/Furniture/Keyboard{n}", images, x, z + 0.16 * (1 - 2 * n), turn)
         mouse(stage, f"/Office/Furniture/Mouse{n}", images).place(x + 0.34 * (1 - 2 * n), TOP, z + 0.17 * (1 - 2 * n), turn + 8).write()
     mug(stage, "/Office/Furniture/MugA", images, "CeramicOrange").place(0.15, TOP, -2.93, 250).write()
@@ -129,7 +133,23 @@ def papers(stage: Usd.Stage, images: str) -> None:
 def pencils(stage: Usd.Stage, images: str) -> None:
     """A cup with pencils."""
     made = Asset(stage, "/Office/Furniture/Pencils", images).place(-1.24, TOP, -3.2)
-    made.add("BlackMetal", lathe([(0, 0), (0.034, 0), (0.036, 0.002), (0.036, 0.05), (0.036, 0.098), (0.035, 0.1), (0.034, 0.098), (0.034, 0.05), (0.033, 0.004), (0, 0.004)]))
+    made.add(
+        "BlackMetal",
+        lathe(
+            [
+                (0, 0),
+                (0.034, 0),
+                (0.036, 0.002),
+                (0.036, 0.05),
+                (0.036, 0.098),
+                (0.035, 0.1),
+                (0.034, 0.098),
+                (0.034, 0.05),
+                (0.033, 0.004),
+                (0, 0.004),
+            ]
+        ),
+    )
     for n, material in enumerate(("Oak", "CeramicOrange", "CeramicBlue", "Oak", "Steel")):
         angle = n * 1.3
         foot = (0.02 * numpy.cos(angle + 2.5), 0.006, 0.02 * numpy.sin(angle + 2.5))
@@ -143,7 +163,12 @@ def lamp(stage: Usd.Stage, images: str) -> None:
     path = "/Office/Furniture/TaskLamp"
     made = Asset(stage, path, images).place(0.12, TOP, -3.2, 208)
     elbow, head = (-0.10, 0.36, 0), (0.20, 0.50, 0)
-    made.add("BlackMetal", lathe([(0, 0), (0.085, 0), (0.09, 0.003), (0.09, 0.016), (0.086, 0.02), (0.02, 0.022), (0.014, 0.03), (0.012, 0.05), (0, 0.052)], 24))
+    made.add(
+        "BlackMetal",
+        lathe(
+            [(0, 0), (0.085, 0), (0.09, 0.003), (0.09, 0.016), (0.086, 0.02), (0.02, 0.022), (0.014, 0.03), (0.012, 0.05), (0, 0.052)], 24
+        ),
+    )
     made.add("Brass", tube([(0, 0.03, 0), (-0.05, 0.195, 0), elbow], 0.007))
     made.add("Brass", tube([elbow, (0.05, 0.43, 0), head], 0.007))
     for place in (elbow, head):

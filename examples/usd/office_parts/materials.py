@@ -65,7 +65,9 @@ MATERIALS: dict[str, Preview | Standard] = {
     "Stem": Preview((0.10, 0.075, 0.045), 0.8),
     "Leaf": Preview((0.06, 0.16, 0.04), 0.42, instance_colour=True),
     "Glass": Standard({"base": 0.0, "specular": 1.0, "specular_roughness": 0.0, "transmission": 1.0, "thin_walled": True}),
-    "Velvet": Standard({"base": 0.8, "base_color": (0.56, 0.24, 0.07), "specular": 0.2, "specular_roughness": 0.6, "sheen": 0.5, "sheen_roughness": 0.4}),
+    "Velvet": Standard(
+        {"base": 0.8, "base_color": (0.56, 0.24, 0.07), "specular": 0.2, "specular_roughness": 0.6, "sheen": 0.5, "sheen_roughness": 0.4}
+    ),
 }
 
 

@@ -17,7 +17,19 @@ def write(path: Path, height: float, stems: int, seed: int, leaf_length: float, 
     made = Asset(stage, "/Plant", "./textures", "/Plant/Materials")
     stage.SetDefaultPrim(made.xform.GetPrim())
     scale = height / 1.7
-    profile = [(0, 0), (0.12, 0), (0.13, 0.005), (0.165, 0.20), (0.175, 0.36), (0.175, 0.368), (0.172, 0.37), (0.16, 0.37), (0.157, 0.365), (0.155, 0.32), (0, 0.32)]
+    profile = [
+        (0, 0),
+        (0.12, 0),
+        (0.13, 0.005),
+        (0.165, 0.20),
+        (0.175, 0.36),
+        (0.175, 0.368),
+        (0.172, 0.37),
+        (0.16, 0.37),
+        (0.157, 0.365),
+        (0.155, 0.32),
+        (0, 0.32),
+    ]
     made.add(pot, lathe([(r * scale, y * scale) for r, y in profile], 24))
     made.add("Soil", lathe([(0, 0.325 * scale), (0.156 * scale, 0.325 * scale), (0.15 * scale, 0.331 * scale), (0, 0.34 * scale)], 16))
     random = numpy.random.default_rng(seed)

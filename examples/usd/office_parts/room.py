@@ -1,7 +1,7 @@
-"""Walls, floor, window, ceiling with its luminaires, radiator, door. The room is 4.5 m wide (x), 6 m deep (z from -6 to 0) and 2.8 m high."""
+"""Walls, floor, window, luminaires, radiator, door. The room is 4.5 m wide (x), 6 m deep (z from -6 to 0) and 2.8 m high."""
 
 import numpy
-from pxr import Gf, Usd, UsdGeom, UsdLux
+from pxr import Gf, Usd, UsdLux
 
 from .asset import Asset
 from .shapes import sheet, tube
@@ -88,7 +88,10 @@ def ceiling(stage: Usd.Stage, images: str) -> None:
     for z in numpy.arange(BACK + MODULE, FRONT, MODULE):
         grid.span("WhiteMetal", (LEFT, HEIGHT - drop, z - rail / 2), (RIGHT, HEIGHT + 0.001, z + rail / 2), 0.002)
     for n, (x, z) in enumerate(PANELS):
-        centre_x, centre_z = LEFT + 0.15 + MODULE * (round((x - LEFT - 0.45) / MODULE) + 0.5), BACK + MODULE * (round((z - BACK - 0.3) / MODULE) + 0.5)
+        centre_x, centre_z = (
+            LEFT + 0.15 + MODULE * (round((x - LEFT - 0.45) / MODULE) + 0.5),
+            BACK + MODULE * (round((z - BACK - 0.3) / MODULE) + 0.5),
+        )
         light = UsdLux.RectLight.Define(stage, f"/Office/Lights/Panel{n}")
         light.AddTranslateOp().Set(Gf.Vec3d(centre_x, HEIGHT - 0.003, centre_z))
         light.AddRotateXOp().Set(-90.0)

@@ -9,7 +9,7 @@ Vector = tuple[float, float, float]
 
 @dataclass
 class Polygons:
-    """Points (N, 3), one list of corner indices a face, texture coordinates a corner (in metres), normals a point or none for subdivision surfaces."""
+    """Points (N, 3), corner indices of each face, texture coordinates a corner (in metres), normals a point (none: subdivision)."""
 
     points: numpy.ndarray
     faces: list[list[int]]

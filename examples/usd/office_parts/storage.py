@@ -11,7 +11,17 @@ from .shapes import box, lathe, rotation, sheet, translation
 # Left, right, top and depth of the book shelf at the back wall.
 SHELF = (0.62, 1.92, 2.05, 0.32)
 LEVELS = [0.06, 0.45, 0.84, 1.23, 1.62]
-COVERS = [(0.42, 0.08, 0.05), (0.05, 0.12, 0.22), (0.62, 0.56, 0.44), (0.10, 0.20, 0.14), (0.55, 0.30, 0.06), (0.70, 0.68, 0.64), (0.05, 0.05, 0.055), (0.30, 0.36, 0.40), (0.32, 0.06, 0.11)]
+COVERS = [
+    (0.42, 0.08, 0.05),
+    (0.05, 0.12, 0.22),
+    (0.62, 0.56, 0.44),
+    (0.10, 0.20, 0.14),
+    (0.55, 0.30, 0.06),
+    (0.70, 0.68, 0.64),
+    (0.05, 0.05, 0.055),
+    (0.30, 0.36, 0.40),
+    (0.32, 0.06, 0.11),
+]
 
 
 def build(stage: Usd.Stage, images: str) -> None:
@@ -36,10 +46,49 @@ def shelf(stage: Usd.Stage, images: str) -> None:
         made.span("Oak", (left + 0.0245, y - 0.025, BACK + 0.022), (right - 0.0245, y, front - 0.002))
     made.span("Oak", (left + 0.02, 0.05, BACK + 0.017), (right - 0.02, top - 0.01, BACK + 0.026))
     # Ornaments in the gaps that the books leave.
-    made.add("CeramicWhite", lathe([(0, 0), (0.035, 0), (0.055, 0.03), (0.075, 0.09), (0.06, 0.16), (0.022, 0.20), (0.02, 0.25), (0.026, 0.262), (0.022, 0.262), (0.016, 0.25), (0, 0.2)], 24), translation(1.72, LEVELS[3], BACK + 0.19))
-    made.add("Brass", lathe([(0, 0), (0.05, 0), (0.052, 0.004), (0.014, 0.02), (0.012, 0.10), (0.03, 0.13), (0.09, 0.155), (0.092, 0.16), (0.028, 0.14), (0, 0.135)], 24), translation(0.80, LEVELS[2], BACK + 0.19))
+    made.add(
+        "CeramicWhite",
+        lathe(
+            [
+                (0, 0),
+                (0.035, 0),
+                (0.055, 0.03),
+                (0.075, 0.09),
+                (0.06, 0.16),
+                (0.022, 0.20),
+                (0.02, 0.25),
+                (0.026, 0.262),
+                (0.022, 0.262),
+                (0.016, 0.25),
+                (0, 0.2),
+            ],
+            24,
+        ),
+        translation(1.72, LEVELS[3], BACK + 0.19),
+    )
+    made.add(
+        "Brass",
+        lathe(
+            [
+                (0, 0),
+                (0.05, 0),
+                (0.052, 0.004),
+                (0.014, 0.02),
+                (0.012, 0.10),
+                (0.03, 0.13),
+                (0.09, 0.155),
+                (0.092, 0.16),
+                (0.028, 0.14),
+                (0, 0.135),
+            ],
+            24,
+        ),
+        translation(0.80, LEVELS[2], BACK + 0.19),
+    )
     for n, (width, height) in enumerate(((0.30, 0.28), (0.30, 0.28))):
-        made.span("Concrete", (1.24 + 0.325 * n, LEVELS[0], BACK + 0.04), (1.24 + 0.325 * n + width, LEVELS[0] + height, BACK + 0.31), 0.006)
+        made.span(
+            "Concrete", (1.24 + 0.325 * n, LEVELS[0], BACK + 0.04), (1.24 + 0.325 * n + width, LEVELS[0] + height, BACK + 0.31), 0.006
+        )
         made.box("Steel", (1.24 + 0.325 * n + width / 2, LEVELS[0] + 0.2, BACK + 0.312), (0.05, 0.03, 0.006), 0.002)
     made.write()
 
@@ -73,7 +122,13 @@ def rows_of_books() -> tuple[list, list, list, list, list]:
     random = numpy.random.default_rng(21)
     places, turns, scales, kinds, colours = [], [], [], [], []
     left, right = SHELF[0] + 0.03, SHELF[1] - 0.03
-    rows = [(LEVELS[0], left, left + 0.52), (LEVELS[1], left, right - 0.28), (LEVELS[2], left + 0.34, right), (LEVELS[3], left, right - 0.42), (LEVELS[4], left + 0.1, right - 0.1)]
+    rows = [
+        (LEVELS[0], left, left + 0.52),
+        (LEVELS[1], left, right - 0.28),
+        (LEVELS[2], left + 0.34, right),
+        (LEVELS[3], left, right - 0.42),
+        (LEVELS[4], left + 0.1, right - 0.1),
+    ]
     for level, start, end in rows:
         x = start
         while x < end - 0.06:
@@ -82,7 +137,13 @@ def rows_of_books() -> tuple[list, list, list, list, list]:
             lean = 9.0 if is_last else 0.0
             sine = float(numpy.sin(numpy.radians(lean)))
             shift = height * sine + 0.003 if is_last else 0.0
-            places.append(Gf.Vec3f(round(x + width / 2 + shift, 4), round(level + width / 2 * sine + 0.0005, 4), round(BACK + 0.30 - depth / 2 - 0.02 * random.random(), 4)))
+            places.append(
+                Gf.Vec3f(
+                    round(x + width / 2 + shift, 4),
+                    round(level + width / 2 * sine + 0.0005, 4),
+                    round(BACK + 0.30 - depth / 2 - 0.02 * random.random(), 4),
+                )
+            )
             turns.append(Gf.Quath(Gf.Rotation(Gf.Vec3d(0, 0, 1), lean).GetQuat()))
             scales.append(Gf.Vec3f(*(round(size, 4) for size in (width, height, depth))))
             kinds.append(int(random.random() < 0.35))
@@ -140,13 +201,35 @@ def clock(stage: Usd.Stage, images: str) -> None:
 def basket(stage: Usd.Stage, images: str) -> None:
     """A waste paper basket beside the desk."""
     made = Asset(stage, "/Office/Furniture/Basket", images).place(0.52, 0, -3.1)
-    made.add("BlackMetal", lathe([(0, 0.004), (0.11, 0.004), (0.115, 0.006), (0.14, 0.30), (0.145, 0.303), (0.143, 0.306), (0.137, 0.303), (0.112, 0.012), (0, 0.012)], 24))
+    made.add(
+        "BlackMetal",
+        lathe(
+            [
+                (0, 0.004),
+                (0.11, 0.004),
+                (0.115, 0.006),
+                (0.14, 0.30),
+                (0.145, 0.303),
+                (0.143, 0.306),
+                (0.137, 0.303),
+                (0.112, 0.012),
+                (0, 0.012),
+            ],
+            24,
+        ),
+    )
     made.write()
 
 
 def pouf(stage: Usd.Stage, images: str) -> None:
     """A round stool in velvet."""
     made = Asset(stage, "/Office/Furniture/Pouf", images).place(0.50, 0, -5.2)
-    made.add("Velvet", lathe([(0, 0.012), (0.22, 0.012), (0.25, 0.03), (0.265, 0.10), (0.27, 0.28), (0.262, 0.36), (0.22, 0.395), (0.1, 0.405), (0, 0.405)], 24))
+    made.add(
+        "Velvet",
+        lathe(
+            [(0, 0.012), (0.22, 0.012), (0.25, 0.03), (0.265, 0.10), (0.27, 0.28), (0.262, 0.36), (0.22, 0.395), (0.1, 0.405), (0, 0.405)],
+            24,
+        ),
+    )
     made.add("Brass", lathe([(0.2735, 0.292), (0.2745, 0.294), (0.2745, 0.302), (0.2735, 0.304), (0.265, 0.30)], 24))
     made.write()

@@ -83,7 +83,12 @@ def painting(folder: Path) -> None:
     sky = numpy.array([238, 206, 160.0]) + (y / 1.33)[..., None] * numpy.array([-10, -60, -70.0])
     disc = numpy.clip((0.17 - numpy.hypot(x - 0.62, y - 0.46)) * width / 2, 0, 1)[..., None]
     picture = sky * (1 - disc) + numpy.array([226, 92, 52.0]) * disc
-    layers = [(0.58, 0.10, 2.1, (206, 140, 104)), (0.72, 0.08, 3.0, (150, 96, 96)), (0.86, 0.09, 1.6, (84, 78, 98)), (1.04, 0.07, 2.6, (38, 56, 78))]
+    layers = [
+        (0.58, 0.10, 2.1, (206, 140, 104)),
+        (0.72, 0.08, 3.0, (150, 96, 96)),
+        (0.86, 0.09, 1.6, (84, 78, 98)),
+        (1.04, 0.07, 2.6, (38, 56, 78)),
+    ]
     for n, (level, swing, waves, colour) in enumerate(layers):
         line = level + swing * numpy.sin(x * waves * 2.6 + n * 1.7) + 0.35 * swing * numpy.sin(x * waves * 6.1 + n)
         cover = numpy.clip((y - line) * width, 0, 1)[..., None]
@@ -106,13 +111,18 @@ def screens(folder: Path) -> None:
         diagram[(abs(radius - ring) < 0.8) & (y > 60)] = (78, 86, 100)
     for spoke in range(-4, 5):
         diagram[(abs(numpy.sin(angle - spoke * numpy.pi / 6)) * radius < 0.7) & (radius < 200) & (dy > 0)] = (64, 71, 84)
-    for colour, curve in (((255, 176, 64), 190 * numpy.abs(numpy.cos(angle)) ** 1.6), ((92, 196, 255), 130 * (0.55 + 0.6 * abs(numpy.sin(1.6 * angle))))):
+    for colour, curve in (
+        ((255, 176, 64), 190 * numpy.abs(numpy.cos(angle)) ** 1.6),
+        ((92, 196, 255), 130 * (0.55 + 0.6 * abs(numpy.sin(1.6 * angle)))),
+    ):
         diagram[(abs(radius - numpy.where(dy > 0, numpy.abs(curve), 1e3)) < 1.9) & (dy > 0)] = colour
     u, v = (x - 380) / 230, (y - 70) / 250
     lux = sum(numpy.exp(-((u - a) ** 2 + (v - b) ** 2) * 14) for a in (0.27, 0.73) for b in (0.25, 0.75))
     shown = (u > 0) & (u < 1) & (v > 0) & (v < 1)
     levels = numpy.floor(numpy.clip(lux / 1.12, 0, 0.999) * 8).astype(int)
-    colours = numpy.array([(38, 30, 96), (40, 76, 170), (30, 140, 190), (40, 180, 140), (110, 200, 80), (210, 210, 60), (246, 160, 50), (236, 84, 50)])
+    colours = numpy.array(
+        [(38, 30, 96), (40, 76, 170), (30, 140, 190), (40, 180, 140), (110, 200, 80), (210, 210, 60), (246, 160, 50), (236, 84, 50)]
+    )
     diagram[shown] = colours[levels][shown]
     write_png(folder / "screen_diagram.png", diagram.astype(numpy.uint8))
     random = numpy.random.default_rng(11)
@@ -131,7 +141,9 @@ def screens(folder: Path) -> None:
 
 def colours_of_text(random: numpy.random.Generator) -> tuple[int, int, int]:
     """One of an editor's colours."""
-    return [(198, 204, 216), (198, 204, 216), (120, 180, 250), (240, 170, 110), (150, 210, 140), (200, 150, 230)][int(random.integers(0, 6))]
+    return [(198, 204, 216), (198, 204, 216), (120, 180, 250), (240, 170, 110), (150, 210, 140), (200, 150, 230)][
+        int(random.integers(0, 6))
+    ]
 
 
 def view(folder: Path) -> None:

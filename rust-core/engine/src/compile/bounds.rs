@@ -66,7 +66,7 @@ impl Bounds {
 }
 
 /// Bounds of a mesh in its own space.
-fn of_mesh(mesh: &Mesh) -> Bounds {
+pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
     let mut bounds = Bounds::default();
     for point in mesh.points.iter() {
         bounds.extend(point.map(f64::from));

@@ -154,6 +154,7 @@ fn append_instances(
     table.materials.extend((0..slots).map(|slot| known(slot).unwrap_or(default)));
     let transparent = (0..slots).any(|slot| materials[known(slot).unwrap_or(default) as usize].transparent);
     let first_primvar = append_own_primvars(group, names, table, diagnostics);
+    report_unplaceable(mesh, group, diagnostics);
     let mask = [
         (group.visibility.camera, ray_mask::CAMERA),
         (group.visibility.shadow, ray_mask::SHADOW),
@@ -169,6 +170,25 @@ fn append_instances(
         table.instance_set.push(set);
         table.instance_transform.extend(rebased.columns.iter().flatten().map(|x| *x as f32));
         instances.push(Instance { geometry: Geometry::Mesh(group.mesh.0), object_to_world: rows(&rebased), mask, transparent });
+    }
+}
+
+/// Coordinates beyond this many metres are not traced: single precision has nothing left for the picture.
+const FARTHEST: f64 = 1e12;
+
+/// Says how many placements the tree leaves out.
+fn report_unplaceable(mesh: &Mesh, group: &Instances, diagnostics: &mut Vec<Diagnostic>) {
+    let local = super::bounds::of_mesh(mesh);
+    let near = |bound: &[f64; 3]| bound.iter().all(|x| x.abs() <= FARTHEST);
+    let placed = |transform: &Transform| {
+        let world = local.transformed(transform);
+        transform.inverse().is_some() && near(&world.min) && near(&world.max)
+    };
+    let hidden = group.transforms.iter().filter(|transform| !placed(transform)).count();
+    if hidden > 0 && !local.is_empty() {
+        let what = if group.transforms.len() == 1 { "it".to_owned() } else { format!("{hidden} of {} placements", group.transforms.len()) };
+        let message = format!("the transform is singular or not finite, or coordinates lie beyond {FARTHEST:e} m; {what} cannot be shown");
+        diagnostics.push(Diagnostic::warning(&group.origin, message));
     }
 }
 
