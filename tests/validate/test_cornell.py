@@ -19,7 +19,7 @@ import pytest
 HERE = Path(__file__).resolve().parent
 OUT = environments.ROOT / "out"
 # Each rendering is the mean of two; enough samples for the noise bound.
-SAMPLES = {"diffuse": 192, "specular": 512, "principled": 512}
+SAMPLES = {"diffuse": 256, "specular": 512, "principled": 512}
 SEEDS = (1, 2)
 RENDERERS = {"cycles": "bpy50", "mitsuba": "mitsuba"}
 PAIRS = [("diffuse", "cycles"), ("diffuse", "mitsuba"), ("specular", "cycles"), ("specular", "mitsuba"), ("principled", "cycles")]

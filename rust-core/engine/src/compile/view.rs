@@ -32,7 +32,7 @@ impl View {
     /// Checks the settings and lays the view out.
     pub fn new(scene: &CompiledScene, settings: &Settings, execution: Execution) -> Result<Self> {
         let window = window(settings)?;
-        if settings.samples == 0 || !(settings.time_limit_s >= 0.0) {
+        if settings.samples == 0 || settings.time_limit_s.is_nan() || settings.time_limit_s < 0.0 {
             let problem =
                 format!("{} samples and a limit of {} s, expected 1 or more and 0 or more", settings.samples, settings.time_limit_s);
             return Err(Error::Setting { name: "samples".into(), problem });
