@@ -37,7 +37,7 @@ test-python: build
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had.
 validate: build
-	$(BIN)/python -m pytest tests/python tests/usd -m "validate or not validate" --timeout 1800
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate -m "validate or not validate" --timeout 1800
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 bench:

@@ -9,10 +9,10 @@ import pytest
 
 # Ten by ten points of the camera's view: with these the inner eight by eight lie on the floor, and the outer ones beside it.
 SIDE = 10
-SAMPLES = {"chosen": 8192, "every": 65536}
+SAMPLES = {"chosen": 8192, "every": 16384}
 TOLERANCE = 0.01
 # Where the cone cuts the light in two few samples count: twice the largest standard error seen there at 8192 samples a pixel.
-EDGE_TOLERANCE = {"chosen": 0.03, "every": 0.012}
+EDGE_TOLERANCE = {"chosen": 0.03, "every": 0.02}
 # Below this share of the frame's largest value the tolerance is that of the share.
 SMALL = 0.01
 

@@ -2,11 +2,15 @@
 
 import os
 import random
+import resource
 import signal
+import struct
 import subprocess
 import time
+import zlib
 
 import numpy as np
+import OpenEXR
 import pictures
 import pytest
 
@@ -30,6 +34,11 @@ def mesh(name="Odd", **changes):
 
 def render(run, stage, folder, *options):
     return run("render", stage, "-o", folder / "out.exr", "--res", 16, 16, "--spp", 1, "--time-limit", 20, *options, timeout=60)
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory):
+    return pictures.room(tmp_path_factory.mktemp("room") / "room.usda")
 
 
 def judge(done, folder):
@@ -320,6 +329,119 @@ def test_deep_hierarchies(run, tmp_path):
     judge(render(run, stage, tmp_path), tmp_path)
 
 
+# Images.
+
+TEXTURED = """
+def Mesh "Odd" (prepend apiSchemas = ["MaterialBindingAPI"])
+{{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, 1, 1), (1, 1, 1), (1, 1, -1), (-1, 1, -1)]
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </M>
+}}
+def DomeLight "Dome"
+{{
+    asset inputs:texture:file = @{name}@
+}}
+def Material "M"
+{{
+    token outputs:surface.connect = </M/S.outputs:surface>
+    def Shader "S"
+    {{
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>
+        token outputs:surface
+    }}
+    def Shader "T"
+    {{
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @{name}@
+        float4 inputs:fallback = (0, 1, 0, 1)
+        float3 outputs:rgb
+    }}
+}}
+"""
+
+
+def png(width, height, body):
+    """A PNG file with this header and these compressed rows."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(body)) + chunk(b"IEND", b"")
+
+
+GOOD_PNG = png(2, 2, b"\0\xff\0\0\0\xff\0" * 2)
+HDR = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n"
+IMAGES = {
+    "empty.png": b"",
+    "garbage.png": bytes(range(256)) * 4,
+    "cut.png": GOOD_PNG[:40],
+    "short_rows.png": png(4, 4, b"\0\xff"),
+    "huge_header.png": png(2**31 - 1, 2**31 - 1, b"\0"),
+    "wide.png": png(60000, 60000, b"\0"),
+    "no_size.png": png(0, 0, b""),
+    "jpeg_that_is_png.jpg": GOOD_PNG,
+    "cut.jpg": b"\xff\xd8\xff\xe0\x00\x10JFIF\x00\x01",
+    "text.exr": b"no picture at all",
+    "head.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00channels\x00chlist\x00\xff\xff\xff\x7f",
+    "cut.hdr": HDR % (4, 4) + b"\x02\x02\x00\x04",
+    "huge.hdr": HDR % (2**30, 2**30) + b"\x02\x02",
+    "folder.png": None,
+    "unknown.xyz": b"?",
+}
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_bad_images_are_warnings(run, tmp_path, name):
+    data = IMAGES[name]
+    if data is None:
+        (tmp_path / name).mkdir()
+    else:
+        (tmp_path / name).write_bytes(data)
+    stage = pictures.stage(tmp_path / "stage.usda", pictures.ROOM, pictures.LAMP, pictures.camera(), TEXTURED.format(name=name))
+    done = render(run, stage, tmp_path)
+    assert judge(done, tmp_path), done.stderr
+    assert name == "jpeg_that_is_png.jpg" or name in done.stderr, done.stderr
+
+
+def test_an_image_with_values_that_are_no_numbers(run, tmp_path):
+    pixels = np.full((4, 8, 3), np.nan, "f4")
+    pixels[::2] = np.inf
+    OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, {"RGB": pixels}).write(str(tmp_path / "nan.exr"))
+    stage = pictures.stage(tmp_path / "stage.usda", pictures.ROOM, pictures.LAMP, pictures.camera(), TEXTURED.format(name="nan.exr"))
+    judge(render(run, stage, tmp_path), tmp_path)
+
+
+# The machine's limits.
+
+
+def test_a_full_disk_is_an_error_that_leaves_nothing(command, room, tmp_path):
+    def small_files():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+    for name in ("a.exr", "a.png"):
+        line = [*command, "render", str(room), "-o", str(tmp_path / name), "--res", "64", "64", "--spp", "1"]
+        done = subprocess.run(line, capture_output=True, text=True, preexec_fn=small_files, timeout=60)
+        assert done.returncode == 1 and done.stderr.count("gonio: error: ") == 1 and name in done.stderr, done.stderr
+        assert "Traceback" not in done.stderr and "panicked" not in done.stderr
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_a_closed_standard_output_is_nobody_s_loss(command, room, tmp_path):
+    line = [*command, "render", str(room), "-o", str(tmp_path / "a.exr"), "--res", "8", "8", "--spp", "1"]
+    process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stdout.close()
+    said = process.stderr.read()
+    assert process.wait(60) == 0 and "panicked" not in said and "Traceback" not in said
+    process.stderr.close()
+    assert pictures.read(tmp_path / "a.exr").shape == (8, 8)
+
+
 # Everything at hand.
 
 
@@ -359,11 +481,6 @@ def test_every_stage_renders_or_fails_with_one_line(run, shared, tmp_path):
 def start_slow(command, stage, path, *options):
     line = [*command, "render", str(stage), "-o", str(path), "--res", "512", "512", "--spp", "65536", *options]
     return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
-
-@pytest.fixture(scope="module")
-def room(tmp_path_factory):
-    return pictures.room(tmp_path_factory.mktemp("room") / "room.usda")
 
 
 @pytest.mark.parametrize("wait", [2.0, 4.0])

@@ -159,7 +159,7 @@ def pencils(stage: Usd.Stage, images: str) -> None:
 
 
 def lamp(stage: Usd.Stage, images: str) -> None:
-    """A task lamp with a bulb of 2700 K and 400 lm in a shade that is white inside."""
+    """A task lamp with a bulb of 2700 K and 300 lm in a shade that is white inside."""
     path = "/Office/Furniture/TaskLamp"
     made = Asset(stage, path, images).place(0.12, TOP, -3.2, 208)
     elbow, head = (-0.10, 0.36, 0), (0.20, 0.50, 0)
@@ -181,7 +181,7 @@ def lamp(stage: Usd.Stage, images: str) -> None:
     made.write()
     bulb = UsdLux.SphereLight.Define(stage, f"{path}/Bulb")
     bulb.AddTranslateOp().Set(Gf.Vec3d(*(tilt @ [0, -0.068, 0, 1])[:3].tolist()))
-    radius, lumens = 0.026, 400.0
+    radius, lumens = 0.026, 300.0
     bulb.CreateRadiusAttr(radius)
     bulb.CreateIntensityAttr(round(lumens / (4 * numpy.pi**2 * radius**2), 1))
     bulb.CreateEnableColorTemperatureAttr(True)

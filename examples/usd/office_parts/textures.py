@@ -10,7 +10,7 @@ from .images import indices, noise, normals, octaves, ramp, write_hdr, write_png
 VIEW_CORNER, VIEW_WIDTH, VIEW_HEIGHT = (-2.585, 0.70, -1.30), 4.2, 1.9
 EYE = (1.62, 1.38, -0.16)
 # The share of the sky's luminance that the tinted glazing lets in.
-GLAZING = 0.6
+GLAZING = 0.5
 
 
 def grain(random: numpy.random.Generator, shape: tuple[int, int], rings: float) -> numpy.ndarray:
