@@ -94,18 +94,14 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
         ws.paths.t_min[i] = (ws.hits.t[i] * (1.0 + 1e-6)).next_up();
     }
     let mut waiting = std::mem::take(&mut ws.at_lights);
-    let select = |column: &[f32]| -> Vec<f32> { waiting.iter().map(|i| column[*i as usize]).collect() };
-    let paths = &ws.paths;
-    let origin = [select(&paths.origin[0]), select(&paths.origin[1]), select(&paths.origin[2])];
-    let direction = [select(&paths.direction[0]), select(&paths.direction[1]), select(&paths.direction[2])];
-    let (t_min, t_max) = (select(&paths.t_min), select(&paths.t_max));
-    let mask: Vec<u8> = waiting.iter().map(|i| paths.mask[*i as usize]).collect();
+    ws.retraced_rays.select(&ws.paths, &waiting);
+    let chosen = &ws.retraced_rays;
     let rays = RayBatch {
-        origin: [&origin[0], &origin[1], &origin[2]],
-        direction: [&direction[0], &direction[1], &direction[2]],
-        t_min: &t_min,
-        t_max: &t_max,
-        mask: &mask,
+        origin: [&chosen.origin[0], &chosen.origin[1], &chosen.origin[2]],
+        direction: [&chosen.direction[0], &chosen.direction[1], &chosen.direction[2]],
+        t_min: &chosen.t_min,
+        t_max: &chosen.t_max,
+        mask: &chosen.mask,
     };
     first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
     for (from, to) in waiting.iter().enumerate() {
