@@ -20,7 +20,7 @@ build: $(VENV)/ready
 
 render: build
 	mkdir -p out
-	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64
+	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64 --exposure 0.7
 	@echo "The picture is out/office.png; radiance, luminance (cd/m2) and illuminance (lx) are in out/office.exr."
 
 test: lint build test-rust test-python

@@ -10,7 +10,7 @@ import numpy
 BLOCK = 16
 # A part of the image's mean that keeps dark blocks from dividing by next to nothing.
 FLOOR = 0.01
-DIFFERENCE_GAIN = 10.0
+DIFFERENCE_GAIN = 20.0
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Difference:
 
 
 def measured(first: numpy.ndarray, second: numpy.ndarray, samples: int, seconds: float) -> Measured:
-    """The mean of two independent renderings of `samples` each; its noise is the standard error of a block, relative, as RMS over blocks."""
+    """The mean of two independent renderings of `samples` each; its noise is the relative standard error of blocks, as RMS over them."""
     a, b = blocks(first), blocks(second)
     mean = 0.5 * (a + b)
     # The difference of two has twice the standard deviation of their mean.
@@ -53,14 +53,16 @@ def difference(image: numpy.ndarray, reference: numpy.ndarray) -> Difference:
 def blocks(image: numpy.ndarray) -> numpy.ndarray:
     """Means over squares of pixels, per channel."""
     height, width, channels = image.shape
-    return image.reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, channels).mean(axis=(1, 3))
+    means: numpy.ndarray = image.reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, channels).mean(axis=(1, 3))
+    return means
 
 
 def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> None:
-    """A PNG: the image, the reference, and their relative difference, amplified about middle grey."""
+    """A PNG: the image, the reference, and the relative difference of their blocks, amplified about middle grey (white is +5 %)."""
     exposure = 0.25 / reference.mean()
-    relative = (image - reference) / (reference + FLOOR * reference.mean())
-    shown = [encoded(image * exposure), encoded(reference * exposure), 0.5 + 0.5 * DIFFERENCE_GAIN * relative]
+    relative = (blocks(image) - blocks(reference)) / (blocks(reference) + FLOOR * reference.mean())
+    squares = (0.5 + 0.5 * DIFFERENCE_GAIN * relative).repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
+    shown = [encoded(image * exposure), encoded(reference * exposure), squares]
     pixels = (numpy.clip(numpy.concatenate(shown, axis=1), 0.0, 1.0) * 255 + 0.5).astype("u1")
     rows = numpy.concatenate([numpy.zeros((len(pixels), 1), "u1"), pixels.reshape(len(pixels), -1)], axis=1)
     header = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)
@@ -71,7 +73,7 @@ def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> N
 
 def encoded(linear: numpy.ndarray) -> numpy.ndarray:
     """The sRGB curve, nearly."""
-    return numpy.clip(linear, 0.0, 1.0) ** (1.0 / 2.2)
+    return numpy.power(numpy.clip(linear, 0.0, 1.0), 1.0 / 2.2)
 
 
 def row(variant: str, other: str, ours: Measured, theirs: Measured, d: Difference, picture: str) -> str:
@@ -85,5 +87,5 @@ def row(variant: str, other: str, ours: Measured, theirs: Measured, d: Differenc
 def table(rows: list[str]) -> str:
     """The table as Markdown."""
     heads = ["variant", "reference", "median", "95th percentile", "largest", "image mean", "noise of gonio", "noise of the reference"]
-    heads += ["samples of gonio", "samples of the reference", "gonio, reference, difference × 10"]
+    heads += ["samples of gonio", "samples of the reference", "gonio, reference, difference (grey is none, white +5 %)"]
     return "\n".join(["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads), *rows])

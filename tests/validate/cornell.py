@@ -1,8 +1,8 @@
 """The Cornell box in three forms, described once for all renderers.
 
-Lengths in metres, y up, the camera looks along -z. Surfaces are triangles with flat normals (balls are finely faceted), so that no renderer's
-way with interpolated normals enters. The light's radiance is 1 in each channel, and every renderer is given just that: gonio and Mitsuba take
-radiance; Cycles takes watts P, with radiance P / (pi * area).
+Lengths in metres, y up, the camera looks along -z. Surfaces are triangles with flat normals (balls are finely faceted), so that no
+renderer's way with interpolated normals enters. The light's radiance is 1 in each channel, and every renderer is given just that: gonio and
+Mitsuba take radiance; Cycles takes watts P, with radiance P / (pi * area).
 """
 
 import math
@@ -14,8 +14,8 @@ RESOLUTION = 128
 MAX_BOUNCES = 64
 CAMERA_POSITION = (0.0, 1.0, 3.9)
 CAMERA_FOV = 40.0
-# Centre, width along x and depth along z of the ceiling light, which shines downwards. It lies as close under the ceiling as can be: the lights
-# of gonio and Cycles let rays pass, so the ceiling is seen through them; where a light is a surface, it gets the ceiling's reflectance.
+# Centre, width along x and depth along z of the ceiling light, which shines downwards. It lies close under the ceiling: the lights of gonio
+# and Cycles let rays pass, so the ceiling is seen through them; where a light is a surface, it gets the ceiling's reflectance.
 LIGHT_CENTRE = (0.0, 1.999, 0.0)
 LIGHT_WIDTH = 1.3
 LIGHT_DEPTH = 1.1

@@ -63,8 +63,6 @@ def parameters(surface: cornell.Surface) -> dict[str, Any]:
 def with_fixed_filter(scene: dict[str, Any], variant: str) -> dict[str, Any]:
     """What the Python module has no keyword for: the pixel filter, and whose rules a material follows."""
     scene["settings"] |= {"filter": "Box", "filter_width": 1.0}
-    for camera in scene["cameras"]:
-        camera["clipping"] = [0.0, 1e9]
     for material, part in zip(scene["materials"], cornell.parts(variant), strict=True):
         if isinstance(part.surface, cornell.Principled):
             material["model"] = "Principled"

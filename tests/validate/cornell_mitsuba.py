@@ -56,7 +56,8 @@ def light() -> dict[str, Any]:
     place = mitsuba.ScalarTransform4f().look_at(origin=[x, y, z], target=[x, 0.0, z], up=[0.0, 0.0, 1.0])
     size = mitsuba.ScalarTransform4f().scale([0.5 * cornell.LIGHT_WIDTH, 0.5 * cornell.LIGHT_DEPTH, 1.0])
     emitter = {"type": "area", "radiance": rgb((cornell.LIGHT_RADIANCE,) * 3)}
-    return {"type": "rectangle", "to_world": place @ size, "emitter": emitter, "surface": {"type": "diffuse", "reflectance": rgb(cornell.WHITE)}}
+    ceiling = {"type": "diffuse", "reflectance": rgb(cornell.WHITE)}
+    return {"type": "rectangle", "to_world": place @ size, "emitter": emitter, "surface": ceiling}
 
 
 def camera(samples: int) -> dict[str, Any]:

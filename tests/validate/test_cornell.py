@@ -30,9 +30,9 @@ MOST_PERCENTILE95 = 0.03
 MOST_MEAN = 0.003
 INTRODUCTION = f"""# The Cornell box against other renderers
 
-{cornell.RESOLUTION} × {cornell.RESOLUTION} pixels, {cornell.MAX_BOUNCES} bounces, box filter of one pixel, no clamping. Differences are per channel over blocks of
-{compare.BLOCK} × {compare.BLOCK} pixels, |Δ| / (reference + {compare.FLOOR:.0%} of the image's mean); "image mean" is that of the whole picture's mean. Each
-rendering is the mean of two with different seeds, noise the standard error of its blocks (RMS) that follows from those two.
+{cornell.RESOLUTION} × {cornell.RESOLUTION} pixels, {cornell.MAX_BOUNCES} bounces, box filter of one pixel, no clamping.
+Differences are per channel over blocks of {compare.BLOCK} × {compare.BLOCK} pixels, |Δ| / (reference + {compare.FLOOR:.0%} of the image's
+mean); "image mean" is that of the whole picture's mean. The light has the same radiance everywhere, nothing is fitted. Each rendering is the mean of two with different seeds, noise the standard error of its blocks (RMS) that follows from those two.
 """
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(3600)]

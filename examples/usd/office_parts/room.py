@@ -132,6 +132,10 @@ def door(stage: Usd.Stage, images: str) -> None:
 
 def daylight(stage: Usd.Stage, images: str) -> None:
     """Daylight as a luminous picture of the view, in cd/m², before the window's opening."""
+    sky = UsdLux.DomeLight.Define(stage, "/Office/Lights/Sky")
+    # The rest of the sky, dim behind the tinted glazing: what the picture of the view does not cover.
+    sky.CreateIntensityAttr(250.0)
+    sky.CreateColorAttr((0.82, 0.92, 1.0))
     light = UsdLux.RectLight.Define(stage, "/Office/Lights/Daylight")
     x, y, z = VIEW_CORNER
     light.AddTranslateOp().Set(Gf.Vec3d(x, y + VIEW_HEIGHT / 2, z - VIEW_WIDTH / 2))

@@ -219,8 +219,12 @@ impl Scene {
         if let Some(limit) = time_limit.filter(|limit| !(limit.is_finite() && *limit >= 0.0)) {
             return Err(setting("time_limit", format!("{limit} was found, expected seconds from 0 (no limit) on")));
         }
+        let before = self.scene.settings.resolution;
         let s = &mut self.scene.settings;
         s.resolution = [width.unwrap_or(s.resolution[0]), height.unwrap_or(s.resolution[1])];
+        let [now, then] = [s.resolution, before].map(|[width, height]| f64::from(width) / f64::from(height.max(1)));
+        // Cameras keep their vertical field of view and follow the picture's shape.
+        self.scene.cameras.iter_mut().for_each(|camera| camera.aperture[0] *= now / then.max(1e-9));
         s.samples = samples.unwrap_or(s.samples);
         s.seed = seed.unwrap_or(s.seed);
         s.threads = threads.unwrap_or(s.threads);

@@ -79,7 +79,7 @@ fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
     let usable = corners.iter().flatten().fold(true, |all, x| all & (x.abs() <= LARGEST_COORDINATE));
     let mut bounds = Bounds { min: corners[0], max: corners[0] };
     for &corner in &corners[1..] {
-        bounds = bounds.union(&Bounds { min: corner, max: corner });
+        bounds.extend(corner);
     }
     let flat = (0..3).map(|axis| u32::from(bounds.min[axis] == bounds.max[axis])).sum::<u32>();
     (usable && flat < 2).then(|| bounds.padded())

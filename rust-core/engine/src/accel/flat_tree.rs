@@ -86,7 +86,7 @@ pub(super) fn flatten(top: &Bvh2, below: &[Below], parts: &[Part], boxes: &[Boun
         stretches.push(Stretch { start: place - places.len(), below, places });
     }
     assert!(rest.is_empty(), "the top tree refers to every subtree once");
-    stretches.into_par_iter().with_min_len(64).for_each(|stretch| flatten_stretch(stretch, parts, boxes));
+    stretches.into_par_iter().with_min_len(64).for_each_init(Vec::new, |stack, stretch| flatten_stretch(stretch, parts, boxes, stack));
     // SAFETY: the walk cut all `total` places into single slots, written at once, and stretches, which `flatten_stretch` filled.
     unsafe { flat.set_len(total) };
     for (parent, place) in rights {
@@ -99,8 +99,8 @@ pub(super) fn flatten(top: &Bvh2, below: &[Below], parts: &[Part], boxes: &[Boun
     flat
 }
 
-/// Writes every place of a stretch.
-fn flatten_stretch(stretch: Stretch, parts: &[Part], boxes: &[Bounds]) {
+/// Writes every place of a stretch; the empty stack is there for its memory.
+fn flatten_stretch(stretch: Stretch, parts: &[Part], boxes: &[Bounds], stack: &mut Vec<u32>) {
     let Stretch { start, below, places } = stretch;
     let (part, root) = match below {
         Below::Primitive(primitive) => {
@@ -109,7 +109,7 @@ fn flatten_stretch(stretch: Stretch, parts: &[Part], boxes: &[Bounds]) {
         }
         Below::Subtree { part, node } => (&parts[part as usize], node),
     };
-    let mut stack = vec![root];
+    stack.push(root);
     let mut written = 0;
     while let Some(index) = stack.pop() {
         let mut node = &part.tree.nodes[index as usize];
