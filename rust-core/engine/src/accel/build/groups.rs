@@ -81,9 +81,9 @@ fn cells(boxes: &[Bounds], used: &[u32]) -> Vec<u16> {
     let cell = |&i: &u32| {
         let centre = centre(&boxes[i as usize]);
         let mut code = 0;
-        for axis in 0..3 {
+        for (axis, place) in centre.iter().enumerate() {
             // The cast clamps at zero.
-            let x = ((centre[axis] - room.min[axis]) * scale).min(cells - 1.0) as u16;
+            let x = ((place - room.min[axis]) * scale).min(cells - 1.0) as u16;
             for bit in 0..BITS {
                 code |= ((x >> bit) & 1) << (3 * bit + axis as u32);
             }
