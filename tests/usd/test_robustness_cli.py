@@ -51,7 +51,8 @@ def judge(done, folder):
         return True
     assert done.returncode == 1, (done.returncode, done.stderr)
     errors = [line for line in done.stderr.splitlines() if line.startswith("gonio: error: ")]
-    others = [line for line in done.stderr.splitlines() if not line.startswith("gonio: ")]
+    # The USD library itself writes of a failed madvise, past all its own handlers.
+    others = [line for line in done.stderr.splitlines() if not line.startswith("gonio: ") and "posix_madvise" not in line]
     assert len(errors) == 1 and not others, done.stderr
     assert len(errors[0]) < 600, "an error is one line that can be read"
     assert not (folder / "out.exr").exists()

@@ -73,7 +73,8 @@ def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> N
 
 def encoded(linear: numpy.ndarray) -> numpy.ndarray:
     """The sRGB curve, nearly."""
-    return numpy.power(numpy.clip(linear, 0.0, 1.0), 1.0 / 2.2)
+    shown: numpy.ndarray = numpy.clip(linear, 0.0, 1.0) ** (1.0 / 2.2)
+    return shown
 
 
 def row(variant: str, other: str, ours: Measured, theirs: Measured, d: Difference, picture: str) -> str:

@@ -26,13 +26,14 @@ PAIRS = [("diffuse", "cycles"), ("diffuse", "mitsuba"), ("specular", "cycles"), 
 MOST_NOISE = 0.003
 MOST_MEDIAN = 0.01
 MOST_PERCENTILE95 = 0.03
-# Four standard errors of the image's mean are far below this.
+# Blocks' noise over the root of their number gives 0.04 %; this is beyond four such errors of both.
 MOST_MEAN = 0.003
 INTRODUCTION = f"""# The Cornell box against other renderers
 
 {cornell.RESOLUTION} × {cornell.RESOLUTION} pixels, {cornell.MAX_BOUNCES} bounces, box filter of one pixel, no clamping.
 Differences are per channel over blocks of {compare.BLOCK} × {compare.BLOCK} pixels, |Δ| / (reference + {compare.FLOOR:.0%} of the image's
-mean); "image mean" is that of the whole picture's mean. The light has the same radiance everywhere, nothing is fitted. Each rendering is the mean of two with different seeds, noise the standard error of its blocks (RMS) that follows from those two.
+mean); "image mean" is that of the whole picture's mean. The light has the same radiance everywhere, nothing is fitted. Each
+rendering is the mean of two with different seeds, noise the standard error of its blocks (RMS) that follows from those two.
 """
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(3600)]
@@ -78,7 +79,7 @@ def theirs(variant: str, other: str, folder: Path) -> compare.Measured:
 
     def render(seed: int) -> numpy.ndarray:
         out = folder / f"{variant}-{other}-{seed}.npy"
-        command = [python, HERE / f"cornell_{other}.py", variant, str(samples), str(seed), out]
+        command = [str(python), str(HERE / f"cornell_{other}.py"), variant, str(samples), str(seed), str(out)]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         image: numpy.ndarray = numpy.load(out)

@@ -54,6 +54,8 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
 /// A line on standard error.
 fn say(line: &str) {
     use std::io::Write;
+    // Messages may quote a broken file's bytes, which must not break the line.
+    let line: String = line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
     // A closed standard error leaves nobody to tell.
     let _ = writeln!(std::io::stderr(), "gonio: {line}");
 }

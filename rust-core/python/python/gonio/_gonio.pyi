@@ -6,7 +6,24 @@ from typing import Any, final
 import numpy
 from typing_extensions import Buffer
 
-__all__: list[str]
+__all__ = [
+    "Cancelled",
+    "Error",
+    "FormatError",
+    "SceneError",
+    "SettingError",
+    "UnsupportedError",
+    "Film",
+    "Pass",
+    "Progress",
+    "Render",
+    "Tile",
+    "Scene",
+    "_main",
+    "load_usd",
+    "__version__",
+    "simd_level",
+]
 __version__: str
 simd_level: str
 
