@@ -52,9 +52,15 @@ impl Film {
         Crop { min, max: [0, 1].map(|axis| (min[axis] + TILE as u32).min(self.window.max[axis])) }
     }
 
-    /// Adds a block to a tile; blocks that come early wait for those before them.
-    pub fn add(&self, tile: usize, number: u32, block: Block) {
-        self.tile(tile).add(number, block);
+    /// Adds a block to a tile; blocks that come early wait for those before them. `ready` is told the tile's samples when there are more,
+    /// in the order in which they came.
+    pub fn add(&self, tile: usize, number: u32, block: Block, ready: impl FnOnce(u32)) {
+        let mut sums = self.tile(tile);
+        let before = sums.samples;
+        sums.add(number, block);
+        if sums.samples > before {
+            ready(sums.samples);
+        }
     }
 
     /// Runs `read` on a tile's sums.

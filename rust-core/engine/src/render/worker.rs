@@ -17,11 +17,7 @@ pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
         let mut workspace = Workspace::default();
         while !shared.cancel.load(Ordering::Relaxed) {
             let Some(work) = shared.schedule.take() else { break };
-            if let Some(samples) = trace_block(shared, &work, &mut workspace) {
-                shared.schedule.finished_one();
-                // A slow host misses intermediate news of a tile, never its data.
-                let _ = ready.try_send(TileReady { tile: work.tile, samples });
-            }
+            trace_block(shared, &work, &mut workspace, ready);
         }
     }));
     if let Err(panic) = result {
@@ -31,8 +27,8 @@ pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
     }
 }
 
-/// Traces a block and adds it; `None` if it was cancelled on the way.
-fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace) -> Option<u32> {
+/// Traces a block, adds it and tells the host; nothing of it remains if it was cancelled on the way.
+fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &Sender<TileReady>) {
     let tracer = Tracer {
         tables: &shared.scene.tables,
         camera: &shared.view.camera,
@@ -45,7 +41,7 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace) -> Optio
     for sample in work.samples.clone() {
         tracer.trace(area.min, area.max, sample, workspace, &cancelled);
         if cancelled() {
-            return None;
+            return;
         }
     }
     let statistics = std::mem::take(&mut workspace.statistics);
@@ -54,6 +50,10 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace) -> Optio
     let samples = work.samples.end - work.samples.start;
     let origin = shared.scene.tables.origin;
     let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.view.exposure, origin);
-    shared.film.add(work.tile, work.block, block);
-    Some(work.samples.end)
+    // Counted first, so that the last tile's news finds the progress complete.
+    shared.schedule.finished_one();
+    shared.film.add(work.tile, work.block, block, |samples| {
+        // A slow host misses intermediate news of a tile, never its data.
+        let _ = ready.try_send(TileReady { tile: work.tile, samples });
+    });
 }
