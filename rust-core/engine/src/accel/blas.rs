@@ -45,22 +45,15 @@ impl Blas {
             let [a, b, c] = triangle.map(|i| positions.get(i as usize));
             Some([*a?, *b?, *c?])
         };
-        let boxes: Vec<Bounds> = triangles
-            .par_iter()
-            .with_min_len(1 << 10)
-            .map(|triangle| corners(triangle).and_then(|corners| triangle_bounds(&corners)).unwrap_or(Bounds::EMPTY))
-            .collect();
+        let (boxes, primitives): (Vec<Bounds>, Vec<u32>) =
+            triangles.par_iter().enumerate().filter_map(|(i, triangle)| Some((triangle_bounds(&corners(triangle)?)?, i as u32))).unzip();
         if cancel.load(Ordering::Relaxed) {
             return Err(Cancelled);
         }
-        let used = boxes.iter().filter(|b| !b.is_empty()).count();
         assert!(boxes.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
-        let tree = build(&boxes, &Blocks { positions, triangles }, Effort::MESH, cancel)?;
-        let rows = &tree.nodes[0].bounds;
-        let least = |axis: usize| rows[axis].into_iter().fold(f32::INFINITY, f32::min);
-        let largest = |axis: usize| rows[axis].into_iter().fold(-f32::INFINITY, f32::max);
-        let bounds = Bounds { min: [least(0), least(1), least(2)], max: [largest(3), largest(4), largest(5)] };
-        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: used })
+        let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
+        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len() })
     }
 
     /// The bytes of the tree.
@@ -75,20 +68,23 @@ impl Blas {
 
 /// The padded box of a triangle, if all its coordinates are usable and it is more than a point or a line along an axis.
 fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
-    // Without a way out in the middle, so that it stays free of branches.
-    let usable = corners.iter().flatten().fold(true, |all, x| all & (x.abs() <= LARGEST_COORDINATE));
-    let mut bounds = Bounds { min: corners[0], max: corners[0] };
-    for &corner in &corners[1..] {
+    if !corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE) {
+        return None;
+    }
+    let mut bounds = Bounds::EMPTY;
+    for &corner in corners {
         bounds.extend(corner);
     }
-    let flat = (0..3).map(|axis| u32::from(bounds.min[axis] == bounds.max[axis])).sum::<u32>();
-    (usable && flat < 2).then(|| bounds.padded())
+    let flat = (0..3).filter(|&axis| bounds.min[axis] == bounds.max[axis]).count();
+    (flat < 2).then(|| bounds.padded())
 }
 
 /// Makes blocks of up to eight triangles.
 struct Blocks<'a> {
     positions: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
+    /// From the boxes' numbers to the mesh's.
+    primitives: &'a [u32],
 }
 
 impl LeafMaker for Blocks<'_> {
@@ -99,7 +95,8 @@ impl LeafMaker for Blocks<'_> {
 
     fn leaf(&self, primitives: &[u32]) -> TriangleBlock {
         let mut block = TriangleBlock::EMPTY;
-        for (lane, &primitive) in primitives.iter().enumerate() {
+        for (lane, &box_number) in primitives.iter().enumerate() {
+            let primitive = self.primitives[box_number as usize];
             let corners = self.triangles[primitive as usize].map(|i| self.positions[i as usize]);
             block.set(lane, corners, primitive);
         }

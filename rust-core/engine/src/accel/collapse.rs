@@ -32,38 +32,36 @@ pub(super) struct WideTree<L> {
 }
 
 /// Subtrees of at most this many leaves are collapsed as one parallel task.
-const TASK_LEAVES: usize = 1 << 12;
+const TASK_LEAVES: usize = 1 << 14;
 
 /// Collapses a tree that is not empty.
 pub(super) fn collapse<M: LeafMaker>(tree: &[FlatNode], maker: &M, cancel: &AtomicBool) -> Result<WideTree<M::Leaf>, Cancelled> {
-    let check = || if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) };
-    let splits = choose::<M>(tree, cancel)?;
-    let mut top = Emitter { tree, splits: &splits, kind: M::KIND, nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 };
+    let choices = choose::<M>(tree, cancel)?;
+    let mut top = Emitter { tree, choices: &choices, maker, nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 };
     let tasks = top.emit(Pending { place: 0, node: 0, depth: 1 }, TASK_LEAVES);
-    let parts: Result<Vec<(Pending, Emitter)>, Cancelled> = tasks
+    let parts: Vec<(Pending, Emitter<M>)> = tasks
         .into_par_iter()
         .map(|task| {
-            check()?;
-            let guess = tree[task.place as usize].count() as usize / 4 + 1;
-            let (mut nodes, leaves) = (Vec::with_capacity(guess / 4), Vec::with_capacity(guess));
+            let guess = choices[task.place as usize].count as usize / 3 + 1;
+            let (mut nodes, leaves) = (Vec::with_capacity(guess), Vec::with_capacity(guess));
             nodes.push(Node::EMPTY);
-            let mut part = Emitter { tree, splits: &splits, kind: M::KIND, nodes, leaves, depth: task.depth };
-            part.emit(Pending { node: 0, ..task }, 0);
-            Ok((task, part))
+            let mut part = Emitter { tree, choices: &choices, maker, nodes, leaves, depth: task.depth };
+            if !cancel.load(Ordering::Relaxed) {
+                part.emit(Pending { node: 0, ..task }, 0);
+            }
+            (task, part)
         })
         .collect();
-    let (nodes, places, depth) = join(top, parts?);
-    check()?;
-    let leaves = places.par_iter().with_min_len(64).map(|&place| leaf(tree, maker, place as usize)).collect();
-    Ok(WideTree { nodes, leaves, depth })
+    if cancel.load(Ordering::Relaxed) {
+        return Err(Cancelled);
+    }
+    Ok(join(top, parts))
 }
 
 /// Puts the parts behind the top: a part's first node goes to its reserved place, the others behind.
-fn join(top: Emitter, parts: Vec<(Pending, Emitter)>) -> (Vec<Node>, Vec<u32>, usize) {
-    let Emitter { nodes: top_nodes, mut leaves, mut depth, .. } = top;
-    // Only the tree's own memory shall stay, without the growth of the top's.
-    let mut nodes = Vec::with_capacity(top_nodes.len() + parts.iter().map(|(_, part)| part.nodes.len() - 1).sum::<usize>());
-    nodes.extend_from_slice(&top_nodes);
+fn join<M: LeafMaker>(top: Emitter<M>, parts: Vec<(Pending, Emitter<M>)>) -> WideTree<M::Leaf> {
+    let Emitter { mut nodes, mut leaves, mut depth, .. } = top;
+    nodes.reserve_exact(parts.iter().map(|(_, part)| part.nodes.len() - 1).sum());
     leaves.reserve_exact(parts.iter().map(|(_, part)| part.leaves.len()).sum());
     for (task, part) in parts {
         // Node 1 of the part becomes node `nodes.len()`.
@@ -79,25 +77,7 @@ fn join(top: Emitter, parts: Vec<(Pending, Emitter)>) -> (Vec<Node>, Vec<u32>, u
         leaves.extend_from_slice(&part.leaves);
         depth = depth.max(part.depth);
     }
-    (nodes, leaves, depth)
-}
-
-/// Makes the leaf of the subtree at `place`.
-fn leaf<M: LeafMaker>(tree: &[FlatNode], maker: &M, place: usize) -> M::Leaf {
-    let mut primitives = [0u32; WIDTH];
-    let mut n = 0;
-    for node in &tree[place..place + 2 * tree[place].count() as usize - 1] {
-        if node.right == 0 {
-            let mut lane = n;
-            while lane > 0 && primitives[lane - 1] > node.payload {
-                primitives[lane] = primitives[lane - 1];
-                lane -= 1;
-            }
-            primitives[lane] = node.payload;
-            n += 1;
-        }
-    }
-    maker.leaf(&primitives[..n])
+    WideTree { nodes, leaves, depth }
 }
 
 /// A binary node that becomes a wide node at a reserved place.
@@ -108,24 +88,22 @@ struct Pending {
     depth: usize,
 }
 
-struct Emitter<'a> {
+struct Emitter<'a, M: LeafMaker> {
     tree: &'a [FlatNode],
-    splits: &'a [Split],
-    /// What the leaves are.
-    kind: Kind,
+    choices: &'a [Choice],
+    maker: &'a M,
     nodes: Vec<Node>,
-    /// The places of the binary nodes that become leaves.
-    leaves: Vec<u32>,
+    leaves: Vec<M::Leaf>,
     depth: usize,
 }
 
-impl Emitter<'_> {
+impl<M: LeafMaker> Emitter<'_, M> {
     /// Emits the subtree below `start`; subtrees of at most `task_leaves` primitives are returned instead, their first node reserved.
     fn emit(&mut self, start: Pending, task_leaves: usize) -> Vec<Pending> {
         let mut tasks = Vec::new();
         let mut stack = vec![start];
         while let Some(pending) = stack.pop() {
-            if self.tree[pending.place as usize].count() as usize <= task_leaves {
+            if self.choices[pending.place as usize].count as usize <= task_leaves {
                 tasks.push(pending);
                 continue;
             }
@@ -133,9 +111,8 @@ impl Emitter<'_> {
             let (slots, n) = self.slots(pending.place);
             let mut node = Node::EMPTY;
             for (slot, &place) in slots[..n].iter().enumerate() {
-                let child = if self.splits[place as usize][1] == 0 {
-                    self.leaves.push(place);
-                    ChildRef::new(self.kind, self.leaves.len() - 1)
+                let child = if self.choices[place as usize].split[1] == 0 {
+                    self.emit_leaf(place)
                 } else {
                     self.nodes.push(Node::EMPTY);
                     let index = self.nodes.len() - 1;
@@ -154,7 +131,7 @@ impl Emitter<'_> {
         let mut slots = [(0.0f32, 0u32); WIDTH];
         let mut n = 0;
         let mut open = [(0u32, 0u8); WIDTH];
-        let split = self.splits[place as usize][1];
+        let split = self.choices[place as usize].split[1];
         let mut top = 1;
         if split == 0 {
             open[0] = (place, 1);
@@ -167,7 +144,7 @@ impl Emitter<'_> {
             top -= 1;
             let (place, mut budget) = open[top];
             let node = &self.tree[place as usize];
-            let choice = &self.splits[place as usize];
+            let choice = &self.choices[place as usize].split;
             while budget > 1 && choice[budget as usize] == 0 {
                 budget -= 1;
             }
@@ -189,106 +166,113 @@ impl Emitter<'_> {
         }
         (slots.map(|(_, place)| place), n)
     }
+
+    fn emit_leaf(&mut self, place: u32) -> ChildRef {
+        let count = self.choices[place as usize].count as usize;
+        let mut primitives = [0u32; WIDTH];
+        let mut n = 0;
+        for node in &self.tree[place as usize..place as usize + 2 * count - 1] {
+            if node.right == 0 {
+                let mut lane = n;
+                while lane > 0 && primitives[lane - 1] > node.payload {
+                    primitives[lane] = primitives[lane - 1];
+                    lane -= 1;
+                }
+                primitives[lane] = node.payload;
+                n += 1;
+            }
+        }
+        self.leaves.push(self.maker.leaf(&primitives[..n]));
+        ChildRef::new(M::KIND, self.leaves.len() - 1)
+    }
 }
 
 /// The outcome of the dynamic programme at one binary node.
-///
-/// Entry 1 is 0 for a leaf, else the slots of eight that go left when the node becomes a wide one. Entry `i` for 2 to 7 slots is the slots
-/// that go left, or 0 where fewer slots are as cheap. Entry 0 is not used.
-type Split = [u8; WIDTH];
-
-/// The least cost of a subtree with 1 to 7 slots.
-type Costs = [f32; WIDTH - 1];
-
-/// Runs the dynamic programme: small subtrees in parallel, then what lies above them.
-fn choose<M: LeafMaker>(tree: &[FlatNode], cancel: &AtomicBool) -> Result<Vec<Split>, Cancelled> {
-    let ranges = cut(tree);
-    let mut splits: Vec<Split> = vec![[0; WIDTH]; tree.len()];
-    let mut parts = Vec::with_capacity(ranges.len());
-    let mut rest = &mut splits[..];
-    for &(start, end) in &ranges {
-        let (part, behind) = std::mem::take(&mut rest).split_at_mut(end - start);
-        parts.push((start, part));
-        rest = behind;
-    }
-    let is_above = |start: usize, places: usize| places == 1 && tree[start].right != 0;
-    let roots: Vec<Costs> = parts
-        .par_iter_mut()
-        .map(|(start, part)| {
-            let mut stack = Vec::new();
-            if !is_above(*start, part.len()) && !cancel.load(Ordering::Relaxed) {
-                for place in (0..part.len()).rev() {
-                    step::<M>(&tree[*start + place], &mut part[place], &mut stack);
-                }
-            }
-            stack.pop().unwrap_or_default()
-        })
-        .collect();
-    let mut stack = Vec::new();
-    for ((start, part), costs) in parts.iter_mut().zip(roots).rev() {
-        if is_above(*start, part.len()) {
-            step::<M>(&tree[*start], &mut part[0], &mut stack);
-        } else {
-            stack.push(costs);
-        }
-    }
-    if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(splits) }
+#[derive(Clone, Copy)]
+struct Choice {
+    /// Primitives below.
+    count: u32,
+    /// The least cost with 1 to 7 slots.
+    cost: [f32; WIDTH - 1],
+    /// `split[1]` is 0 for a leaf, else the slots of eight that go left when the node becomes a wide one. `split[i]` for 2 to 7 slots is
+    /// the slots that go left, or 0 where fewer slots are as cheap.
+    split: [u8; WIDTH],
 }
 
-/// Cuts the tree into the largest subtrees of at most `TASK_LEAVES` leaves and the single nodes above them, in rising order.
-fn cut(tree: &[FlatNode]) -> Vec<(usize, usize)> {
-    let mut ranges = Vec::new();
+/// Runs the dynamic programme: small subtrees in parallel, then what lies above them.
+fn choose<M: LeafMaker>(tree: &[FlatNode], cancel: &AtomicBool) -> Result<Vec<Choice>, Cancelled> {
+    let (subtrees, above) = cut(tree);
+    let mut choices = vec![Choice { count: 1, cost: [0.0; WIDTH - 1], split: [0; WIDTH] }; tree.len()];
+    let mut parts = Vec::with_capacity(subtrees.len());
+    let (mut rest, mut done) = (&mut choices[..], 0);
+    for &(start, end) in &subtrees {
+        let (_, from) = std::mem::take(&mut rest).split_at_mut(start - done);
+        let (part, behind) = from.split_at_mut(end - start);
+        parts.push((start, part));
+        (rest, done) = (behind, end);
+    }
+    parts.into_par_iter().for_each(|(start, part)| {
+        if !cancel.load(Ordering::Relaxed) {
+            for place in (0..part.len()).rev() {
+                part[place] = choice::<M>(&tree[start + place], part, start, start + place);
+            }
+        }
+    });
+    for &place in above.iter().rev() {
+        choices[place] = choice::<M>(&tree[place], &choices, 0, place);
+    }
+    if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(choices) }
+}
+
+/// The ranges of the largest subtrees of at most `TASK_LEAVES` leaves, and the nodes above them, both in rising order.
+fn cut(tree: &[FlatNode]) -> (Vec<(usize, usize)>, Vec<usize>) {
+    let (mut subtrees, mut above) = (Vec::new(), Vec::new());
     let mut stack = vec![(0, tree.len())];
     while let Some((place, end)) = stack.pop() {
         if end - place < 2 * TASK_LEAVES {
-            ranges.push((place, end));
+            subtrees.push((place, end));
             continue;
         }
-        ranges.push((place, place + 1));
+        above.push(place);
         let right = tree[place].right as usize;
         stack.push((right, end));
         stack.push((place + 1, right));
     }
-    ranges
+    (subtrees, above)
 }
 
-/// One node of a walk against the preorder: takes the costs of its children, the left one's on top, from the stack and leaves its own.
-#[inline(always)]
-fn step<M: LeafMaker>(node: &FlatNode, split: &mut Split, stack: &mut Vec<Costs>) {
-    let leaf_area = node.bounds.half_area() * M::COST;
+/// The choice at one node from those at its children; `choices[0]` belongs to node `first`.
+fn choice<M: LeafMaker>(node: &FlatNode, choices: &[Choice], first: usize, place: usize) -> Choice {
+    let area = node.bounds.half_area();
     if node.right == 0 {
-        stack.push([leaf_area; WIDTH - 1]);
-        return;
+        return Choice { count: 1, cost: [area * M::COST; WIDTH - 1], split: [0; WIDTH] };
     }
-    let (Some(left), Some(right)) = (stack.pop(), stack.pop()) else { return };
-    let leaf_cost = if node.count() <= M::CAPACITY { leaf_area } else { f32::INFINITY };
-    let (below, to_left) = cheapest::<WIDTH>(&left, &right);
-    let inner_cost = below + node.bounds.half_area();
-    let mut costs: Costs = [leaf_cost.min(inner_cost); WIDTH - 1];
-    split[1] = if leaf_cost <= inner_cost { 0 } else { to_left };
-    let shared = [
-        cheapest::<2>(&left, &right),
-        cheapest::<3>(&left, &right),
-        cheapest::<4>(&left, &right),
-        cheapest::<5>(&left, &right),
-        cheapest::<6>(&left, &right),
-        cheapest::<7>(&left, &right),
-    ];
-    for (i, (sum, to_left)) in shared.into_iter().enumerate() {
-        let better = sum < costs[i];
-        costs[i + 1] = if better { sum } else { costs[i] };
-        split[i + 2] = if better { to_left } else { 0 };
+    let (left, right) = (&choices[place + 1 - first], &choices[node.right as usize - first]);
+    let count = left.count + right.count;
+    let leaf_cost = if count <= M::CAPACITY { area * M::COST } else { f32::INFINITY };
+    let mut out = Choice { count, cost: [0.0; WIDTH - 1], split: [0; WIDTH] };
+    let (below, split) = cheapest(left, right, WIDTH);
+    let inner_cost = below + area;
+    out.cost[0] = leaf_cost.min(inner_cost);
+    out.split[1] = if leaf_cost <= inner_cost { 0 } else { split };
+    for slots in 2..WIDTH {
+        let (sum, to_left) = cheapest(left, right, slots);
+        let better = sum < out.cost[slots - 2];
+        out.cost[slots - 1] = if better { sum } else { out.cost[slots - 2] };
+        out.split[slots] = if better { to_left } else { 0 };
     }
-    stack.push(costs);
+    out
 }
 
 /// The cheapest way to share slots between two subtrees: the cost, and the slots of the left one.
 #[inline(always)]
-fn cheapest<const SLOTS: usize>(left: &Costs, right: &Costs) -> (f32, u8) {
+fn cheapest(left: &Choice, right: &Choice, slots: usize) -> (f32, u8) {
     let mut best = (f32::INFINITY, 1u8);
-    for to_left in 1..SLOTS {
-        let sum = left[to_left - 1] + right[SLOTS - to_left - 1];
-        best = if sum < best.0 { (sum, to_left as u8) } else { best };
+    for to_left in 1..slots {
+        let sum = left.cost[to_left - 1] + right.cost[slots - to_left - 1];
+        if sum < best.0 {
+            best = (sum, to_left as u8);
+        }
     }
     best
 }
