@@ -41,7 +41,7 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// For meshes: twice the search and the reinsertion made no ray faster in the room of 280 thousand triangles, and the build a fifth slower.
+    /// For meshes: twice the search and the reinsertion made the build slower, and no ray faster beyond the noise, in a room of 280 thousand triangles.
     pub(super) const MESH: Effort = Effort { search_distance: PlocSearchDistance::Low, short_rounds: 2, reinsertion: 0.02 };
     /// For the few boxes of a top level that every ray meets.
     pub(super) const SCENE: Effort = Effort { search_distance: PlocSearchDistance::High, short_rounds: 1, reinsertion: 0.5 };

@@ -41,7 +41,6 @@ pub(crate) struct Shared {
     pub(crate) schedule: Schedule,
     pub(crate) cancel: AtomicBool,
     pub(crate) failure: std::sync::Mutex<Option<String>>,
-    pub(crate) rays: std::sync::atomic::AtomicU64,
     pub(crate) statistics: std::sync::Mutex<Statistics>,
 }
 
@@ -59,7 +58,6 @@ impl Render {
             schedule,
             cancel: AtomicBool::new(false),
             failure: std::sync::Mutex::new(None),
-            rays: std::sync::atomic::AtomicU64::new(0),
             statistics: std::sync::Mutex::default(),
         });
         let (send, ready) = crossbeam_channel::bounded(shared.film.tile_count().max(1) * 2);
@@ -83,7 +81,8 @@ impl Render {
 
     /// How far it is.
     pub fn progress(&self) -> Progress {
-        self.shared.schedule.progress(self.shared.rays.load(Ordering::Relaxed))
+        let statistics = self.statistics();
+        self.shared.schedule.progress(statistics.rays + statistics.shadow_rays)
     }
 
     /// Rays, lanes and the time of each stage so far, over all workers.

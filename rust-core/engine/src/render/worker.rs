@@ -45,7 +45,6 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
         }
     }
     let statistics = std::mem::take(&mut workspace.statistics);
-    shared.rays.fetch_add(statistics.rays + statistics.shadow_rays, Ordering::Relaxed);
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
     let samples = work.samples.end - work.samples.start;
     let origin = shared.scene.tables.origin;
