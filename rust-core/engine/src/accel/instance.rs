@@ -63,4 +63,6 @@ pub(super) struct InstanceRecord {
     pub(super) id: u32,
     pub(super) mask: u8,
     pub(super) transparent: bool,
+    /// The map moves nothing, so that a ray goes on as it is.
+    pub(super) identity: bool,
 }

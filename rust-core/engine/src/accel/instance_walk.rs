@@ -80,6 +80,10 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
         if record.mask & self.mask == 0 {
             return false;
         }
+        if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
+            let mesh = &self.scene.meshes[index as usize];
+            return walk_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.collector);
+        }
         let origin = transform_point(&record.world_to_object, ray.origin);
         let direction = transform_direction(&record.world_to_object, ray.direction);
         match record.geometry.get() {

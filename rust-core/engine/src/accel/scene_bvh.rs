@@ -75,6 +75,7 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
         id,
         mask: instance.mask,
         transparent: instance.transparent,
+        identity: instance.object_to_world == Instance::IDENTITY,
     };
     (usable && world_to_object.iter().flatten().all(|x| x.is_finite())).then_some((bounds, record))
 }
