@@ -70,8 +70,10 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &s
         let found = context.get_or::<f64>(prim, name, f64::from(otherwise)) as f32;
         if !found.is_finite() {
             context.warn(&prim.origin(), format!("{name} is {found}, expected a finite length; the shape is left out"));
+        } else if found < 0.0 {
+            context.warn(&prim.origin(), format!("{name} is {found}, expected no negative length; its absolute value is taken"));
         }
-        found
+        found.abs()
     };
     let quadric = match type_name {
         "Sphere" => Quadric::Sphere { radius: size("radius", 1.0) },

@@ -1,13 +1,13 @@
 //! Developed films as buffers.
 
-use crate::error::exception;
+use crate::{error::exception, pass::Pass};
 use gonio::{
-    film::{Image, channel_names},
+    film::{Image, Layer, channel_names},
     output::{ExrOptions, ToneMap, write_exr, write_picture},
     scene::Aov,
 };
 use gonio_simd::Execution;
-use pyo3::{exceptions::PyKeyError, prelude::*, types::PyBytes};
+use pyo3::{exceptions::PyKeyError, prelude::*};
 use std::path::PathBuf;
 
 /// A developed image: passes as float32 arrays, rows from the top.
@@ -15,18 +15,6 @@ use std::path::PathBuf;
 pub(crate) struct Film {
     image: Image,
     exposure: f32,
-}
-
-/// One pass of a film.
-#[pyclass(frozen, module = "gonio")]
-pub(crate) struct Pass {
-    /// Height, width, channels.
-    #[pyo3(get)]
-    shape: (usize, usize, usize),
-    /// Names of the channels.
-    #[pyo3(get)]
-    channels: Vec<&'static str>,
-    values: Vec<f32>,
 }
 
 /// A pass's name in Python.
@@ -47,6 +35,10 @@ pub(crate) fn aov_name(aov: Aov) -> &'static str {
 impl Film {
     pub(crate) fn new(image: Image, exposure: f32) -> Self {
         Self { image, exposure }
+    }
+    fn layer(&self, name: &str) -> PyResult<&Layer> {
+        let layer = self.image.layers.iter().find(|layer| aov_name(layer.aov) == name);
+        layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))
     }
 }
 
@@ -70,16 +62,30 @@ impl Film {
     }
     /// A pass by name.
     fn __getitem__(&self, name: &str) -> PyResult<Pass> {
-        let layer = self.image.layers.iter().find(|layer| aov_name(layer.aov) == name);
-        let layer =
-            layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))?;
-        let [width, height] = self.image.size();
-        Ok(Pass { shape: (height, width, layer.channels), channels: channel_names(layer.aov).to_vec(), values: layer.values.clone() })
+        let layer = self.layer(name)?;
+        Ok(Pass::new(self.image.size(), layer.channels, channel_names(layer.aov), layer.values.clone()))
+    }
+    /// A pass whose values are multiplied by `scale`, its rows from the bottom if asked for.
+    #[pyo3(signature = (name, *, scale = 1.0, bottom_up = false))]
+    fn read(&self, py: Python<'_>, name: &str, scale: f32, bottom_up: bool) -> PyResult<Pass> {
+        let layer = self.layer(name)?;
+        let size = self.image.size();
+        let values = py.detach(|| {
+            let row = (size[0] * layer.channels).max(1);
+            let scaled = |row: &[f32], out: &mut Vec<f32>| out.extend(row.iter().map(|value| value * scale));
+            let mut values = Vec::with_capacity(layer.values.len());
+            match bottom_up {
+                true => layer.values.chunks_exact(row).rev().for_each(|row| scaled(row, &mut values)),
+                false => scaled(&layer.values, &mut values),
+            }
+            values
+        });
+        Ok(Pass::new(size, layer.channels, channel_names(layer.aov), values))
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]
     fn write_exr(&self, py: Python<'_>, path: PathBuf, half: bool) -> PyResult<()> {
-        let options = ExrOptions { half, exposure: self.exposure, attributes: Vec::new() };
+        let options = ExrOptions { half, exposure: self.exposure, ..ExrOptions::default() };
         py.detach(|| write_exr(&path, &self.image, &options)).map_err(exception)
     }
     /// Writes the tone-mapped colour pass as PNG or JPEG; `tonemap` is "photographic" or "none".
@@ -94,26 +100,5 @@ impl Film {
             }
         };
         py.detach(|| write_picture(&path, &self.image, operator, exposure, Execution::detect())).map_err(exception)
-    }
-}
-
-#[pymethods]
-impl Pass {
-    /// The values as bytes of native float32, for `numpy.frombuffer` or `memoryview.cast`.
-    fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        let bytes: Vec<u8> = self.values.iter().flat_map(|value| value.to_ne_bytes()).collect();
-        PyBytes::new(py, &bytes)
-    }
-    /// numpy's own conversion.
-    #[pyo3(signature = (dtype = None, copy = None))]
-    fn __array__<'py>(&self, py: Python<'py>, dtype: Option<Bound<'py, PyAny>>, copy: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
-        let _ = copy;
-        let numpy = py.import("numpy")?;
-        let flat = numpy.call_method1("frombuffer", (self.tobytes(py), "float32"))?;
-        let shaped = flat.call_method1("reshape", (self.shape,))?.call_method0("copy")?;
-        match dtype {
-            Some(dtype) => shaped.call_method1("astype", (dtype,)),
-            None => Ok(shaped),
-        }
     }
 }

@@ -3,6 +3,7 @@
 mod buffer;
 mod error;
 mod film;
+mod pass;
 mod render;
 mod scene;
 mod usd;
@@ -15,7 +16,9 @@ mod _gonio {
     #[pymodule_export]
     use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]
-    use crate::film::{Film, Pass};
+    use crate::film::Film;
+    #[pymodule_export]
+    use crate::pass::Pass;
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile};
     #[pymodule_export]

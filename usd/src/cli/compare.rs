@@ -5,6 +5,7 @@ use gonio::{
     Error, Result,
     output::{compare as compare_images, difference_picture, read_exr, write_atomically},
 };
+use std::io::Write;
 
 /// Compares two EXR files; status 1 past the limit.
 pub(super) fn compare(options: &CompareOptions) -> Result<i32> {
@@ -41,7 +42,7 @@ pub(super) fn compare(options: &CompareOptions) -> Result<i32> {
     }
     if let Some(path) = &options.difference {
         let rgba = difference_picture(&image, &reference);
-        write_atomically(path, |file| {
+        write_atomically(path, true, |file| {
             let picture = gonio::output::encode_png(&rgba, size[0] as u32, size[1] as u32)?;
             file.write_all(&picture)
         })?;

@@ -9,6 +9,17 @@ use gonio::{
 use gonio_simd::Execution;
 use std::path::Path;
 
+/// What a file says about its picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Notes<'a> {
+    /// Exposure of the camera.
+    pub(super) exposure: f32,
+    /// The render did not end by itself, and somebody waits.
+    pub(super) interrupted: bool,
+    /// Further text attributes.
+    pub(super) attributes: &'a [(String, String)],
+}
+
 /// What file names and options say about writing.
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
@@ -38,9 +49,11 @@ impl Writer {
     }
 
     /// Writes one file.
-    pub(super) fn write(&self, path: &Path, image: &Image, exposure: f32, attributes: &[(String, String)]) -> Result<()> {
+    pub(super) fn write(&self, path: &Path, image: &Image, about: &Notes<'_>) -> Result<()> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-            write_exr(path, image, &ExrOptions { half: self.half, exposure, attributes: attributes.to_vec() })
+            let Notes { exposure, interrupted, attributes } = *about;
+            let options = ExrOptions { half: self.half, exposure, hasty: interrupted, attributes: attributes.to_vec() };
+            write_exr(path, image, &options)
         } else {
             write_picture(path, image, self.tone_map, self.stops, self.execution)
         }

@@ -3,7 +3,7 @@
 use super::{
     arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
     file_name, frames, list,
-    output::Writer,
+    output::{Notes, Writer},
     print,
     progress::{Reporter, clock},
     say,
@@ -232,7 +232,7 @@ impl Job<'_> {
         }
         let image = render.film().develop();
         if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
-            self.write(scene, &image)?;
+            self.write(scene, &image, result.is_err())?;
         }
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
@@ -242,15 +242,28 @@ impl Job<'_> {
         result
     }
 
-    fn write(&self, scene: &Scene, image: &gonio::film::Image) -> Result<()> {
+    /// Writes all files at once: the wait is that for the slowest.
+    fn write(&self, scene: &Scene, image: &gonio::film::Image, interrupted: bool) -> Result<()> {
         let camera = &scene.cameras[scene.settings.camera as usize];
         let attributes = [
             ("gonio:camera".to_owned(), camera.origin.name.to_string()),
             ("gonio:stage".to_owned(), self.options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
             ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
         ];
-        for path in &self.outputs {
-            self.writer.write(path, image, camera.exposure.0, &attributes)?;
+        let notes = Notes { exposure: camera.exposure.0, interrupted, attributes: &attributes };
+        let written: Vec<Result<()>> = std::thread::scope(|scope| {
+            let mut writers = Vec::new();
+            for path in &self.outputs {
+                let notes = &notes;
+                writers.push(scope.spawn(move || self.writer.write(path, image, notes)));
+            }
+            writers
+                .into_iter()
+                .map(|writer| writer.join().unwrap_or_else(|_| Err(Error::Internal("the writing of a file broke off".into()))))
+                .collect()
+        });
+        for (path, result) in self.outputs.iter().zip(written) {
+            result?;
             if !self.options.quiet {
                 print(&path.display().to_string());
             }

@@ -20,9 +20,27 @@ pub fn bound_all<'py>(context: &mut Context<'_, 'py>, prims: &[Prim<'py>]) -> Ve
     let mut ids = Vec::with_capacity(prims.len());
     for (index, prim) in prims.iter().enumerate() {
         let id = materials.get(index).and_then(Option::as_ref).and_then(|bound| material(context, bound));
+        if materials.get(index).is_none_or(Option::is_none) {
+            report_absent(context, prim);
+        }
         ids.push(id.unwrap_or_else(|| fallback(context, has_display_opacity(context, prim))));
     }
     ids
+}
+
+/// Names the material that a prim or its nearest bound ancestor asks for, where there is none.
+fn report_absent<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
+    let mut place = Some(Prim::new(prim.object().clone()));
+    while let Some(bound) = place {
+        if let Some(path) = bound.targets("material:binding").first() {
+            if context.prim_at(path).is_none() {
+                let message = || format!("the material <{path}> that is bound does not exist; displayColor takes its place");
+                context.once("absent material", path, &bound.origin(), message);
+            }
+            return;
+        }
+        place = bound.parent();
+    }
 }
 
 /// The bound material of each prim: by the first purpose of the options that gives one.

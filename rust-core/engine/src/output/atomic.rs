@@ -7,10 +7,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Writes through a temporary file in the same folder, which takes the name once it is complete and on disk.
-pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<()> {
+/// Writes through a temporary file in the same folder, which takes the name once it is complete, and on disk if it is to be `durable`.
+pub fn write_atomically(path: &Path, durable: bool, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<()> {
     let temporary = temporary_name(path);
-    let result = write_to(&temporary, write).and_then(|()| fs::rename(&temporary, path));
+    let result = write_to(&temporary, durable, write).and_then(|()| fs::rename(&temporary, path));
     result.map_err(|error| {
         // The temporary file may not even exist; the error worth telling is the first one.
         let _ = fs::remove_file(&temporary);
@@ -24,9 +24,9 @@ fn temporary_name(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> std::io::Result<()> {
+fn write_to(path: &Path, durable: bool, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> std::io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
     write(&mut file)?;
     file.flush()?;
-    file.get_ref().sync_all()
+    if durable { file.get_ref().sync_all() } else { Ok(()) }
 }

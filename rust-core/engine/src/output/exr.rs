@@ -10,7 +10,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, ImageAttributes, IntegerBounds, Layer as ExrLayer, LayerAttributes,
     Text, Vec2, WritableImage, f16,
 };
-use std::{io::Cursor, path::Path};
+use std::path::Path;
 
 /// How colour is stored, and what the header says.
 #[derive(Clone, Debug, Default)]
@@ -19,16 +19,21 @@ pub struct ExrOptions {
     pub half: bool,
     /// Exposure that the colour pass was multiplied by; 0 counts as 1.
     pub exposure: f32,
+    /// Written at once rather than small and safe on disk: for a render that was interrupted.
+    pub hasty: bool,
     /// Further text attributes.
     pub attributes: Vec<(String, String)>,
 }
 
 /// Writes all passes of an image; absolute ones always as 32-bit floats.
 pub fn write_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()> {
-    let mut bytes = Cursor::new(Vec::new());
-    let encoded = picture(image, options).write().to_buffered(&mut bytes);
-    encoded.map_err(|error| Error::io(path, std::io::Error::other(error.to_string())))?;
-    write_atomically(path, |file| file.write_all(bytes.get_ref()))
+    write_atomically(path, !options.hasty, |file| {
+        let written = picture(image, options).write().to_buffered(file);
+        written.map_err(|error| match error {
+            exr::error::Error::Io(error) => error,
+            other => std::io::Error::other(other.to_string()),
+        })
+    })
 }
 
 /// An image as the library writes it: one layer of channels of either depth.
@@ -55,7 +60,8 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     for (key, value) in &options.attributes {
         note(key, value);
     }
-    let layer = ExrLayer::new((width, height), attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels));
+    let encoding = if options.hasty { Encoding::UNCOMPRESSED } else { Encoding::FAST_LOSSLESS };
+    let layer = ExrLayer::new((width, height), attributes, encoding, AnyChannels::sort(channels));
     let display = IntegerBounds::new((0, 0), (image.resolution[0] as usize, image.resolution[1] as usize));
     let mut out = exr::image::Image::from_layer(layer);
     out.attributes = ImageAttributes { display_window: display, ..out.attributes };

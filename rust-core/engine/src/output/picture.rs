@@ -7,7 +7,10 @@ use crate::{
 };
 use gonio_simd::Execution;
 use image::{ImageEncoder, codecs::jpeg::JpegEncoder, codecs::png::PngEncoder};
-use std::{io::Cursor, path::Path};
+use std::{
+    io::{Cursor, Write},
+    path::Path,
+};
 
 /// Writes the tone-mapped colour pass as PNG (with alpha) or JPEG (over black), by the name's ending.
 pub fn write_picture(path: &Path, image: &Image, tone_map: ToneMap, stops: f32, execution: Execution) -> Result<()> {
@@ -30,7 +33,7 @@ pub fn write_picture(path: &Path, image: &Image, tone_map: ToneMap, stops: f32, 
         }
     };
     encoded.map_err(|error| Error::io(path, std::io::Error::other(error)))?;
-    write_atomically(path, |file| file.write_all(bytes.get_ref()))
+    write_atomically(path, true, |file| file.write_all(bytes.get_ref()))
 }
 
 /// A pixel whose colour does not need its alpha: light without coverage (a visible sky) counts as covered.

@@ -27,8 +27,10 @@ pub struct Primvar {
     /// Floats a value, 1 to 4.
     pub components: u8,
     /// The values, `components` floats each.
+    #[serde(with = "super::blob")]
     pub values: Arc<[f32]>,
     /// Index into the values for each element; `None` means in order.
+    #[serde(default, with = "super::blob::optional")]
     pub indices: Option<Arc<[u32]>>,
 }
 
@@ -38,16 +40,20 @@ pub struct Mesh {
     /// Where it came from.
     pub origin: Origin,
     /// Points, local units.
+    #[serde(with = "super::blob")]
     pub points: Arc<[[f32; 3]]>,
     /// Point indices, counter-clockwise seen from the front.
+    #[serde(with = "super::blob")]
     pub triangles: Arc<[[u32; 3]]>,
     /// Shading normals (three components, `Vertex` or `FaceVarying`); `None` means the triangles are flat.
     pub normals: Option<Primvar>,
     /// Other named values; texture coordinates among them.
     pub primvars: Vec<Primvar>,
     /// Material slot of each triangle; `None` means slot 0.
+    #[serde(default, with = "super::blob::optional")]
     pub slots: Option<Arc<[u16]>>,
     /// Face of the source mesh for each triangle; `None` means the triangle's own number.
+    #[serde(default, with = "super::blob::optional")]
     pub faces: Option<Arc<[u32]>>,
 }
 

@@ -3,6 +3,7 @@
 //! Front ends fill a [`Scene`]; nothing here knows how it is computed. Lengths are metres, transforms f64, colours linear Rec.709,
 //! radiances scaled so that their luminance is in cd/m².
 
+mod blob;
 mod bundle;
 mod camera;
 mod instance;

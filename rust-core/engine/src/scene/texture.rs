@@ -14,6 +14,7 @@ pub enum TextureSource {
         /// Name for messages; its ending tells the format.
         name: String,
         /// The file's bytes.
+        #[serde(with = "super::blob")]
         bytes: Arc<[u8]>,
     },
     /// Linear float RGBA, rows from the top.
@@ -23,6 +24,7 @@ pub enum TextureSource {
         /// Rows.
         height: u32,
         /// RGBA.
+        #[serde(with = "super::blob")]
         rgba: Arc<[f32]>,
     },
 }
