@@ -183,7 +183,8 @@ def test_film_buffers(floor, render):
         assert np.isfinite(values).all() or name == "depth"
         assert not values.flags.writeable, "arrays are views of the film"
         turned = np.asarray(film.read(name, scale=2.0, bottom_up=True))
-        assert np.array_equal(turned, values[::-1] * 2, equal_nan=True)
+        factor = [2, 2, 2, 1][: values.shape[2]]  # coverage is no amount of light
+        assert np.array_equal(turned, values[::-1] * np.float32(factor), equal_nan=True)
 
 
 def test_a_missing_pass_lists_those_there_are(floor, render):

@@ -89,7 +89,7 @@ fn the_inside_of_a_shining_box_is_a_geometric_series() {
     let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let triangles: Vec<[u32; 3]> = quads.iter().flat_map(|q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
     let mut material = gonio::scene::Material::diffuse(gonio::scene::Origin::new("wall"), [0.5; 3]);
-    material.set_colour("emission_color", [1.0; 3]);
+    material.closures[0].set_colour("emission_color", [1.0; 3]);
     gonio_tests::scenes::add_triangles(&mut scene, &corners, &triangles, material);
     scene.cameras.push(camera_from_above([0.1, 1.2, 0.2], 2.0));
     let settings = Settings { max_bounces: 64, ..settings(32, 64, &[Aov::Luminance, Aov::Illuminance]) };
@@ -104,11 +104,12 @@ fn the_inside_of_a_shining_box_is_a_geometric_series() {
 fn absorbing_glass_dims_by_beer_and_lambert() {
     // A slab of 0.1 m that turns white to 0.5 in 0.1 m, seen straight through against a dome of 1: T² · 0.5 over its inner reflections.
     let mut scene = Scene::default();
-    let mut glass = gonio::scene::Material { origin: gonio::scene::Origin::new("glass"), ..Default::default() };
+    let mut glass = gonio::scene::Closure::default();
     glass.set("transmission_weight", 1.0);
     glass.set("specular_roughness", 0.0);
     glass.set_colour("transmission_color", [0.5; 3]);
     glass.set("transmission_depth", 0.1);
+    let glass = gonio::scene::Material::of(gonio::scene::Origin::new("glass"), glass);
     gonio_tests::scenes::add_quad(&mut scene, [-5.0, 0.1, 5.0], [10.0, 0.0, 0.0], [0.0, 0.0, -10.0], glass.clone());
     gonio_tests::scenes::add_quad(&mut scene, [-5.0, 0.0, -5.0], [10.0, 0.0, 0.0], [0.0, 0.0, 10.0], glass);
     let dome = LightShape::Dome { format: gonio::scene::DomeFormat::Automatic };

@@ -153,7 +153,7 @@ def Mesh "Mesh" (prepend apiSchemas = ["MeshLightAPI"])
 def test_mesh_lights_emit_by_their_material(tmp_path):
     scene = lights(tmp_path, MESH_LIGHT)
     material = scene["materials"][scene["instances"][0]["materials"][0]]
-    assert dict(material["parameters"])["emission_color"]["Constant"][:3] == [5] * 3
+    assert dict(material["closures"][0]["parameters"])["emission_color"]["Constant"][:3] == [5] * 3
 
 
 @pytest.mark.parametrize(

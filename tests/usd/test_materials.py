@@ -37,12 +37,18 @@ def load(tmp_path, text, **options):
     return gonio.load_usd(str(path), **options).to_dict()
 
 
+def surface(material):
+    """A material of one closure, its parts side by side."""
+    (closure,) = material["closures"]
+    return material | closure
+
+
 def material(scene, name):
-    return next(m for m in scene["materials"] if m["origin"]["name"] == name)
+    return surface(next(m for m in scene["materials"] if m["origin"]["name"] == name))
 
 
 def bound_material(scene, index=0):
-    return scene["materials"][scene["instances"][0]["materials"][index]]
+    return surface(scene["materials"][scene["instances"][0]["materials"][index]])
 
 
 def constant(material, name):

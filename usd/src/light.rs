@@ -308,7 +308,8 @@ pub fn mesh_light_material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>
 /// Adds the light to what the material emits itself, or tints a material's glow with it.
 fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
     let light = Input::Constant([r, g, b, 1.0]);
-    let glow = material.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
+    let Some(surface) = material.closures.first_mut() else { return };
+    let glow = surface.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
     let emission = match (glow, tints) {
         (None, _) => light,
         (Some(Input::Constant(glow)), true) => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
@@ -318,7 +319,7 @@ fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
             Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
         }
     };
-    material.set_input("emission_color", emission);
+    surface.set_input("emission_color", emission);
 }
 
 #[cfg(test)]
@@ -344,11 +345,11 @@ mod tests {
     #[test]
     fn a_light_tints_a_glow_or_adds_to_it() {
         let mut material = Material::default();
-        material.set_colour("emission_color", [1.0, 0.5, 0.0]);
+        material.closures[0].set_colour("emission_color", [1.0, 0.5, 0.0]);
         let mut sum = material.clone();
         emit(&mut material, [2.0; 3], true);
         emit(&mut sum, [2.0; 3], false);
-        assert_eq!(material.input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
-        assert_eq!(sum.input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
+        assert_eq!(material.closures[0].input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
+        assert_eq!(sum.closures[0].input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
     }
 }

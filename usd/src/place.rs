@@ -159,6 +159,8 @@ impl<'py> Placer<'_, '_, 'py> {
             transforms: Vec::new(),
             primvars: Vec::new(),
             visibility: Visibility::default(),
+            holdout: false,
+            pass_index: 0,
         };
         self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
         self.places.insert(key.clone(), place);

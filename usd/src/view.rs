@@ -93,7 +93,8 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
 
 /// Whether a material shines by itself.
 pub fn shines(material: &Material) -> bool {
-    match material.input("emission_color") {
+    let glow = material.closures.iter().find_map(|closure| closure.input("emission_color"));
+    match glow {
         Some(Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
         Some(Input::Node(..)) => true,
         None => false,

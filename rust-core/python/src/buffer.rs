@@ -43,6 +43,37 @@ pub(crate) fn floats(object: &Bound<'_, PyAny>, name: &str, width: usize) -> PyR
     Err(PyTypeError::new_err(format!("{name}: expected a buffer of float32 or float64, found {}", object.get_type().name()?)))
 }
 
+/// Floats whose group width is that of the buffer: its last side, or 1 for a flat one; 1 to 4.
+pub(crate) fn floats_of_any_width(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Grouped<f32>> {
+    let shape = object.getattr("shape").and_then(|shape| shape.extract::<Vec<usize>>());
+    let width = match shape.as_deref() {
+        Ok([_, width]) => *width,
+        _ => 1,
+    };
+    if (1..=4).contains(&width) {
+        floats(object, name, width)
+    } else {
+        Err(PyValueError::new_err(format!("{name}: values have {width} numbers, expected 1 to 4")))
+    }
+}
+
+/// Affine maps, given as (N, 4, 4) or flat matrices for column vectors, row by row.
+pub(crate) fn matrices(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[[f64; 4]; 4]>> {
+    let py = object.py();
+    let values: Vec<f64> = if let Ok(buffer) = PyBuffer::<f64>::get(object) {
+        buffer.to_vec(py)?
+    } else if let Ok(buffer) = PyBuffer::<f32>::get(object) {
+        buffer.to_vec(py)?.into_iter().map(f64::from).collect()
+    } else {
+        return Err(PyTypeError::new_err(format!("{name}: expected a buffer of float32 or float64, found {}", object.get_type().name()?)));
+    };
+    if !values.len().is_multiple_of(16) {
+        return Err(PyValueError::new_err(format!("{name}: {} numbers were found, expected 16 a matrix", values.len())));
+    }
+    let matrix = |m: &[f64]| std::array::from_fn(|row| std::array::from_fn(|column| m[row * 4 + column]));
+    Ok(values.chunks_exact(16).map(matrix).collect())
+}
+
 /// Integers, given as int32, uint32 or int64; negative ones are refused.
 pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Grouped<u32>> {
     let py = object.py();
@@ -56,7 +87,11 @@ pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str, width: usize) -> Py
     }
     if let Ok(buffer) = PyBuffer::<i32>::get(object) {
         check(&buffer, name, width)?;
-        return Ok(Grouped { values: convert(buffer.to_vec(py)?.into_iter().map(i64::from).collect())?, width });
+        let values = buffer.to_vec(py)?;
+        if let Some(at) = values.iter().position(|value| *value < 0) {
+            return Err(negative(at, i64::from(values[at])));
+        }
+        return Ok(Grouped { values: values.into_iter().map(i32::cast_unsigned).collect(), width });
     }
     if let Ok(buffer) = PyBuffer::<i64>::get(object) {
         check(&buffer, name, width)?;

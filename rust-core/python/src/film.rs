@@ -17,19 +17,27 @@ pub(crate) struct Film {
     exposure: f32,
 }
 
+/// Names of the passes in Python.
+const NAMES: [(Aov, &str); 9] = [
+    (Aov::Color, "color"),
+    (Aov::Alpha, "alpha"),
+    (Aov::Depth, "depth"),
+    (Aov::Normal, "normal"),
+    (Aov::P, "P"),
+    (Aov::Albedo, "albedo"),
+    (Aov::PrimId, "primId"),
+    (Aov::Luminance, "luminance"),
+    (Aov::Illuminance, "illuminance"),
+];
+
 /// A pass's name in Python.
-pub(crate) fn aov_name(aov: Aov) -> &'static str {
-    match aov {
-        Aov::Color => "color",
-        Aov::Alpha => "alpha",
-        Aov::Depth => "depth",
-        Aov::Normal => "normal",
-        Aov::P => "P",
-        Aov::Albedo => "albedo",
-        Aov::PrimId => "primId",
-        Aov::Luminance => "luminance",
-        Aov::Illuminance => "illuminance",
-    }
+fn aov_name(aov: Aov) -> &'static str {
+    NAMES.iter().find(|(known, _)| *known == aov).map_or("", |(_, name)| name)
+}
+
+/// The pass of a name.
+pub(crate) fn aov_by_name(name: &str) -> Option<Aov> {
+    NAMES.iter().find(|(_, known)| *known == name).map(|(aov, _)| *aov)
 }
 
 impl Film {
@@ -72,7 +80,11 @@ impl Film {
         let size = self.image.size();
         let values = py.detach(|| {
             let row = (size[0] * layer.channels).max(1);
-            let scaled = |row: &[f32], out: &mut Vec<f32>| out.extend(row.iter().map(|value| value * scale));
+            // Coverage is no amount of light.
+            let factors: [f32; 4] = std::array::from_fn(|channel| if channel == 3 { 1.0 } else { scale });
+            let scaled = |row: &[f32], out: &mut Vec<f32>| {
+                out.extend(row.iter().zip(factors[..layer.channels.min(4)].iter().cycle()).map(|(value, factor)| value * factor));
+            };
             let mut values = Vec::with_capacity(layer.values.len());
             match bottom_up {
                 true => layer.values.chunks_exact(row).rev().for_each(|row| scaled(row, &mut values)),

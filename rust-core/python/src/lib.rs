@@ -1,11 +1,14 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
 mod buffer;
+mod description;
 mod error;
 mod film;
+mod mesh;
 mod pass;
 mod render;
 mod scene;
+mod settings;
 mod usd;
 
 use pyo3::prelude::*;

@@ -1,7 +1,10 @@
 //! A render as an iterator of tiles.
 
 use crate::{error::exception, film::Film, scene::Scene};
-use gonio::{compile::compile, render};
+use gonio::{
+    compile::{CompiledScene, compile},
+    render,
+};
 use gonio_simd::Execution;
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use std::{
@@ -43,6 +46,7 @@ pub(crate) struct Progress {
 #[pyclass(module = "gonio")]
 pub(crate) struct Render {
     running: Option<render::Render>,
+    compiled: Option<Arc<CompiledScene>>,
     exposure: f32,
 }
 
@@ -54,26 +58,28 @@ impl Render {
 
 #[pymethods]
 impl Render {
-    /// Compiles the scene and starts the workers.
+    /// Compiles the scene as it is now and starts the workers; `previous` lends the trees and images of what did not change.
     #[new]
-    fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
+    #[pyo3(signature = (scene, previous = None))]
+    fn new(py: Python<'_>, scene: &Scene, previous: Option<&Self>) -> PyResult<Self> {
         let description = scene.scene.clone();
+        let before = previous.and_then(|render| render.compiled.clone());
         let started = py.detach(move || {
             let settings = description.settings.clone();
             let exposure = description.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
-            let compiled = compile(&description, None, &AtomicBool::new(false))?;
-            render::Render::start(Arc::new(compiled), &settings, Execution::detect()).map(|render| (render, exposure))
+            let compiled = Arc::new(compile(&description, before.as_deref(), &AtomicBool::new(false))?);
+            render::Render::start(compiled.clone(), &settings, Execution::detect()).map(|render| (render, exposure, compiled))
         });
-        let (running, exposure) = started.map_err(exception)?;
-        Ok(Self { running: Some(running), exposure })
+        let (running, exposure, compiled) = started.map_err(exception)?;
+        Ok(Self { running: Some(running), exposure, compiled: Some(compiled) })
     }
     fn __enter__(slf: Py<Self>) -> Py<Self> {
         slf
     }
     #[pyo3(signature = (*_exception))]
     fn __exit__(&mut self, py: Python<'_>, _exception: &Bound<'_, pyo3::types::PyTuple>) {
-        let running = self.running.take();
-        py.detach(move || drop(running));
+        let closed = (self.running.take(), self.compiled.take());
+        py.detach(move || drop(closed));
     }
     fn __iter__(slf: Py<Self>) -> Py<Self> {
         slf
@@ -123,6 +129,12 @@ impl Render {
         let p = self.running()?.progress();
         let remaining = p.remaining.map(|time| time.as_secs_f64());
         Ok(Progress { fraction: p.fraction, samples: p.samples, elapsed: p.elapsed.as_secs_f64(), remaining, rays: p.rays })
+    }
+    /// What is not as asked for, as (origin, message).
+    #[getter]
+    fn diagnostics(&self) -> Vec<(String, String)> {
+        let all = self.compiled.iter().flat_map(|compiled| &compiled.diagnostics);
+        all.map(|d| (d.origin.to_string(), d.message.clone())).collect()
     }
     /// The film so far.
     fn film(&self, py: Python<'_>) -> PyResult<Film> {

@@ -1,19 +1,21 @@
 //! Scenes built from Python buffers.
 
 use crate::{
-    buffer::{floats, indices},
+    buffer::{floats_of_any_width, matrices},
+    description,
     error::exception,
-    film::aov_name,
+    mesh::MeshBuffers,
+    settings,
 };
 use gonio::{
     Diagnostic,
     scene::{
-        self, Aov, Camera, DomeFormat, Emission, Input, Instances, Integrator, Light, LightShape, Material, MaterialId, Mesh, MeshId,
-        Origin, Primvar, PrimvarInterpolation, Shaping, Transform, Visibility,
+        self, Camera, Closure, DomeFormat, Emission, Input, Instances, Light, LightShape, Material, MaterialId, MeshId, Origin, Primvar,
+        PrimvarInterpolation, Shaping, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
-use std::path::PathBuf;
+use std::{collections::HashMap, path::PathBuf};
 
 /// What is to be rendered: meshes, instances, materials, lights, cameras, settings; lengths in metres, radiances in cd/m².
 #[pyclass(module = "gonio")]
@@ -21,6 +23,8 @@ use std::path::PathBuf;
 pub(crate) struct Scene {
     pub(crate) scene: scene::Scene,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Cameras were described with their own apertures, which the picture's shape leaves alone.
+    pub(crate) cameras_have_shape: bool,
 }
 
 /// A 4×4 matrix for column vectors (translation in the last column), or None for the identity.
@@ -45,67 +49,131 @@ impl Scene {
         Self::default()
     }
 
-    /// Adds a triangle mesh; gives its number.
+    /// Adds a mesh, or replaces mesh `index`; gives its number.
     ///
-    /// points: float buffer (N, 3); triangles: integer buffer (M, 3); normals: float buffer (N, 3) or (3 M, 3) or None for flat triangles;
-    /// uvs: float buffer (N, 2) or (3 M, 2); slots: integer buffer (M,) of material slots.
-    #[pyo3(signature = (points, triangles, *, normals = None, uvs = None, slots = None, name = "mesh"))]
+    /// points: float buffer (N, 3); triangles: integer buffer (M, 3) of point numbers, or of corner numbers where `corners` (C,) gives the point
+    /// of each polygon corner; faces: integer buffer (M,), the polygon of each triangle; normals: float buffer with a value a point or corner, or
+    /// None for flat triangles; uvs: float buffer, two numbers a point or corner; primvars: other values by name, 1 to 4 numbers a point, corner,
+    /// face or mesh; slots: integer buffer of material slots, one a triangle or face.
+    #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, name = "mesh", index = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn add_mesh(
         &mut self,
         points: &Bound<'_, PyAny>,
         triangles: &Bound<'_, PyAny>,
+        corners: Option<&Bound<'_, PyAny>>,
+        faces: Option<&Bound<'_, PyAny>>,
         normals: Option<&Bound<'_, PyAny>>,
         uvs: Option<&Bound<'_, PyAny>>,
+        primvars: Option<&Bound<'_, PyDict>>,
         slots: Option<&Bound<'_, PyAny>>,
         name: &str,
+        index: Option<u32>,
     ) -> PyResult<u32> {
-        let points = floats(points, "points", 3)?.arrays::<3>();
-        let triangles = indices(triangles, "triangles", 3)?.arrays::<3>();
-        if let Some(index) = triangles.iter().flatten().find(|index| **index as usize >= points.len()) {
-            return Err(PyValueError::new_err(format!("triangles: index {index} is out of range, there are {} points", points.len())));
+        let buffers = MeshBuffers { points, triangles, corners, faces, normals, uvs, primvars, slots };
+        let mesh = buffers.mesh(name)?;
+        description::put(&mut self.scene.meshes, "mesh", mesh, index)
+    }
+
+    /// Places a mesh many times, or replaces the placements `index`; gives their number.
+    ///
+    /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
+    /// shadow), all by default, and `holdout`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
+    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, index = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn put_instances(
+        &mut self,
+        mesh: u32,
+        materials: Vec<u32>,
+        transforms: &Bound<'_, PyAny>,
+        name: &str,
+        visibility: Option<HashMap<String, bool>>,
+        primvars: Option<&Bound<'_, PyDict>>,
+        pass_index: u32,
+        index: Option<u32>,
+    ) -> PyResult<u32> {
+        let place = |m: [[f64; 4]; 4]| Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| m[row][column])) };
+        let transforms: Vec<Transform> = matrices(transforms, "transforms")?.into_iter().map(place).collect();
+        let mut own = Vec::new();
+        for (key, value) in primvars.into_iter().flatten() {
+            let name: String = key.extract()?;
+            let values = floats_of_any_width(&value, &name)?;
+            let (components, interpolation) = (values.width as u8, PrimvarInterpolation::Uniform);
+            own.push(Primvar { name, interpolation, components, values: values.values.into(), indices: None });
         }
-        let primvar = |object: Option<&Bound<'_, PyAny>>, name: &str, components: u8| -> PyResult<Option<Primvar>> {
-            let Some(object) = object else { return Ok(None) };
-            let grouped = floats(object, name, usize::from(components))?;
-            let (elements, values) = (grouped.len(), grouped.values);
-            let interpolation = match elements {
-                n if n == points.len() => PrimvarInterpolation::Vertex,
-                n if n == triangles.len() * 3 => PrimvarInterpolation::FaceVarying,
-                n => {
-                    let expected = format!("{} (one a point) or {} (one a corner)", points.len(), triangles.len() * 3);
-                    return Err(PyValueError::new_err(format!("{name}: {n} values were found, expected {expected}")));
-                }
-            };
-            Ok(Some(Primvar { name: name.into(), interpolation, components, values: values.into(), indices: None }))
-        };
-        let normals = primvar(normals, "normals", 3)?;
-        let uvs = primvar(uvs, "st", 2)?;
-        let slots = match slots {
-            Some(slots) => {
-                let slots = indices(slots, "slots", 1)?.values;
-                if slots.len() != triangles.len() || slots.iter().any(|slot| *slot > u32::from(u16::MAX)) {
-                    return Err(PyValueError::new_err(format!("slots: expected {} values from 0 to 65535", triangles.len())));
-                }
-                Some(slots.into_iter().map(|slot| slot as u16).collect())
-            }
-            None => None,
-        };
-        let mesh = Mesh {
+        let (visibility, holdout) = description::visibility(visibility.unwrap_or_default())?;
+        let instances = Instances {
             origin: Origin::new(name),
-            points: points.into(),
-            triangles: triangles.into(),
-            normals,
-            primvars: uvs.into_iter().collect(),
-            slots,
-            faces: None,
+            mesh: MeshId(mesh),
+            materials: materials.into_iter().map(MaterialId).collect(),
+            transforms,
+            primvars: own,
+            visibility,
+            holdout,
+            pass_index,
         };
-        Ok(self.scene.add_mesh(mesh).0)
+        description::put(&mut self.scene.instances, "instances", instances, index)
+    }
+
+    /// Adds a material described as in `to_dict`, or replaces material `index`; gives its number.
+    #[pyo3(signature = (description, index = None))]
+    fn put_material(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
+        description::put(&mut self.scene.materials, "material", description::read(description, "material")?, index)
+    }
+
+    /// Adds a light described as in `to_dict`, or replaces light `index`; gives its number.
+    #[pyo3(signature = (description, index = None))]
+    fn put_light(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
+        description::put(&mut self.scene.lights, "light", description::read(description, "light")?, index)
+    }
+
+    /// Adds a camera described as in `to_dict`, or replaces camera `index`; gives its number.
+    #[pyo3(signature = (description, index = None))]
+    fn put_camera(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
+        self.cameras_have_shape = true;
+        description::put(&mut self.scene.cameras, "camera", description::read(description, "camera")?, index)
+    }
+
+    /// Adds a texture described as in `to_dict`, or replaces texture `index`; gives its number.
+    ///
+    /// In place of a source, `data` gives an encoded file's bytes, whose format `name` tells, or `pixels` linear RGBA floats (height, width, 4)
+    /// with the rows from the top.
+    #[pyo3(signature = (description, index = None, *, data = None, pixels = None))]
+    fn put_texture(
+        &mut self,
+        description: &Bound<'_, PyDict>,
+        index: Option<u32>,
+        data: Option<(String, Vec<u8>)>,
+        pixels: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<u32> {
+        let texture = description::texture(description, data, pixels)?;
+        description::put(&mut self.scene.textures, "texture", texture, index)
+    }
+
+    /// Keeps the first so many elements of each kind named.
+    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, lights = None, cameras = None))]
+    fn truncate(
+        &mut self,
+        meshes: Option<usize>,
+        instances: Option<usize>,
+        materials: Option<usize>,
+        textures: Option<usize>,
+        lights: Option<usize>,
+        cameras: Option<usize>,
+    ) {
+        let scene = &mut self.scene;
+        scene.meshes.truncate(meshes.unwrap_or(usize::MAX));
+        scene.instances.truncate(instances.unwrap_or(usize::MAX));
+        scene.materials.truncate(materials.unwrap_or(usize::MAX));
+        scene.textures.truncate(textures.unwrap_or(usize::MAX));
+        scene.lights.truncate(lights.unwrap_or(usize::MAX));
+        scene.cameras.truncate(cameras.unwrap_or(usize::MAX));
     }
 
     /// Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers or triples; gives its number.
     #[pyo3(signature = (name = "material", **parameters))]
     fn add_material(&mut self, name: &str, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<u32> {
-        let mut material = Material { origin: Origin::new(name), ..Material::default() };
+        let mut material = Closure::default();
         for (key, value) in parameters.into_iter().flatten() {
             let key: String = key.extract()?;
             if key == "thin_walled" {
@@ -123,7 +191,7 @@ impl Scene {
             constant[..numbers.len()].copy_from_slice(&numbers);
             material.set_input(&key, Input::Constant(constant));
         }
-        Ok(self.scene.add_material(material).0)
+        Ok(self.scene.add_material(Material::of(Origin::new(name), material)).0)
     }
 
     /// Places a mesh; transform is a 4×4 matrix for column vectors.
@@ -142,6 +210,8 @@ impl Scene {
             transforms: vec![self::transform(transform)?],
             primvars: Vec::new(),
             visibility: Visibility::default(),
+            holdout: false,
+            pass_index: 0,
         });
         Ok(())
     }
@@ -198,50 +268,19 @@ impl Scene {
         Ok(())
     }
 
-    /// Changes settings: width, height, samples, seed, threads, max_bounces, integrator ("path", "direct"), time_limit, passes.
-    #[pyo3(signature = (*, width = None, height = None, samples = None, seed = None, threads = None, max_bounces = None, integrator = None, time_limit = None, passes = None))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn set(
-        &mut self,
-        width: Option<u32>,
-        height: Option<u32>,
-        samples: Option<u32>,
-        seed: Option<u32>,
-        threads: Option<u32>,
-        max_bounces: Option<u32>,
-        integrator: Option<&str>,
-        time_limit: Option<f64>,
-        passes: Option<Vec<String>>,
-    ) -> PyResult<()> {
-        if samples == Some(0) {
-            return Err(setting("samples", "0 was found, expected 1 or more".into()));
+    /// Changes settings; what is not named stays. See the stub for all of them.
+    #[pyo3(signature = (**changes))]
+    fn set(&mut self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        let Some(changes) = changes else { return Ok(()) };
+        let mut settings = self.scene.settings.clone();
+        settings::change(&mut settings, changes)?;
+        let aspect = |[width, height]: [u32; 2]| f64::from(width.max(1)) / f64::from(height.max(1));
+        let stretch = aspect(settings.resolution) / aspect(self.scene.settings.resolution);
+        // Cameras that were made for the picture's shape follow it.
+        if !self.cameras_have_shape {
+            self.scene.cameras.iter_mut().for_each(|camera| camera.aperture[0] *= stretch);
         }
-        if let Some(limit) = time_limit.filter(|limit| !(limit.is_finite() && *limit >= 0.0)) {
-            return Err(setting("time_limit", format!("{limit} was found, expected seconds from 0 (no limit) on")));
-        }
-        let before = self.scene.settings.resolution;
-        let s = &mut self.scene.settings;
-        s.resolution = [width.unwrap_or(s.resolution[0]), height.unwrap_or(s.resolution[1])];
-        let [now, then] = [s.resolution, before].map(|[width, height]| f64::from(width) / f64::from(height.max(1)));
-        // Cameras keep their vertical field of view and follow the picture's shape.
-        self.scene.cameras.iter_mut().for_each(|camera| camera.aperture[0] *= now / then.max(1e-9));
-        s.samples = samples.unwrap_or(s.samples);
-        s.seed = seed.unwrap_or(s.seed);
-        s.threads = threads.unwrap_or(s.threads);
-        s.max_bounces = max_bounces.unwrap_or(s.max_bounces);
-        s.time_limit_s = time_limit.unwrap_or(s.time_limit_s);
-        s.integrator = match integrator {
-            None => s.integrator,
-            Some("path") => Integrator::Path,
-            Some("direct") => Integrator::Direct,
-            Some(other) => return Err(setting("integrator", format!("'{other}' was found, expected path or direct"))),
-        };
-        if let Some(names) = passes {
-            let all = [Aov::Color, Aov::Alpha, Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo, Aov::PrimId, Aov::Luminance, Aov::Illuminance];
-            let known = |name: &String| all.into_iter().find(|aov| aov_name(*aov) == name);
-            let find = |name: &String| known(name).ok_or_else(|| setting("passes", format!("there is no pass '{name}'")));
-            s.aovs = names.iter().map(find).collect::<PyResult<_>>()?;
-        }
+        self.scene.settings = settings;
         Ok(())
     }
 
@@ -267,7 +306,7 @@ impl Scene {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let scene = py.detach(|| scene::load_bundle(&path)).map_err(exception)?;
-        Ok(Self { scene, diagnostics: Vec::new() })
+        Ok(Self { scene, ..Self::default() })
     }
 
     /// Counts, for a look.

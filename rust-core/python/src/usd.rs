@@ -41,7 +41,7 @@ pub(crate) fn load_usd(
     let view = ViewOptions { camera, neutral_dome, ..ViewOptions::default() };
     let notes = complete(&mut loaded, &primary_camera_name(py), &view).map_err(exception)?;
     loaded.diagnostics.extend(notes);
-    Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics })
+    Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false })
 }
 
 /// Runs the command line; gives the exit status.

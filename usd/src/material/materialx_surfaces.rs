@@ -2,7 +2,7 @@
 
 use super::arithmetic::{component, constant_scalar, is_constant, luminance, multiply, scalar};
 use super::network::{Network, Shader};
-use gonio::scene::{Channel, Input, Material, Model, NodeId, Operation};
+use gonio::scene::{Channel, Closure, Input, Model, NodeId, Operation};
 
 /// Nanometres in a micrometre.
 const NM_PER_UM: f32 = 1000.0;
@@ -11,7 +11,7 @@ const NM_PER_UM: f32 = 1000.0;
 struct Surface<'n, 'c, 'a, 'py> {
     network: &'n mut Network<'c, 'a, 'py>,
     shader: &'n Shader<'py>,
-    material: Material,
+    closure: Closure,
 }
 
 impl Surface<'_, '_, '_, '_> {
@@ -25,20 +25,20 @@ impl Surface<'_, '_, '_, '_> {
     fn scalars(&mut self, table: &[(&str, &str, f32)]) {
         for (parameter, input, default) in table {
             let value = self.scalar(input, *default);
-            self.material.set_input(parameter, value);
+            self.closure.set_input(parameter, value);
         }
     }
     /// Sets colour parameters from inputs: (parameter, input, default).
     fn colours(&mut self, table: &[(&str, &str, [f32; 3])]) {
         for (parameter, input, default) in table {
             let value = self.colour(input, *default);
-            self.material.set_input(parameter, value);
+            self.closure.set_input(parameter, value);
         }
     }
     /// Sets a parameter to the product of two inputs.
     fn product(&mut self, parameter: &str, a: Input, b: Input) {
         let product = multiply(&mut self.network.graph, a, b);
-        self.material.set_input(parameter, product);
+        self.closure.set_input(parameter, product);
     }
     /// Lengths are in units of the stage.
     fn length(&mut self, parameter: &str, input: Input) {
@@ -75,7 +75,7 @@ impl Surface<'_, '_, '_, '_> {
 }
 
 /// The material of a MaterialX surface shader; `None` where the node is not one that is known.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Material> {
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
     let fill = match shader.id.as_str() {
         "ND_standard_surface_surfaceshader" => standard_surface,
         "ND_standard_surface_surfaceshader_100" => standard_surface_100,
@@ -83,14 +83,14 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
         "ND_gltf_pbr_surfaceshader" => gltf_pbr,
         _ => return None,
     };
-    let mut surface = Surface { network, shader, material: Material::default() };
+    let mut surface = Surface { network, shader, closure: Closure::default() };
     fill(&mut surface);
-    Some(surface.material)
+    Some(surface.closure)
 }
 
 /// OpenPBR 1.1: the block's own model.
 fn open_pbr_surface(surface: &mut Surface<'_, '_, '_, '_>) {
-    surface.material.model = Model::OpenPbr;
+    surface.closure.model = Model::OpenPbr;
     let (weight, base) = (surface.scalar("base_weight", 1.0), surface.colour("base_color", [0.8; 3]));
     surface.product("base_color", base, weight);
     surface.scalars(&[
@@ -131,8 +131,8 @@ fn open_pbr_surface(surface: &mut Surface<'_, '_, '_, '_>) {
     surface.product("thin_film_thickness", thickness, scalar(NM_PER_UM));
     let (luminance, emission) = (surface.scalar("emission_luminance", 0.0), surface.colour("emission_color", [1.0; 3]));
     surface.product("emission_color", emission, luminance);
-    surface.material.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
-    surface.material.normal = surface.normal("geometry_normal");
+    surface.closure.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
+    surface.closure.normal = surface.normal("geometry_normal");
     surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
     surface.left_out_vectors(&["geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent"]);
 }
@@ -148,7 +148,7 @@ fn standard_surface_100(surface: &mut Surface<'_, '_, '_, '_>) {
 }
 
 fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32, base_color: f32) {
-    surface.material.model = Model::StandardSurface;
+    surface.closure.model = Model::StandardSurface;
     let (weight, base) = (surface.scalar("base", base_weight), surface.colour("base_color", [base_color; 3]));
     surface.product("base_color", base, weight);
     surface.scalars(&[
@@ -180,7 +180,7 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32
         ("coat_color", "coat_color", [1.0; 3]),
         ("fuzz_color", "sheen_color", [1.0; 3]),
     ]);
-    surface.material.set("coat_darkening", 0.0);
+    surface.closure.set("coat_darkening", 0.0);
     // The metal's edge tint is specular · specular_color, its whole lobe has the weight 1.
     let (specular, tint) = (surface.scalar("specular", 1.0), surface.colour("specular_color", [1.0; 3]));
     surface.product("metal_edge_tint", tint, specular);
@@ -189,22 +189,22 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32
     let (radius, scale) = (surface.colour("subsurface_radius", [1.0; 3]), surface.scalar("subsurface_scale", 1.0));
     let radius = multiply(&mut surface.network.graph, radius, scale);
     surface.length("subsurface_radius", radius);
-    let has_film = surface.material.input("thin_film_thickness").and_then(constant_scalar).is_none_or(|nm| nm > 0.0);
-    surface.material.set("thin_film_weight", f32::from(u8::from(has_film)));
+    let has_film = surface.closure.input("thin_film_thickness").and_then(constant_scalar).is_none_or(|nm| nm > 0.0);
+    surface.closure.set("thin_film_weight", f32::from(u8::from(has_film)));
     let (weight, emission) = (surface.scalar("emission", 0.0), surface.colour("emission_color", [1.0; 3]));
     surface.product("emission_color", emission, weight);
     let opacity = surface.colour("opacity", [1.0; 3]);
     let opacity = luminance(&mut surface.network.graph, opacity);
-    surface.material.set_input("geometry_opacity", opacity);
-    surface.material.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
-    surface.material.normal = surface.normal("normal");
+    surface.closure.set_input("geometry_opacity", opacity);
+    surface.closure.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
+    surface.closure.normal = surface.normal("normal");
     surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
     surface.left_out_vectors(&["coat_normal", "tangent"]);
 }
 
 /// glTF 2.0's metallic-roughness material with its extensions.
 fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
-    surface.material.model = Model::Gltf;
+    surface.closure.model = Model::Gltf;
     surface.scalars(&[
         ("metalness", "metallic", 1.0),
         ("specular_roughness", "roughness", 1.0),
@@ -219,9 +219,9 @@ fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
         ("thin_film_thickness", "iridescence_thickness", 100.0),
     ]);
     surface.colours(&[("base_color", "base_color", [1.0; 3]), ("specular_color", "specular_color", [1.0; 3])]);
-    surface.material.set("coat_ior", 1.5);
-    surface.material.set("coat_darkening", 0.0);
-    surface.material.set_colour("metal_edge_tint", [1.0; 3]);
+    surface.closure.set("coat_ior", 1.5);
+    surface.closure.set("coat_darkening", 0.0);
+    surface.closure.set_colour("metal_edge_tint", [1.0; 3]);
     let radians = surface.scalar("anisotropy_rotation", 0.0);
     surface.product("specular_rotation", radians, scalar(std::f32::consts::TAU.recip()));
     gltf_sheen(surface);
@@ -231,12 +231,12 @@ fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
     let mode = surface.network.number(surface.shader, "alpha_mode", 0.0);
     if mode != 0.0 {
         let alpha = surface.scalar("alpha", 1.0);
-        surface.material.set_input("geometry_opacity", alpha);
+        surface.closure.set_input("geometry_opacity", alpha);
     }
     if mode == 1.0 {
-        surface.material.opacity_threshold = surface.network.number(surface.shader, "alpha_cutoff", 0.5);
+        surface.closure.opacity_threshold = surface.network.number(surface.shader, "alpha_cutoff", 0.5);
     }
-    surface.material.normal = surface.normal("normal");
+    surface.closure.normal = surface.normal("normal");
     surface.left_out(&[("dispersion", 0.0)]);
     surface.left_out_vectors(&["clearcoat_normal", "tangent"]);
 }
@@ -244,25 +244,25 @@ fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
 /// The fuzz takes by its largest coloured channel, so the colour may keep its strength and the weight be one.
 fn gltf_sheen(surface: &mut Surface<'_, '_, '_, '_>) {
     let sheen = surface.colour("sheen_color", [0.0; 3]);
-    surface.material.set("fuzz_weight", f32::from(u8::from(!is_constant(sheen, 0.0))));
-    surface.material.set_input("fuzz_color", sheen);
+    surface.closure.set("fuzz_weight", f32::from(u8::from(!is_constant(sheen, 0.0))));
+    surface.closure.set_input("fuzz_color", sheen);
     let roughness = surface.scalar("sheen_roughness", 0.0);
     surface.product("fuzz_roughness", roughness, roughness);
 }
 
 /// What passes is tinted by the base colour; thickness 0 is a sheet, other surfaces enclose an absorbing volume.
 fn gltf_volume(surface: &mut Surface<'_, '_, '_, '_>) {
-    let transmits = surface.material.input("transmission_weight").is_some_and(|weight| !is_constant(weight, 0.0));
+    let transmits = surface.closure.input("transmission_weight").is_some_and(|weight| !is_constant(weight, 0.0));
     let base = surface.colour("base_color", [1.0; 3]);
     let is_sheet = is_constant(component(surface.scalar("thickness", 0.0), 0), 0.0);
-    surface.material.thin_walled = transmits && is_sheet;
+    surface.closure.thin_walled = transmits && is_sheet;
     let attenuation = surface.colour("attenuation_color", [1.0; 3]);
     let distance = surface.scalar("attenuation_distance", 0.0);
     if is_sheet || is_constant(attenuation, 1.0) || is_constant(distance, 0.0) {
-        surface.material.set_input("transmission_color", base);
+        surface.closure.set_input("transmission_color", base);
         return;
     }
-    surface.material.set_input("transmission_color", attenuation);
+    surface.closure.set_input("transmission_color", attenuation);
     surface.length("transmission_depth", distance);
     if transmits && !is_constant(base, 1.0) {
         surface

@@ -22,7 +22,7 @@ pub(crate) use value::{stated_colour_space, to_linear_rec709};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
-use gonio::scene::{Channel, Input, Material, MaterialId, Model, Operation, Origin};
+use gonio::scene::{Channel, Closure, Graph, Input, Material, MaterialId, Model, Operation, Origin};
 use network::{Network, Shader};
 use pyo3::{intern, prelude::*};
 
@@ -50,10 +50,8 @@ fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) ->
     for surface in surfaces {
         let shader = Shader::new(surface, &context.time);
         let mut network = Network::new(context);
-        if let Some(mut material) = convert_surface(&mut network, &shader) {
-            material.graph = network.graph;
-            material.origin = origin;
-            return Some(material);
+        if let Some(closure) = convert_surface(&mut network, &shader) {
+            return Some(Material { graph: network.graph, ..Material::of(origin, closure) });
         }
         unknown.push(format!("'{}'", shader.id));
     }
@@ -65,7 +63,7 @@ fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) ->
     None
 }
 
-fn convert_surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Material> {
+fn convert_surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
     match shader.id.as_str() {
         "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
         _ => materialx_surfaces::convert(network, shader),
@@ -98,16 +96,17 @@ pub fn fallback(context: &mut Context<'_, '_>, with_opacity: bool) -> MaterialId
     if let Some(Some(known)) = context.material_ids.get(key) {
         return *known;
     }
-    let mut material = Material { origin: Origin::new(key.trim()), model: Model::OpenPbr, ..Material::default() };
+    let mut closure = Closure { model: Model::OpenPbr, ..Closure::default() };
+    let mut graph = Graph::default();
     let primvar = |name: &str, fallback: f32| Operation::Primvar { name: name.to_owned(), fallback: [fallback, fallback, fallback, 1.0] };
-    let colour = material.graph.add(primvar("displayColor", FALLBACK_REFLECTANCE), vec![]);
-    material.set_input("base_color", Input::Node(colour, Channel::Rgb));
-    material.set("specular_weight", 0.0);
+    let colour = graph.add(primvar("displayColor", FALLBACK_REFLECTANCE), vec![]);
+    closure.set_input("base_color", Input::Node(colour, Channel::Rgb));
+    closure.set("specular_weight", 0.0);
     if with_opacity {
-        let opacity = material.graph.add(primvar("displayOpacity", 1.0), vec![]);
-        material.set_input("geometry_opacity", Input::Node(opacity, Channel::R));
+        let opacity = graph.add(primvar("displayOpacity", 1.0), vec![]);
+        closure.set_input("geometry_opacity", Input::Node(opacity, Channel::R));
     }
-    let id = context.scene.add_material(material);
+    let id = context.scene.add_material(Material { graph, ..Material::of(Origin::new(key.trim()), closure) });
     context.material_ids.insert(key.to_owned(), Some(id));
     id
 }

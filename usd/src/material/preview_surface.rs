@@ -3,7 +3,7 @@
 use super::arithmetic::{binary, colour, constant_scalar, is_constant, scalar, subtract};
 use super::network::{Network, Shader};
 use super::usd_nodes::tangent_normal;
-use gonio::scene::{Input, Material, Model, NodeId, Operation};
+use gonio::scene::{Closure, Input, Model, NodeId, Operation};
 
 /// Index of refraction that stands in where the interface's own reflects nothing.
 const FALLBACK_IOR: f32 = 1.5;
@@ -15,48 +15,48 @@ fn normal_reflectance(ior: f32) -> f32 {
 }
 
 /// Converts the surface; its defaults are the specification's.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Material {
-    let mut material = Material { model: Model::PreviewSurface, ..Material::default() };
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+    let mut closure = Closure { model: Model::PreviewSurface, ..Closure::default() };
     let diffuse = network.colour(shader, "diffuseColor", [0.18; 3]);
-    material.set_input("base_color", diffuse);
+    closure.set_input("base_color", diffuse);
     let ior = network.scalar(shader, "ior", 1.5);
-    material.set_input("specular_ior", ior);
-    material.set_input("specular_roughness", network.scalar(shader, "roughness", 0.5));
+    closure.set_input("specular_ior", ior);
+    closure.set_input("specular_roughness", network.scalar(shader, "roughness", 0.5));
     if network.number(shader, "useSpecularWorkflow", 0.0) != 0.0 {
-        specular_workflow(network, shader, &mut material, ior);
+        specular_workflow(network, shader, &mut closure, ior);
     } else {
         // The metal's colour holds at all angles: F90 = F0.
-        material.set_input("metalness", network.scalar(shader, "metallic", 0.0));
-        material.set_input("metal_edge_tint", diffuse);
+        closure.set_input("metalness", network.scalar(shader, "metallic", 0.0));
+        closure.set_input("metal_edge_tint", diffuse);
     }
     // Without a step of the index there is no interface that could reflect.
-    if is_constant(ior, 1.0) && material.input("specular_color").is_none_or(|tint| is_constant(tint, 0.0)) {
-        material.set("specular_scale", 0.0);
+    if is_constant(ior, 1.0) && closure.input("specular_color").is_none_or(|tint| is_constant(tint, 0.0)) {
+        closure.set("specular_scale", 0.0);
     }
-    material.set_input("coat_weight", network.scalar(shader, "clearcoat", 0.0));
-    material.set_input("coat_roughness", network.scalar(shader, "clearcoatRoughness", 0.01));
-    material.set_input("coat_ior", ior);
-    material.set("coat_darkening", 0.0);
-    material.set_input("emission_color", network.colour(shader, "emissiveColor", [0.0; 3]));
-    opacity(network, shader, &mut material);
-    material.normal = normal(network, shader);
+    closure.set_input("coat_weight", network.scalar(shader, "clearcoat", 0.0));
+    closure.set_input("coat_roughness", network.scalar(shader, "clearcoatRoughness", 0.01));
+    closure.set_input("coat_ior", ior);
+    closure.set("coat_darkening", 0.0);
+    closure.set_input("emission_color", network.colour(shader, "emissiveColor", [0.0; 3]));
+    opacity(network, shader, &mut closure);
+    closure.normal = normal(network, shader);
     if network.input(shader, "displacement").is_some_and(|input| !is_constant(input, 0.0)) {
         network.unsupported("displacement of UsdPreviewSurface", shader);
     }
-    material
+    closure
 }
 
 /// F0 is the specular colour: a tint of what the index gives.
-fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, material: &mut Material, ior: Input) {
+fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure, ior: Input) {
     let wanted = network.colour(shader, "specularColor", [0.0; 3]);
-    material.set("metalness", 0.0);
+    closure.set("metalness", 0.0);
     let tint = match constant_scalar(ior) {
         Some(ior) if normal_reflectance(ior) > 0.0 => {
             binary(&mut network.graph, Operation::Multiply, wanted, scalar(normal_reflectance(ior).recip()))
         }
         Some(_) => {
             if !is_constant(wanted, 0.0) {
-                material.set("specular_ior", FALLBACK_IOR);
+                closure.set("specular_ior", FALLBACK_IOR);
             }
             binary(&mut network.graph, Operation::Multiply, wanted, scalar(normal_reflectance(FALLBACK_IOR).recip()))
         }
@@ -69,22 +69,22 @@ fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'p
             binary(graph, Operation::Divide, wanted, reflectance)
         }
     };
-    material.set_input("specular_color", tint);
+    closure.set_input("specular_color", tint);
 }
 
 /// Opacity removes the surface. Only where the file itself says `transparent`, what is missing is smooth transmission under the reflection.
-fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, material: &mut Material) {
+fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure) {
     let opacity = network.scalar(shader, "opacity", 1.0);
-    material.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
+    closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
     let is_strict = network.text(shader, "opacityMode").as_deref() == Some("transparent");
-    if is_strict && material.opacity_threshold == 0.0 {
+    if is_strict && closure.opacity_threshold == 0.0 {
         let transmission = subtract(&mut network.graph, scalar(1.0), opacity);
-        material.set_input("transmission_weight", transmission);
-        material.set_input("transmission_color", colour([1.0; 3]));
+        closure.set_input("transmission_weight", transmission);
+        closure.set_input("transmission_color", colour([1.0; 3]));
         // Held in 0 to 1 after the sum: smooth whatever the roughness of the reflection.
-        material.set("transmission_extra_roughness", -1.0);
+        closure.set("transmission_extra_roughness", -1.0);
     } else {
-        material.set_input("geometry_opacity", opacity);
+        closure.set_input("geometry_opacity", opacity);
     }
 }
 

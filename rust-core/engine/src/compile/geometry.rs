@@ -8,7 +8,7 @@ use crate::{
     accel::{Blas, Geometry, Instance},
     error::{Diagnostic, Error, Result},
     geometry::{GeometryTable, NONE, PrimvarRef},
-    integrator::{SurfaceMaterial, ray_mask},
+    integrator::{MaterialTable, ray_mask},
     scene::{Instances, Mesh, Primvar, Scene, Transform},
 };
 use std::sync::{Arc, atomic::AtomicBool};
@@ -66,7 +66,7 @@ pub(super) struct CompiledGeometry {
 pub(super) fn tables(
     scene: &Scene,
     names: &[String],
-    materials: &[SurfaceMaterial],
+    materials: &MaterialTable,
     origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
@@ -136,7 +136,7 @@ fn append_instances(
     group: &Instances,
     set: u32,
     names: &[String],
-    materials: &[SurfaceMaterial],
+    materials: &MaterialTable,
     origin: [f64; 3],
     table: &mut GeometryTable,
     instances: &mut Vec<Instance>,
@@ -149,16 +149,19 @@ fn append_instances(
     let first_material = table.materials.len() as u32;
     let slots = mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1));
     // The default material stands behind all others.
-    let default = materials.len() as u32 - 1;
-    let known = |slot: usize| group.materials.get(slot).map(|id| id.0).filter(|id| *id < default);
-    table.materials.extend((0..slots).map(|slot| known(slot).unwrap_or(default)));
-    let transparent = (0..slots).any(|slot| materials[known(slot).unwrap_or(default) as usize].transparent);
+    let default = materials.numbers.len() - 1;
+    let known = |slot: usize| group.materials.get(slot).map(|id| id.index()).filter(|id| *id < default);
+    let number = |slot: usize| materials.number(known(slot).unwrap_or(default));
+    table.materials.extend((0..slots).map(number));
+    let transparent = (0..slots).any(|slot| materials.transparent(number(slot)));
     let first_primvar = append_own_primvars(group, names, table, diagnostics);
     report_unplaceable(mesh, group, diagnostics);
     let mask = [
         (group.visibility.camera, ray_mask::CAMERA),
         (group.visibility.shadow, ray_mask::SHADOW),
-        (group.visibility.indirect, ray_mask::INDIRECT),
+        (group.visibility.diffuse, ray_mask::DIFFUSE),
+        (group.visibility.glossy, ray_mask::GLOSSY),
+        (group.visibility.transmission, ray_mask::TRANSMISSION),
     ];
     let mask = mask.iter().map(|(seen, bit)| if *seen { *bit } else { 0 }).sum();
     for (number, transform) in group.transforms.iter().enumerate() {

@@ -6,10 +6,9 @@ use super::{
 };
 use crate::{
     accel::{Geometry, Instance, Shape},
-    bsdf::parameter,
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    integrator::{SurfaceMaterial, ray_mask},
+    integrator::{MaterialTable, ray_mask},
     light::{LightKind, LightRecord, LightTable, Shaping, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
 };
@@ -30,7 +29,7 @@ pub(super) struct CompiledLights {
 pub(super) fn compile(
     scene: &Scene,
     geometry: &GeometryTable,
-    materials: &[SurfaceMaterial],
+    materials: &MaterialTable,
     textures: &CompiledTextures,
     origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
@@ -137,12 +136,11 @@ fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
 fn emissive_triangles(
     scene: &Scene,
     geometry: &GeometryTable,
-    materials: &[SurfaceMaterial],
+    materials: &MaterialTable,
     origin: [f64; 3],
     records: &mut Vec<LightRecord>,
 ) -> Vec<u32> {
-    let even = |m: &SurfaceMaterial| m.emissive && !m.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR);
-    if !materials.iter().any(even) {
+    if !(0..materials.numbers.len()).any(|material| materials.even_emission(materials.number(material)).is_some()) {
         return Vec::new();
     }
     let mut first_light = Vec::with_capacity(geometry.instance_mesh.len() + 1);
@@ -150,15 +148,15 @@ fn emissive_triangles(
     for group in &scene.instances {
         let Some(mesh) = scene.meshes.get(group.mesh.index()) else { continue };
         for transform in &group.transforms {
-            let material = |triangle: usize| &materials[geometry.material(number, triangle as u32) as usize];
+            let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
             let slots = mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1));
             let first = geometry.instance_material[number as usize] as usize;
-            let emits = geometry.materials[first..first + slots].iter().any(|m| even(&materials[*m as usize]));
+            let emits = geometry.materials[first..first + slots].iter().any(|m| materials.even_emission(*m).is_some());
             let fits = records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
-            if emits && fits && group.visibility.indirect {
+            if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);
-                records.extend((0..mesh.triangles.len()).map(|t| triangle_record(mesh, t, &placed, material(t), even(material(t)))));
+                records.extend((0..mesh.triangles.len()).map(|t| triangle_record(mesh, t, &placed, glow(t))));
             } else {
                 first_light.push(NONE);
             }
@@ -171,15 +169,14 @@ fn emissive_triangles(
     first_light
 }
 
-fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, material: &SurfaceMaterial, emits: bool) -> LightRecord {
+fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, glow: Option<[f32; 3]>) -> LightRecord {
     let corners = mesh.triangles[triangle].map(|i| mesh.points.get(i as usize).map_or([0.0; 3], |p| placed.point(p.map(f64::from))));
     let edge = |i: usize| -> [f32; 3] { std::array::from_fn(|k| (corners[i][k] - corners[0][k]) as f32) };
     let (x, y) = (edge(1), edge(2));
     let z = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]].map(|c| -c);
-    let emission = &material.surface.constants[parameter::EMISSION_COLOR..parameter::EMISSION_COLOR + 3];
     LightRecord {
         to_world: [x, y, z, corners[0].map(|c| c as f32)],
-        radiance: if emits { [emission[0], emission[1], emission[2]] } else { [0.0; 3] },
+        radiance: glow.unwrap_or_default(),
         two_sided: true,
         ..LightRecord::new(LightKind::Triangle)
     }

@@ -2,18 +2,18 @@
 
 use super::{primvars::column, textures::CompiledTextures};
 use crate::{
-    bsdf::{Surface, Switches, parameter},
+    bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Arithmetic, Output, Program, Source, Step},
-    integrator::{MaterialTable, SurfaceMaterial},
-    scene::{Channel, Input, Material, Model, Node, Operation, Origin, Scene, TextureFilter, WrapMode},
+    integrator::{MaterialTable, Mix, Shading, SurfaceMaterial},
+    scene::{self, Channel, Closure, Input, Material, Model, Node, NodeId, Operation, Origin, Scene, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
 
 /// Reflectance of surfaces without a material.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 
-/// Compiles all materials; the default one stands last.
+/// Compiles all materials; the default one stands last. Gives their surfaces and mixes.
 pub(super) fn compile(
     scene: &Scene,
     textures: &CompiledTextures,
@@ -21,21 +21,57 @@ pub(super) fn compile(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<MaterialTable> {
     let default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
-    scene.materials.iter().chain([&default]).map(|material| compile_one(material, textures, names, diagnostics)).collect()
+    let mut table = MaterialTable::default();
+    for material in scene.materials.iter().chain([&default]) {
+        let steps = steps(material, textures, names)?;
+        let known = |node: &NodeId| usize::from(node.0) < steps.steps.len();
+        let first = table.surfaces.len() as u32;
+        for closure in &material.closures {
+            let normals = [closure.normal, closure.coat_normal, closure.tangent];
+            if !normals.iter().flatten().all(known) {
+                return Err(Error::scene(&material.origin, "the material's normal refers to a node that does not exist"));
+            }
+            table.surfaces.push(surface(&material.origin, closure, steps.clone(), diagnostics));
+        }
+        table.numbers.push(match material.closures.as_slice() {
+            [only] if only.weight == Input::Constant([1.0; 4]) => Shading::Surface(first),
+            closures => {
+                table.mixes.push(mix(closures, first, steps, &table.surfaces));
+                Shading::Mix(table.mixes.len() as u32 - 1)
+            }
+        });
+    }
+    Ok(table)
 }
 
-fn compile_one(
-    material: &Material,
-    textures: &CompiledTextures,
-    names: &[String],
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<SurfaceMaterial> {
-    let mut program = steps(material, textures, names)?;
+/// A material of several closures, or of one with a weight.
+fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMaterial]) -> Mix {
+    let weights: Vec<Source> = closures.iter().map(|closure| source(closure.weight)).collect();
+    let outputs = weights.iter().enumerate().map(|(i, weight)| Output { offset: i * 3, width: 3, source: *weight }).collect();
+    let own = &surfaces[first as usize..];
+    let constant = closures.iter().all(|closure| matches!(closure.weight, Input::Constant(_)));
+    Mix {
+        first,
+        count: closures.len(),
+        program: Program { outputs, ..program },
+        transparent: own.iter().any(|surface| surface.transparent),
+        emissive: own.iter().any(|surface| surface.emissive),
+        even_emission: (constant && own.iter().all(SurfaceMaterial::emits_evenly)).then(|| {
+            let glow = |closure: &Closure, surface: &SurfaceMaterial, c: usize| match closure.weight {
+                Input::Constant(weight) => weight[c].max(0.0) * surface.surface.constants[parameter::EMISSION_COLOR + c],
+                Input::Node(..) => 0.0,
+            };
+            std::array::from_fn(|c| closures.iter().zip(own).map(|(closure, surface)| glow(closure, surface, c)).sum())
+        }),
+    }
+}
+
+fn surface(origin: &Origin, closure: &Closure, mut program: Program, diagnostics: &mut Vec<Diagnostic>) -> SurfaceMaterial {
     let mut constants = parameter::DEFAULTS;
     let mut varying = [false; parameter::COUNT];
-    for (name, input) in &material.parameters {
+    for (name, input) in &closure.parameters {
         let Some(parameter) = parameter::find(name) else {
-            diagnostics.push(Diagnostic::warning(&material.origin, format!("surface parameter '{name}' is not known; it is ignored")));
+            diagnostics.push(Diagnostic::warning(origin, format!("surface parameter '{name}' is not known; it is ignored")));
             continue;
         };
         let places = parameter.offset..parameter.offset + parameter.width();
@@ -47,31 +83,65 @@ fn compile_one(
             }
         }
     }
-    let switches = Switches { thin_walled: material.thin_walled, ..switches_of(material.model) };
+    let step = |node: Option<NodeId>| node.map(|node| node.0);
+    program.normal = step(closure.normal);
+    program.free_normal = switches_of(closure).bump == Bump::Cycles;
+    program.coat_normal = step(closure.coat_normal);
+    program.tangent = step(closure.tangent);
+    let switches = switches_of(closure);
     let surface = Surface::new(constants, &varying, switches);
     let lobes = surface.lobes;
-    Ok(SurfaceMaterial {
-        transparent: lobes.cut_out || (switches.thin_walled && lobes.transmission),
+    SurfaceMaterial {
+        transparent: lobes.cut_out || lobes.straight || (switches.thin_walled && lobes.transmission),
         emissive: lobes.emission,
         anisotropic: lobes.anisotropic,
+        holdout: closure.model == Model::Holdout,
         surface,
         program,
-        opacity_threshold: material.opacity_threshold,
-    })
+        opacity_threshold: closure.opacity_threshold,
+    }
 }
 
 fn finite(value: f32) -> f32 {
     if value.is_finite() { value } else { 0.0 }
 }
 
-fn switches_of(model: Model) -> Switches {
-    match model {
+fn switches_of(closure: &Closure) -> Switches {
+    let single = Switches::single;
+    let switches = match closure.model {
         Model::OpenPbr => Switches::default(),
-        Model::Principled => Switches::principled(),
+        Model::Principled => Switches { bump: Bump::Cycles, ..Switches::principled() },
         Model::PreviewSurface => Switches::preview_surface(),
         Model::StandardSurface => Switches::standard_surface(),
         Model::Gltf => Switches::gltf(),
-    }
+        Model::Diffuse => single(Single::Diffuse),
+        Model::Glossy => single(Single::Glossy),
+        Model::Glass => single(Single::Glass),
+        Model::Refraction => single(Single::Refraction),
+        Model::Metallic => single(Single::Metallic),
+        Model::Conductor => Switches { metal: Metal::Conductor, ..single(Single::Metallic) },
+        Model::Sheen => single(Single::Sheen),
+        Model::Velvet => Switches { fuzz: Fuzz::Velvet, ..single(Single::Sheen) },
+        Model::Translucent => single(Single::Translucent),
+        Model::Subsurface => single(Single::Subsurface),
+        Model::Transparent => single(Single::Transparent),
+        Model::Emission | Model::Holdout => single(Single::Emission),
+    };
+    let distribution = match closure.distribution {
+        scene::Distribution::MultiGgx => Distribution::MultiGgx,
+        scene::Distribution::Ggx => Distribution::Ggx,
+        scene::Distribution::Beckmann => Distribution::Beckmann,
+        scene::Distribution::AshikhminShirley => Distribution::AshikhminShirley,
+    };
+    let walks = matches!(closure.model, Model::Principled | Model::Subsurface);
+    let subsurface = match closure.subsurface {
+        _ if !walks => SubsurfaceMethod::Diffuse,
+        scene::SubsurfaceMethod::RandomWalk => SubsurfaceMethod::RandomWalk,
+        scene::SubsurfaceMethod::RandomWalkLegacy => SubsurfaceMethod::RandomWalkLegacy,
+        scene::SubsurfaceMethod::RandomWalkSkin => SubsurfaceMethod::RandomWalkSkin,
+        scene::SubsurfaceMethod::Burley => SubsurfaceMethod::Burley,
+    };
+    Switches { thin_walled: closure.thin_walled, distribution, subsurface, ..switches }
 }
 
 fn source(input: Input) -> Source {
@@ -95,7 +165,7 @@ struct NodeFacts {
 }
 
 fn steps(material: &Material, textures: &CompiledTextures, names: &[String]) -> Result<Program> {
-    let mut program = Program { normal: material.normal.map(|node| node.0), ..Program::default() };
+    let mut program = Program::default();
     let mut facts: Vec<NodeFacts> = Vec::new();
     for (number, node) in material.graph.nodes.iter().enumerate() {
         let late = node.inputs.iter().find(|input| matches!(input, Input::Node(id, _) if usize::from(id.0) >= number));
@@ -109,10 +179,6 @@ fn steps(material: &Material, textures: &CompiledTextures, names: &[String]) -> 
         }
         program.steps.push(step);
         facts.push(fact);
-    }
-    let last = material.normal.map_or(0, |node| usize::from(node.0) + 1);
-    if last > program.steps.len() {
-        return Err(Error::scene(&material.origin, "the material's normal refers to a node that does not exist"));
     }
     // A tangent is wanted even where no image is: for anisotropy.
     program.uv = program.uv.or_else(|| ["st", "UVMap", "map1", "uv"].iter().find_map(|name| column(names, name)));

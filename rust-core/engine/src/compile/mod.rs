@@ -92,8 +92,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         build_s: built,
         total_s: start.elapsed().as_secs_f64(),
     };
-    let any_absorbing = scene.materials.iter().any(|material| material.input("transmission_depth").is_some());
-    let any_transparent = materials.iter().any(|material| material.transparent);
+    let any_absorbing =
+        scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
+    let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let tables = Tables {
         bvh,
         first_light_instance: geometry.first_light,

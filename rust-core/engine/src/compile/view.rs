@@ -48,6 +48,8 @@ impl View {
         let transport = Transport {
             execution,
             max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
+            kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
+            shows_surroundings: !settings.film_transparent,
             measure: settings.aovs.contains(&Aov::Illuminance),
             clamps: [settings.clamp_direct, settings.clamp_indirect],
             eye: table.position,

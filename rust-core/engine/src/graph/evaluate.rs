@@ -21,6 +21,10 @@ pub struct SurfaceColumns {
     pub geometric_normal: [Column; 3],
     /// Unit shading normals.
     pub shading_normal: [Column; 3],
+    /// Unit shading normals before the program bent them; only where it does.
+    pub smooth_normal: [Column; 3],
+    /// Unit normals of the coat; only where the program gives them.
+    pub coat_normal: [Column; 3],
     /// Tangents along the first texture coordinate, not unit; zero where there is none.
     pub tangent: [Column; 3],
     /// Width of a pixel in texture coordinates.
@@ -43,6 +47,8 @@ impl Default for SurfaceColumns {
             error: column(),
             geometric_normal: three(),
             shading_normal: three(),
+            smooth_normal: three(),
+            coat_normal: three(),
             tangent: three(),
             uv_width: column(),
             side: column(),
@@ -96,8 +102,21 @@ pub fn evaluate<L: Lanes>(
                 place += 1;
             }
         }
+        let direction = |step: u16| read(l, &scratch.registers, Source::Register(step));
+        if let Some(step) = program.tangent {
+            let [x, y, z, _] = direction(step);
+            let [a, b, c] = &mut points.tangent;
+            Vec3::new(x, y, z).store([a, b, c], at);
+        }
+        if let Some(step) = program.coat_normal {
+            let side = l.load(&points.side, at);
+            let [x, y, z, _] = direction(step);
+            let smooth = Vec3::load(l, [&points.shading_normal[0], &points.shading_normal[1], &points.shading_normal[2]], at);
+            let [a, b, c] = &mut points.coat_normal;
+            (Vec3::new(x, y, z) * side).normalize_or(smooth).store([a, b, c], at);
+        }
         if let Some(step) = program.normal {
-            bend_normals(l, points, at, read(l, &scratch.registers, Source::Register(step)));
+            bend_normals(l, points, at, direction(step), program.free_normal);
         }
     }
 }
@@ -199,12 +218,15 @@ fn normal_map<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, map: [F<L>; 4]
 
 /// Puts the mapped normals in place, turned to the side of `wo`, where they are usable.
 #[inline(always)]
-fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: [F<L>; 4]) {
+fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: [F<L>; 4], free: bool) {
     let load = |columns: &[Column; 3]| Vec3::load(l, [&columns[0], &columns[1], &columns[2]], at);
     let smooth = load(&points.shading_normal);
     let bent = Vec3::new(normal[0], normal[1], normal[2]) * l.load(&points.side, at);
     let (geometric, wo) = (load(&points.geometric_normal), load(&points.wo));
-    let bent = facing(l, bent.normalize_or(smooth), geometric, wo);
+    let bent = bent.normalize_or(smooth);
+    let bent = if free { bent } else { facing(l, bent, geometric, wo) };
+    let [x, y, z] = &mut points.smooth_normal;
+    smooth.store([x, y, z], at);
     let [x, y, z] = &mut points.shading_normal;
     bent.store([x, y, z], at);
 }

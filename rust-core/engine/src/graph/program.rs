@@ -105,6 +105,12 @@ pub struct Program {
     pub outputs: Vec<Output>,
     /// Step that gives the shading normal.
     pub normal: Option<u16>,
+    /// Whether that normal is taken as it is; else it is turned so that mirror directions leave the surface.
+    pub free_normal: bool,
+    /// Step that gives the coat's normal.
+    pub coat_normal: Option<u16>,
+    /// Step that gives the direction of anisotropy.
+    pub tangent: Option<u16>,
     /// Primvar column that tangents and footprints follow.
     pub uv: Option<usize>,
 }
@@ -112,6 +118,6 @@ pub struct Program {
 impl Program {
     /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {
-        self.outputs.is_empty() && self.normal.is_none()
+        self.outputs.is_empty() && self.normal.is_none() && self.coat_normal.is_none() && self.tangent.is_none()
     }
 }

@@ -57,6 +57,7 @@ pub(super) fn generate<L: Lanes>(
             spread: ray.spread,
             slot: pixel,
             flags: l.u(flag::CAMERA | flag::DELTA),
+            counts: l.u(0),
             medium: Rgb::zero(l),
         };
         paths.append(&state, inside);

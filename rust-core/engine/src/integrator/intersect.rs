@@ -14,7 +14,7 @@ use crate::{
 };
 use gonio_simd::{Execution, Lanes, Rgb, dispatch};
 
-/// Finds what every path hits, adds the light that shapes and the surroundings send, and leaves the surface hits sorted by material.
+/// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
 pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     let paths = &ws.paths;
     ws.statistics.rays += paths.count as u64;
@@ -25,7 +25,7 @@ pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
         pass_through_lights(tables, transport, ws);
     }
     dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
-    sort_by_material(tables, ws);
+    list_materials(tables, ws);
 }
 
 fn rays_of(paths: &Paths) -> RayBatch<'_> {
@@ -131,6 +131,7 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let path = l.load_integers(&ws.escaped, at);
         let flags = l.gather_integers(&ws.paths.flags, path);
         let camera = (flags & flag::CAMERA).ne(0);
+        let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
         let radiance = tables.lights.escaped(
             l,
@@ -147,20 +148,21 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
     }
 }
 
-/// Counting sort of the paths at surfaces by material.
-fn sort_by_material(tables: &Tables, ws: &mut Workspace) {
-    let materials = tables.materials.len();
-    ws.material_start.clear();
-    ws.material_start.resize(materials + 1, 0);
+/// Looks up the material of every hit.
+fn list_materials(tables: &Tables, ws: &mut Workspace) {
     ws.material_of.clear();
     for (instance, primitive) in ws.hits.instance.iter().zip(&ws.hits.primitive) {
-        if *instance == NONE {
-            ws.material_of.push(NONE);
-        } else {
-            let material = tables.geometry.material(*instance, *primitive);
-            ws.material_start[material as usize + 1] += 1;
-            ws.material_of.push(material);
-        }
+        ws.material_of.push(if *instance == NONE { NONE } else { tables.geometry.material(*instance, *primitive) });
+    }
+}
+
+/// Counting sort of the paths at surfaces by material, once each has a closure.
+pub(super) fn sort_by_material(tables: &Tables, ws: &mut Workspace) {
+    let materials = tables.materials.surfaces.len();
+    ws.material_start.clear();
+    ws.material_start.resize(materials + 1, 0);
+    for material in ws.material_of.iter().filter(|material| **material != NONE) {
+        ws.material_start[*material as usize + 1] += 1;
     }
     for m in 0..materials {
         ws.material_start[m + 1] += ws.material_start[m];

@@ -4,22 +4,30 @@
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
 
 use super::{
-    material::{SurfaceMaterial, Tables},
+    material::Tables,
     surface::{ChunkSource, HitSource, surface_chunk},
 };
 use crate::{
-    bsdf::{BsdfSample, Lobes, ParameterValues, Surface},
-    graph::{self, GraphScratch, OutputColumns, SurfaceColumns},
+    bsdf::{BsdfSample, Lobes, ParameterValues, Surface, normals::Normals},
+    graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns},
     light::LightSample,
 };
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// [`Surface::resolve`].
+/// [`Surface::resolve_about`].
 #[inline(never)]
-pub(super) fn resolve<L: Lanes>(l: L, surface: &Surface, values: &ParameterValues<'_>, at: usize, wo: Vec3<L>, entering: M<L>) -> Lobes<L> {
+pub(super) fn resolve<L: Lanes>(
+    l: L,
+    surface: &Surface,
+    values: &ParameterValues<'_>,
+    at: usize,
+    wo: Vec3<L>,
+    entering: M<L>,
+    normals: Option<&Normals<L>>,
+) -> Lobes<L> {
     l.vectorize(
         #[inline(always)]
-        || surface.resolve(l, values, at, wo, entering),
+        || surface.resolve_about(l, values, at, wo, entering, normals),
     )
 }
 
@@ -90,14 +98,14 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mas
 pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
     l: L,
     tables: &Tables,
-    material: &SurfaceMaterial,
+    program: &Program,
     hits: &H,
     source: &ChunkSource<'_>,
     out: &mut SurfaceColumns,
 ) {
     l.vectorize(
         #[inline(always)]
-        || surface_chunk(l, tables, material, hits, source, out),
+        || surface_chunk(l, tables, program, hits, source, out),
     );
 }
 
@@ -106,7 +114,7 @@ pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
 pub(super) fn evaluate<L: Lanes>(
     l: L,
     tables: &Tables,
-    material: &SurfaceMaterial,
+    program: &Program,
     points: &mut SurfaceColumns,
     count: usize,
     scratch: &mut GraphScratch,
@@ -114,6 +122,6 @@ pub(super) fn evaluate<L: Lanes>(
 ) {
     l.vectorize(
         #[inline(always)]
-        || graph::evaluate(l, &material.program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
+        || graph::evaluate(l, program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
     );
 }

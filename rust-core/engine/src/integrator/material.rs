@@ -1,8 +1,15 @@
 //! What the kernels see of a scene: compiled tables.
 
-use crate::{accel::SceneBvh, bsdf::Surface, geometry::GeometryTable, graph::Program, light::LightTable, texture::TextureTable};
+use crate::{
+    accel::SceneBvh,
+    bsdf::{Surface, parameter},
+    geometry::GeometryTable,
+    graph::Program,
+    light::LightTable,
+    texture::TextureTable,
+};
 
-/// A compiled material.
+/// One compiled closure: what a path meets at a hit.
 #[derive(Clone, Debug)]
 pub struct SurfaceMaterial {
     /// Constants, model and lobes.
@@ -11,16 +18,96 @@ pub struct SurfaceMaterial {
     pub program: Program,
     /// Opacity below this is 0, else 1; 0 leaves it as it is.
     pub opacity_threshold: f32,
-    /// Whether the material may let straight light pass.
+    /// Whether it may let straight light pass.
     pub transparent: bool,
-    /// Whether the material may emit.
+    /// Whether it may emit.
     pub emissive: bool,
     /// Whether the shading frame's tangent matters.
     pub anisotropic: bool,
+    /// Whether it cuts a hole into the coverage.
+    pub holdout: bool,
+}
+
+impl SurfaceMaterial {
+    /// Whether it emits the same everywhere, nothing included.
+    pub fn emits_evenly(&self) -> bool {
+        !self.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR)
+    }
+}
+
+/// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight.
+#[derive(Clone, Debug)]
+pub struct Mix {
+    /// Number of the first closure among the surfaces.
+    pub first: u32,
+    /// Closures.
+    pub count: usize,
+    /// What computes the weights: output `i` is the colour of closure `i`.
+    pub program: Program,
+    /// Whether any closure may let straight light pass.
+    pub transparent: bool,
+    /// Whether any closure may emit.
+    pub emissive: bool,
+    /// What all closures emit together where that is the same everywhere.
+    pub even_emission: Option<[f32; 3]>,
+}
+
+/// What a material number of the geometry stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// A surface by its number.
+    Surface(u32),
+    /// A mix by its number.
+    Mix(u32),
 }
 
 /// All materials.
-pub type MaterialTable = Vec<SurfaceMaterial>;
+#[derive(Clone, Debug, Default)]
+pub struct MaterialTable {
+    /// Closures of all materials.
+    pub surfaces: Vec<SurfaceMaterial>,
+    /// Sums of closures.
+    pub mixes: Vec<Mix>,
+    /// The scene's materials in their order, then the default one.
+    pub numbers: Vec<Shading>,
+}
+
+impl MaterialTable {
+    /// The number that the geometry keeps for a material: mixes stand behind the surfaces.
+    pub fn number(&self, material: usize) -> u32 {
+        match self.numbers[material] {
+            Shading::Surface(surface) => surface,
+            Shading::Mix(mix) => self.surfaces.len() as u32 + mix,
+        }
+    }
+    /// What a number of the geometry stands for.
+    #[inline]
+    pub fn shading(&self, number: u32) -> Shading {
+        match number.checked_sub(self.surfaces.len() as u32) {
+            None => Shading::Surface(number),
+            Some(mix) => Shading::Mix(mix),
+        }
+    }
+    /// Whether a material of the geometry may let straight light pass.
+    pub fn transparent(&self, number: u32) -> bool {
+        match self.shading(number) {
+            Shading::Surface(surface) => self.surfaces[surface as usize].transparent,
+            Shading::Mix(mix) => self.mixes[mix as usize].transparent,
+        }
+    }
+    /// What a material of the geometry emits everywhere alike, if it does so at all.
+    pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
+        let emission = match self.shading(number) {
+            Shading::Surface(surface) => {
+                let material = &self.surfaces[surface as usize];
+                let glow = &material.surface.constants[parameter::EMISSION_COLOR..parameter::EMISSION_COLOR + 3];
+                (material.emissive && material.emits_evenly()).then(|| [glow[0], glow[1], glow[2]])
+            }
+            Shading::Mix(mix) => self.mixes[mix as usize].even_emission,
+        };
+        emission.filter(|glow| glow.iter().any(|x| *x > 0.0))
+    }
+}
 
 /// The tables of a compiled scene.
 #[derive(Debug)]

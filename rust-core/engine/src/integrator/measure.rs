@@ -96,6 +96,7 @@ fn start<L: Lanes>(l: L, point: &Point<L>, u: [F<L>; 2], ws: &mut Workspace) {
         spread: l.f(0.3),
         slot: point.slot,
         flags: l.u(flag::MEASURED | (1 << flag::BOUNCE_SHIFT)),
+        counts: l.u(1),
         medium: Rgb::zero(l),
     };
     ws.next.append(&state, alive);

@@ -1,6 +1,7 @@
 //! Light transport in stages over batches of paths: generate, intersect, shade by material, sample lights, trace shadows, accumulate.
 
 mod accumulate;
+mod closure;
 mod generate;
 mod intersect;
 mod kernels;
@@ -14,6 +15,6 @@ mod state;
 mod surface;
 
 pub(crate) use generate::tile_place;
-pub use material::{MaterialTable, SurfaceMaterial, Tables};
+pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};
 pub use path::{Tracer, Transport};
 pub use state::{BATCH, FirstHit, STAGES, Statistics, TILE, Workspace, ray_mask};

@@ -1,8 +1,9 @@
 //! The path tracer: a sample of every pixel of a tile, stage by stage.
 
 use super::{
+    closure::choose_closures,
     generate::{TileArea, generate},
-    intersect::intersect,
+    intersect::{intersect, sort_by_material},
     kernels,
     material::Tables,
     measure::measure,
@@ -25,6 +26,10 @@ pub struct Transport {
     pub execution: Execution,
     /// Scatterings after the first surface.
     pub max_bounces: u32,
+    /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
+    pub kind_bounces: [u32; 4],
+    /// Whether the camera sees lights at infinity.
+    pub shows_surroundings: bool,
     /// Whether illuminance is measured.
     pub measure: bool,
     /// Limits of direct and indirect contributions; 0 is off.
@@ -86,6 +91,8 @@ impl Tracer<'_> {
             }
             let context = SampleContext { sampler, sample, depth };
             intersect(self.tables, &self.transport, depth, ws);
+            choose_closures(self.tables, &self.transport, &context, ws);
+            sort_by_material(self.tables, ws);
             ws.statistics.spent(1, time);
             ws.next.count = 0;
             self.shade(&context, ws);
@@ -103,7 +110,7 @@ impl Tracer<'_> {
     /// Shades all surface hits, material by material, a chunk at a time.
     fn shade(&self, context: &SampleContext, ws: &mut Workspace) {
         let mut first = 0;
-        for material in 0..self.tables.materials.len() {
+        for material in 0..self.tables.materials.surfaces.len() {
             let end = ws.material_start[material + 1] as usize;
             while first < end {
                 let count = (end - first).min(CHUNK);
@@ -115,7 +122,7 @@ impl Tracer<'_> {
 
     #[inline(always)]
     fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
-        let material = &self.tables.materials[material];
+        let material = &self.tables.materials.surfaces[material];
         let start = Instant::now();
         let source = ChunkSource {
             order: &ws.order[first..],
@@ -123,10 +130,10 @@ impl Tracer<'_> {
             direction: &ws.paths.direction,
             cone: Some([&ws.paths.width, &ws.paths.spread]),
         };
-        kernels::surface_points(l, self.tables, material, &ws.hits, &source, &mut ws.surface);
+        kernels::surface_points(l, self.tables, &material.program, &ws.hits, &source, &mut ws.surface);
         let mut start = ws.statistics.spent(2, start);
         if !material.program.is_empty() {
-            kernels::evaluate(l, self.tables, material, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
+            kernels::evaluate(l, self.tables, &material.program, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
         }
         start = ws.statistics.spent(3, start);
         shade_chunk(l, self.tables, &self.transport, context, material, first, count, ws);

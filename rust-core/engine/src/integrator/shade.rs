@@ -6,10 +6,10 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::{SampleContext, Transport},
     scatter::add_rgb,
-    state::{MeasurePoints, PathLanes, Workspace, append3, flag, gather3, load3},
+    state::{MeasurePoints, PathLanes, Workspace, append3, event, flag, gather3, load3},
 };
 use crate::{
-    bsdf::{Lobes, ParameterValues, parameter::COUNT},
+    bsdf::{Lobes, ParameterValues, normals::Normals, parameter::COUNT},
     geometry::{NONE, spawn},
     graph::{OutputColumns, Program},
     light::power_heuristic,
@@ -51,6 +51,7 @@ struct Point<L: Lanes> {
     wo: Vec3<L>,
     throughput: Rgb<L>,
     flags: U<L>,
+    counts: U<L>,
     slot: U<L>,
     width: F<L>,
     spread: F<L>,
@@ -98,7 +99,8 @@ pub(super) fn shade_chunk<L: Lanes>(
         }
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
-        let lobes = kernels::resolve(l, &material.surface, &values, at, wo, entering);
+        let normals = normals(l, material, &point, at, ws);
+        let lobes = kernels::resolve(l, &material.surface, &values, at, wo, entering, normals.as_ref());
         shade_lanes(&stage, &mut point, wo, &lobes, at, ws);
     }
     ws.outputs = outputs;
@@ -123,6 +125,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         wo: load3(l, &ws.surface.wo, at),
         throughput: Rgb::new(throughput.x, throughput.y, throughput.z),
         flags,
+        counts: l.gather_integers(&ws.paths.counts, path),
         slot: l.gather_integers(&ws.paths.slot, path),
         width: l.gather(&ws.hits.t, path).mul_add(spread, l.gather(&ws.paths.width, path)),
         spread,
@@ -131,6 +134,22 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         behind: Rgb::zero(l),
         only_delta: l.m(false),
     }
+}
+
+/// The normals beside the shading normal, where the material has any.
+#[inline(always)]
+fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Point<L>, at: usize, ws: &Workspace) -> Option<Normals<L>> {
+    let program = &material.program;
+    let bent = program.normal.is_some() && program.free_normal;
+    if !bent && program.coat_normal.is_none() {
+        return None;
+    }
+    let local = |columns: &[gonio_simd::Column; 3]| point.frame.to_local(load3(l, columns, at));
+    Some(Normals {
+        geometric: point.frame.to_local(point.geometric),
+        smooth: if program.normal.is_some() { local(&ws.surface.smooth_normal) } else { local(&ws.surface.shading_normal) },
+        coat: program.coat_normal.map(|_| local(&ws.surface.coat_normal)),
+    })
 }
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
@@ -155,7 +174,7 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
     let present = if material.surface.lobes.cut_out {
         let seen_through = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
-        pass_straight(l, point, seen_through, ws);
+        pass_straight(l, point, seen_through & straight_left(point.counts, transport), ws);
         point.alive.and_not(seen_through)
     } else {
         point.alive
@@ -167,7 +186,7 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
-    let going_on = present & point.bounces.lt(transport.max_bounces + 1);
+    let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
     if transport.measure {
         let measured = going_on.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(super::state::BATCH as u32);
         append_measure(point, measured, &mut ws.measure);
@@ -181,11 +200,24 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], going_on, ws);
 }
 
+/// Whether all counts of scatterings are within their limits.
+#[inline(always)]
+fn within<L: Lanes>(counts: U<L>, limits: [u32; 4]) -> M<L> {
+    let at = |kind: u32| (counts >> (kind * 8)) & 255;
+    at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
+}
+
 /// Opacity after the cut-out threshold.
 #[inline(always)]
 pub(super) fn threshold<L: Lanes>(opacity: F<L>, threshold: f32) -> F<L> {
     let l = opacity.lanes();
     if threshold > 0.0 { opacity.ge(threshold).select(l.f(1.0), l.f(0.0)) } else { opacity }
+}
+
+/// Whether a path may go straight through one more surface.
+#[inline(always)]
+fn straight_left<L: Lanes>(counts: U<L>, transport: &Transport) -> M<L> {
+    (counts >> 24).lt(transport.kind_bounces[3])
 }
 
 /// Sends paths on that go through a surface which is not there: nothing about them changes but where they start.
@@ -208,6 +240,7 @@ fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: &mut Worksp
         spread: point.spread,
         slot: point.slot,
         flags: point.flags,
+        counts: point.counts + (1 << 24),
         medium: point.medium,
     };
     ws.next.append(&state, chosen);
@@ -311,7 +344,11 @@ fn scatter<L: Lanes>(
     let across = point.geometric.dot(wi).lt(0.0);
     let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
     let throughput = point.throughput * sample.value * sample.pdf.recip();
-    let mut alive = going_on & consistent & sample.pdf.gt(0.0) & throughput.is_lit() & throughput.max_component().is_finite();
+    let passes = sample.straight & straight_left(point.counts, stage.transport);
+    let mut alive = (going_on & consistent).and_not(sample.straight.and_not(passes))
+        & sample.pdf.gt(0.0)
+        & throughput.is_lit()
+        & throughput.max_component().is_finite();
     let mut throughput = throughput;
     if stage.context.depth >= ROULETTE_FROM {
         let survival = throughput.max_component().clamp(0.05, 1.0);
@@ -323,7 +360,10 @@ fn scatter<L: Lanes>(
     }
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
     let measured = (point.flags & flag::MEASURED) | point.only_delta.select(l.u(0), l.u(flag::MEASURED));
-    let scattered = delta | measured | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
+    let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
+    let scattered = delta | measured | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let before = |columns: &[gonio_simd::Column; 3]| gather3(l, columns, point.path);
@@ -339,7 +379,8 @@ fn scatter<L: Lanes>(
         width: point.width,
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,
-        flags: straight.select(point.flags + (1 << flag::BOUNCE_SHIFT), scattered),
+        flags: straight.select(point.flags, scattered),
+        counts: point.counts + straight.select(l.u(1 << 24), counted),
         medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
     };
     ws.next.append(&state, alive);

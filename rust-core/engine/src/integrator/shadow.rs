@@ -1,8 +1,9 @@
 //! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
 
 use super::{
+    closure::weigh,
     kernels,
-    material::Tables,
+    material::{Shading, Tables},
     path::Transport,
     scatter::add_rgb,
     shade::{parameter_values, threshold},
@@ -84,32 +85,72 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
 
 #[inline(always)]
 fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit], ws: &mut Workspace) {
-    let material = &tables.materials[material as usize];
     let mut order = [0; CHUNK];
     for (i, place) in order[..hits.len()].iter_mut().enumerate() {
         *place = i as u32;
     }
-    let source = ChunkSource { order: &order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
-    kernels::surface_points(l, tables, material, hits, &source, &mut ws.surface);
+    let mut factors = [[0.0; CHUNK]; 3];
+    match tables.materials.shading(material) {
+        Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, hits, &order, None, &mut factors, ws),
+        Shading::Mix(mix) => {
+            let mix = &tables.materials.mixes[mix as usize];
+            let source = ChunkSource { order: &order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
+            weigh(l, tables, mix, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+            let mut weights = std::mem::take(&mut ws.weights);
+            weights.clear();
+            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(ws.outputs.column(column)));
+            for closure in 0..mix.count {
+                let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..(closure * 3 + c + 1) * CHUNK]);
+                add_transmittance(l, tables, mix.first as usize + closure, hits, &order, Some(own), &mut factors, ws);
+            }
+            ws.weights = weights;
+        }
+    }
+    for (i, hit) in hits.iter().enumerate() {
+        for (channel, factor) in ws.shadows.contribution.iter_mut().zip(&factors) {
+            channel[hit.ray as usize] *= factor[i];
+        }
+    }
+}
+
+/// Adds what a closure lets pass straight, times its weights if it is one of several.
+#[expect(clippy::too_many_arguments, reason = "hits, weights and sums")]
+#[inline(always)]
+fn add_transmittance<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    surface: usize,
+    hits: &[PassedHit],
+    order: &[u32],
+    weights: Option<[&[f32]; 3]>,
+    sums: &mut [[f32; CHUNK]; 3],
+    ws: &mut Workspace,
+) {
+    let material = &tables.materials.surfaces[surface];
+    if !material.transparent {
+        return;
+    }
+    let source = ChunkSource { order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
+    kernels::surface_points(l, tables, &material.program, hits, &source, &mut ws.surface);
     if !material.program.is_empty() {
-        kernels::evaluate(l, tables, material, &mut ws.surface, hits.len(), &mut ws.scratch, &mut ws.outputs);
+        kernels::evaluate(l, tables, &material.program, &mut ws.surface, hits.len(), &mut ws.scratch, &mut ws.outputs);
     }
     let values = parameter_values(material, &ws.outputs);
     for at in (0..hits.len()).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &ws.surface.shading_normal, at));
         let wo = frame.to_local(load3(l, &ws.surface.wo, at));
         let entering = l.load(&ws.surface.side, at).gt(0.0);
-        let factor = if material.opacity_threshold > 0.0 {
+        let mut factor = if material.opacity_threshold > 0.0 {
             Rgb::grey(1.0 - threshold(values.get(l, OPACITY, at), material.opacity_threshold))
         } else {
             kernels::transmittance(l, &material.surface, &values, at, wo, entering)
         };
-        let [r, g, b] = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
-        for (lane, hit) in hits[at..].iter().take(L::COUNT).enumerate() {
-            let ray = hit.ray as usize;
-            ws.shadows.contribution[0][ray] *= r[lane];
-            ws.shadows.contribution[1][ray] *= g[lane];
-            ws.shadows.contribution[2][ray] *= b[lane];
+        if let Some([r, g, b]) = weights {
+            factor = factor * Rgb::new(l.load(r, at), l.load(g, at), l.load(b, at)).max(0.0);
         }
+        let [r, g, b] = sums;
+        (l.load(r, at) + factor.r).store(r, at);
+        (l.load(g, at) + factor.g).store(g, at);
+        (l.load(b, at) + factor.b).store(b, at);
     }
 }

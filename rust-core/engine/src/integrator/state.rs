@@ -21,8 +21,22 @@ pub(super) mod flag {
     pub(in crate::integrator) const DELTA: u32 = 2;
     /// A surface that is not a mirror has been met.
     pub(in crate::integrator) const MEASURED: u32 = 4;
+    /// Above this bit, two bits: what the last scattering was, see [`event`].
+    pub(in crate::integrator) const LAST_SHIFT: u32 = 3;
+    /// Above this bit, two bits: what the first scattering was; of use only once there was one.
+    pub(in crate::integrator) const FIRST_SHIFT: u32 = 5;
     /// Above this bit: the number of scatterings.
     pub(in crate::integrator) const BOUNCE_SHIFT: u32 = 8;
+}
+
+/// Kinds of scattering.
+pub(super) mod event {
+    /// Diffuse, fuzz and subsurface, reflected or transmitted.
+    pub(in crate::integrator) const DIFFUSE: u32 = 0;
+    /// Reflection off facets.
+    pub(in crate::integrator) const GLOSSY: u32 = 1;
+    /// Refraction.
+    pub(in crate::integrator) const TRANSMISSION: u32 = 2;
 }
 
 /// Visibility bits of rays.
@@ -31,8 +45,14 @@ pub mod ray_mask {
     pub const CAMERA: u8 = 1;
     /// Rays to lights.
     pub const SHADOW: u8 = 2;
-    /// Scattered rays.
-    pub const INDIRECT: u8 = 4;
+    /// Diffusely scattered rays.
+    pub const DIFFUSE: u8 = 4;
+    /// Rays of glossy reflection.
+    pub const GLOSSY: u8 = 8;
+    /// Rays of transmission.
+    pub const TRANSMISSION: u8 = 16;
+    /// All scattered rays.
+    pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;
 }
 
 type Columns3 = [Column; 3];
@@ -80,6 +100,8 @@ pub(super) struct Paths {
     /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance.
     pub(super) slot: Column<u32>,
     pub(super) flags: Column<u32>,
+    /// Scatterings so far, a byte each: diffuse, glossy, transmitted, straight through.
+    pub(super) counts: Column<u32>,
     /// Absorption a metre of what the ray goes through.
     pub(super) medium: Columns3,
     /// Visibility bits of the ray.
@@ -101,6 +123,7 @@ pub(super) struct PathLanes<L: Lanes> {
     pub(super) spread: F<L>,
     pub(super) slot: U<L>,
     pub(super) flags: U<L>,
+    pub(super) counts: U<L>,
     pub(super) medium: Rgb<L>,
 }
 
@@ -122,6 +145,7 @@ impl Default for Paths {
             spread: Column::new(room),
             slot: Column::new(room),
             flags: Column::new(room),
+            counts: Column::new(room),
             medium: columns3(room),
             mask: vec![0; room],
         }
@@ -145,6 +169,7 @@ impl Paths {
         p.spread.append(chosen, &mut self.spread, n);
         p.slot.append(chosen, &mut self.slot, n);
         p.flags.append(chosen, &mut self.flags, n);
+        p.counts.append(chosen, &mut self.counts, n);
         append3(Vec3::new(p.medium.r, p.medium.g, p.medium.b), chosen, &mut self.medium, n);
         self.count += chosen.count();
     }
@@ -152,7 +177,7 @@ impl Paths {
     /// Sets the visibility bits of all rays by their flags.
     pub(super) fn set_masks(&mut self) {
         for (mask, flags) in self.mask[..self.count].iter_mut().zip(&self.flags[..self.count]) {
-            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::INDIRECT };
+            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3) };
         }
     }
 }
@@ -322,6 +347,10 @@ pub struct Workspace {
     pub(super) order: Vec<u32>,
     pub(super) material_start: Vec<u32>,
     pub(super) material_of: Vec<u32>,
+    /// Mixes and the paths at them.
+    pub(super) mixed: Vec<(u32, u32)>,
+    /// Weights of a mix over a chunk, three channels a closure.
+    pub(super) weights: Vec<f32>,
     pub(super) escaped: Vec<u32>,
     pub(super) at_lights: Vec<u32>,
     pub(super) surface: SurfaceColumns,

@@ -1,10 +1,11 @@
 //! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
 
-use super::{
-    material::{SurfaceMaterial, Tables},
-    state::gather3,
+use super::{material::Tables, state::gather3};
+use crate::{
+    accel::Hits,
+    geometry::HitLanes,
+    graph::{Program, SurfaceColumns},
 };
-use crate::{accel::Hits, geometry::HitLanes, graph::SurfaceColumns};
 use gonio_simd::{Column, F, Lanes, U, Vec3};
 
 /// What a chunk of hits is looked up from.
@@ -70,7 +71,7 @@ impl HitSource for [crate::accel::PassedHit] {
 pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     l: L,
     tables: &Tables,
-    material: &SurfaceMaterial,
+    program: &Program,
     hits: &H,
     source: &ChunkSource<'_>,
     out: &mut SurfaceColumns,
@@ -91,20 +92,12 @@ pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
             Some([width, spread]) => distance.mul_add(l.gather(spread, ray), l.gather(width, ray)),
             None => l.f(0.0),
         };
-        surface_lanes(l, tables, material, gather3(l, source.direction, ray), width, out, at);
+        surface_lanes(l, tables, program, gather3(l, source.direction, ray), width, out, at);
     }
 }
 
 #[inline(always)]
-fn surface_lanes<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    material: &SurfaceMaterial,
-    direction: Vec3<L>,
-    width: F<L>,
-    out: &mut SurfaceColumns,
-    at: usize,
-) {
+fn surface_lanes<L: Lanes>(l: L, tables: &Tables, program: &Program, direction: Vec3<L>, width: F<L>, out: &mut SurfaceColumns, at: usize) {
     let barycentric = [l.load(&out.barycentric[0], at), l.load(&out.barycentric[1], at)];
     let geometry = &tables.geometry;
     let instance: U<L> = l.load_integers(&out.instance, at);
@@ -119,7 +112,7 @@ fn surface_lanes<L: Lanes>(
     store3(point.shading_normal * side, &mut out.shading_normal, at);
     side.store(&mut out.side, at);
     store3(wo, &mut out.wo, at);
-    let (tangent, density) = match material.program.uv {
+    let (tangent, density) = match program.uv {
         Some(column) => uv_derivatives(l, tables, &hit, column, point.edges, point.double_area),
         None => (Vec3::splat(l, [0.0; 3]), l.f(0.0)),
     };

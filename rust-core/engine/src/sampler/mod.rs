@@ -28,6 +28,8 @@ pub mod dimension {
     pub const BSDF: u32 = 2;
     /// Choice of the lobe, and opacity, within a bounce.
     pub const LOBE: u32 = 3;
+    /// Choice of the closure, within a bounce.
+    pub const CLOSURE: u32 = 7;
     /// Added for the paths that measure illuminance.
     pub const MEASURE: u32 = 4;
 }

@@ -5,18 +5,23 @@ use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Visibility {
     /// Seen by camera rays.
     pub camera: bool,
     /// Blocks shadow rays.
     pub shadow: bool,
-    /// Seen by scattered rays.
-    pub indirect: bool,
+    /// Seen by diffusely scattered rays.
+    pub diffuse: bool,
+    /// Seen by rays of glossy reflection.
+    pub glossy: bool,
+    /// Seen by rays of transmission.
+    pub transmission: bool,
 }
 
 impl Default for Visibility {
     fn default() -> Self {
-        Self { camera: true, shadow: true, indirect: true }
+        Self { camera: true, shadow: true, diffuse: true, glossy: true, transmission: true }
     }
 }
 
@@ -35,4 +40,10 @@ pub struct Instances {
     pub primvars: Vec<Primvar>,
     /// Which rays see them.
     pub visibility: Visibility,
+    /// Cuts a hole into the coverage where the camera sees it.
+    #[serde(default)]
+    pub holdout: bool,
+    /// What the object index pass shows.
+    #[serde(default)]
+    pub pass_index: u32,
 }

@@ -3,7 +3,7 @@
 use super::{Origin, TextureFilter, TextureId, WrapMode};
 use serde::{Deserialize, Serialize};
 
-/// The model whose rules a material's parameters follow; parameter names are those of the surface's parameter block for all of them.
+/// The model whose rules a closure's parameters follow; parameter names are those of the surface's parameter block for all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Model {
     /// OpenPBR 1.1, gonio's own.
@@ -17,6 +17,60 @@ pub enum Model {
     StandardSurface,
     /// glTF's metallic-roughness model.
     Gltf,
+    /// Diffuse reflection alone.
+    Diffuse,
+    /// Reflection with the base colour at all angles.
+    Glossy,
+    /// A dielectric's boundary, both ways tinted by the base colour.
+    Glass,
+    /// Refraction alone.
+    Refraction,
+    /// Metal by normal colour and edge tint.
+    Metallic,
+    /// Metal by n and k.
+    Conductor,
+    /// Fuzz alone.
+    Sheen,
+    /// Velvet of Ashikhmin's model alone.
+    Velvet,
+    /// Diffuse transmission alone.
+    Translucent,
+    /// Subsurface scattering alone.
+    Subsurface,
+    /// Light goes straight through, tinted by the base colour.
+    Transparent,
+    /// Emission alone.
+    Emission,
+    /// Nothing, and no coverage either.
+    Holdout,
+}
+
+/// How the facets of rough reflection and refraction are distributed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Distribution {
+    /// GGX, made up for what scatters between facets.
+    #[default]
+    MultiGgx,
+    /// GGX.
+    Ggx,
+    /// Beckmann.
+    Beckmann,
+    /// Ashikhmin and Shirley.
+    AshikhminShirley,
+}
+
+/// How subsurface parameters are meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SubsurfaceMethod {
+    /// Random walk, mean free paths in metres (OpenPBR; Blender from 5.2).
+    #[default]
+    RandomWalk,
+    /// Random walk as Blender had it up to 5.1.
+    RandomWalkLegacy,
+    /// Random walk for skin, entered along refracted directions.
+    RandomWalkSkin,
+    /// Christensen and Burley's diffusion profile.
+    Burley,
 }
 
 /// A node's place in its graph.
@@ -144,35 +198,50 @@ impl Graph {
     }
 }
 
-/// A surface.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Material {
-    /// Where it came from.
-    pub origin: Origin,
+/// One way in which a surface scatters or emits, and how much of it there is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Closure {
+    /// Multiplies all that it scatters and emits.
+    pub weight: Input,
     /// The model whose rules the parameters follow.
     pub model: Model,
     /// Parameters that differ from the model's defaults, by the parameter block's names.
     pub parameters: Vec<(String, Input)>,
-    /// The nodes that parameters refer to.
-    pub graph: Graph,
-    /// A shading normal in world space, from a [`Operation::NormalMap`] node.
+    /// A shading normal in world space.
     pub normal: Option<NodeId>,
-    /// Opacity below this counts as 0, else as 1; 0 means opacity is as it is.
-    pub opacity_threshold: f32,
+    /// The coat's normal in world space; the surface's own without it.
+    pub coat_normal: Option<NodeId>,
+    /// Direction of anisotropy in world space; along the first texture coordinate without it.
+    pub tangent: Option<NodeId>,
     /// The surface is a sheet: light that passes is not bent.
     pub thin_walled: bool,
+    /// Opacity below this counts as 0, else as 1; 0 means opacity is as it is.
+    pub opacity_threshold: f32,
+    /// How facets are distributed.
+    pub distribution: Distribution,
+    /// How subsurface parameters are meant.
+    pub subsurface: SubsurfaceMethod,
 }
 
-impl Material {
-    /// A grey Lambertian surface of the given reflectance.
-    pub fn diffuse(origin: Origin, reflectance: [f32; 3]) -> Self {
-        let [r, g, b] = reflectance;
+impl Default for Closure {
+    fn default() -> Self {
         Self {
-            origin,
-            parameters: vec![("base_color".into(), Input::Constant([r, g, b, 1.0])), ("specular_weight".into(), Input::Constant([0.0; 4]))],
-            ..Self::default()
+            weight: Input::Constant([1.0; 4]),
+            model: Model::default(),
+            parameters: Vec::new(),
+            normal: None,
+            coat_normal: None,
+            tangent: None,
+            thin_walled: false,
+            opacity_threshold: 0.0,
+            distribution: Distribution::default(),
+            subsurface: SubsurfaceMethod::default(),
         }
     }
+}
+
+impl Closure {
     /// Sets a scalar parameter.
     pub fn set(&mut self, name: &str, value: f32) {
         self.set_input(name, Input::Constant([value; 4]));
@@ -191,5 +260,40 @@ impl Material {
     /// The value set for a parameter.
     pub fn input(&self, name: &str) -> Option<Input> {
         self.parameters.iter().find(|(known, _)| known == name).map(|(_, input)| *input)
+    }
+}
+
+/// What a surface is made of: closures whose sum it is, over one graph. Without any it is black.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Material {
+    /// Where it came from.
+    pub origin: Origin,
+    /// The closures.
+    pub closures: Vec<Closure>,
+    /// The nodes that inputs refer to.
+    pub graph: Graph,
+    /// What the material index pass shows.
+    pub pass_index: u32,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        let closures = vec![Closure::default()];
+        Self { origin: Origin::default(), closures, graph: Graph::default(), pass_index: 0 }
+    }
+}
+
+impl Material {
+    /// A grey Lambertian surface of the given reflectance.
+    pub fn diffuse(origin: Origin, reflectance: [f32; 3]) -> Self {
+        let mut surface = Closure::default();
+        surface.set_colour("base_color", reflectance);
+        surface.set("specular_weight", 0.0);
+        Self::of(origin, surface)
+    }
+    /// A material of one closure, without a graph.
+    pub fn of(origin: Origin, closure: Closure) -> Self {
+        Self { origin, closures: vec![closure], ..Self::default() }
     }
 }

@@ -19,7 +19,7 @@ pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping};
-pub use material::{Channel, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind};
+pub use material::{Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, SubsurfaceMethod};
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
 pub use settings::{Aov, Crop, Filter, Integrator, Settings};

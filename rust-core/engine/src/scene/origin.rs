@@ -5,11 +5,34 @@ use std::sync::Arc;
 
 /// A prim path or an object's name, and the file if it is known: the first thing every message says.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(from = "Written")]
 pub struct Origin {
     /// Prim path, object name or variable name.
     pub name: Arc<str>,
     /// The file it stands in, empty if unknown.
     pub file: Arc<str>,
+}
+
+/// How an origin may be written down: the name alone, or name and file.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Name(Arc<str>),
+    Whole {
+        #[serde(default)]
+        name: Arc<str>,
+        #[serde(default)]
+        file: Arc<str>,
+    },
+}
+
+impl From<Written> for Origin {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Name(name) => Self { name, file: Arc::default() },
+            Written::Whole { name, file } => Self { name, file },
+        }
+    }
 }
 
 impl Origin {

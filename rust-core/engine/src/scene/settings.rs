@@ -75,6 +75,12 @@ pub struct Settings {
     pub integrator: Integrator,
     /// Bounces after the first hit.
     pub max_bounces: u32,
+    /// The same by kind: diffuse, glossy and transmitted scatterings, and surfaces seen straight through; at most 255.
+    #[serde(default = "all_bounces")]
+    pub kind_bounces: [u32; 4],
+    /// Lights at infinity do not cover the background.
+    #[serde(default)]
+    pub film_transparent: bool,
     /// Pixel filter.
     pub filter: Filter,
     /// Width of the filter in pixels.
@@ -91,6 +97,11 @@ pub struct Settings {
     pub time_limit_s: f64,
 }
 
+/// No other limit than that of all bounces.
+fn all_bounces() -> [u32; 4] {
+    [255; 4]
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -102,6 +113,8 @@ impl Default for Settings {
             seed: 0,
             integrator: Integrator::Path,
             max_bounces: 12,
+            kind_bounces: all_bounces(),
+            film_transparent: false,
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,
             clamp_direct: 0.0,

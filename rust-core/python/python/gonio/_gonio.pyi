@@ -1,5 +1,5 @@
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from types import TracebackType
 from typing import Any, final
@@ -90,7 +90,7 @@ class Progress:
 
 @final
 class Render:
-    def __new__(cls, scene: Scene) -> Render: ...
+    def __new__(cls, scene: Scene, previous: Render | None = None) -> Render: ...
     def __enter__(self) -> Render: ...
     def __exit__(self, *_exception: type[BaseException] | BaseException | TracebackType | None) -> None: ...
     def __iter__(self) -> Iterator[Tile]: ...
@@ -99,6 +99,8 @@ class Render:
     def cancel(self) -> None: ...
     @property
     def progress(self) -> Progress: ...
+    @property
+    def diagnostics(self) -> list[tuple[str, str]]: ...
     def film(self) -> Film: ...
 
 @final
@@ -109,11 +111,48 @@ class Scene:
         points: Buffer,
         triangles: Buffer,
         *,
+        corners: Buffer | None = None,
+        faces: Buffer | None = None,
         normals: Buffer | None = None,
         uvs: Buffer | None = None,
+        primvars: Mapping[str, Buffer] | None = None,
         slots: Buffer | None = None,
         name: str = "mesh",
+        index: int | None = None,
     ) -> int: ...
+    def put_instances(
+        self,
+        mesh: int,
+        materials: Sequence[int],
+        transforms: Buffer,
+        *,
+        name: str = "instances",
+        visibility: Mapping[str, bool] | None = None,
+        primvars: Mapping[str, Buffer] | None = None,
+        pass_index: int = 0,
+        index: int | None = None,
+    ) -> int: ...
+    def put_material(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def put_light(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def put_camera(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def put_texture(
+        self,
+        description: Mapping[str, Any],
+        index: int | None = None,
+        *,
+        data: tuple[str, bytes] | None = None,
+        pixels: Buffer | None = None,
+    ) -> int: ...
+    def truncate(
+        self,
+        *,
+        meshes: int | None = None,
+        instances: int | None = None,
+        materials: int | None = None,
+        textures: int | None = None,
+        lights: int | None = None,
+        cameras: int | None = None,
+    ) -> None: ...
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int: ...
     def add_instance(
         self, mesh: int, materials: Sequence[int] = ..., *, transform: Sequence[Sequence[float]] | None = None, name: str = "instance"
@@ -136,15 +175,26 @@ class Scene:
     def set(
         self,
         *,
-        width: int | None = None,
-        height: int | None = None,
-        samples: int | None = None,
-        seed: int | None = None,
-        threads: int | None = None,
-        max_bounces: int | None = None,
-        integrator: str | None = None,
-        time_limit: float | None = None,
-        passes: Sequence[str] | None = None,
+        width: int | None = ...,
+        height: int | None = ...,
+        pixel_aspect: float | None = ...,
+        crop: tuple[int, int, int, int] | None = ...,
+        samples: int | None = ...,
+        seed: int | None = ...,
+        threads: int | None = ...,
+        integrator: str | None = ...,
+        max_bounces: int | None = ...,
+        max_diffuse_bounces: int | None = ...,
+        max_glossy_bounces: int | None = ...,
+        max_transmission_bounces: int | None = ...,
+        max_transparent_bounces: int | None = ...,
+        filter: str | None = ...,
+        filter_width: float | None = ...,
+        clamp_direct: float | None = ...,
+        clamp_indirect: float | None = ...,
+        film_transparent: bool | None = ...,
+        time_limit: float | None = ...,
+        passes: Sequence[str] | None = ...,
     ) -> None: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...

@@ -1,0 +1,90 @@
+//! Settings by keyword.
+
+use crate::{error::exception, film::aov_by_name};
+use gonio::scene::{Crop, Filter, Integrator, Settings};
+use pyo3::{prelude::*, types::PyDict};
+
+fn wrong(name: &str, problem: String) -> PyErr {
+    exception(gonio::Error::Setting { name: name.into(), problem })
+}
+
+/// Applies every keyword, or fails at the first that is not understood.
+pub(crate) fn change(settings: &mut Settings, changes: &Bound<'_, PyDict>) -> PyResult<()> {
+    for (key, value) in changes {
+        let key: String = key.extract()?;
+        change_one(settings, &key, &value)?;
+    }
+    Ok(())
+}
+
+fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    // None leaves a setting as it is, but for the crop, which it takes away.
+    if value.is_none() && key != "crop" {
+        return Ok(());
+    }
+    match key {
+        "width" => s.resolution[0] = value.extract()?,
+        "height" => s.resolution[1] = value.extract()?,
+        "pixel_aspect" => s.pixel_aspect = within(key, value, 1e-3, 1e3)?,
+        "crop" => s.crop = crop(value)?,
+        "samples" => match value.extract()? {
+            0 => return Err(wrong(key, "0 was found, expected 1 or more".into())),
+            samples => s.samples = samples,
+        },
+        "seed" => s.seed = value.extract()?,
+        "threads" => s.threads = value.extract()?,
+        "integrator" => s.integrator = integrator(value)?,
+        "max_bounces" => s.max_bounces = value.extract()?,
+        "max_diffuse_bounces" => s.kind_bounces[0] = value.extract()?,
+        "max_glossy_bounces" => s.kind_bounces[1] = value.extract()?,
+        "max_transmission_bounces" => s.kind_bounces[2] = value.extract()?,
+        "max_transparent_bounces" => s.kind_bounces[3] = value.extract()?,
+        "filter" => s.filter = filter(value)?,
+        "filter_width" => s.filter_width = within(key, value, 0.0, 16.0)? as f32,
+        "clamp_direct" => s.clamp_direct = within(key, value, 0.0, f64::MAX)? as f32,
+        "clamp_indirect" => s.clamp_indirect = within(key, value, 0.0, f64::MAX)? as f32,
+        "film_transparent" => s.film_transparent = value.extract()?,
+        "time_limit" => {
+            let limit: f64 = value.extract()?;
+            if !(limit.is_finite() && limit >= 0.0) {
+                return Err(wrong(key, format!("{limit} was found, expected seconds from 0 (no limit) on")));
+            }
+            s.time_limit_s = limit;
+        }
+        "passes" => {
+            let names: Vec<String> = value.extract()?;
+            let find = |name: &String| aov_by_name(name).ok_or_else(|| wrong(key, format!("there is no pass '{name}'")));
+            s.aovs = names.iter().map(find).collect::<PyResult<_>>()?;
+        }
+        _ => return Err(pyo3::exceptions::PyTypeError::new_err(format!("set() got an unexpected keyword argument '{key}'"))),
+    }
+    Ok(())
+}
+
+fn within(key: &str, value: &Bound<'_, PyAny>, least: f64, most: f64) -> PyResult<f64> {
+    let found: f64 = value.extract()?;
+    if (least..=most).contains(&found) { Ok(found) } else { Err(wrong(key, format!("{found} was found, expected {least} or more"))) }
+}
+
+fn crop(value: &Bound<'_, PyAny>) -> PyResult<Option<Crop>> {
+    let bounds: Option<[u32; 4]> = value.extract()?;
+    Ok(bounds.map(|[x0, y0, x1, y1]| Crop { min: [x0, y0], max: [x1, y1] }))
+}
+
+fn integrator(value: &Bound<'_, PyAny>) -> PyResult<Integrator> {
+    match value.extract::<String>()?.as_str() {
+        "path" => Ok(Integrator::Path),
+        "direct" => Ok(Integrator::Direct),
+        other => Err(wrong("integrator", format!("'{other}' was found, expected path or direct"))),
+    }
+}
+
+fn filter(value: &Bound<'_, PyAny>) -> PyResult<Filter> {
+    match value.extract::<String>()?.as_str() {
+        "box" => Ok(Filter::Box),
+        "tent" => Ok(Filter::Tent),
+        "gaussian" => Ok(Filter::Gaussian),
+        "blackman-harris" => Ok(Filter::BlackmanHarris),
+        other => Err(wrong("filter", format!("'{other}' was found, expected box, tent, gaussian or blackman-harris"))),
+    }
+}
