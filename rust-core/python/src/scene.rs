@@ -9,7 +9,7 @@ use gonio::{
     Diagnostic,
     scene::{
         self, Aov, Camera, DomeFormat, Emission, Input, Instances, Integrator, Light, LightShape, Material, MaterialId, Mesh, MeshId,
-        Origin, Primvar, PrimvarInterpolation, Shaping, Transform, Visibility,
+        Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
@@ -176,14 +176,9 @@ impl Scene {
             }
         };
         self.scene.lights.push(Light {
-            origin: Origin::new(name),
-            shape,
-            emission: Emission { radiance, normalized, metres_per_unit: 1.0 },
-            shaping: Shaping::default(),
-            texture: None,
-            transform: self::transform(transform)?,
+            emission: Emission { radiance, normalized, ..Emission::default() },
             visibility: Visibility { camera: visible, ..Visibility::default() },
-            casts_shadow: true,
+            ..Light::new(Origin::new(name), shape, self::transform(transform)?)
         });
         Ok((self.scene.lights.len() - 1) as u32)
     }

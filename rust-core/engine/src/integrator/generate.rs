@@ -59,7 +59,7 @@ pub(super) fn generate<L: Lanes>(
             flags: l.u(flag::CAMERA | flag::DELTA),
             medium: Rgb::zero(l),
         };
-        paths.append(&state, inside);
+        paths.append(&state, inside & ray.mapped);
     }
     paths.set_masks();
 }

@@ -17,7 +17,7 @@ mod transform;
 pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use instance::{Instances, Visibility};
-pub use light::{DomeFormat, Emission, Light, LightShape, Shaping};
+pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use material::{Channel, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind};
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
