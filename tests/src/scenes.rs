@@ -1,6 +1,6 @@
 //! Small scenes built by hand.
 
-use gonio::scene::{Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Shaping, Transform, Visibility};
+use gonio::scene::{Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Transform, Visibility};
 use std::sync::Arc;
 
 /// Adds a parallelogram from a corner and two edges, seen counter-clockwise from `u × v`.
@@ -21,20 +21,17 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         transforms: vec![Transform::IDENTITY],
         primvars: Vec::new(),
         visibility: Visibility::default(),
+        holdout: false,
+        pass_index: 0,
     });
 }
 
 /// A light of a shape with radiance 1 that the camera does not see.
 pub fn light(shape: LightShape, transform: Transform, radiance: [f32; 3]) -> Light {
     Light {
-        origin: Origin::new("light"),
-        shape,
-        emission: Emission { radiance, normalized: false, metres_per_unit: 1.0 },
-        shaping: Shaping::default(),
-        texture: None,
-        transform,
+        emission: Emission { radiance, ..Emission::default() },
         visibility: Visibility { camera: false, ..Visibility::default() },
-        casts_shadow: true,
+        ..Light::new(Origin::new("light"), shape, transform)
     }
 }
 

@@ -48,6 +48,7 @@ pub fn camera<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: 
         transform: *transform,
         exposure: CameraExposure(exposure(context, prim)),
         origin,
+        ..Camera::default()
     }
 }
 

@@ -1,6 +1,6 @@
 //! How a camera meets an image: aspect ratio policies, and a camera and a light for stages without them.
 
-use gonio::scene::{Camera, DomeFormat, Emission, Light, LightShape, Origin, Shaping, Transform, Visibility};
+use gonio::scene::{Camera, DomeFormat, Light, LightShape, Origin, Transform};
 
 /// Vertical field of view of the automatic camera, degrees.
 const AUTO_FIELD_OF_VIEW: f64 = 35.0;
@@ -112,16 +112,7 @@ pub fn auto_camera(bounds: [[f64; 3]; 2], is_z_up: bool, aspect: f64) -> Camera 
 
 /// A white dome of one nit for stages without lights.
 pub fn neutral_dome() -> Light {
-    Light {
-        origin: Origin::new("neutral dome"),
-        shape: LightShape::Dome { format: DomeFormat::LatLong },
-        emission: Emission { radiance: [1.0; 3], normalized: false, metres_per_unit: 1.0 },
-        shaping: Shaping::default(),
-        texture: None,
-        transform: Transform::IDENTITY,
-        visibility: Visibility::default(),
-        casts_shadow: true,
-    }
+    Light::new(Origin::new("neutral dome"), LightShape::Dome { format: DomeFormat::LatLong }, Transform::IDENTITY)
 }
 
 /// Width over height of a camera's aperture, for pictures whose height follows the camera.
@@ -140,6 +131,7 @@ mod tests {
         match camera.projection {
             Projection::Perspective { focal_length } => camera.aperture.map(|a| 0.5 * a / focal_length),
             Projection::Orthographic => camera.aperture.map(|a| 0.5 * a),
+            other => panic!("{other:?} has no aperture"),
         }
     }
 

@@ -53,6 +53,7 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
         transform: if is_dome { dome_transform(context, prim, &type_name, transform) } else { *transform },
         visibility: Visibility { camera: is_seen_by_camera(context, prim), ..Visibility::default() },
         casts_shadow: casts_shadow(context, prim),
+        ..Light::default()
     })
 }
 

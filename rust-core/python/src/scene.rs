@@ -11,7 +11,7 @@ use gonio::{
     Diagnostic,
     scene::{
         self, Camera, Closure, DomeFormat, Emission, Input, Instances, Light, LightShape, Material, MaterialId, MeshId, Origin, Primvar,
-        PrimvarInterpolation, Shaping, Transform, Visibility,
+        PrimvarInterpolation, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
@@ -246,14 +246,9 @@ impl Scene {
             }
         };
         self.scene.lights.push(Light {
-            origin: Origin::new(name),
-            shape,
-            emission: Emission { radiance, normalized, metres_per_unit: 1.0 },
-            shaping: Shaping::default(),
-            texture: None,
-            transform: self::transform(transform)?,
+            emission: Emission { radiance, normalized, ..Emission::default() },
             visibility: Visibility { camera: visible, ..Visibility::default() },
-            casts_shadow: true,
+            ..Light::new(Origin::new(name), shape, self::transform(transform)?)
         });
         Ok((self.scene.lights.len() - 1) as u32)
     }

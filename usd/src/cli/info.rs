@@ -83,13 +83,17 @@ fn describe(light: &Light) -> String {
     let shape = match light.shape {
         LightShape::Rectangle { width, height } => format!("rectangle {width} x {height} units"),
         LightShape::Disk { radius } => format!("disk of radius {radius} units"),
+        LightShape::Ellipse { width, height } => format!("ellipse {width} x {height} units"),
         LightShape::Sphere { radius } => format!("sphere of radius {radius} units"),
+        LightShape::FacingDisk { radius } => format!("facing disk of radius {radius} units"),
+        LightShape::Point => "point".to_owned(),
         LightShape::Cylinder { radius, length } => format!("cylinder of radius {radius}, length {length} units"),
         LightShape::Distant { angle_deg } => format!("distant, {angle_deg} degrees"),
         LightShape::Dome { .. } => "dome".to_owned(),
     };
     let unit = match (light.emission.normalized, light.shape) {
         (true, LightShape::Distant { .. }) => "lx on a facing surface",
+        (_, LightShape::Point) => "cd",
         (true, LightShape::Dome { .. }) | (false, _) => "cd/m²",
         (true, _) => "cd/m² times its area in square units",
     };

@@ -1,8 +1,9 @@
 //! Metal and the dielectric reflection of the base, with the widths and indices that the layers above leave them.
 
 use super::energy;
+use super::film::Film;
 use super::fresnel::{self, Curve};
-use super::lobes::{Shape, turned};
+use super::lobes::{Normal, Shape, Side, turned};
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
@@ -74,23 +75,25 @@ impl<L: Lanes> Layers<'_, '_, L> {
         (widths, Some([cos, sin]))
     }
 
+    /// The film of metal, specular and transmission lobes, seen from a medium of index `near`.
+    #[inline(always)]
+    pub(super) fn film(&self, near: F<L>) -> Option<Film<L>> {
+        if !self.surface.lobes.film {
+            return None;
+        }
+        Some(Film::new(self.get(p::THIN_FILM_WEIGHT), self.get(p::THIN_FILM_IOR), self.get(p::THIN_FILM_THICKNESS), near))
+    }
+
     /// Factor for scattering between facets of a reflection, and the lobe's albedo with it.
     #[inline(always)]
     pub(super) fn glossy(&self, curve: &Curve<L>, roughness: F<L>) -> [Rgb<L>; 2] {
-        let tinted = energy::tinted(self.l, curve, roughness, self.mu);
-        if !self.surface.switches.multiscatter {
+        let tinted = energy::tinted(self.l, curve, roughness, self.specular_mu);
+        if !self.surface.switches.distribution.compensates() {
             return [self.white(), tinted];
         }
-        let table = energy::reflect(self.l, roughness, self.mu);
+        let table = energy::reflect(self.l, roughness, self.specular_mu);
         let factor = energy::compensation(table, curve.mean(self.l));
         [factor, tinted * factor * table[0]]
-    }
-
-    /// Albedo of a compensated lobe.
-    #[inline(always)]
-    pub(super) fn albedo(&self, curve: &Curve<L>, factor: Rgb<L>, roughness: F<L>) -> Rgb<L> {
-        let white = energy::reflect(self.l, roughness, self.mu)[0];
-        energy::tinted(self.l, curve, roughness, self.mu) * factor * white
     }
 
     /// A dielectric's reflection between two colours.
@@ -102,9 +105,9 @@ impl<L: Lanes> Layers<'_, '_, L> {
         }
     }
 
+    /// The metal's reflectance.
     #[inline(always)]
-    pub(super) fn metal(&mut self) {
-        let metalness = self.get(p::METALNESS).saturate();
+    pub(super) fn metal_curve(&self) -> Curve<L> {
         let (base, edge) = (self.rgb(p::BASE_COLOR).saturate(), self.rgb(p::METAL_EDGE_TINT).saturate());
         let curve = match self.surface.switches.metal {
             Metal::F82 => Curve::f82(base, edge),
@@ -112,11 +115,26 @@ impl<L: Lanes> Layers<'_, '_, L> {
             Metal::Gulbrandsen => Curve::gulbrandsen(base, edge),
             Metal::Schlick => Curve::Schlick { f0: base, f90: edge },
         };
+        match self.film(self.l.f(1.0)) {
+            Some(film) => curve.filmed(film, self.l.f(1.0)),
+            None => curve,
+        }
+    }
+
+    /// A lobe with a metal's reflectance.
+    #[inline(always)]
+    pub(super) fn metal_lobe(&mut self, curve: Curve<L>, weight: Rgb<L>) {
         let (widths, turn) = self.widths(self.base_roughness());
         let [factor, albedo] = self.glossy(&curve, widths.roughness());
-        let weight = self.weight * metalness * self.get(p::METAL_WEIGHT);
-        let lobe = ReflectLobe::new(turned(self.wo, turn), widths, curve);
-        self.push(Shape::Reflect(lobe), weight * factor, weight * albedo, turn, false);
+        let lobe = ReflectLobe::new(turned(self.specular_wo, turn), widths, curve, self.surface.switches.distribution);
+        self.push(Shape::Reflect(lobe), weight * factor, weight * albedo, turn, Side::Reflected, Normal::Specular);
+    }
+
+    #[inline(always)]
+    pub(super) fn metal(&mut self) {
+        let metalness = self.get(p::METALNESS).saturate();
+        let curve = self.metal_curve();
+        self.metal_lobe(curve, self.weight * metalness * self.get(p::METAL_WEIGHT));
         self.weight = self.weight * (1.0 - metalness);
     }
 
@@ -142,9 +160,10 @@ impl<L: Lanes> Layers<'_, '_, L> {
         };
         let roughness = self.base_roughness();
         let (widths, turn) = self.widths(roughness);
-        let curve = match switches.fresnel {
-            Fresnel::Exact => Curve::Dielectric { eta, f0: ends[0], f90: ends[1] },
-            Fresnel::Schlick => Curve::Schlick { f0: ends[0], f90: ends[1] },
+        let curve = match (self.film(self.l.f(1.0)), switches.fresnel) {
+            (Some(film), _) => Curve::Dielectric { eta, f0: ends[0], f90: ends[1] }.filmed(film, eta),
+            (None, Fresnel::Exact) => Curve::Dielectric { eta, f0: ends[0], f90: ends[1] },
+            (None, Fresnel::Schlick) => Curve::Schlick { f0: ends[0], f90: ends[1] },
         };
         let bending = if switches.weight_bends { eta } else { ior };
         Base { roughness, widths, turn, bending, curve, eta, ends }
@@ -153,11 +172,14 @@ impl<L: Lanes> Layers<'_, '_, L> {
     #[inline(always)]
     pub(super) fn specular(&mut self, base: &Base<L>) {
         let [factor, albedo] = self.glossy(&base.curve, base.widths.roughness());
-        // Equal indices show no interface at all, whatever the tint says of grazing angles.
-        let present = (base.eta - 1.0).abs().gt(1e-6);
+        // Equal indices show no interface at all, whatever the tint says of grazing angles; a film does.
+        let mut present = (base.eta - 1.0).abs().gt(1e-6);
+        if let Curve::FilmDielectric { film, .. } = &base.curve {
+            present |= film.weight.gt(0.0);
+        }
         let (factor, albedo) = (factor.keep_if(present), albedo.keep_if(present));
-        let lobe = ReflectLobe::new(turned(self.wo, base.turn), base.widths, base.curve);
-        self.push(Shape::Reflect(lobe), self.weight * factor, self.weight * albedo, base.turn, false);
+        let lobe = ReflectLobe::new(turned(self.specular_wo, base.turn), base.widths, base.curve, self.surface.switches.distribution);
+        self.push(Shape::Reflect(lobe), self.weight * factor, self.weight * albedo, base.turn, Side::Reflected, Normal::Specular);
         self.attenuate(albedo);
     }
 }

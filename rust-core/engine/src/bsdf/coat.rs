@@ -2,12 +2,12 @@
 
 use super::energy;
 use super::fresnel::{self, Curve};
-use super::lobes::{CoatTint, Shape};
+use super::lobes::{CoatTint, Normal, Shape, Side};
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
-use super::switches::CoatPath;
+use super::switches::{CoatPath, Distribution};
 use gonio_simd::{F, Lanes, Rgb};
 
 impl<L: Lanes> Layers<'_, '_, L> {
@@ -18,10 +18,11 @@ impl<L: Lanes> Layers<'_, '_, L> {
         let roughness = self.get(p::COAT_ROUGHNESS).saturate();
         let ior = self.get(if switches.coat_has_base_ior { p::IOR } else { p::COAT_IOR }).max(1.0);
         let curve = self.dielectric_curve(ior, Rgb::grey(fresnel::normal_reflectance(ior)), self.white());
-        let factor = energy::compensation(energy::reflect(l, roughness, self.mu), curve.mean(l));
-        let albedo = self.albedo(&curve, factor, roughness) * presence;
-        let lobe = ReflectLobe::new(self.wo, Widths::isotropic(roughness * roughness), curve);
-        self.push(Shape::Reflect(lobe), self.weight * factor * presence, self.weight * albedo, None, false);
+        let table = energy::reflect(l, roughness, self.coat_mu);
+        let factor = energy::compensation(table, curve.mean(l));
+        let albedo = energy::tinted(l, &curve, roughness, self.coat_mu) * factor * table[0] * presence;
+        let lobe = ReflectLobe::new(self.coat_wo, Widths::isotropic(roughness * roughness), curve, Distribution::MultiGgx);
+        self.push(Shape::Reflect(lobe), self.weight * factor * presence, self.weight * albedo, None, Side::Reflected, Normal::Coat);
         if switches.coat_darkens {
             self.weight = self.weight * self.darkening(presence, ior, &curve);
         }
@@ -34,7 +35,7 @@ impl<L: Lanes> Layers<'_, '_, L> {
     #[inline(always)]
     pub(super) fn coat_tint(&mut self, presence: F<L>, ior: F<L>) {
         let colour = self.rgb(p::COAT_COLOR).max(1e-6);
-        let view = (1.0 - (1.0 - self.mu * self.mu) / (ior * ior)).max(1e-4).sqrt().recip();
+        let view = (1.0 - (1.0 - self.coat_mu * self.coat_mu) / (ior * ior)).max(1e-4).sqrt().recip();
         let tint = CoatTint { log: Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()), weight: presence, ior, view };
         match self.surface.switches.coat_path {
             CoatPath::Both => {
@@ -58,7 +59,7 @@ impl<L: Lanes> Layers<'_, '_, L> {
         let f0 = fresnel::normal_reflectance(self.get(p::IOR)) * self.get(p::SPECULAR_WEIGHT);
         let rough_share = self.l.f(1.0).lerp(roughness, f0.saturate()).lerp(roughness, metalness);
         let diffuse = 1.0 - (1.0 - coat.mean(self.l).r) / (ior * ior);
-        let inside = coat.reflectance(self.mu).r.lerp(diffuse, rough_share);
+        let inside = coat.reflectance(self.coat_mu).r.lerp(diffuse, rough_share);
         let kept = Rgb::grey(1.0 - inside) / (self.white() - below * inside);
         self.white().lerp(kept, presence * self.get(p::COAT_DARKENING))
     }

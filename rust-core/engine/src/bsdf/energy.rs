@@ -122,15 +122,20 @@ fn schlick<L: Lanes>(l: L, f0: Rgb<L>, f90: Rgb<L>, r: F<L>, mu: F<L>) -> Rgb<L>
 /// The colour that a lobe with the curve has of the white lobe's albedo; for metals an estimate by Schlick's curve.
 #[inline(always)]
 pub(super) fn tinted<L: Lanes>(l: L, curve: &Curve<L>, r: F<L>, mu: F<L>) -> Rgb<L> {
-    match *curve {
+    let bare = match *curve {
         Curve::One => Rgb::grey(l.f(1.0)),
-        Curve::Dielectric { eta, f0, f90 } => {
+        Curve::Dielectric { eta, f0, f90 } | Curve::FilmDielectric { eta, f0, f90, .. } => {
             let z = normal_reflectance(eta).sqrt().sqrt();
             f0.lerp(f90, trilinear(l, &DIELECTRIC, r, z, mu))
         }
         Curve::Schlick { f0, f90 } => schlick(l, f0, f90, r, mu),
-        Curve::F82 { f0, .. } => schlick(l, f0, Rgb::grey(l.f(1.0)), r, mu),
-        Curve::Conductor { .. } => schlick(l, curve.reflectance(l.f(1.0)), Rgb::grey(l.f(1.0)), r, mu),
+        Curve::F82 { f0, .. } | Curve::FilmF82 { f0, .. } => schlick(l, f0, Rgb::grey(l.f(1.0)), r, mu),
+        Curve::Conductor { .. } | Curve::FilmConductor { .. } => schlick(l, curve.plain(l.f(1.0)), Rgb::grey(l.f(1.0)), r, mu),
+    };
+    match curve.through_film(mu) {
+        // No table has films: the value of a smooth one at the view stands for the lobe's.
+        Some((weight, filmed)) => bare.lerp(filmed, weight),
+        None => bare,
     }
 }
 

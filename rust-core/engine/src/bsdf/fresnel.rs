@@ -1,5 +1,6 @@
 //! Reflectance of smooth interfaces, and its mean over the cosine-weighted hemisphere.
 
+use super::film::Film;
 use gonio_simd::{F, Lanes, Rgb};
 
 /// Normal reflectance of an interface; `eta` = far over near index.
@@ -58,8 +59,7 @@ fn conductor_channel<L: Lanes>(c: F<L>, n: F<L>, k: F<L>) -> F<L> {
 
 /// Index and extinction of a conductor with normal reflectance `r` and edge tint `g` (Gulbrandsen 2014).
 #[inline(always)]
-fn gulbrandsen_channel<L: Lanes>(r: F<L>, g: F<L>) -> [F<L>; 2] {
-    let r = r.clamp(0.0, 0.99);
+pub(super) fn gulbrandsen_channel<L: Lanes>(r: F<L>, g: F<L>) -> [F<L>; 2] {
     let root = r.sqrt();
     let n = ((1.0 + root) / (1.0 - root)).lerp((1.0 - r) / (1.0 + r), g);
     [n, ((r * (n + 1.0).squared() - (n - 1.0).squared()) / (1.0 - r)).safe_sqrt()]
@@ -75,6 +75,21 @@ fn f82_mean<L: Lanes>(l: L, f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
 const DROP: f32 = 17.651_385;
 /// Schlick's share at c = 1/7, (6/7)⁵.
 const SHARE_82: f32 = 0.462_664_36;
+
+/// The F82 curve's value at c = 1/7.
+#[inline(always)]
+pub(super) fn f82_coefficients<L: Lanes>(f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
+    let l = f0.r.lanes();
+    (f0.lerp(Rgb::grey(l.f(1.0)), l.f(SHARE_82)) - drop * (1.0 / DROP)).saturate()
+}
+
+/// The F82 curve at cosine `c` from its normal value and its value at c = 1/7.
+#[inline(always)]
+pub(super) fn f82_channel<L: Lanes>(c: F<L>, f0: F<L>, at_82: F<L>) -> F<L> {
+    let drop = (f0.lerp(1.0, SHARE_82) - at_82) * DROP;
+    let share = schlick_share(c);
+    (f0.lerp(1.0, share) - drop * c * share * (1.0 - c)).saturate()
+}
 
 /// A reflectance as a function of the half-angle cosine.
 #[derive(Clone, Copy, Debug)]
@@ -111,9 +126,59 @@ pub(crate) enum Curve<L: Lanes> {
         /// Extinction coefficient.
         k: Rgb<L>,
     },
+    /// A film over the moved exact curve.
+    FilmDielectric {
+        /// The film.
+        film: Film<L>,
+        /// Index that shapes the curve under it.
+        eta: F<L>,
+        /// The curve's value at normal incidence.
+        f0: Rgb<L>,
+        /// The curve's value at grazing.
+        f90: Rgb<L>,
+    },
+    /// A film over a metal with the F82 curve.
+    FilmF82 {
+        /// The film.
+        film: Film<L>,
+        /// The curve's value at normal incidence.
+        f0: Rgb<L>,
+        /// Coefficient of the drop.
+        drop: Rgb<L>,
+    },
+    /// A film over a conductor.
+    FilmConductor {
+        /// The film.
+        film: Film<L>,
+        /// Refractive index.
+        n: Rgb<L>,
+        /// Extinction coefficient.
+        k: Rgb<L>,
+    },
 }
 
 impl<L: Lanes> Curve<L> {
+    /// The curve under a film; `eta` shapes what is dielectric.
+    #[inline(always)]
+    pub(crate) fn filmed(self, film: Film<L>, eta: F<L>) -> Self {
+        match self {
+            Self::Dielectric { f0, f90, .. } => Self::FilmDielectric { film, eta, f0, f90 },
+            Self::Schlick { f0, .. } => Self::FilmF82 { film, f0, drop: Rgb::zero(eta.lanes()) },
+            Self::F82 { f0, drop } => Self::FilmF82 { film, f0, drop },
+            Self::Conductor { n, k } => Self::FilmConductor { film, n, k },
+            other => other,
+        }
+    }
+    /// The film's share and its reflectance, if there is a film.
+    #[inline(always)]
+    pub(crate) fn through_film(&self, c: F<L>) -> Option<(F<L>, Rgb<L>)> {
+        match *self {
+            Self::FilmDielectric { film, eta, f0, f90 } => Some((film.weight, film.over_tinted(c, eta, f0, f90))),
+            Self::FilmF82 { film, f0, drop } => Some((film.weight, film.over_f82(c, f0, drop))),
+            Self::FilmConductor { film, n, k } => Some((film.weight, film.over_conductor(c, n, k))),
+            _ => None,
+        }
+    }
     /// The F82 curve from its normal value and its tint at 82 degrees.
     #[inline(always)]
     pub(crate) fn f82(f0: Rgb<L>, tint: Rgb<L>) -> Self {
@@ -124,42 +189,51 @@ impl<L: Lanes> Curve<L> {
     /// Gulbrandsen's conductor with normal reflectance `r` and edge tint `g`.
     #[inline(always)]
     pub(crate) fn gulbrandsen(r: Rgb<L>, g: Rgb<L>) -> Self {
+        let r = Rgb::new(r.r.clamp(0.0, 0.99), r.g.clamp(0.0, 0.99), r.b.clamp(0.0, 0.99));
         let (red, green, blue) = (gulbrandsen_channel(r.r, g.r), gulbrandsen_channel(r.g, g.g), gulbrandsen_channel(r.b, g.b));
         Self::Conductor { n: Rgb::new(red[0], green[0], blue[0]), k: Rgb::new(red[1], green[1], blue[1]) }
     }
     /// Reflectance at half-angle cosine `c`.
     #[inline(always)]
     pub(crate) fn reflectance(&self, c: F<L>) -> Rgb<L> {
+        match self.through_film(c) {
+            Some((weight, filmed)) => self.plain(c).lerp(filmed, weight),
+            None => self.plain(c),
+        }
+    }
+    /// Reflectance without a film.
+    #[inline(always)]
+    pub(crate) fn plain(&self, c: F<L>) -> Rgb<L> {
         match *self {
             Self::One => Rgb::grey(c.lanes().f(1.0)),
-            Self::Dielectric { eta, f0, f90 } => f0.lerp(f90, dielectric_share(c, eta)),
+            Self::Dielectric { eta, f0, f90 } | Self::FilmDielectric { eta, f0, f90, .. } => f0.lerp(f90, dielectric_share(c, eta)),
             Self::Schlick { f0, f90 } => f0.lerp(f90, schlick_share(c)),
-            Self::F82 { f0, drop } => {
+            Self::F82 { f0, drop } | Self::FilmF82 { f0, drop, .. } => {
                 let white = Rgb::grey(c.lanes().f(1.0));
                 let x = (1.0 - c).saturate();
                 let fifth = x.squared().squared() * x;
                 (f0.lerp(white, fifth) - drop * (c * fifth * x)).saturate()
             }
-            Self::Conductor { n, k } => {
+            Self::Conductor { n, k } | Self::FilmConductor { n, k, .. } => {
                 Rgb::new(conductor_channel(c, n.r, k.r), conductor_channel(c, n.g, k.g), conductor_channel(c, n.b, k.b))
             }
         }
     }
-    /// Mean reflectance over the cosine-weighted hemisphere.
+    /// Mean reflectance over the cosine-weighted hemisphere, without the film.
     #[inline(always)]
     pub(crate) fn mean(&self, l: L) -> Rgb<L> {
         match *self {
             Self::One => Rgb::grey(l.f(1.0)),
-            Self::Dielectric { eta, f0, f90 } => {
+            Self::Dielectric { eta, f0, f90 } | Self::FilmDielectric { eta, f0, f90, .. } => {
                 let normal = normal_reflectance(eta);
                 f0.lerp(f90, ((dielectric_mean(eta) - normal) / (1.0 - normal)).saturate())
             }
             Self::Schlick { f0, f90 } => f0.lerp(f90, l.f(1.0 / 21.0)),
-            Self::F82 { f0, drop } => f82_mean(l, f0, drop),
-            Self::Conductor { .. } => {
-                let f0 = self.reflectance(l.f(1.0));
+            Self::F82 { f0, drop } | Self::FilmF82 { f0, drop, .. } => f82_mean(l, f0, drop),
+            Self::Conductor { .. } | Self::FilmConductor { .. } => {
+                let f0 = self.plain(l.f(1.0));
                 let at_82 = f0.lerp(Rgb::grey(l.f(1.0)), l.f(SHARE_82));
-                let drop = (at_82 - self.reflectance(l.f(1.0 / 7.0))) * DROP;
+                let drop = (at_82 - self.plain(l.f(1.0 / 7.0))) * DROP;
                 f82_mean(l, f0, drop)
             }
         }

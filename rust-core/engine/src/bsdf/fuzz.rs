@@ -23,6 +23,11 @@ pub(crate) enum FuzzLobe<L: Lanes> {
         /// 1 / alpha.
         power: F<L>,
     },
+    /// Velvet (Ashikhmin, Premože, Shirley 2000), sampled evenly over the hemisphere.
+    Velvet {
+        /// 1 / σ².
+        rate: F<L>,
+    },
 }
 
 impl<L: Lanes> FuzzLobe<L> {
@@ -43,6 +48,12 @@ impl<L: Lanes> FuzzLobe<L> {
     pub(crate) fn charlie(wo: Vec3<L>, r: F<L>) -> (Self, F<L>) {
         let albedo = energy::charlie(r.lanes(), r, wo.z.saturate());
         (Self::Charlie { power: (r * r).max(1e-3).recip() }, albedo)
+    }
+    /// The lobe of width `sigma`, and a guess of its albedo.
+    #[inline(always)]
+    pub(crate) fn velvet(sigma: F<L>) -> (Self, F<L>) {
+        let sigma = sigma.max(0.01);
+        (Self::Velvet { rate: (sigma * sigma).recip() }, sigma.lanes().f(0.5))
     }
     /// Value × cosine and pdf.
     #[inline(always)]
@@ -66,6 +77,16 @@ impl<L: Lanes> FuzzLobe<L> {
                 let above = wi.z.gt(0.0);
                 (value.keep_if(wo.z.gt(0.0) & above), above.select(cos.lanes().f(0.5 * FRAC_1_PI), cos.lanes().f(0.0)))
             }
+            Self::Velvet { rate } => {
+                let h = (wo + wi).normalize_or(wo);
+                let sin2 = (1.0 - h.z * h.z).max(1e-7);
+                let density = (-(h.z * h.z / sin2) * rate).exp() * rate * FRAC_1_PI / (sin2 * sin2);
+                let groove = h.z / wo.dot(h).abs().max(1e-5) * 2.0;
+                let masking = (groove * wo.z.min(cos)).min(1.0);
+                let above = wi.z.gt(0.0);
+                let value = density * masking * 0.25 / wo.z.max(1e-6);
+                (value.keep_if(wo.z.gt(0.0) & above), above.select(cos.lanes().f(0.5 * FRAC_1_PI), cos.lanes().f(0.0)))
+            }
         }
     }
     /// A direction with the pdf of [`Self::eval`].
@@ -77,7 +98,7 @@ impl<L: Lanes> FuzzLobe<L> {
                 let v = Vec3::new((cosine.x - cosine.z * b) / a, cosine.y / a, cosine.z).normalize_or(cosine);
                 Vec3::new(azimuth[0] * v.x - azimuth[1] * v.y, azimuth[1].mul_add(v.x, azimuth[0] * v.y), v.z)
             }
-            Self::Charlie { .. } => {
+            Self::Charlie { .. } | Self::Velvet { .. } => {
                 let z = 1.0 - u[0];
                 let (sin_phi, cos_phi) = u[1].sin_cos_turns();
                 let sin = (1.0 - z * z).safe_sqrt();

@@ -2,8 +2,10 @@
 //!
 //! No radiance scaling with the squared index: light that enters and leaves keeps its value.
 
-use super::fresnel::{dielectric_share, schlick_share};
-use super::microfacet::{MIRROR, Widths};
+use super::film::Film;
+use super::fresnel::{dielectric_share, normal_reflectance, schlick_share};
+use super::microfacet::{MIRROR, Widths, beckmann};
+use super::switches::Distribution;
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Relative index differences up to this pass straight through.
@@ -24,14 +26,28 @@ pub(crate) struct Interface<L: Lanes> {
     pub(crate) passed: Rgb<L>,
     /// Whether Schlick's curve stands for the exact one.
     pub(crate) schlick: bool,
+    /// Whether everything passes but what is totally reflected, and nothing is reflected.
+    pub(crate) refracts_only: bool,
+    /// A film on it.
+    pub(crate) film: Option<Film<L>>,
 }
 
 impl<L: Lanes> Interface<L> {
+    /// An interface of index `eta` that takes no colour.
+    #[inline(always)]
+    pub(crate) fn clear(eta: F<L>) -> Self {
+        let (normal, white) = (Rgb::grey(normal_reflectance(eta)), Rgb::grey(eta.lanes().f(1.0)));
+        Self { eta, f0: normal, f90: white, kept: normal, passed: white, schlick: false, refracts_only: false, film: None }
+    }
     /// Reflected and passed colour at half-angle cosine `c`.
     #[inline(always)]
     pub(crate) fn split(&self, c: F<L>) -> [Rgb<L>; 2] {
         let l = c.lanes();
         let white = Rgb::grey(l.f(1.0));
+        if self.refracts_only {
+            let total = (1.0 - c * c).ge(self.eta * self.eta);
+            return [Rgb::zero(l), self.passed.keep_if(!total)];
+        }
         let share = if self.schlick {
             // Total internal reflection comes before the approximate curve.
             let total = (1.0 - c * c).ge(self.eta * self.eta);
@@ -39,7 +55,11 @@ impl<L: Lanes> Interface<L> {
         } else {
             dielectric_share(c, self.eta)
         };
-        [self.f0.lerp(self.f90, share), (white - self.kept) * self.passed * (1.0 - share)]
+        let reflected = self.f0.lerp(self.f90, share);
+        let passed = (white - self.kept) * self.passed * (1.0 - share);
+        let Some(film) = &self.film else { return [reflected, passed] };
+        let [mirrored, kept] = film.over_two(c, self.eta, [[self.f0, self.f90], [self.kept, white]]);
+        [reflected.lerp(mirrored, film.weight), passed.lerp((white - kept).max(0.0) * self.passed, film.weight)]
     }
     /// Probability of reflection at half-angle cosine `c`.
     #[inline(always)]
@@ -53,6 +73,7 @@ impl<L: Lanes> Interface<L> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GlassLobe<L: Lanes> {
     widths: Widths<L>,
+    distribution: Distribution,
     interface: Interface<L>,
     /// Smooth lanes: evaluated nowhere, sampled exactly.
     pub(crate) delta: M<L>,
@@ -62,10 +83,10 @@ pub(crate) struct GlassLobe<L: Lanes> {
 impl<L: Lanes> GlassLobe<L> {
     /// The lobe seen from `wo`.
     #[inline(always)]
-    pub(crate) fn new(wo: Vec3<L>, widths: Widths<L>, interface: Interface<L>) -> Self {
+    pub(crate) fn new(wo: Vec3<L>, widths: Widths<L>, interface: Interface<L>, distribution: Distribution) -> Self {
         let delta = (widths.x * widths.y).le(MIRROR) | (interface.eta - 1.0).abs().lt(STRAIGHT);
         let widths = Widths { x: widths.x.keep_if(!delta), y: widths.y.keep_if(!delta) };
-        Self { widths, interface, delta, stretch: widths.stretch(wo) }
+        Self { widths, distribution: distribution.refracting(), interface, delta, stretch: widths.stretch(wo) }
     }
     /// Roughness r.
     #[inline(always)]
@@ -88,7 +109,11 @@ impl<L: Lanes> GlassLobe<L> {
         let jacobian = passes.select(eta * eta * c * d.abs() / length2, l.f(0.25));
         let density = self.widths.distribution(h) * jacobian * 2.0;
         let (light, view) = (wi.z.abs(), wo.z);
-        let value = density * light / self.stretch.mul_add(light, self.widths.stretch(wi) * view);
+        let value = if self.distribution == Distribution::Beckmann {
+            beckmann(l, &self.widths, wo, wi, h) * jacobian
+        } else {
+            density * light / self.stretch.mul_add(light, self.widths.stretch(wi) * view)
+        };
         let reflects = Interface::reflects(split);
         let pdf = density / (self.stretch + view) * passes.select(1.0 - reflects, reflects);
         ((passes.select(split[1], split[0]) * value).keep_if(possible), pdf.keep_if(possible))
@@ -101,11 +126,11 @@ impl<L: Lanes> GlassLobe<L> {
         let c = wo.dot(h);
         let reflects = Interface::reflects(self.interface.split(c.saturate()));
         let inverse = self.interface.eta.recip();
-        let cos = (1.0 - (1.0 - c * c) * inverse * inverse).safe_sqrt();
-        let refracted = h * (c * inverse - cos) - wo * inverse;
+        let squared = 1.0 - (1.0 - c * c) * inverse * inverse;
+        let refracted = h * (c * inverse - squared.safe_sqrt()) - wo * inverse;
         let mirrored = u[0].lt(reflects);
         let wi = mirrored.select(wo.reflect(h), refracted);
-        (wi, mirrored.select(wi.z.gt(0.0), wi.z.lt(0.0)))
+        (wi, mirrored.select(wi.z.gt(0.0), wi.z.lt(0.0) & squared.gt(0.0)))
     }
     /// Value and probability of the smooth lanes for the side that `wi` lies on.
     #[inline(always)]

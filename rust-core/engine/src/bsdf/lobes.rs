@@ -6,7 +6,10 @@
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
 use super::glass::GlassLobe;
+pub(crate) use super::normals::Normal;
+use super::normals::Tilts;
 use super::reflect::ReflectLobe;
+use super::subsurface::{EntryLobe, Medium};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Slots in a list.
@@ -23,6 +26,21 @@ pub(crate) enum Shape<L: Lanes> {
     Glass(GlassLobe<L>),
     /// Fuzz.
     Fuzz(FuzzLobe<L>),
+    /// Straight through.
+    Straight,
+    /// Into a medium.
+    Subsurface(EntryLobe<L>),
+}
+
+/// Where a lobe sends light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// Back.
+    Reflected,
+    /// Through the surface, as the mirror image of a reflection.
+    Mirrored,
+    /// Back and through.
+    Both,
 }
 
 /// A lobe in its place.
@@ -35,8 +53,8 @@ pub(crate) struct Slot<L: Lanes> {
     pub(crate) share: F<L>,
     /// Cosine and sine of the tangent's turn.
     pub(crate) turn: Option<[F<L>; 2]>,
-    /// Whether the lobe sends light through the surface, as the mirror image of a reflection.
-    pub(crate) mirrored: bool,
+    pub(crate) side: Side,
+    pub(crate) normal: Normal,
     /// Whether the light's way through the coat tints the lobe.
     pub(crate) coated: bool,
 }
@@ -65,10 +83,14 @@ pub struct BsdfSample<L: Lanes> {
     pub pdf: F<L>,
     /// Perfect mirror or smooth refraction: lights cannot be sampled for this direction.
     pub delta: M<L>,
-    /// The direction is on the other side.
+    /// The direction is on the other side of the normal that the chosen lobe is about.
     pub transmitted: M<L>,
     /// Straight through a thin wall: the ray goes on as if nothing were there but the colour.
     pub straight: M<L>,
+    /// Into the medium under the surface, which [`Lobes::medium`] tells: `wi` is the first direction of a walk.
+    pub entered: M<L>,
+    /// The chosen lobe is diffuse, fuzz or subsurface.
+    pub diffuse: M<L>,
     /// Roughness r of the chosen lobe, 1 for diffuse ones.
     pub roughness: F<L>,
 }
@@ -83,6 +105,8 @@ pub struct Lobes<L: Lanes> {
     pub(crate) coat: Option<CoatTint<L>>,
     pub(crate) emission: Rgb<L>,
     pub(crate) opacity: F<L>,
+    pub(crate) tilts: Tilts<L>,
+    pub(crate) medium: Option<Medium<L>>,
 }
 
 /// A direction in a frame whose tangent is turned by an angle of this cosine and sine.
@@ -103,24 +127,28 @@ fn above<L: Lanes>(wi: Vec3<L>) -> (Vec3<L>, M<L>) {
 impl<L: Lanes> Slot<L> {
     /// A direction in the frame that the shape is defined in.
     #[inline(always)]
-    fn in_shape_frame(&self, v: Vec3<L>) -> Vec3<L> {
-        turned(v, self.turn)
+    fn in_shape_frame(&self, tilts: &Tilts<L>, v: Vec3<L>) -> Vec3<L> {
+        turned(tilts.seen(self.normal, v), self.turn)
     }
     /// A direction back in the shading frame.
     #[inline(always)]
-    fn in_shading_frame(&self, v: Vec3<L>) -> Vec3<L> {
-        let z = if self.mirrored { -v.z } else { v.z };
-        match self.turn {
+    fn in_shading_frame(&self, tilts: &Tilts<L>, v: Vec3<L>) -> Vec3<L> {
+        let z = if self.side == Side::Mirrored { -v.z } else { v.z };
+        let v = match self.turn {
             Some([cos, sin]) => Vec3::new(cos.mul_add(v.x, -(sin * v.y)), cos.mul_add(v.y, sin * v.x), z),
             None => Vec3::new(v.x, v.y, z),
+        };
+        match tilts.frame(self.normal) {
+            Some(frame) => frame.to_world(v),
+            None => v,
         }
     }
     /// Value × cosine and pdf of the lobe alone, with its weight.
     #[inline(always)]
-    fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
-        let wo = self.in_shape_frame(wo);
-        let mut wi = self.in_shape_frame(wi);
-        if self.mirrored {
+    fn eval(&self, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let wo = self.in_shape_frame(tilts, wo);
+        let mut wi = self.in_shape_frame(tilts, wi);
+        if self.side == Side::Mirrored {
             wi.z = -wi.z;
         }
         let (value, pdf) = match &self.shape {
@@ -131,20 +159,29 @@ impl<L: Lanes> Slot<L> {
                 let (value, pdf) = lobe.eval(wo, wi);
                 (Rgb::grey(value), pdf)
             }
+            Shape::Straight | Shape::Subsurface(_) => return (Rgb::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
         };
         (value * self.weight, pdf)
     }
-    /// A direction of the lobe, and whether it is on the side it was meant for; `u[0]` is what the choice of lobes left over.
+    /// A direction of the lobe, whether it is on the side it was meant for, and whether that is the other one; `u[0]` is what the choice of
+    /// lobes left over.
     #[inline(always)]
-    fn sample(&self, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, M<L>) {
-        let wo = self.in_shape_frame(wo);
+    fn sample(&self, tilts: &Tilts<L>, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, [M<L>; 2]) {
+        let wo = self.in_shape_frame(tilts, wo);
         let (wi, usable) = match &self.shape {
             Shape::Diffuse(_) => above(DiffuseLobe::sample([u[1], u[2]])),
             Shape::Reflect(lobe) => above(lobe.sample(wo, [u[1], u[2]])),
             Shape::Glass(lobe) => lobe.sample(wo, u),
             Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
+            Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), wo.x.lanes().m(true)),
+            Shape::Subsurface(lobe) => lobe.sample(wo, u),
         };
-        (self.in_shading_frame(wi), usable)
+        let through = match self.side {
+            Side::Reflected => wi.x.lanes().m(false),
+            Side::Mirrored => wi.x.lanes().m(true),
+            Side::Both => wi.z.lt(0.0),
+        };
+        (self.in_shading_frame(tilts, wi), [usable, through])
     }
     /// Lanes in which the lobe is a mirror or smooth.
     #[inline(always)]
@@ -152,15 +189,18 @@ impl<L: Lanes> Slot<L> {
         match &self.shape {
             Shape::Reflect(lobe) => lobe.delta,
             Shape::Glass(lobe) => lobe.delta,
-            Shape::Diffuse(_) | Shape::Fuzz(_) => l.m(false),
+            Shape::Straight => l.m(true),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.m(false),
         }
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
     #[inline(always)]
-    fn delta_eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    fn delta_eval(&self, l: L, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let (wo, wi) = (tilts.seen(self.normal, wo), tilts.seen(self.normal, wi));
         let (value, pdf) = match &self.shape {
             Shape::Reflect(lobe) => (lobe.mirror(wo), l.f(1.0)),
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
+            Shape::Straight | Shape::Subsurface(_) => (Rgb::grey(l.f(1.0)), l.f(1.0)),
             Shape::Diffuse(_) | Shape::Fuzz(_) => (Rgb::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
@@ -171,8 +211,14 @@ impl<L: Lanes> Slot<L> {
         match &self.shape {
             Shape::Reflect(lobe) => lobe.roughness(),
             Shape::Glass(lobe) => lobe.roughness(),
-            Shape::Diffuse(_) | Shape::Fuzz(_) => l.f(1.0),
+            Shape::Straight => l.f(0.0),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
         }
+    }
+    /// Whether the bump rules count the lobe as diffuse.
+    #[inline(always)]
+    fn is_diffuse(&self) -> bool {
+        matches!(self.shape, Shape::Diffuse(_) | Shape::Fuzz(_))
     }
 }
 
@@ -204,7 +250,17 @@ impl<L: Lanes> Lobes<L> {
             coat: None,
             emission: Rgb::zero(l),
             opacity: l.f(1.0),
+            tilts: Tilts::NONE,
+            medium: None,
         }
+    }
+    /// A Lambert lobe alone.
+    #[inline(always)]
+    pub(crate) fn lambert(l: L, colour: Rgb<L>) -> Self {
+        let mut lobes = Self::empty(l);
+        let (shape, weight) = (Shape::Diffuse(DiffuseLobe::lambert(colour)), Rgb::grey(l.f(1.0)));
+        lobes.push(Slot { shape, weight, share: l.f(0.0), turn: None, side: Side::Reflected, normal: Normal::Base, coated: false }, colour);
+        lobes
     }
     /// Adds a lobe whose albedo, weight included, is about `albedo`; its share in the choice is the albedo's mean.
     #[inline(always)]
@@ -218,6 +274,11 @@ impl<L: Lanes> Lobes<L> {
     /// BSDF × |cos θi| of all lobes but delta ones, and the density with which [`Self::sample`] finds `wi`.
     #[inline(always)]
     pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        evaluate(l, self, wo, wi, false)
+    }
+    /// The same; bump rules leave more open where `sampled`.
+    #[inline(always)]
+    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, sampled: bool) -> (Rgb<L>, F<L>) {
         let mut sum = Rgb::zero(l);
         let mut density = l.f(0.0);
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
@@ -226,7 +287,11 @@ impl<L: Lanes> Lobes<L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
-            let (mut value, pdf) = slot.eval(wo, wi);
+            let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
+            let open = sampled && (!slot.is_diffuse() || slot.side != Side::Reflected);
+            if let Some(factor) = self.tilts.shadow(slot.normal, wi, slot.is_diffuse(), open) {
+                value = value * factor;
+            }
             if let (true, Some(tint)) = (slot.coated, coat) {
                 value = value * tint;
             }
@@ -246,6 +311,8 @@ impl<L: Lanes> Lobes<L> {
             delta: nothing,
             transmitted: nothing,
             straight: nothing,
+            entered: nothing,
+            diffuse: nothing,
             roughness: l.f(1.0),
         };
         let mut point = u[0] * self.total;
@@ -259,31 +326,40 @@ impl<L: Lanes> Lobes<L> {
             passed |= here;
             point -= slot.share;
         }
-        let (value, pdf) = self.eval(l, wo, sample.wi);
-        sample.value = sample.delta.select(sample.value, value).keep_if(found);
-        sample.pdf = sample.delta.select(sample.pdf, pdf).keep_if(found & sample.value.is_lit());
-        sample.transmitted = sample.wi.z.lt(0.0);
+        let (value, pdf) = evaluate(l, self, wo, sample.wi, true);
+        let alone = sample.delta | sample.entered;
+        sample.value = alone.select(sample.value, value).keep_if(found);
+        sample.pdf = alone.select(sample.pdf, pdf).keep_if(found);
         sample
     }
     /// Fills the lanes `here` with a direction of `slot`, and with value and pdf where it is a delta lobe; returns where it is usable.
     #[inline(always)]
     fn choose(&self, l: L, wo: Vec3<L>, slot: &Slot<L>, here: M<L>, u: [F<L>; 3], sample: &mut BsdfSample<L>) -> M<L> {
-        let (wi, usable) = slot.sample(wo, u);
+        let (wi, [usable, through]) = slot.sample(&self.tilts, wo, u);
         sample.wi = here.select(wi, sample.wi);
+        sample.transmitted |= here & through;
         sample.roughness = here.select(slot.roughness(l), sample.roughness);
-        let delta = here & slot.delta(l);
-        if !delta.any() {
+        if !matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Straight) {
+            sample.diffuse |= here;
+        }
+        let enters = matches!(slot.shape, Shape::Subsurface(_));
+        let alone = if enters { here } else { here & slot.delta(l) };
+        if !alone.any() {
             return usable;
         }
-        let (mut value, pdf) = slot.delta_eval(l, wo, sample.wi);
+        let (mut value, pdf) = slot.delta_eval(l, &self.tilts, wo, sample.wi);
         if let (true, Some(coat)) = (slot.coated, &self.coat) {
             value = value * coat.colour(sample.wi);
         }
-        sample.value = delta.select(value, sample.value);
-        sample.pdf = delta.select(pdf * slot.share / self.total.max(1e-20), sample.pdf);
-        sample.delta |= delta;
-        if slot.mirrored {
-            sample.straight |= delta;
+        sample.value = alone.select(value, sample.value);
+        sample.pdf = alone.select(pdf * slot.share / self.total.max(1e-20), sample.pdf);
+        if enters {
+            sample.entered |= alone;
+        } else {
+            sample.delta |= alone;
+        }
+        if slot.side == Side::Mirrored {
+            sample.straight |= alone;
         }
         usable
     }
@@ -312,18 +388,32 @@ impl<L: Lanes> Lobes<L> {
     #[inline(always)]
     pub fn transmittance(&self, l: L, wo: Vec3<L>) -> Rgb<L> {
         let mut sum = Rgb::zero(l);
-        for slot in self.slots[..self.count].iter().flatten().filter(|slot| slot.mirrored) {
+        for slot in self.slots[..self.count].iter().flatten().filter(|slot| slot.side == Side::Mirrored) {
             let tint = match (slot.coated, &self.coat) {
                 (true, Some(coat)) => coat.along(coat.view),
                 _ => Rgb::grey(l.f(1.0)),
             };
-            sum += (slot.delta_eval(l, wo, -wo).0 * tint).keep_if(slot.delta(l));
+            sum += (slot.delta_eval(l, &self.tilts, wo, -wo).0 * tint).keep_if(slot.delta(l));
         }
         sum.lerp(Rgb::grey(l.f(1.0)), 1.0 - self.opacity)
+    }
+    /// What samples marked as entered go into; none if there are no such samples.
+    #[inline(always)]
+    pub fn medium(&self) -> Option<&Medium<L>> {
+        self.medium.as_ref()
     }
     /// Share of the surface that is there; lobes and emission are those of that share, not multiplied by it.
     #[inline(always)]
     pub fn opacity(&self) -> F<L> {
         self.opacity
     }
+}
+
+/// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
+#[inline(never)]
+fn evaluate<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, sampled: bool) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sum(l, wo, wi, sampled),
+    )
 }

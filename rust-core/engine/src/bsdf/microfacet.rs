@@ -1,6 +1,6 @@
-//! The GGX distribution with height-correlated Smith masking, anisotropic, in the shading frame.
+//! Distributions of facet normals, anisotropic, in the shading frame: GGX with height-correlated Smith masking, Beckmann, Ashikhmin and Shirley.
 //!
-//! With t(v) = √(αx² vx² + αy² vy² + vz²), Smith's masking is G1 = 2 vz / (t + vz) and G2 = 2 vz lz / (t(v) lz + t(l) vz): no tangents, no
+//! For GGX, with t(v) = √(αx² vx² + αy² vy² + vz²), Smith's masking is G1 = 2 vz / (t + vz) and G2 = 2 vz lz / (t(v) lz + t(l) vz): no tangents, no
 //! cancellation at grazing angles.
 
 use core::f32::consts::PI;
@@ -65,4 +65,85 @@ impl<L: Lanes> Widths<L> {
         let s2 = (wo.x.mul_add(wo.x, wo.y * wo.y).sqrt() + 1.0).squared();
         (1.0 - alpha2) * s2 / (s2 + alpha2 * wo.z * wo.z)
     }
+}
+
+/// Ashikhmin and Shirley's exponents; widths from 10⁻⁴ to 1.
+#[inline(always)]
+fn exponent<L: Lanes>(width: F<L>) -> F<L> {
+    let width = width.clamp(1e-4, 1.0);
+    2.0 / (width * width) - 2.0
+}
+
+/// Beckmann's distribution.
+impl<L: Lanes> Widths<L> {
+    /// Density of facet normals at `h`, per solid angle of projected area.
+    #[inline(always)]
+    fn beckmann(&self, h: Vec3<L>) -> F<L> {
+        let (x, y, z2) = (h.x / self.x, h.y / self.y, (h.z * h.z).max(1e-12));
+        (-(x.mul_add(x, y * y)) / z2).exp() / (self.x * self.y * z2 * z2 * PI)
+    }
+    /// Smith's Λ as the rational fit of Walter et al.; 0 where α tan θ is below 0.625.
+    #[inline(always)]
+    fn beckmann_lambda(&self, v: Vec3<L>) -> F<L> {
+        let (x, y) = (v.x * self.x, v.y * self.y);
+        let slope2 = x.mul_add(x, y * y) / (v.z * v.z).max(1e-12);
+        let a = slope2.max(1e-12).sqrt().recip();
+        let fit = a.mul_add(a.mul_add(0.396, -1.259), 1.0) / (a * a.mul_add(2.181, 3.535));
+        fit.keep_if(slope2.ge(0.39))
+    }
+}
+
+/// Ashikhmin and Shirley's distribution.
+impl<L: Lanes> Widths<L> {
+    /// Density of half vectors per solid angle.
+    #[inline(always)]
+    fn phong(&self, h: Vec3<L>) -> F<L> {
+        let (nx, ny) = (exponent(self.x), exponent(self.y));
+        let (x2, y2) = (h.x * h.x, h.y * h.y);
+        let sin2 = (x2 + y2).min(1.0);
+        // ln(cos²) / sin², as a series where the quotient would be rounding error.
+        let series = -(sin2.mul_add(sin2.mul_add(1.0 / 3.0, 0.5), 1.0));
+        let rate = sin2.lt(1e-2).select(series, (1.0 - sin2).max(1e-12).ln() / sin2.max(1e-12));
+        (nx.mul_add(x2, ny * y2) * rate * 0.5).exp() * ((nx + 1.0) * (ny + 1.0)).sqrt() * (0.5 / PI)
+    }
+    /// A half vector with that density.
+    #[inline(always)]
+    fn sample_phong(&self, u: [F<L>; 2]) -> Vec3<L> {
+        let (nx, ny) = (exponent(self.x), exponent(self.y));
+        let (sin, cos) = u[0].sin_cos_turns();
+        let (x, y) = (cos * (ny + 1.0).sqrt(), sin * (nx + 1.0).sqrt());
+        let inverse = x.mul_add(x, y * y).sqrt().recip();
+        let (x, y) = (x * inverse, y * inverse);
+        let power = nx.mul_add(x * x, ny * y * y) + 1.0;
+        let z = (1.0 - u[1]).max(1e-12).pow(power.recip());
+        let sin = (1.0 - z * z).safe_sqrt();
+        Vec3::new(x * sin, y * sin, z)
+    }
+}
+
+/// Beckmann's density at `h` × masking / cosine of `wo`; a function of its own, since few surfaces ask for it.
+#[inline(never)]
+pub(crate) fn beckmann<L: Lanes>(l: L, widths: &Widths<L>, wo: Vec3<L>, wi: Vec3<L>, h: Vec3<L>) -> F<L> {
+    l.vectorize(
+        #[inline(always)]
+        || widths.beckmann(h) / (wo.z * (widths.beckmann_lambda(wo) + widths.beckmann_lambda(wi) + 1.0)),
+    )
+}
+
+/// [`Widths::phong`] as a function of its own.
+#[inline(never)]
+pub(crate) fn phong<L: Lanes>(l: L, widths: &Widths<L>, h: Vec3<L>) -> F<L> {
+    l.vectorize(
+        #[inline(always)]
+        || widths.phong(h),
+    )
+}
+
+/// [`Widths::sample_phong`] as a function of its own.
+#[inline(never)]
+pub(crate) fn sample_phong<L: Lanes>(l: L, widths: &Widths<L>, u: [F<L>; 2]) -> Vec3<L> {
+    l.vectorize(
+        #[inline(always)]
+        || widths.sample_phong(u),
+    )
 }

@@ -7,17 +7,21 @@
 //! all attenuation by layers at the view is contained; evaluation and sampling loop over the lobes' slots, which are the same in all lanes.
 
 mod base;
+mod closure;
 mod coat;
 mod diffuse;
 mod energy;
+mod film;
 mod fresnel;
 mod fuzz;
 mod glass;
 mod lobes;
 mod microfacet;
+pub mod normals;
 pub mod parameter;
 mod reflect;
 mod resolve;
+pub mod subsurface;
 mod surface;
 mod switches;
 #[cfg(test)]
@@ -27,5 +31,6 @@ mod transmission;
 pub use lobes::{BsdfSample, Lobes, MAXIMUM};
 pub use surface::{LobeSet, ParameterValues, Surface};
 pub use switches::{
-    Anisotropy, Attenuation, CoatPath, Diffuse, EmissionOrder, Fresnel, Fuzz, FuzzAttenuation, FuzzOrder, Metal, Switches, Tint,
+    Anisotropy, Attenuation, Bump, Closure, CoatPath, Diffuse, Distribution, EmissionOrder, Fresnel, Fuzz, FuzzAttenuation, FuzzOrder,
+    Metal, SubsurfaceMethod, Switches, Tint,
 };

@@ -83,6 +83,8 @@ block! {
     SUBSURFACE_RADIUS "subsurface_radius" [1.0, 0.5, 0.25];
     /// Anisotropy g of the scattering; of a thin wall, (1 − g) / 2 reflects and (1 + g) / 2 passes.
     SUBSURFACE_ANISOTROPY "subsurface_scatter_anisotropy" [0.0];
+    /// Index for the lengths and the way in of skin, and for the way in of subsurface scattering without a specular layer.
+    SUBSURFACE_IOR "subsurface_ior" [1.4];
     /// Presence of the coat, 0 to 1.
     COAT_WEIGHT "coat_weight" [0.0];
     /// Tint of what lies under the coat.

@@ -1,11 +1,14 @@
 //! From parameters to lobes: layers from the outside in, each taking its albedo at the view from those under it.
 
+use super::closure::single;
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
-use super::lobes::{Lobes, Shape, Slot};
+use super::lobes::{Lobes, Normal, Shape, Side, Slot};
+use super::normals::{Normals, Tilts, raised, tilted};
 use super::parameter as p;
+use super::subsurface::{EntryLobe, LEAST_RADIUS, medium};
 use super::surface::{ParameterValues, Surface};
-use super::switches::{Attenuation, EmissionOrder, Fuzz, FuzzAttenuation, FuzzOrder};
+use super::switches::{Attenuation, Bump, Closure, EmissionOrder, Fuzz, FuzzAttenuation, FuzzOrder, SubsurfaceMethod};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// The layers' state on the way in.
@@ -15,8 +18,12 @@ pub(super) struct Layers<'a, 'b, L: Lanes> {
     pub(super) values: &'a ParameterValues<'a>,
     pub(super) at: usize,
     pub(super) wo: Vec3<L>,
-    /// Cosine of the view, kept off the tables' edge.
-    pub(super) mu: F<L>,
+    /// The view in the frame of specular lobes, and its cosine, kept off the tables' edge.
+    pub(super) specular_wo: Vec3<L>,
+    pub(super) specular_mu: F<L>,
+    /// The same in the coat's frame.
+    pub(super) coat_wo: Vec3<L>,
+    pub(super) coat_mu: F<L>,
     pub(super) entering: M<L>,
     /// What the layers above leave.
     pub(super) weight: Rgb<L>,
@@ -25,31 +32,101 @@ pub(super) struct Layers<'a, 'b, L: Lanes> {
     pub(super) lobes: &'b mut Lobes<L>,
 }
 
+/// A register of hits to resolve.
+#[derive(Clone, Copy, Debug)]
+struct Hits<'a, L: Lanes> {
+    values: &'a ParameterValues<'a>,
+    at: usize,
+    wo: Vec3<L>,
+    entering: M<L>,
+    normals: Option<&'a Normals<L>>,
+}
+
+/// [`Surface::layers`] as a function of its own, which all that resolve share; it writes in place, for lists are long to copy.
+#[inline(never)]
+fn resolve<L: Lanes>(l: L, surface: &Surface, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || surface.layers(l, hits, lobes),
+    );
+}
+
 impl Surface {
     /// The lobes of the hits from `at` on, seen from `wo` in the shading frame on the viewer's side; `entering` tells the geometric front.
     #[inline(always)]
     pub fn resolve<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Lobes<L> {
+        self.resolve_about(l, values, at, wo, entering, None)
+    }
+
+    /// [`Self::resolve`] with normals beside the shading normal: for a coat's own normal, and for the bump rules of the switches.
+    #[inline(always)]
+    pub fn resolve_about<L: Lanes>(
+        &self,
+        l: L,
+        values: &ParameterValues,
+        at: usize,
+        wo: Vec3<L>,
+        entering: M<L>,
+        normals: Option<&Normals<L>>,
+    ) -> Lobes<L> {
         let mut lobes = Lobes::empty(l);
+        resolve(l, self, &Hits { values, at, wo, entering, normals }, &mut lobes);
+        lobes
+    }
+
+    #[inline(always)]
+    fn layers<L: Lanes>(&self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+        let Hits { values, at, wo, entering, normals } = *hits;
+        if let Some(normals) = normals {
+            let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
+            lobes.tilts = self.tilts(normals, wo, presence);
+        }
+        let specular_wo = lobes.tilts.seen(Normal::Specular, wo);
+        let coat_wo = lobes.tilts.seen(Normal::Coat, wo);
         Layers {
             l,
             surface: self,
             values,
             at,
             wo,
-            mu: wo.z.clamp(1e-4, 1.0),
+            specular_wo,
+            specular_mu: specular_wo.z.clamp(1e-4, 1.0),
+            coat_wo,
+            coat_mu: coat_wo.z.clamp(1e-4, 1.0),
             entering,
             weight: Rgb::grey(l.f(1.0)),
             coated: false,
-            lobes: &mut lobes,
+            lobes,
         }
         .run();
-        lobes
+    }
+
+    /// The frames that the normals ask for.
+    #[inline(always)]
+    fn tilts<L: Lanes>(&self, normals: &Normals<L>, wo: Vec3<L>, coat_weight: F<L>) -> Tilts<L> {
+        let mut tilts = Tilts::NONE;
+        let base = Vec3::splat(wo.x.lanes(), [0.0, 0.0, 1.0]);
+        let corrects = self.switches.bump == Bump::Cycles;
+        if corrects {
+            tilts.smooth = Some(normals.smooth);
+            tilts.specular = Some(tilted(raised(base, normals.geometric, wo)));
+        }
+        let coat = if self.lobes.coat { normals.coat } else { None };
+        if let Some(coat) = coat {
+            tilts.coat = Some(tilted(if corrects { raised(coat, normals.geometric, wo) } else { coat }));
+            if self.lobes.fuzz {
+                tilts.fuzz = Some(tilted((base + (coat - base) * coat_weight).normalize_or(base)));
+            }
+        } else {
+            tilts.coat = tilts.specular;
+        }
+        tilts
     }
 
     /// What passes straight through towards a light: what opacity leaves open, and smooth thin walls.
     #[inline(always)]
     pub fn transmittance<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Rgb<L> {
-        if !(self.switches.thin_walled && self.lobes.transmission) {
+        if !(self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)) {
             let open = if self.lobes.cut_out { 1.0 - values.get(l, p::OPACITY, at).saturate() } else { l.f(0.0) };
             return Rgb::grey(open);
         }
@@ -81,6 +158,10 @@ impl<L: Lanes> Layers<'_, '_, L> {
         }
         if set.emission && switches.emission_order == EmissionOrder::Top {
             self.lobes.emission = self.rgb(p::EMISSION_COLOR);
+        }
+        if switches.closure != Closure::Layered {
+            single(self.l, self);
+            return;
         }
         if set.fuzz && switches.fuzz_order == FuzzOrder::Top {
             self.fuzz();
@@ -119,8 +200,8 @@ impl<L: Lanes> Layers<'_, '_, L> {
     }
 
     #[inline(always)]
-    pub(super) fn push(&mut self, shape: Shape<L>, weight: Rgb<L>, albedo: Rgb<L>, turn: Option<[F<L>; 2]>, mirrored: bool) {
-        let slot = Slot { shape, weight, share: self.l.f(0.0), turn, mirrored, coated: self.coated };
+    pub(super) fn push(&mut self, shape: Shape<L>, weight: Rgb<L>, albedo: Rgb<L>, turn: Option<[F<L>; 2]>, side: Side, normal: Normal) {
+        let slot = Slot { shape, weight, share: self.l.f(0.0), turn, side, normal, coated: self.coated };
         self.lobes.push(slot, albedo);
     }
 
@@ -138,13 +219,18 @@ impl<L: Lanes> Layers<'_, '_, L> {
     pub(super) fn fuzz(&mut self) {
         let switches = self.surface.switches;
         let roughness = self.get(p::FUZZ_ROUGHNESS).saturate();
+        let wo = self.lobes.tilts.seen(Normal::Fuzz, self.wo);
         let (lobe, albedo) = match switches.fuzz {
-            Fuzz::Zeltner => FuzzLobe::zeltner(self.wo, roughness),
-            Fuzz::Charlie => FuzzLobe::charlie(self.wo, roughness),
+            Fuzz::Zeltner => FuzzLobe::zeltner(wo, roughness),
+            Fuzz::Charlie => FuzzLobe::charlie(wo, roughness),
+            Fuzz::Velvet => FuzzLobe::velvet(roughness),
         };
         let presence = self.get(p::FUZZ_WEIGHT);
         let colour = self.rgb(p::FUZZ_COLOR) * presence;
-        self.push(Shape::Fuzz(lobe), self.weight * colour, self.weight * colour * albedo, None, false);
+        self.push(Shape::Fuzz(lobe), self.weight * colour, self.weight * colour * albedo, None, Side::Reflected, Normal::Fuzz);
+        if switches.fuzz == Fuzz::Velvet {
+            return;
+        }
         self.attenuate(match switches.fuzz_attenuation {
             FuzzAttenuation::Grey => Rgb::grey(presence * albedo),
             FuzzAttenuation::Coloured => colour * albedo,
@@ -163,23 +249,42 @@ impl<L: Lanes> Layers<'_, '_, L> {
                 let forward = (self.get(p::SUBSURFACE_ANISOTROPY) + 1.0) * 0.5;
                 passed = Some(inner * (presence * forward));
                 inner = inner * (1.0 - forward);
+            } else if set.walk {
+                let eta =
+                    if switches.subsurface == SubsurfaceMethod::RandomWalkSkin { self.get(p::SUBSURFACE_IOR) } else { self.base().eta };
+                inner = self.walk(inner.saturate(), presence, eta);
             }
             base = base.lerp(inner, presence);
         }
-        self.diffuse_lobe(base, false);
+        self.diffuse_lobe(base, Side::Reflected, Normal::Base);
         if let Some(colour) = passed {
-            self.diffuse_lobe(colour, true);
+            self.diffuse_lobe(colour, Side::Mirrored, Normal::Base);
         }
     }
 
+    /// Adds the way into the medium of this colour, and returns the colour of the channels that have no radius.
     #[inline(always)]
-    pub(super) fn diffuse_lobe(&mut self, colour: Rgb<L>, mirrored: bool) {
+    pub(super) fn walk(&mut self, colour: Rgb<L>, presence: F<L>, eta: F<L>) -> Rgb<L> {
+        let method = self.surface.switches.subsurface;
+        let radius = self.rgb(p::SUBSURFACE_RADIUS);
+        let live = |colour: F<L>, radius: F<L>| colour.keep_if(radius.ge(LEAST_RADIUS));
+        let scattered = Rgb::new(live(colour.r, radius.r), live(colour.g, radius.g), live(colour.b, radius.b));
+        let (medium, factor) = medium(self.l, method, scattered, radius, self.get(p::SUBSURFACE_ANISOTROPY), eta);
+        self.lobes.medium = Some(medium);
+        let lobe = EntryLobe::new(method, self.base_roughness(), eta);
+        let weight = self.weight * presence;
+        self.push(Shape::Subsurface(lobe), weight * factor, weight * scattered, None, Side::Both, Normal::Specular);
+        colour - scattered
+    }
+
+    #[inline(always)]
+    pub(super) fn diffuse_lobe(&mut self, colour: Rgb<L>, side: Side, normal: Normal) {
         let lobe = if self.surface.lobes.rough_diffuse {
             DiffuseLobe::rough(self.wo, colour, self.get(p::DIFFUSE_ROUGHNESS).saturate(), self.surface.switches.diffuse)
         } else {
             DiffuseLobe::lambert(colour)
         };
-        self.push(Shape::Diffuse(lobe), self.weight, self.weight * colour, None, mirrored);
+        self.push(Shape::Diffuse(lobe), self.weight, self.weight * colour, None, side, normal);
     }
 
     /// A colour raised to the power that the coat asks for.

@@ -1,7 +1,7 @@
 //! A surface as compiled for a material, and the values of its parameters over a batch of hits.
 
-use super::parameter::{self, COUNT};
-use super::switches::Switches;
+use super::parameter::{self as p, COUNT};
+use super::switches::{Closure, SubsurfaceMethod, Switches};
 use gonio_simd::{F, Lanes, Rgb};
 
 /// Which lobes and layers of a surface can ever differ from nothing.
@@ -13,6 +13,12 @@ pub struct LobeSet {
     pub rough_diffuse: bool,
     /// Subsurface scattering.
     pub subsurface: bool,
+    /// Subsurface scattering as a walk under the surface: samples may be marked as entered.
+    pub walk: bool,
+    /// A thin film on metal, specular or transmission.
+    pub film: bool,
+    /// Nothing but a colour straight through.
+    pub straight: bool,
     /// Metal.
     pub metal: bool,
     /// Dielectric reflection over the opaque base.
@@ -50,42 +56,21 @@ impl Surface {
     /// Compiles a surface; `varying` marks the places that a column gives hit by hit.
     pub fn new(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches) -> Self {
         let reach = Reach { constants: &constants, varying };
-        let metal = reach.positive(parameter::METALNESS, 1) && reach.positive(parameter::METAL_WEIGHT, 1);
-        let dielectric = !reach.is(parameter::METALNESS, 1.0);
-        let transmission = dielectric && reach.positive(parameter::TRANSMISSION_WEIGHT, 1);
-        let opaque = dielectric && !reach.is(parameter::TRANSMISSION_WEIGHT, 1.0);
-        let subsurface = opaque && reach.positive(parameter::SUBSURFACE_WEIGHT, 1);
-        let base = reach.positive(parameter::BASE_COLOR, 3) && !reach.is(parameter::SUBSURFACE_WEIGHT, 1.0);
-        let diffuse = opaque && (base || (subsurface && reach.positive(parameter::SUBSURFACE_COLOR, 3)));
-        let coat = reach.positive(parameter::COAT_WEIGHT, 1);
-        let reflects = reach.positive(parameter::SPECULAR_WEIGHT, 1) && reach.positive(parameter::SPECULAR_SCALE, 1);
-        let bends = !reach.is(parameter::IOR, 1.0) || (coat && switches.coat_lowers_ior);
-        let anisotropic = !reach.is(parameter::ANISOTROPY, 0.0);
-        let lobes = LobeSet {
-            diffuse,
-            rough_diffuse: diffuse && reach.positive(parameter::DIFFUSE_ROUGHNESS, 1),
-            subsurface,
-            metal,
-            specular: opaque && reflects && bends,
-            transmission,
-            coat,
-            coat_tint: coat && (0..3).any(|channel| !reach.is(parameter::COAT_COLOR + channel, 1.0)),
-            fuzz: reach.positive(parameter::FUZZ_WEIGHT, 1),
-            emission: reach.positive(parameter::EMISSION_COLOR, 3),
-            cut_out: !reach.is(parameter::OPACITY, 1.0),
-            anisotropic,
-            turned: anisotropic && !reach.is(parameter::ROTATION, 0.0),
-        };
+        let lobes = if switches.closure == Closure::Layered { reach.layered(&switches) } else { reach.single(&switches) };
         Self { constants, switches, lobes }
     }
 }
 
 impl Surface {
+    /// Whether light may pass straight through, so that shadow rays ask [`Self::transmittance`].
+    pub fn is_see_through(&self) -> bool {
+        self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
+    }
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Rgb<L> {
-        let depth = values.get(l, parameter::TRANSMISSION_DEPTH, at);
-        let colour = values.rgb(l, parameter::TRANSMISSION_COLOR, at).saturate().max(1e-6);
+        let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
+        let colour = values.rgb(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
         let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
         Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()) * rate
     }
@@ -98,6 +83,66 @@ struct Reach<'a> {
 }
 
 impl Reach<'_> {
+    /// What a layered surface can show.
+    fn layered(&self, switches: &Switches) -> LobeSet {
+        let metal = self.positive(p::METALNESS, 1) && self.positive(p::METAL_WEIGHT, 1);
+        let dielectric = !self.is(p::METALNESS, 1.0);
+        let transmission = dielectric && self.positive(p::TRANSMISSION_WEIGHT, 1);
+        let opaque = dielectric && !self.is(p::TRANSMISSION_WEIGHT, 1.0);
+        let subsurface = opaque && self.positive(p::SUBSURFACE_WEIGHT, 1);
+        let base = self.positive(p::BASE_COLOR, 3) && !self.is(p::SUBSURFACE_WEIGHT, 1.0);
+        let diffuse = opaque && (base || (subsurface && self.positive(p::SUBSURFACE_COLOR, 3)));
+        let coat = self.positive(p::COAT_WEIGHT, 1);
+        let reflects = self.positive(p::SPECULAR_WEIGHT, 1) && self.positive(p::SPECULAR_SCALE, 1);
+        let bends = !self.is(p::IOR, 1.0) || (coat && switches.coat_lowers_ior);
+        let anisotropic = !self.is(p::ANISOTROPY, 0.0);
+        LobeSet {
+            diffuse,
+            rough_diffuse: diffuse && self.positive(p::DIFFUSE_ROUGHNESS, 1),
+            subsurface,
+            walk: subsurface && !switches.thin_walled && switches.subsurface != SubsurfaceMethod::Diffuse,
+            film: self.film(),
+            metal,
+            specular: opaque && reflects && bends,
+            transmission,
+            coat,
+            coat_tint: coat && (0..3).any(|channel| !self.is(p::COAT_COLOR + channel, 1.0)),
+            fuzz: self.positive(p::FUZZ_WEIGHT, 1),
+            emission: self.positive(p::EMISSION_COLOR, 3),
+            cut_out: !self.is(p::OPACITY, 1.0),
+            anisotropic,
+            turned: anisotropic && !self.is(p::ROTATION, 0.0),
+            straight: false,
+        }
+    }
+    /// What a single lobe can show, with the places that it reads.
+    fn single(&self, switches: &Switches) -> LobeSet {
+        let closure = switches.closure;
+        let colour = self.positive(p::BASE_COLOR, 3);
+        let reflects = matches!(closure, Closure::Glossy | Closure::Metallic);
+        let anisotropic = reflects && !self.is(p::ANISOTROPY, 0.0);
+        let subsurface = closure == Closure::Subsurface && colour;
+        LobeSet {
+            diffuse: (matches!(closure, Closure::Diffuse | Closure::Translucent) && colour) || subsurface,
+            rough_diffuse: closure == Closure::Diffuse && self.positive(p::DIFFUSE_ROUGHNESS, 1),
+            subsurface,
+            walk: subsurface && switches.subsurface != SubsurfaceMethod::Diffuse,
+            metal: reflects,
+            transmission: matches!(closure, Closure::Glass | Closure::Refraction),
+            fuzz: closure == Closure::Sheen && colour,
+            emission: self.positive(p::EMISSION_COLOR, 3),
+            cut_out: !self.is(p::OPACITY, 1.0),
+            anisotropic,
+            turned: anisotropic && !self.is(p::ROTATION, 0.0),
+            film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
+            straight: closure == Closure::Transparent,
+            ..LobeSet::default()
+        }
+    }
+    /// Whether a film can be there.
+    fn film(&self) -> bool {
+        self.positive(p::THIN_FILM_WEIGHT, 1) && self.positive(p::THIN_FILM_THICKNESS, 1)
+    }
     /// Whether any of `width` places can be above zero.
     fn positive(&self, offset: usize, width: usize) -> bool {
         (offset..offset + width).any(|place| self.varying[place] || self.constants[place] > 0.0)

@@ -76,6 +76,8 @@ pub enum Fuzz {
     Zeltner,
     /// Charlie (Estevez, Kulla 2017) with Ashikhmin's visibility.
     Charlie,
+    /// Ashikhmin's velvet, an inverted Gaussian of width r; it takes nothing from what lies under it.
+    Velvet,
 }
 
 /// The place of the fuzz among the layers.
@@ -114,6 +116,86 @@ pub enum Anisotropy {
     Gltf,
     /// Single glossy lobes: r² q and r² / q, exchanged for negative k.
     Glossy,
+}
+
+/// The distribution of facet normals of metal, specular and transmission lobes; the coat is always compensated GGX.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Distribution {
+    /// GGX that gives back what scattering between facets loses.
+    #[default]
+    MultiGgx,
+    /// GGX, single scattering.
+    Ggx,
+    /// Beckmann with Smith's masking as a rational fit (Walter et al. 2007), single scattering.
+    Beckmann,
+    /// Ashikhmin and Shirley's anisotropic Phong lobe (2000), for reflections; interfaces take [`Self::Ggx`] in its place.
+    AshikhminShirley,
+}
+
+impl Distribution {
+    /// Whether scattering between facets is given back.
+    pub fn compensates(self) -> bool {
+        self == Self::MultiGgx
+    }
+    /// What stands for the distribution where light is refracted.
+    pub(crate) fn refracting(self) -> Self {
+        if self == Self::AshikhminShirley { Self::Ggx } else { self }
+    }
+}
+
+/// How light that enters the opaque base comes back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum SubsurfaceMethod {
+    /// Where it entered, as a diffuse reflection.
+    #[default]
+    Diffuse,
+    /// A walk whose albedo follows van de Hulst's inverse, with the radius as the mean free path (OpenPBR; Cycles from 5.2 on).
+    RandomWalk,
+    /// A walk whose albedo follows a fit in the anisotropy, with the radius over 4π as the transport mean free path (Cycles up to 5.1).
+    RandomWalkLegacy,
+    /// The same with lengths that follow from a dipole's reflectance, half of the light entering diffusely.
+    RandomWalkSkin,
+    /// Christensen and Burley's profile as the walk that it was fitted to: diffuse entry, radius over 4π as the mean free path.
+    Burley,
+}
+
+/// What is done about shading normals that differ from the interpolated normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Bump {
+    /// Nothing.
+    #[default]
+    None,
+    /// Mirror directions are kept over the surface, light from behind it is held off, and the terminator of diffuse lobes is softened
+    /// (Conty Estevez, Lecocq, Stein 2019), as in Cycles.
+    Cycles,
+}
+
+/// Whether the surface has layers or is a single lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Closure {
+    /// All layers.
+    #[default]
+    Layered,
+    /// Diffuse reflection: base colour, diffuse roughness.
+    Diffuse,
+    /// Reflection of the base colour at all angles: roughness, anisotropy, rotation.
+    Glossy,
+    /// Interface whose reflection and refraction both have the base colour: roughness, index, film.
+    Glass,
+    /// Refraction alone: base colour, roughness, index.
+    Refraction,
+    /// Metal: the places of the metal, roughness, anisotropy, rotation, film.
+    Metallic,
+    /// Fuzz without anything under it: base colour, fuzz roughness.
+    Sheen,
+    /// Diffuse transmission: base colour.
+    Translucent,
+    /// Subsurface scattering without a specular layer: base colour, radius, anisotropy, roughness, index.
+    Subsurface,
+    /// Nothing but a colour that light takes straight through: base colour.
+    Transparent,
+    /// Emission alone; the other closures emit too if the emission colour says so.
+    Emission,
 }
 
 /// What stands over the emission.
@@ -159,14 +241,20 @@ pub struct Switches {
     pub fuzz_attenuation: FuzzAttenuation,
     /// How the widths follow from anisotropy and roughness.
     pub anisotropy: Anisotropy,
-    /// Whether metal, specular and transmission make up for scattering between facets; the coat always does.
-    pub multiscatter: bool,
+    /// The distribution of facet normals.
+    pub distribution: Distribution,
     /// Whether transmission leaves the anisotropy out.
     pub transmission_isotropic: bool,
     /// What stands over the emission.
     pub emission_order: EmissionOrder,
     /// Whether the surface is a sheet without inside.
     pub thin_walled: bool,
+    /// How light that enters the opaque base comes back.
+    pub subsurface: SubsurfaceMethod,
+    /// What is done about bent shading normals.
+    pub bump: Bump,
+    /// All layers or a single lobe.
+    pub closure: Closure,
 }
 
 impl Default for Switches {
@@ -187,10 +275,13 @@ impl Default for Switches {
             fuzz_order: FuzzOrder::Top,
             fuzz_attenuation: FuzzAttenuation::Grey,
             anisotropy: Anisotropy::OpenPbr,
-            multiscatter: true,
+            distribution: Distribution::MultiGgx,
             transmission_isotropic: false,
             emission_order: EmissionOrder::UnderCoat,
             thin_walled: false,
+            subsurface: SubsurfaceMethod::Diffuse,
+            bump: Bump::None,
+            closure: Closure::Layered,
         }
     }
 }
@@ -208,6 +299,11 @@ impl Switches {
             transmission_isotropic: true,
             ..Self::plain()
         }
+    }
+    /// A single lobe as Blender's node of that kind has it; the colour of all but emission and metal is the base colour.
+    pub fn single(closure: Closure) -> Self {
+        let anisotropy = if closure == Closure::Glossy { Anisotropy::Glossy } else { Anisotropy::Principled };
+        Self { closure, anisotropy, emission_order: EmissionOrder::Top, ..Self::principled() }
     }
     /// UsdPreviewSurface.
     pub fn preview_surface() -> Self {

@@ -4,7 +4,7 @@ use super::base::Base;
 use super::energy;
 use super::fresnel::{self, Curve};
 use super::glass::{GlassLobe, Interface};
-use super::lobes::{Shape, turned};
+use super::lobes::{Normal, Shape, Side, turned};
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
@@ -32,25 +32,40 @@ impl<L: Lanes> Layers<'_, '_, L> {
         let interface = match self.surface.switches.tint {
             Tint::Normal => {
                 let f0 = (tint * normal).saturate();
-                Interface { eta: base.bending, f0: f0 * scale, f90: Rgb::grey(scale), kept: f0, passed, schlick: false }
+                Interface { eta: base.bending, f0: f0 * scale, f90: Rgb::grey(scale), kept: f0, passed, ..Interface::clear(base.bending) }
             }
             Tint::WholeLobe => {
                 let above = self.entering.select(tint, self.white()) * scale;
-                Interface { eta: base.bending, f0: above * normal, f90: above, kept: Rgb::grey(normal), passed, schlick: false }
+                Interface {
+                    eta: base.bending,
+                    f0: above * normal,
+                    f90: above,
+                    kept: Rgb::grey(normal),
+                    passed,
+                    ..Interface::clear(base.bending)
+                }
             }
         };
         let eta = self.entering.select(interface.eta, interface.eta.recip());
-        let interface = Interface { eta, schlick: self.surface.switches.fresnel == Fresnel::Schlick, ..interface };
+        let film = self.film(self.entering.select(l.f(1.0), base.bending));
+        let interface = Interface { eta, schlick: self.surface.switches.fresnel == Fresnel::Schlick, film, ..interface };
         let (widths, turn) = self.transmission_widths(base);
-        let mut factor = self.white();
-        if self.surface.switches.multiscatter {
-            factor = energy::compensation(energy::glass(l, widths.roughness(), self.mu, eta), passed.saturate());
-        }
-        let weight = self.weight * presence;
-        let [reflected, refracted] = interface.split(self.mu);
-        let lobe = GlassLobe::new(turned(self.wo, turn), widths, interface);
-        self.push(Shape::Glass(lobe), weight * factor, weight * (reflected + refracted), turn, false);
+        self.interface(self.weight * presence, widths, turn, interface);
         self.weight = self.weight * (1.0 - presence);
+    }
+
+    /// A lobe that reflects and refracts.
+    #[inline(always)]
+    pub(super) fn interface(&mut self, weight: Rgb<L>, widths: Widths<L>, turn: Option<[F<L>; 2]>, interface: Interface<L>) {
+        let distribution = self.surface.switches.distribution;
+        let mut factor = self.white();
+        if distribution.compensates() && !interface.refracts_only {
+            let table = energy::glass(self.l, widths.roughness(), self.specular_mu, interface.eta);
+            factor = energy::compensation(table, interface.passed.saturate());
+        }
+        let [reflected, refracted] = interface.split(self.specular_mu);
+        let lobe = GlassLobe::new(turned(self.specular_wo, turn), widths, interface, distribution);
+        self.push(Shape::Glass(lobe), weight * factor, weight * (reflected + refracted), turn, Side::Both, Normal::Specular);
     }
 
     /// A sheet of dielectric: what its two interfaces reflect and pass in all, at the view's angle (OpenPBR 1.1, thin-walled case).
@@ -58,8 +73,11 @@ impl<L: Lanes> Layers<'_, '_, L> {
     pub(super) fn thin_wall(&mut self, base: &Base<L>) {
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let eta = base.bending.max(1.0);
-        let first = base.ends[0].lerp(base.ends[1], fresnel::dielectric_share(self.mu, eta)).saturate();
-        let cos = (1.0 - (1.0 - self.mu * self.mu) / (eta * eta)).max(1e-4).sqrt();
+        let mut first = base.ends[0].lerp(base.ends[1], fresnel::dielectric_share(self.specular_mu, eta)).saturate();
+        if let Some(film) = self.film(self.l.f(1.0)) {
+            first = first.lerp(film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight);
+        }
+        let cos = (1.0 - (1.0 - self.specular_mu * self.specular_mu) / (eta * eta)).max(1e-4).sqrt();
         let colour = self.rgb(p::TRANSMISSION_COLOR).saturate().max(1e-6);
         let path = cos.recip();
         let through = Rgb::new(colour.r.pow(path), colour.g.pow(path), colour.b.pow(path));
@@ -71,10 +89,10 @@ impl<L: Lanes> Layers<'_, '_, L> {
         let (widths, turn) = self.transmission_widths(base);
         let spread = (((eta - 1.0) * (eta - 0.5).squared() * 3.4) / (eta * eta * eta)).safe_sqrt();
         let widened = Widths { x: (widths.x * spread).min(1.0), y: (widths.y * spread).min(1.0) };
-        for (widths, colour, mirrored) in [(widths, reflected, false), (widened, passed, true)] {
+        for (widths, colour, side) in [(widths, reflected, Side::Reflected), (widened, passed, Side::Mirrored)] {
             let [factor, _] = self.glossy(&Curve::One, widths.roughness());
-            let lobe = ReflectLobe::new(turned(self.wo, turn), widths, Curve::One);
-            self.push(Shape::Reflect(lobe), weight * colour * factor, weight * colour, turn, mirrored);
+            let lobe = ReflectLobe::new(turned(self.specular_wo, turn), widths, Curve::One, self.surface.switches.distribution);
+            self.push(Shape::Reflect(lobe), weight * colour * factor, weight * colour, turn, side, Normal::Specular);
         }
         self.weight = self.weight * (1.0 - presence);
     }

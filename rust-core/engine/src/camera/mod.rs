@@ -1,28 +1,58 @@
-//! Camera rays on lanes: perspective with a thin lens, and orthographic.
+//! Camera rays on lanes: perspective and parallel projections, panoramas, and the lens.
 
-use gonio_simd::{F, Lanes, Vec3};
-use std::f32::consts::{FRAC_PI_4, PI};
+mod aperture;
+mod panorama;
+#[cfg(test)]
+mod tests;
+
+pub use aperture::{Aperture, concentric_disk, regular_polygon};
+
+use gonio_simd::{F, Lanes, M, Vec3};
+use panorama::{equidistant, equirectangular, equisolid};
+
+/// What a position on the image plane means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// The direction through a point of the plane at distance 1.
+    Perspective,
+    /// Parallel rays; the plane is in metres.
+    Orthographic,
+    /// x is the longitude (0 ahead, growing to the right), y the latitude, in radians.
+    Equirectangular,
+    /// The distance from the middle is the angle to the axis in radians, up to `limit`.
+    Equidistant {
+        /// Half the field of view.
+        limit: f32,
+    },
+    /// The distance from the middle is the sine of half the angle to the axis, up to `limit`.
+    Equisolid {
+        /// Sine of a quarter of the field of view.
+        limit: f32,
+    },
+}
 
 /// A camera laid out for ray generation: an affine map from raster position to the image plane.
 ///
 /// World space is the rebased one of the compiled scene, metres.
 #[derive(Clone, Debug)]
 pub struct CameraTable {
-    /// Axes x, y, z (z points backwards) and position, world space; the axes are unit for perspective cameras.
+    /// Unit axes x, y, z (z points backwards), world space.
     pub axes: [[f32; 3]; 3],
     /// Position, world space.
     pub position: [f32; 3],
-    /// Plane coordinates of the raster's top left corner: at distance 1 for perspective, in metres for orthographic.
+    /// Plane coordinates of the raster's top left corner.
     pub corner: [f32; 2],
-    /// Plane coordinates of a pixel's step to the right and down.
+    /// Plane coordinates of a pixel's step to the right and down (the latter counted upwards).
     pub pixel: [f32; 2],
-    /// Parallel rays.
-    pub orthographic: bool,
+    /// What plane coordinates mean.
+    pub lens: Lens,
     /// Lens radius in metres.
     pub lens_radius: f32,
-    /// Distance along the axis of what is sharp, metres.
+    /// The lens opening's form.
+    pub aperture: Aperture,
+    /// Distance of what is sharp in metres: along the axis, or around the camera for panoramas.
     pub focus_distance: f32,
-    /// Limits along the axis, metres.
+    /// Limits in metres: along the axis, or around the camera for panoramas.
     pub clipping: [f32; 2],
 }
 
@@ -37,12 +67,22 @@ pub struct CameraRay<L: Lanes> {
     pub t_min: F<L>,
     /// Farthest distance that counts.
     pub t_max: F<L>,
-    /// Radians (perspective) between neighbouring pixels' rays.
+    /// Radians between neighbouring pixels' rays; zero for parallel ones.
     pub spread: F<L>,
-    /// Width of a pixel at the ray's start, metres; zero for perspective.
+    /// Width of a pixel at the ray's start in metres; zero for all but parallel ones.
     pub width: F<L>,
-    /// Cosine to the camera's axis: depth along the axis is distance times this.
-    pub cosine: F<L>,
+    /// Whether the lens maps the raster position at all; where it does not, nothing is seen and the ray is not to be traced.
+    pub mapped: M<L>,
+}
+
+/// A ray in the camera's own space before the lens.
+struct Aimed<L: Lanes> {
+    start: Vec3<L>,
+    /// What is sharp on this ray.
+    through: Vec3<L>,
+    /// Directions of the opening's x and y.
+    opening: [Vec3<L>; 2],
+    mapped: M<L>,
 }
 
 impl CameraTable {
@@ -51,43 +91,49 @@ impl CameraTable {
     pub fn ray<L: Lanes>(&self, l: L, raster: [F<L>; 2], lens: [F<L>; 2]) -> CameraRay<L> {
         let x = raster[0].mul_add(self.pixel[0], self.corner[0]);
         let y = raster[1].mul_add(-self.pixel[1], self.corner[1]);
-        let [ax, ay, az] = [0, 1, 2].map(|i| Vec3::splat(l, self.axes[i]));
+        let aimed = self.aim(l, x, y);
+        let mut start = aimed.start;
+        if self.lens_radius > 0.0 {
+            let [u, v] = self.aperture.sample(lens);
+            start = start + aimed.opening[0] * (u * self.lens_radius) + aimed.opening[1] * (v * self.lens_radius);
+        }
+        let local = (aimed.through - start).normalize();
+        let axes = [0, 1, 2].map(|i| Vec3::splat(l, self.axes[i]));
         let position = Vec3::splat(l, self.position);
-        let (start, through) = if self.orthographic {
-            (Vec3::new(x, y, l.f(0.0)), Vec3::new(x, y, l.f(-self.focus_distance)))
-        } else {
-            let d = l.f(self.focus_distance);
-            (Vec3::splat(l, [0.0; 3]), Vec3::new(x * d, y * d, -d))
-        };
-        let start = if self.lens_radius > 0.0 {
-            let [u, v] = concentric_disk(lens);
-            start + Vec3::new(u * self.lens_radius, v * self.lens_radius, l.f(0.0))
-        } else {
-            start
-        };
-        let local = (through - start).normalize();
-        let cosine = -local.z;
+        let parallel = self.lens == Lens::Orthographic;
+        let flat = parallel || self.lens == Lens::Perspective;
+        let along = if flat { -local.z } else { l.f(1.0) };
+        let pixel = self.pixel[1].abs();
         CameraRay {
-            origin: position + start.transform([ax, ay, az]),
-            direction: local.transform([ax, ay, az]).normalize(),
-            t_min: l.f(self.clipping[0]) / cosine,
-            t_max: (l.f(self.clipping[1]) / cosine).min(f32::MAX),
-            spread: l.f(if self.orthographic { 0.0 } else { self.pixel[1] }) * cosine * cosine,
-            width: l.f(if self.orthographic { self.pixel[1] } else { 0.0 }),
-            cosine,
+            origin: position + start.transform(axes),
+            direction: local.transform(axes).normalize(),
+            t_min: l.f(self.clipping[0]) / along,
+            t_max: (l.f(self.clipping[1]) / along).min(f32::MAX),
+            spread: l.f(if parallel { 0.0 } else { pixel * self.angle_per_step() }) * along * along,
+            width: l.f(if parallel { pixel } else { 0.0 }),
+            mapped: aimed.mapped,
         }
     }
-}
 
-/// Uniform points of the unit disk (Shirley and Chiu, 1997).
-#[inline(always)]
-pub fn concentric_disk<L: Lanes>(u: [F<L>; 2]) -> [F<L>; 2] {
-    let [a, b] = [u[0].mul_add(2.0, -1.0), u[1].mul_add(2.0, -1.0)];
-    let wide = a.abs().gt(b.abs());
-    let radius = wide.select(a, b);
-    let l = a.lanes();
-    let ratio = wide.select(b, a) / radius.eq(0.0).select(l.f(1.0), radius);
-    let angle = wide.select(ratio * FRAC_PI_4, l.f(PI * 0.5) - ratio * FRAC_PI_4);
-    let (sin, cos) = angle.sin_cos();
-    [radius * cos, radius * sin]
+    /// The ray of a pinhole through a point of the image plane.
+    #[inline(always)]
+    fn aim<L: Lanes>(&self, l: L, x: F<L>, y: F<L>) -> Aimed<L> {
+        let centre = Vec3::splat(l, [0.0; 3]);
+        let opening = [Vec3::splat(l, [1.0, 0.0, 0.0]), Vec3::splat(l, [0.0, 1.0, 0.0])];
+        let d = l.f(self.focus_distance);
+        let flat = |start, through| Aimed { start, through, opening, mapped: l.m(true) };
+        let (direction, mapped) = match self.lens {
+            Lens::Perspective => return flat(centre, Vec3::new(x * d, y * d, -d)),
+            Lens::Orthographic => return flat(Vec3::new(x, y, l.f(0.0)), Vec3::new(x, y, -d)),
+            Lens::Equirectangular => (equirectangular(x, y), l.m(true)),
+            Lens::Equidistant { limit } => equidistant(x, y, limit),
+            Lens::Equisolid { limit } => equisolid(x, y, limit),
+        };
+        Aimed { start: centre, through: direction * d, opening: panorama::opening(l, direction), mapped }
+    }
+
+    /// Radians for a step on the plane, in the middle of the picture.
+    fn angle_per_step(&self) -> f32 {
+        if matches!(self.lens, Lens::Equisolid { .. }) { 2.0 } else { 1.0 }
+    }
 }

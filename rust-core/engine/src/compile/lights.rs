@@ -9,7 +9,7 @@ use crate::{
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
     integrator::{MaterialTable, ray_mask},
-    light::{LightKind, LightRecord, LightTable, Shaping, size_factor},
+    light::{LightKind, LightRecord, LightTable, Shaping, Spot, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
 };
 
@@ -55,9 +55,10 @@ fn sized(light: &Light) -> Transform {
     let [x, y, z] = match light.shape {
         LightShape::Rectangle { width, height } => [0.5 * width, 0.5 * height, 1.0],
         LightShape::Disk { radius } => [radius, radius, 1.0],
-        LightShape::Sphere { radius } => [radius; 3],
+        LightShape::Ellipse { width, height } => [0.5 * width, 0.5 * height, 1.0],
+        LightShape::Sphere { radius } | LightShape::FacingDisk { radius } => [radius; 3],
         LightShape::Cylinder { radius, length } => [0.5 * length, radius, radius],
-        LightShape::Distant { .. } | LightShape::Dome { .. } => [1.0; 3],
+        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => [1.0; 3],
     };
     let mut transform = light.transform;
     for (column, size) in transform.columns.iter_mut().zip([x, y, z]) {
@@ -69,8 +70,10 @@ fn sized(light: &Light) -> Transform {
 fn kind(shape: LightShape) -> LightKind {
     match shape {
         LightShape::Rectangle { .. } => LightKind::Rectangle,
-        LightShape::Disk { .. } => LightKind::Disk,
+        LightShape::Disk { .. } | LightShape::Ellipse { .. } => LightKind::Disk,
         LightShape::Sphere { .. } => LightKind::Sphere,
+        LightShape::FacingDisk { .. } => LightKind::FacingDisk,
+        LightShape::Point => LightKind::Point,
         LightShape::Cylinder { .. } => LightKind::Cylinder,
         LightShape::Distant { .. } => LightKind::Distant,
         LightShape::Dome { .. } => LightKind::Dome,
@@ -79,6 +82,7 @@ fn kind(shape: LightShape) -> LightKind {
 
 fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
     let kind = kind(light.shape);
+    report_unused(light, kind, diagnostics);
     let angle = if let LightShape::Distant { angle_deg } = light.shape { angle_deg.to_radians() } else { 0.0 };
     let mut radiance = light.emission.radiance;
     if light.emission.normalized {
@@ -102,6 +106,9 @@ fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: 
             focus: shaping.focus,
             focus_tint: shaping.focus_tint,
         },
+        spot: light.spot.map(|spot| Spot { angle: spot.angle_deg.to_radians(), blend: spot.blend, stretch: spot.stretch }),
+        spread: if light.spread_deg < 180.0 { light.spread_deg.to_radians() } else { std::f32::consts::PI },
+        portal: light.portal,
         texture,
         angle: angle as f32,
         visible_to_camera: light.visibility.camera,
@@ -110,8 +117,25 @@ fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: 
     }
 }
 
+/// Says what this kind of light has no use for.
+fn report_unused(light: &Light, kind: LightKind, diagnostics: &mut Vec<Diagnostic>) {
+    let mut warn = |message: &str| diagnostics.push(Diagnostic::warning(&light.origin, message));
+    if light.portal && kind != LightKind::Rectangle {
+        warn("only rectangles can be portals; the light is left out");
+    }
+    if light.spread_deg < 180.0 && !kind.is_flat() {
+        warn("only rectangles, disks and ellipses have a spread; it is ignored");
+    }
+    if light.spot.is_some() && kind.is_infinite() {
+        warn("lights at infinity have no spot cone; it is ignored");
+    }
+}
+
 /// The light's shape for the tree: scattered rays find every light, camera rays those that are visible.
 fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
+    if light.portal {
+        return None;
+    }
     let mut transform = *placed;
     let mut double = |axis: usize| transform.columns[axis].iter_mut().for_each(|x| *x *= 2.0);
     let shape = match light.shape {
@@ -120,13 +144,19 @@ fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
             double(1);
             Shape::Rectangle
         }
-        LightShape::Disk { .. } => Shape::Disk,
+        LightShape::Disk { .. } | LightShape::Ellipse { .. } => Shape::Disk,
         LightShape::Sphere { .. } => Shape::Sphere,
+        // Rays that meet the disk meet this sphere, and the light's density tells them from the others.
+        LightShape::FacingDisk { .. } => {
+            let radius = transform.columns[0].iter().map(|x| x * x).sum::<f64>().sqrt();
+            transform.columns[..3].copy_from_slice(&Transform::scale(radius).columns[..3]);
+            Shape::Sphere
+        }
         LightShape::Cylinder { .. } => {
             double(0);
             Shape::Cylinder
         }
-        LightShape::Distant { .. } | LightShape::Dome { .. } => return None,
+        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => return None,
     };
     let mask = ray_mask::INDIRECT | if light.visibility.camera { ray_mask::CAMERA } else { 0 };
     Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })

@@ -92,7 +92,7 @@ fn surface(origin: &Origin, closure: &Closure, mut program: Program, diagnostics
     let surface = Surface::new(constants, &varying, switches);
     let lobes = surface.lobes;
     SurfaceMaterial {
-        transparent: lobes.cut_out || lobes.straight || (switches.thin_walled && lobes.transmission),
+        transparent: surface.is_see_through(),
         emissive: lobes.emission,
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,

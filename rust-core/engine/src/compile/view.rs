@@ -2,7 +2,7 @@
 
 use super::CompiledScene;
 use crate::{
-    camera::CameraTable,
+    camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
     film::FilterTable,
     integrator::Transport,
@@ -25,6 +25,8 @@ pub struct View {
     pub window: Crop,
 }
 
+/// The widest field of view, degrees.
+const FULL_TURN: f64 = 360.0;
 /// Largest image side.
 const MOST_PIXELS: u32 = 65_536;
 
@@ -79,34 +81,135 @@ fn window(settings: &Settings) -> Result<Crop> {
     Ok(crop)
 }
 
+/// The image plane in the lens's own coordinates: its size, the shift of its middle, and what the coordinates mean.
+struct Plane {
+    size: [f64; 2],
+    middle: [f64; 2],
+    lens: Lens,
+}
+
+impl Plane {
+    fn new(camera: &Camera) -> Self {
+        let offset = camera.aperture_offset;
+        let flat = |scale: f64, lens| Self { size: camera.aperture.map(|a| a * scale), middle: offset.map(|a| a * scale), lens };
+        // Panoramas are shifted in widths and heights of the picture.
+        let around = |size: [f64; 2], middle: [f64; 2], lens| Self {
+            size,
+            middle: [middle[0] + offset[0] * size[0], middle[1] + offset[1] * size[1]],
+            lens,
+        };
+        match camera.projection {
+            Projection::Perspective { focal_length } => flat(1.0 / focal_length, Lens::Perspective),
+            Projection::Orthographic => flat(1.0, Lens::Orthographic),
+            Projection::Equirectangular { longitude: [left, right], latitude: [bottom, top] } => {
+                around([right - left, top - bottom], [0.5 * (left + right), 0.5 * (bottom + top)], Lens::Equirectangular)
+            }
+            Projection::FisheyeEquidistant { fov_deg } => {
+                let fov = fov_deg.min(FULL_TURN).to_radians();
+                around([fov; 2], [0.0; 2], Lens::Equidistant { limit: (0.5 * fov) as f32 })
+            }
+            Projection::FisheyeEquisolid { focal_length, fov_deg, sensor } => {
+                let limit = (0.25 * fov_deg.min(FULL_TURN).to_radians()).sin();
+                around(sensor.map(|side| 0.5 * side / focal_length), [0.0; 2], Lens::Equisolid { limit: limit as f32 })
+            }
+        }
+    }
+    fn is_usable(&self) -> bool {
+        let finite = self.size.iter().chain(&self.middle).all(|x| x.is_finite());
+        // Longitudes and latitudes may run backwards: the picture is mirrored.
+        let extended = match self.lens {
+            Lens::Equirectangular => self.size.iter().all(|x| *x != 0.0),
+            Lens::Perspective | Lens::Orthographic => self.size.iter().all(|x| *x > 0.0),
+            Lens::Equidistant { limit } | Lens::Equisolid { limit } => self.size.iter().all(|x| *x > 0.0) && limit > 0.0,
+        };
+        finite && extended
+    }
+}
+
+fn aperture(camera: &Camera) -> Aperture {
+    Aperture {
+        blades: if camera.blades == 0 { 0 } else { camera.blades.max(3) },
+        rotation: if camera.blade_rotation_deg.is_finite() { camera.blade_rotation_deg.to_radians() as f32 } else { 0.0 },
+        width: if camera.lens_ratio > 0.0 && camera.lens_ratio.is_finite() { camera.lens_ratio.recip() as f32 } else { 1.0 },
+    }
+}
+
 fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Result<CameraTable> {
     let columns = camera.transform.columns;
-    let orthographic = matches!(camera.projection, Projection::Orthographic);
     let unit = |v: [f64; 3]| {
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         v.map(|x| x / length)
     };
     let axes = [columns[0], columns[1], columns[2]].map(unit);
-    let plane = match camera.projection {
-        Projection::Perspective { focal_length } => 1.0 / focal_length,
-        Projection::Orthographic => 1.0,
-    };
-    let size = camera.aperture.map(|a| a * plane);
-    let shift = camera.aperture_offset.map(|a| a * plane);
+    let Plane { size, middle, lens } = Some(Plane::new(camera))
+        .filter(|plane| plane.is_usable() && axes.iter().flatten().all(|x| x.is_finite()))
+        .ok_or_else(|| Error::scene(&camera.origin, "the camera's aperture, lens or axes are not usable (zero or not finite)"))?;
     let [width, height] = settings.resolution.map(f64::from);
-    let usable = size.iter().chain(&shift).chain(axes.iter().flatten()).all(|x| x.is_finite()) && size.iter().all(|x| *x > 0.0);
-    if !usable {
-        return Err(Error::scene(&camera.origin, "the camera's aperture, focal length or axes are not usable (zero or not finite)"));
-    }
     let position: [f32; 3] = std::array::from_fn(|i| (columns[3][i] - origin[i]) as f32);
     Ok(CameraTable {
         axes: axes.map(|axis| axis.map(|x| x as f32)),
         position,
-        corner: [(shift[0] - 0.5 * size[0]) as f32, (shift[1] + 0.5 * size[1]) as f32],
+        corner: [(middle[0] - 0.5 * size[0]) as f32, (middle[1] + 0.5 * size[1]) as f32],
         pixel: [(size[0] / width) as f32, (size[1] / height) as f32],
-        orthographic,
-        lens_radius: camera.lens_radius.max(0.0) as f32,
+        lens,
+        lens_radius: if camera.lens_radius.is_finite() { camera.lens_radius.max(0.0) as f32 } else { 0.0 },
+        aperture: aperture(camera),
         focus_distance: if camera.focus_distance > 0.0 { camera.focus_distance as f32 } else { 1.0 },
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Origin, Transform};
+
+    fn table(camera: &Camera) -> Result<CameraTable> {
+        camera_table(camera, &Settings { resolution: [8, 4], ..Settings::default() }, [0.0; 3])
+    }
+
+    fn plane(projection: Projection, offset: [f64; 2]) -> CameraTable {
+        let camera = Camera { aperture_offset: offset, ..Camera::panorama(Origin::new("camera"), Transform::scale(3.0), projection) };
+        table(&camera).expect("usable")
+    }
+
+    fn near(found: [f32; 2], expected: [f32; 2]) -> bool {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6)
+    }
+
+    #[test]
+    fn panoramas_span_the_picture() {
+        let map = plane(Projection::Equirectangular { longitude: [-2.0, 1.5], latitude: [-0.7, 1.2] }, [0.0; 2]);
+        assert!(near(map.corner, [-2.0, 1.2]) && near(map.pixel, [3.5 / 8.0, 1.9 / 4.0]), "{map:?}");
+        assert_eq!(map.axes[0], [1.0, 0.0, 0.0]);
+        let round = plane(Projection::FisheyeEquidistant { fov_deg: 180.0 }, [0.1, 0.05]);
+        let pi = std::f32::consts::PI;
+        assert!(near(round.corner, [-0.4 * pi, 0.55 * pi]) && near(round.pixel, [pi / 8.0, pi / 4.0]), "{round:?}");
+        assert_eq!(round.lens, Lens::Equidistant { limit: pi / 2.0 });
+        let lens = Projection::FisheyeEquisolid { focal_length: 10.5, fov_deg: 120.0, sensor: [30.0, 15.0] };
+        let solid = plane(lens, [0.0; 2]);
+        assert!(near(solid.corner, [-15.0 / 21.0, 7.5 / 21.0]), "{solid:?}");
+        assert_eq!(solid.lens, Lens::Equisolid { limit: 0.5 });
+    }
+
+    #[test]
+    fn openings_have_three_blades_or_none() {
+        let opening = |blades| aperture(&Camera { blades, lens_ratio: 2.0, ..Camera::default() });
+        assert_eq!([0, 1, 2, 3, 7].map(|blades| opening(blades).blades), [0, 3, 3, 3, 7]);
+        assert_eq!(opening(5).width, 0.5);
+    }
+
+    #[test]
+    fn lenses_without_extent_are_errors_that_name_the_camera() {
+        let none = [
+            Projection::Perspective { focal_length: 0.0 },
+            Projection::Equirectangular { longitude: [1.0, 1.0], latitude: [-1.0, 1.0] },
+            Projection::FisheyeEquidistant { fov_deg: 0.0 },
+            Projection::FisheyeEquisolid { focal_length: f64::NAN, fov_deg: 100.0, sensor: [30.0; 2] },
+        ];
+        for projection in none {
+            let error = table(&Camera::panorama(Origin::new("lookout"), Transform::IDENTITY, projection)).expect_err("no extent");
+            assert!(error.to_string().contains("lookout"), "{error}");
+        }
+    }
 }

@@ -60,7 +60,7 @@ pub(super) fn generate<L: Lanes>(
             counts: l.u(0),
             medium: Rgb::zero(l),
         };
-        paths.append(&state, inside);
+        paths.append(&state, inside & ray.mapped);
     }
     paths.set_masks();
 }

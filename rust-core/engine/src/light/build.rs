@@ -1,6 +1,7 @@
 //! From records to rows.
 
-use super::record::{LightKind, LightRecord, Shaping};
+use super::beam::{fill_shaping, fill_spot, fill_spread};
+use super::record::{LightKind, LightRecord};
 use super::row::{ROW, field, flag};
 use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, narrow, scale, unit_or, widen};
 
@@ -39,12 +40,15 @@ fn sampling_frame(kind: LightKind, axes: [Vector; 3], normal: Vector) -> ([Vecto
         LightKind::Sphere => (axes, [0.0; 2]),
         LightKind::Cylinder => (axes, [length(x), 0.0]),
         LightKind::Triangle => ([x, y, normal], [0.0; 2]),
-        LightKind::Distant | LightKind::Dome | LightKind::Point => {
+        LightKind::Distant | LightKind::Dome | LightKind::Point | LightKind::FacingDisk => {
             // Directions alone: orthonormal, and a mirrored light stays mirrored.
             let up = unit_or(y, [0.0, 1.0, 0.0]);
             let front = unit_or(add(z, scale(up, -dot(z, up))), [0.0, 0.0, 1.0]);
             let side = unit_or(cross(up, front), [1.0, 0.0, 0.0]);
-            ([if dot(side, x) < 0.0 { scale(side, -1.0) } else { side }, up, front], [0.0; 2])
+            (
+                [if dot(side, x) < 0.0 { scale(side, -1.0) } else { side }, up, front],
+                [if kind == LightKind::FacingDisk { length(x) } else { 0.0 }, 0.0],
+            )
         }
     }
 }
@@ -68,6 +72,7 @@ fn bound(kind: LightKind, axes: [Vector; 3], origin: Vector) -> (Vector, f64) {
             let reach = [[0.0; 3], x, y].map(|corner| length(add(add(origin, corner), scale(centre, -1.0))));
             (centre, reach.into_iter().fold(0.0, f64::max))
         }
+        LightKind::FacingDisk => (origin, length(x)),
         LightKind::Distant | LightKind::Dome | LightKind::Point => (origin, 0.0),
     }
 }
@@ -75,10 +80,8 @@ fn bound(kind: LightKind, axes: [Vector; 3], origin: Vector) -> (Vector, f64) {
 /// Emitting area in the units of the axes, squared.
 fn area(kind: LightKind, axes: [Vector; 3]) -> f64 {
     match kind {
-        LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder | LightKind::Triangle => {
-            super::size::size_factor(kind, axes, 0.0)
-        }
         LightKind::Distant | LightKind::Dome | LightKind::Point => 0.0,
+        _ => super::size::size_factor(kind, axes, 0.0),
     }
 }
 
@@ -110,22 +113,6 @@ impl Geometry {
     }
 }
 
-/// Fills in the shaping; true where it does anything.
-fn fill_shaping(shaping: &Shaping, row: &mut [f32]) -> bool {
-    let softness = shaping.softness.clamp(0.0, 1.0);
-    // A hard cone of 180° holds every direction; a soft one falls off before.
-    let hard_and_full = softness == 0.0 && shaping.cone_angle >= std::f32::consts::PI;
-    let angle = if hard_and_full || !shaping.cone_angle.is_finite() { f32::INFINITY } else { shaping.cone_angle.max(0.0) };
-    let focus = if shaping.focus > 0.0 { shaping.focus } else { 0.0 };
-    row[field::CUTOFF] = angle;
-    row[field::SMOOTH_START] = if angle.is_finite() { angle * (1.0 - softness) } else { f32::INFINITY };
-    row[field::FOCUS] = focus;
-    row[field::TINT..field::TINT + 3].copy_from_slice(&shaping.focus_tint);
-    let small_slack = 1e-4;
-    row[field::CONE_COSINE] = if angle < std::f32::consts::PI { angle.cos() - small_slack } else { -2.0 };
-    angle.is_finite() || focus > 0.0
-}
-
 /// Luminance by Rec.709's weights, of magnitudes.
 pub(crate) fn luminance(c: [f32; 3]) -> f64 {
     let c = c.map(|x| f64::from(x).abs());
@@ -155,10 +142,13 @@ pub(crate) fn fill_row(record: &LightRecord, texture_mean: f64, row: &mut [f32])
     let mut radiance = record.radiance.map(|x| if x.is_finite() { x } else { 0.0 });
     let mut bits = record.kind as u32;
     let shaped = fill_shaping(&record.shaping, row) && !record.kind.is_infinite();
+    let flat = record.kind.is_flat();
+    let spot = fill_spot(record, geometry.axes, row) && !record.kind.is_infinite();
+    let spread = fill_spread(record, geometry.axes, row);
     let emitting = if record.area > 0.0 { f64::from(record.area) } else { geometry.area };
     let bright = luminance(radiance) * texture_mean;
     let (strength, delta) = match record.kind {
-        LightKind::Rectangle | LightKind::Disk | LightKind::Triangle => (bright * emitting, false),
+        LightKind::Rectangle | LightKind::Disk | LightKind::Triangle | LightKind::FacingDisk => (bright * emitting, false),
         // A convex body shows a quarter of its surface on average (Cauchy).
         LightKind::Sphere | LightKind::Cylinder => (bright * emitting / 4.0, false),
         LightKind::Point => (bright, true),
@@ -169,13 +159,15 @@ pub(crate) fn fill_row(record: &LightRecord, texture_mean: f64, row: &mut [f32])
             (illuminance, parallel)
         }
     };
-    let flat = matches!(record.kind, LightKind::Rectangle | LightKind::Disk | LightKind::Triangle);
-    let lit = geometry.inverse.is_some() && strength > 0.0 && (strength as f32).is_finite() && row[field::DENSITY].is_finite();
+    let lit =
+        !record.portal && geometry.inverse.is_some() && strength > 0.0 && (strength as f32).is_finite() && row[field::DENSITY].is_finite();
     for (set, bit) in [
         (record.visible_to_camera, flag::VISIBLE),
         (record.casts_shadow, flag::CASTS_SHADOW),
         (record.two_sided && flat, flag::TWO_SIDED),
-        (shaped, flag::SHAPED),
+        (shaped || spot || spread, flag::SHAPED),
+        (spot, flag::SPOT),
+        (spread, flag::SPREAD),
         (delta, flag::DELTA),
         (record.kind.is_infinite(), flag::INFINITE),
         (flat, flag::FLAT),

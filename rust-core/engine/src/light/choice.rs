@@ -13,6 +13,9 @@ const RECEIVER_FLOOR: f32 = 0.05;
 /// The same for the emitter's obliqueness, because the far end of a light may face the point more squarely.
 const EMITTER_FLOOR: f32 = 0.1;
 
+/// Cosines bound a beam less this.
+const BEAM_SLACK: f32 = 1e-4;
+
 /// What the estimate of a light's illuminance takes, one light in all lanes or a light in each.
 struct Estimate<L: Lanes> {
     centre: Vec3<L>,
@@ -22,6 +25,9 @@ struct Estimate<L: Lanes> {
     normal: Vec3<L>,
     cone_cosine: F<L>,
     sine: F<L>,
+    /// Tangent of the half angle of a flat light's spread, and what the spread gains on the normal: 1 without one.
+    tangent: F<L>,
+    gain: F<L>,
     flags: U<L>,
 }
 
@@ -36,6 +42,8 @@ impl<L: Lanes> Estimate<L> {
             normal: light.vector(field::NORMAL),
             cone_cosine: light.value(field::CONE_COSINE),
             sine: light.value(field::SINE),
+            tangent: light.value(field::SPREAD_TANGENT),
+            gain: light.value(field::SPREAD_TANGENT) * light.value(field::SPREAD_GAIN),
             flags: light.integer(field::FLAGS),
         }
     }
@@ -50,6 +58,8 @@ impl<L: Lanes> Estimate<L> {
             normal: vector(field::NORMAL),
             cone_cosine: l.f(row[field::CONE_COSINE]),
             sine: l.f(row[field::SINE]),
+            tangent: l.f(row[field::SPREAD_TANGENT]),
+            gain: l.f(row[field::SPREAD_TANGENT] * row[field::SPREAD_GAIN]),
             flags: l.u(row[field::FLAGS].to_bits()),
         }
     }
@@ -79,9 +89,12 @@ impl<L: Lanes> Estimate<L> {
         let height = self.is(flag::TWO_SIDED).select(height.abs(), height);
         let emitter = inside.select(l.f(1.0), (height / distance).max(EMITTER_FLOOR));
         let emitter = self.is(flag::FLAT).select(emitter.keep_if(height.gt(0.0)), l.f(1.0));
+        let edge = (self.tangent * self.tangent + 1.0).sqrt().recip() - BEAM_SLACK;
+        let in_beam = inside | self.gain.le(1.0) | widened(l, height / distance, sine, cosine).ge(edge);
         let in_cone = inside | widened(l, -self.axis.dot(direction), sine, cosine).ge(self.cone_cosine);
-        let spread = squared.max(self.radius * self.radius).max(f32::MIN_POSITIVE);
-        let from_near = (lifted(receiver) * emitter / spread).keep_if(in_cone);
+        // However the beam is gathered, no more arrives than from an endless plane of the light's radiance.
+        let widening = squared.max(self.gain * self.radius * self.radius).max(f32::MIN_POSITIVE);
+        let from_near = (lifted(receiver) * emitter * self.gain / widening).keep_if(in_cone & in_beam);
         (self.strength * far.select(from_far, from_near)).min(1e30)
     }
 }

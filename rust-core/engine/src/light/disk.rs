@@ -1,5 +1,5 @@
 //! Disks and ellipses, in the frame where they are unit disks: by area from afar; from near by rays around the foot of the perpendicular, each ray's
-//! stretch by its solid angle, which bounds what a sample can weigh.
+//! stretch by its solid angle, which bounds what a sample can weigh. A beam with a spread cuts the stretches to the part it can come from.
 
 use super::emitter::{Aim, Emitter};
 use super::row::{Reader, field};
@@ -8,6 +8,8 @@ use std::f32::consts::{PI, TAU};
 
 /// Heights and distances of the foot from the centre, in radii, below which a point is near.
 const NEAR: [f32; 2] = [0.6, 2.5];
+/// Reach over height below which stretches are drawn by area: there the solid angle's digits run out and the two differ little.
+const THIN: f32 = 0.3;
 
 /// The unit disk as seen from a point at height `h` over a foot at distance `f` from the centre.
 struct Seen<L: Lanes> {
@@ -18,6 +20,10 @@ struct Seen<L: Lanes> {
     /// Whether the foot lies on the disk.
     inside: M<L>,
     near: M<L>,
+    /// How far from the foot the beam still reaches the point.
+    reach: F<L>,
+    /// Where that is so little that points of a stretch are drawn by area.
+    thin: M<L>,
 }
 
 /// The stretch of a ray from the foot that lies on the disk.
@@ -25,18 +31,26 @@ struct Stretch<L: Lanes> {
     /// Distances of its ends from the foot, and from the point.
     ends: [F<L>; 2],
     slants: [F<L>; 2],
+    /// Difference of the ends' squares.
+    squares: F<L>,
+    /// Density of the ray around the foot, per radian.
+    around: F<L>,
     pdf: F<L>,
 }
 
 impl<L: Lanes> Seen<L> {
     #[inline(always)]
-    fn new(l: L, from: Vec3<L>) -> Self {
+    fn new(l: L, from: Vec3<L>, reach: F<L>) -> Self {
         let f = (from.x * from.x + from.y * from.y).sqrt();
         let h = from.z.abs();
         let off = f.gt(0.0);
         let inverse = off.select(f, l.f(1.0)).recip();
         let centre = [off.select(-from.x * inverse, l.f(1.0)), -from.y * inverse];
-        Self { h, f, centre, inside: f.lt(1.0), near: h.lt(NEAR[0]) & f.lt(NEAR[1]) }
+        let thin = reach.lt(THIN);
+        let reach = h * reach;
+        let cut = reach.lt(f + 1.0);
+        let near = (h.lt(NEAR[0]) & f.lt(NEAR[1])) | cut;
+        Self { h, f, centre, inside: f.lt(1.0), near, reach, thin }
     }
     /// The stretch of the ray at an angle from the direction to the centre, and the density of directions in it.
     #[inline(always)]
@@ -46,13 +60,16 @@ impl<L: Lanes> Seen<L> {
         let middle = self.f * cosine;
         let ends = [(middle - half_chord).max(0.0), middle + half_chord];
         let ends = [ends[0].keep_if(!self.inside), ends[1]];
+        let cut = ends[1].gt(self.reach);
+        let ends = [ends[0].min(self.reach), ends[1].min(self.reach)];
         let slant = |x: F<L>| (x * x + self.h * self.h).sqrt();
         let slants = [slant(ends[0]), slant(ends[1])];
-        let squares = self.inside.select(ends[1] * ends[1], middle * half_chord * 4.0);
+        let whole = self.inside.select(ends[1] * ends[1], middle * half_chord * 4.0);
+        let squares = cut.select((ends[1] - ends[0]) * (ends[1] + ends[0]), whole);
         // Difference of the cosines at the ends, without cancellation.
         let fall = self.h * squares / (slants[0] * slants[1] * (slants[0] + slants[1]));
         let around = self.inside.select(middle.lanes().f(1.0 / TAU), middle * 0.5);
-        Stretch { ends, slants, pdf: around / fall }
+        Stretch { ends, slants, squares, around, pdf: around / fall }
     }
     /// Density per solid angle of the frame towards the vector `v` from the point to the disk.
     #[inline(always)]
@@ -65,7 +82,10 @@ impl<L: Lanes> Seen<L> {
         let length = (v.x * v.x + v.y * v.y).max(f32::MIN_POSITIVE).sqrt();
         let [x, y] = self.centre;
         let (cosine, sine) = ((v.x * x + v.y * y) / length, (v.y * x - v.x * y) / length);
-        self.near.select(self.stretch(sine, cosine).pdf, by_area)
+        let stretch = self.stretch(sine, cosine);
+        let by_stretch_area = stretch.around * 2.0 * squared * squared.sqrt() / (stretch.squares * self.h);
+        let by_stretch = self.thin.select(by_stretch_area, stretch.pdf).keep_if(length.le(self.reach));
+        self.near.select(by_stretch, by_area)
     }
     /// A point of the disk relative to the foot.
     #[inline(always)]
@@ -76,7 +96,9 @@ impl<L: Lanes> Seen<L> {
         let cosine = self.inside.select(cosine_turn, (1.0 - sine_wedge * sine_wedge).safe_sqrt());
         let stretch = self.stretch(sine, cosine);
         let slant = stretch.slants[0].recip().lerp(stretch.slants[1].recip(), u[0]).recip();
-        let length = ((slant - self.h) * (slant + self.h)).safe_sqrt().clamp(stretch.ends[0], stretch.ends[1]);
+        let by_solid_angle = ((slant - self.h) * (slant + self.h)).safe_sqrt();
+        let by_area = stretch.squares.mul_add(u[0], stretch.ends[0] * stretch.ends[0]).safe_sqrt();
+        let length = self.thin.select(by_area, by_solid_angle).clamp(stretch.ends[0], stretch.ends[1]);
         let [x, y] = self.centre;
         [length * (x * cosine - y * sine), length * (y * cosine + x * sine)]
     }
@@ -89,7 +111,7 @@ impl Emitter for Disk {
     #[inline(always)]
     fn sample<L: Lanes>(l: L, light: &Reader<'_, L>, p: Vec3<L>, u: [F<L>; 2]) -> Aim<L> {
         let from = light.in_frame(p - light.vector(field::ORIGIN));
-        let seen = Seen::new(l, from);
+        let seen = Seen::new(l, from, light.value(field::REACH));
         let radius = u[0].sqrt();
         let (sine, cosine) = u[1].sin_cos_turns();
         let mut local = Vec3::new(radius * cosine - from.x, radius * sine - from.y, -from.z);
@@ -107,6 +129,6 @@ impl Emitter for Disk {
         let on = light.in_frame(hit - origin);
         // The hit's height over the disk is rounding; the point's own is known better.
         let local = Vec3::new(on.x - from.x, on.y - from.y, -from.z);
-        (Seen::new(l, from).density(local) * light.solid_angle_ratio(wi), [l.f(0.0); 2])
+        (Seen::new(l, from, light.value(field::REACH)).density(local) * light.solid_angle_ratio(wi), [l.f(0.0); 2])
     }
 }

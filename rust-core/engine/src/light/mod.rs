@@ -3,6 +3,7 @@
 //! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample`] chooses a light and a direction;
 //! [`LightTable::eval_hit`] and [`LightTable::escaped`] weigh rays that found a light by the BSDF. Formulas are UsdLux's, in cd/m².
 
+mod beam;
 mod blackbody;
 mod build;
 mod choice;
@@ -11,6 +12,8 @@ mod disk;
 mod distant;
 mod dome;
 mod emitter;
+mod facing_disk;
+mod portal;
 mod record;
 mod rectangle;
 mod row;
@@ -27,7 +30,7 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
-pub use record::{LightKind, LightRecord, LightTexture, Shaping};
+pub use record::{LightKind, LightRecord, LightTexture, Shaping, Spot};
 pub use sample::{LightSample, power_heuristic};
 pub use size::size_factor;
 pub use table::LightTable;

@@ -20,16 +20,32 @@ pub enum LightKind {
     Point,
     /// Corners origin, origin + x, origin + y; emits to the side that x × y points to; −axis z is its shaping axis.
     Triangle,
+    /// A disk about the origin, as large as axis x is long, that turns its face to whatever looks at it.
+    FacingDisk,
 }
 
 impl LightKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 8] =
-        [Self::Rectangle, Self::Disk, Self::Sphere, Self::Cylinder, Self::Distant, Self::Dome, Self::Point, Self::Triangle];
+    pub const ALL: [Self; 9] = [
+        Self::Rectangle,
+        Self::Disk,
+        Self::Sphere,
+        Self::Cylinder,
+        Self::Distant,
+        Self::Dome,
+        Self::Point,
+        Self::Triangle,
+        Self::FacingDisk,
+    ];
 
     /// Whether the light has no place.
     pub fn is_infinite(self) -> bool {
         matches!(self, Self::Distant | Self::Dome)
+    }
+
+    /// Whether the light is a part of a plane with a side that emits.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Rectangle | Self::Disk | Self::Triangle)
     }
 }
 
@@ -53,6 +69,18 @@ impl Default for Shaping {
     }
 }
 
+/// A spot's cone, smooth in the cosine: the emission towards a direction at angle θ from −axis z is multiplied by
+/// `smoothstep((cos θ − cos h) / ((1 − cos h) · blend))`, h being the half angle. The cone cuts; what is left keeps its strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Full angle of the cone in radians.
+    pub angle: f32,
+    /// 0 is a hard edge, 1 falls off from the axis on.
+    pub blend: f32,
+    /// Widens the cone along axes x and y: directions are taken with their x and y divided by these.
+    pub stretch: [f32; 2],
+}
+
 /// A light, in world space and metres.
 #[derive(Clone, Copy, Debug)]
 pub struct LightRecord {
@@ -66,6 +94,13 @@ pub struct LightRecord {
     pub radiance: [f32; 3],
     /// Narrowing of the beam; domes and distant lights ignore it.
     pub shaping: Shaping,
+    /// A spot's cone; domes and distant lights ignore it.
+    pub spot: Option<Spot>,
+    /// Full angle in radians of the beam of flat lights, as slats before them would cut it: the radiance at angle θ from the normal is multiplied by
+    /// `max(tan h − tan θ, 0) / (tan h − h)`, h being half of it, which keeps the flux. π and more is Lambert's law.
+    pub spread: f32,
+    /// Rectangles: not a light but an opening that domes shine through, towards −axis z; domes are looked for there too.
+    pub portal: bool,
     /// Multiplies the radiance over a rectangle or a dome: an index into the textures given to [`super::LightTable::build`].
     pub texture: Option<u32>,
     /// Full angle of a distant light in radians.
@@ -92,6 +127,9 @@ impl LightRecord {
             to_world: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
             radiance: [1.0; 3],
             shaping: Shaping::default(),
+            spot: None,
+            spread: std::f32::consts::PI,
+            portal: false,
             texture: None,
             angle: 0.0,
             area: 0.0,

@@ -10,12 +10,16 @@ use gonio_simd::{F, Lanes, M, Vec3};
 /// Below this solid angle points are drawn by area: the two differ little and area is the steadier.
 const BY_AREA_BELOW: f32 = 1e-3;
 
-/// The rectangle as seen from a point: at height `h > 0` over the plane, spanning `x` and `y` around it.
+/// The rectangle as seen from a point: at height `h > 0` over the plane, the part that the beam's spread can reach it from spanning `x` and `y` around it.
 #[derive(Clone, Copy)]
 struct Seen<L: Lanes> {
     x: [F<L>; 2],
     y: [F<L>; 2],
+    /// The middle of the whole.
+    centre: [F<L>; 2],
     h: F<L>,
+    /// How far from the foot of the perpendicular the beam still reaches the point.
+    reach: F<L>,
     solid_angle: F<L>,
 }
 
@@ -33,12 +37,19 @@ impl<L: Lanes> Seen<L> {
         let local = light.in_frame(from - light.vector(field::ORIGIN));
         let (half_x, half_y) = (light.value(field::HALF), light.value(field::HALF + 1));
         // Both sides of a two-sided light look alike.
-        let (x, y, h) = ([-half_x - local.x, half_x - local.x], [-half_y - local.y, half_y - local.y], local.z.abs());
-        let volume = h * (half_x * half_y * 4.0);
+        let h = local.z.abs();
+        let reach = h * light.value(field::REACH);
+        let part = |centre: F<L>, half: F<L>| {
+            let low = (centre - half).max(-reach);
+            [low, (centre + half).min(reach).max(low)]
+        };
+        let centre = [-local.x, -local.y];
+        let (x, y) = (part(centre[0], half_x), part(centre[1], half_y));
+        let volume = h * ((x[1] - x[0]) * (y[1] - y[0]));
         let corner = |i: usize, j: usize| Vec3::new(x[i], y[j], -h);
         let first = triangle(volume, corner(0, 0), corner(1, 0), corner(1, 1));
         let second = triangle(volume, corner(0, 0), corner(1, 1), corner(0, 1));
-        Self { x, y, h, solid_angle: first + second }
+        Self { x, y, centre, h, reach, solid_angle: first + second }
     }
     #[inline(always)]
     fn by_area(&self) -> M<L> {
@@ -81,8 +92,8 @@ impl<L: Lanes> Seen<L> {
         let (half_x, half_y) = (light.value(field::HALF), light.value(field::HALF + 1));
         let aim = Aim::towards(local.transform(light.frame()));
         // The image's first pixel is at (+x, +y): upright for what is lit.
-        let s = (self.x[1] - x) / (half_x * 2.0);
-        let t = (self.y[1] - y) / (half_y * 2.0);
+        let s = (self.centre[0] + half_x - x) / (half_x * 2.0);
+        let t = (self.centre[1] + half_y - y) / (half_y * 2.0);
         Aim { pdf: self.density(x, y) * light.solid_angle_ratio(aim.wi), uv: [s, t], ..aim }
     }
 }
@@ -106,8 +117,9 @@ impl Emitter for Rectangle {
         let seen = Seen::new(light, from);
         let local = light.in_frame(hit - light.vector(field::ORIGIN));
         let (half_x, half_y) = (light.value(field::HALF), light.value(field::HALF + 1));
-        let (x, y) = (local.x + seen.x[0] + half_x, local.y + seen.y[0] + half_y);
+        let (x, y) = (local.x + seen.centre[0], local.y + seen.centre[1]);
         let uv = [(half_x - local.x) / (half_x * 2.0), (half_y - local.y) / (half_y * 2.0)];
-        (seen.density(x, y) * light.solid_angle_ratio(wi), uv)
+        let reached = x.abs().le(seen.reach) & y.abs().le(seen.reach);
+        ((seen.density(x, y) * light.solid_angle_ratio(wi)).keep_if(reached), uv)
     }
 }

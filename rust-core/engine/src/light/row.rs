@@ -56,6 +56,20 @@ pub(crate) mod field {
     pub(crate) const DIFFUSE: usize = 51;
     /// Factor on specular reflection.
     pub(crate) const SPECULAR: usize = 52;
+    /// Axis x over the spot's stretch, 3.
+    pub(crate) const SPOT_X: usize = 53;
+    /// Axis y over the spot's stretch, 3.
+    pub(crate) const SPOT_Y: usize = 56;
+    /// Cosine of the spot's half angle.
+    pub(crate) const SPOT_COSINE: usize = 59;
+    /// Reciprocal of the cosine's range over which the spot's edge is smooth.
+    pub(crate) const SPOT_STEEPNESS: usize = 60;
+    /// Tangent of the spread's half angle, 1 without one.
+    pub(crate) const SPREAD_TANGENT: usize = 61;
+    /// Reciprocal of that tangent less its angle, 1 without one: times the tangent it is what the spread gains on the normal.
+    pub(crate) const SPREAD_GAIN: usize = 62;
+    /// How far from the foot of the perpendicular a flat light's spread still reaches, over the height, in the sampling frame.
+    pub(crate) const REACH: usize = 63;
 }
 
 /// Switches in [`field::FLAGS`]; the kind's number is in the low byte.
@@ -70,6 +84,8 @@ pub(crate) mod flag {
     pub(crate) const FLAT: u32 = 1 << 14;
     /// Sends light at all.
     pub(crate) const LIT: u32 = 1 << 15;
+    pub(crate) const SPOT: u32 = 1 << 16;
+    pub(crate) const SPREAD: u32 = 1 << 17;
 }
 
 /// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.

@@ -3,6 +3,8 @@
 use super::cylinder::Cylinder;
 use super::disk::Disk;
 use super::emitter::{Aim, Emitter};
+use super::facing_disk::{self, FacingDisk};
+use super::portal::Portals;
 use super::record::LightKind;
 use super::rectangle::Rectangle;
 use super::row::{Reader, field, flag};
@@ -24,7 +26,7 @@ pub struct LightSample<L: Lanes> {
     pub radiance: Rgb<L>,
     /// Density per solid angle times the probability of the choice; for delta lights that probability alone. Zero where nothing arrives.
     pub pdf: F<L>,
-    /// Lights that no ray can hit.
+    /// Lights that no ray from here can hit: the sample stands for all of their light.
     pub delta: M<L>,
     /// Index of the light.
     pub light: U<L>,
@@ -52,19 +54,21 @@ impl LightTable {
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
         self.aim_near(l, &light, p, u, &mut aim);
-        self.aim_far(l, &light, index, n, u, infinite, &mut aim);
+        self.aim_far(l, &light, index, [p, n], u, infinite, &mut aim);
         let sent = self.emitted(l, &light, aim.wi, aim.uv);
         let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);
         let point = light.is_kind(LightKind::Point);
         let radiance = point.select(sent * squared.recip(), sent);
         let pdf = aim.pdf * probability;
+        let facing = light.is_kind(LightKind::FacingDisk);
+        let enclosed = if facing.any() { facing & facing_disk::encloses(&light, p) } else { facing };
         let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(&light, p, aim.wi) & light.flag(flag::LIT);
         LightSample {
             wi: valid.select(aim.wi, Vec3::splat(l, [0.0, 0.0, 1.0])),
             distance: valid.select(aim.distance, l.f(f32::MAX)),
             radiance: radiance.keep_if(valid),
             pdf: pdf.keep_if(valid),
-            delta: light.flag(flag::DELTA),
+            delta: light.flag(flag::DELTA) | enclosed,
             light: index,
             casts_shadow: light.flag(flag::CASTS_SHADOW),
         }
@@ -109,6 +113,13 @@ impl LightTable {
             || Triangle::sample(l, light, p, u),
         );
         self.aim_kind(
+            LightKind::FacingDisk,
+            light,
+            aim,
+            #[inline(always)]
+            || FacingDisk::sample(l, light, p, u),
+        );
+        self.aim_kind(
             LightKind::Point,
             light,
             aim,
@@ -136,7 +147,16 @@ impl LightTable {
     /// Aims at infinite lights.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "one stage of sampling, with its whole state")]
-    fn aim_far<L: Lanes>(&self, l: L, light: &Reader<'_, L>, index: U<L>, n: Vec3<L>, u: [F<L>; 2], infinite: M<L>, aim: &mut Aim<L>) {
+    fn aim_far<L: Lanes>(
+        &self,
+        l: L,
+        light: &Reader<'_, L>,
+        index: U<L>,
+        [p, n]: [Vec3<L>; 2],
+        u: [F<L>; 2],
+        infinite: M<L>,
+        aim: &mut Aim<L>,
+    ) {
         if !infinite.any() {
             return;
         }
@@ -151,16 +171,58 @@ impl LightTable {
             if !chosen.any() {
                 continue;
             }
-            let (wi, pdf) = match &infinite.distribution {
-                Some(distribution) => {
-                    let (local, pdf, place) = distribution.sample(l, u);
-                    aim.uv = [chosen.select(place[0], aim.uv[0]), chosen.select(place[1], aim.uv[1])];
-                    (local.transform(light.frame()), pdf)
-                }
-                None => dome::sample_constant(l, n, u),
+            let (wi, pdf, place) = match self.portals_at(l, p) {
+                Some(portals) => self.aim_at_dome_through(l, infinite, &portals, [p, n], u),
+                None => self.aim_at_dome(l, infinite, n, u),
             };
             aim.wi = chosen.select(wi, aim.wi);
             aim.pdf = chosen.select(pdf, aim.pdf);
+            aim.uv = [chosen.select(place[0], aim.uv[0]), chosen.select(place[1], aim.uv[1])];
+        }
+    }
+
+    /// A direction to a dome by its own brightness, its density and its place in the image.
+    #[inline(always)]
+    fn aim_at_dome<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, u: [F<L>; 2]) -> (Vec3<L>, F<L>, [F<L>; 2]) {
+        match &infinite.distribution {
+            Some(distribution) => {
+                let (local, pdf, place) = distribution.sample(l, u);
+                (local.transform(self.reader(l, l.u(infinite.light)).frame()), pdf, place)
+            }
+            None => {
+                let (wi, pdf) = dome::sample_constant(l, n, u);
+                (wi, pdf, [l.f(0.0); 2])
+            }
+        }
+    }
+
+    /// The same where some directions go through portals.
+    #[inline(always)]
+    fn aim_at_dome_through<L: Lanes>(
+        &self,
+        l: L,
+        infinite: &InfiniteLight,
+        portals: &Portals<L>,
+        [p, n]: [Vec3<L>; 2],
+        u: [F<L>; 2],
+    ) -> (Vec3<L>, F<L>, [F<L>; 2]) {
+        let (through, of_portal, of_dome) = self.split_by_portal(portals, u[0]);
+        let (wi, _, _) = self.aim_at_dome(l, infinite, n, [of_dome, u[1]]);
+        let wi = through.select(self.aim_through_portal(l, portals, p, [of_portal, u[1]]), wi);
+        let (pdf, place) = self.dome_density(l, infinite, n, wi);
+        (wi, self.portal_density(l, portals, p, wi, pdf), place)
+    }
+
+    /// Density of a direction to a dome by its own brightness, and its place in the image.
+    #[inline(always)]
+    fn dome_density<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, wi: Vec3<L>) -> (F<L>, [F<L>; 2]) {
+        match &infinite.distribution {
+            Some(distribution) => {
+                let local = self.reader(l, l.u(infinite.light)).in_frame(wi);
+                let place = dome::place(local);
+                (distribution.pdf(l, local, place), place)
+            }
+            None => (dome::pdf_constant(l, n, wi), [l.f(0.0); 2]),
         }
     }
 
@@ -253,6 +315,13 @@ impl LightTable {
             #[inline(always)]
             || Triangle::density(l, &light, from, wi, hit),
         );
+        self.density_kind(
+            LightKind::FacingDisk,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || FacingDisk::density(l, &light, from, wi, hit),
+        );
         let (pdf, uv) = density;
         let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
         let probability = self.choice_probability(l, from, n, index);
@@ -287,7 +356,7 @@ impl LightTable {
     pub fn escaped<L: Lanes>(&self, l: L, from: Vec3<L>, n: Vec3<L>, wi: Vec3<L>, bsdf_pdf: F<L>, first: M<L>, delta: M<L>) -> Rgb<L> {
         let mut sum = Rgb::zero(l);
         for infinite in &self.infinite {
-            let (radiance, pdf) = self.infinite_radiance(l, infinite, n, wi);
+            let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);
             if weighed.any() {
@@ -302,20 +371,18 @@ impl LightTable {
 
     /// Radiance of one infinite light along `wi` and the density of its sampling.
     #[inline(always)]
-    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Rgb<L>, F<L>) {
         let light = self.reader(l, l.u(infinite.light));
-        match (&infinite.distribution, infinite.kind) {
-            (Some(distribution), _) => {
-                let local = light.in_frame(wi);
-                let place = dome::place(local);
-                (self.emitted(l, &light, wi, place), distribution.pdf(l, local, place))
-            }
-            (None, LightKind::Dome) => (light.colour(field::RADIANCE), dome::pdf_constant(l, n, wi)),
-            (None, _) => {
-                let (inside, density) = distant::density(&light, wi);
-                (light.colour(field::RADIANCE).keep_if(inside), density.keep_if(inside))
-            }
+        if infinite.kind == LightKind::Distant {
+            let (inside, density) = distant::density(&light, wi);
+            return (light.colour(field::RADIANCE).keep_if(inside), density.keep_if(inside));
         }
+        let (mut pdf, place) = self.dome_density(l, infinite, n, wi);
+        if let Some(portals) = self.portals_at(l, from) {
+            pdf = self.portal_density(l, &portals, from, wi, pdf);
+        }
+        let textured = infinite.distribution.is_some();
+        (if textured { self.emitted(l, &light, wi, place) } else { light.colour(field::RADIANCE) }, pdf)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What narrows a light's beam: focus and cone (UsdLux ShapingAPI).
+//! What narrows a light's beam: focus and cone (UsdLux ShapingAPI), the spot's cone, and the spread of flat lights.
 
 use super::row::{Reader, field, flag};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
@@ -12,7 +12,8 @@ pub(crate) fn shaping<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>,
         return one;
     }
     let cosine = light.vector(field::AXIS).dot(direction).clamp(-1.0, 1.0);
-    let factor = focus(l, light, cosine) * cone(l, light, cosine);
+    let narrowed = cone(l, light, cosine) * spot(l, light, direction) * spread(l, light, direction);
+    let factor = focus(l, light, cosine) * narrowed;
     shaped.select(factor, one)
 }
 
@@ -46,4 +47,34 @@ fn cone<L: Lanes>(l: L, light: &Reader<'_, L>, cosine: F<L>) -> F<L> {
     let falloff = 1.0 - t * t * (3.0 - t * 2.0);
     let inside = angle.le(start).select(l.f(1.0), falloff).keep_if(angle.le(cutoff));
     narrowed.select(inside, l.f(1.0))
+}
+
+/// The spot's cone, in directions whose x and y are shortened by its stretch.
+#[inline(always)]
+fn spot<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> F<L> {
+    let is_spot = light.flag(flag::SPOT);
+    if !is_spot.any() {
+        return l.f(1.0);
+    }
+    let along = light.vector(field::AXIS).dot(direction);
+    let (x, y) = (light.vector(field::SPOT_X).dot(direction), light.vector(field::SPOT_Y).dot(direction));
+    let squared = (x * x + y * y + along * along).max(f32::MIN_POSITIVE);
+    let t = ((along / squared.sqrt() - light.value(field::SPOT_COSINE)) * light.value(field::SPOT_STEEPNESS)).saturate();
+    is_spot.select(t * t * (3.0 - t * 2.0), l.f(1.0))
+}
+
+/// The share of a flat light's radiance that slats before it let through, times what keeps its flux.
+#[inline(always)]
+fn spread<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> F<L> {
+    let is_spread = light.flag(flag::SPREAD);
+    if !is_spread.any() {
+        return l.f(1.0);
+    }
+    let normal = light.vector(field::NORMAL);
+    let cosine = normal.dot(direction);
+    // The part across the normal keeps its digits where the beam is thin.
+    let across = (direction - normal * cosine).length();
+    let tangent = across / cosine.abs().max(f32::MIN_POSITIVE);
+    let factor = (light.value(field::SPREAD_TANGENT) - tangent).max(0.0) * light.value(field::SPREAD_GAIN);
+    is_spread.select(factor, l.f(1.0))
 }

@@ -1,7 +1,7 @@
 //! UsdLux's size factors: what `normalize` divides by.
 
 use super::record::LightKind;
-use super::vector::{Vector, add, cross, dot, length, scale, unit_or};
+use super::vector::{Vector, add, cross, dot, length, principal_axes, scale, unit_or};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Thomsen's exponent; at most 1.42 % off.
@@ -18,6 +18,7 @@ pub fn size_factor(kind: LightKind, axes: [[f64; 3]; 3], angle: f64) -> f64 {
         LightKind::Triangle => length(cross(x, y)) / 2.0,
         LightKind::Sphere => ellipsoid_area(principal_axes(axes)),
         LightKind::Cylinder => cylinder_area(axes),
+        LightKind::FacingDisk => PI * dot(x, x),
         LightKind::Distant => distant_factor(angle),
         LightKind::Dome | LightKind::Point => 1.0,
     }
@@ -36,25 +37,6 @@ fn distant_factor(angle: f64) -> f64 {
 fn ellipsoid_area([a, b, c]: [f64; 3]) -> f64 {
     let p = ELLIPSOID_EXPONENT;
     4.0 * PI * (((a * b).powf(p) + (a * c).powf(p) + (b * c).powf(p)) / 3.0).powf(1.0 / p)
-}
-
-/// Singular values of the matrix with these columns: lengths of the columns after turning them orthogonal (one-sided Jacobi).
-fn principal_axes(mut columns: [Vector; 3]) -> [f64; 3] {
-    for _ in 0..30 {
-        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            let (a, b) = (columns[i], columns[j]);
-            let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
-            if ab.abs() <= 1e-15 * (aa * bb).sqrt() {
-                continue;
-            }
-            let tau = (bb - aa) / (2.0 * ab);
-            let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
-            let c = 1.0 / (1.0 + t * t).sqrt();
-            columns[i] = add(scale(a, c), scale(b, -c * t));
-            columns[j] = add(scale(a, c * t), scale(b, c));
-        }
-    }
-    columns.map(length)
 }
 
 /// Lateral area: the perimeter of the section at right angles to the axis, times the length.

@@ -29,6 +29,8 @@ pub struct LightTable {
     pub(crate) choice: Choice,
     pub(crate) textures: TexturePool,
     pub(crate) infinite: Vec<InfiniteLight>,
+    /// Rows of the rectangles that domes are looked for through.
+    pub(crate) portals: Vec<u32>,
 }
 
 impl LightTable {
@@ -39,6 +41,7 @@ impl LightTable {
         let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image)).collect();
         let mut rows = vec![0.0; records.len() * ROW];
         let mut infinite = Vec::new();
+        let mut portals = Vec::new();
         let mut kinds = 0;
         for (light, (record, row)) in records.iter().zip(rows.chunks_exact_mut(ROW)).enumerate() {
             let textured = matches!(record.kind, LightKind::Rectangle | LightKind::Dome);
@@ -52,13 +55,19 @@ impl LightTable {
             };
             fill_row(record, mean, row);
             fill_texture(image.map(|(place, _)| place), row);
+            if record.portal {
+                if record.kind == LightKind::Rectangle && row[field::DENSITY].is_finite() {
+                    portals.push(light as u32);
+                }
+                continue;
+            }
             kinds |= 1 << record.kind as u32;
             if record.kind.is_infinite() && row[field::FLAGS].to_bits() & (flag::LIT | flag::DELTA) == flag::LIT {
                 infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible: record.visible_to_camera });
             }
         }
         let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Power(power_table(&rows, records.len())) };
-        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite }
+        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, portals }
     }
     /// Lights in the table.
     pub fn len(&self) -> usize {

@@ -47,3 +47,22 @@ pub(crate) fn inverse_rows(columns: [Vector; 3]) -> Option<[Vector; 3]> {
     let rows = [cross(columns[1], columns[2]), cross(columns[2], columns[0]), cross(columns[0], columns[1])].map(|row| scale(row, 1.0 / d));
     (d != 0.0 && rows.iter().flatten().all(|x| x.is_finite())).then_some(rows)
 }
+
+/// Singular values of the matrix with these columns: lengths of the columns after turning them orthogonal (one-sided Jacobi).
+pub(crate) fn principal_axes(mut columns: [Vector; 3]) -> [f64; 3] {
+    for _ in 0..30 {
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            let (a, b) = (columns[i], columns[j]);
+            let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
+            if ab.abs() <= 1e-15 * (aa * bb).sqrt() {
+                continue;
+            }
+            let tau = (bb - aa) / (2.0 * ab);
+            let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
+            let c = 1.0 / (1.0 + t * t).sqrt();
+            columns[i] = add(scale(a, c), scale(b, -c * t));
+            columns[j] = add(scale(a, c * t), scale(b, c));
+        }
+    }
+    columns.map(length)
+}

@@ -34,11 +34,25 @@ pub enum LightShape {
         /// Local units.
         radius: f64,
     },
+    /// In the plane z = 0, `width` along x, `height` along y, emitting along −z.
+    Ellipse {
+        /// Local units.
+        width: f64,
+        /// Local units.
+        height: f64,
+    },
     /// About the origin, emitting outward.
     Sphere {
         /// Local units.
         radius: f64,
     },
+    /// A disk about the origin that turns its face to whatever it lights or is seen by: what a sphere becomes that is not to cut into surfaces.
+    FacingDisk {
+        /// Local units, along x.
+        radius: f64,
+    },
+    /// The origin alone; the emission's radiance is a luminous intensity in cd. No ray sees it.
+    Point,
     /// About the x axis, emitting outward, without caps.
     Cylinder {
         /// Local units.
@@ -69,6 +83,12 @@ pub struct Emission {
     pub metres_per_unit: f64,
 }
 
+impl Default for Emission {
+    fn default() -> Self {
+        Self { radiance: [1.0; 3], normalized: false, metres_per_unit: 1.0 }
+    }
+}
+
 /// UsdLux's shaping: what narrows the beam.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shaping {
@@ -88,6 +108,27 @@ impl Default for Shaping {
     }
 }
 
+/// A spot's cone about −z, which cuts the light and leaves the strength of what remains. Towards a direction at angle θ from −z the emission is
+/// multiplied by `smoothstep((cos θ − cos(angle / 2)) / ((1 − cos(angle / 2)) · blend))`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Spot {
+    /// Full angle of the cone in degrees.
+    pub angle_deg: f32,
+    /// 0 is a hard edge, 1 falls off from the axis on.
+    pub blend: f32,
+    /// Widens the cone along x and y: θ is taken of directions whose x and y are divided by these.
+    #[serde(default = "unit_stretch")]
+    pub stretch: [f32; 2],
+}
+
+fn unit_stretch() -> [f32; 2] {
+    [1.0; 2]
+}
+
+fn lambertian_deg() -> f32 {
+    180.0
+}
+
 /// A light source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Light {
@@ -99,6 +140,16 @@ pub struct Light {
     pub emission: Emission,
     /// Narrowing of the beam.
     pub shaping: Shaping,
+    /// A spot's cone.
+    #[serde(default)]
+    pub spot: Option<Spot>,
+    /// Full angle in degrees of the beam of rectangles, disks and ellipses, which keeps its flux: h being half the angle, the radiance at angle θ from
+    /// −z is multiplied by `max(tan h − tan θ, 0) / (tan h − h)`. 180 is Lambert's law.
+    #[serde(default = "lambertian_deg")]
+    pub spread_deg: f32,
+    /// A rectangle that is no light but an opening (a window) through which domes shine along −z: it only tells where to look for them.
+    #[serde(default)]
+    pub portal: bool,
     /// Multiplies the radiance over a rectangle or a dome.
     pub texture: Option<TextureId>,
     /// Local to world, metres.
@@ -107,4 +158,48 @@ pub struct Light {
     pub visibility: Visibility,
     /// Whether things block it.
     pub casts_shadow: bool,
+}
+
+impl Default for Light {
+    /// A point of 1 cd.
+    fn default() -> Self {
+        Self {
+            origin: Origin::default(),
+            shape: LightShape::Point,
+            emission: Emission::default(),
+            shaping: Shaping::default(),
+            spot: None,
+            spread_deg: lambertian_deg(),
+            portal: false,
+            texture: None,
+            transform: Transform::IDENTITY,
+            visibility: Visibility::default(),
+            casts_shadow: true,
+        }
+    }
+}
+
+impl Light {
+    /// A light of a shape at a place, of radiance 1 (cd/m²; 1 cd for a point) and with nothing else set.
+    pub fn new(origin: Origin, shape: LightShape, transform: Transform) -> Self {
+        Self { origin, shape, transform, ..Self::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lights_of_older_bundles_are_plain() {
+        let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
+        let mut json = serde_json::to_value(&light).expect("plain data");
+        let fields = json.as_object_mut().expect("a structure");
+        for name in ["spot", "spread_deg", "portal"] {
+            assert!(fields.remove(name).is_some(), "{name}");
+        }
+        let older: Light = serde_json::from_value(json).expect("older form");
+        assert_eq!((older.spot, older.spread_deg, older.portal), (None, 180.0, false));
+        assert_eq!(older.shape, light.shape);
+    }
 }

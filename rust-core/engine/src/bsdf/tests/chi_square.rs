@@ -70,7 +70,7 @@ fn expected(view: &View) -> Vec<f64> {
 fn test(view: &View, seed: u64) -> (f64, f64, f64) {
     let mut counts = vec![0.0; AZIMUTHS * HEIGHTS];
     let mut usable = 0.0;
-    for sample in view.sample(&random(SAMPLES, seed)).iter().filter(|s| s.pdf > 0.0 && !s.delta) {
+    for sample in view.sample(&random(SAMPLES, seed)).iter().filter(|s| s.pdf > 0.0 && !s.delta && !s.entered) {
         counts[bin(sample.wi)] += 1.0;
         usable += 1.0;
     }

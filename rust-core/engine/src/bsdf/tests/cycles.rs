@@ -1,9 +1,10 @@
 //! Directional albedos and values measured in Cycles (Blender 5.0.1), see the comment at each table.
 
 use super::harness::{View, direction};
-use super::rows::{diffuse, glass, glossy, metallic, principled, surface, transmission};
+use super::rows::{coloured_glass, diffuse, filmed, glass, glossy, metallic, principled, single, surface, transmission};
+use crate::bsdf::Distribution::{AshikhminShirley, Beckmann, Ggx, MultiGgx};
 use crate::bsdf::parameter as p;
-use crate::bsdf::{Metal, Surface, Switches};
+use crate::bsdf::{Closure, Metal, Surface, Switches};
 
 const GREY: fn(f64) -> [f64; 3] = |x| [x; 3];
 
@@ -31,40 +32,44 @@ fn single_lobes() -> Vec<Row> {
         row("D1", diffuse(0.0), [0.8; 3].map(GREY)),
         row("D2", diffuse(0.5), [0.76246, 0.76916, 0.78839].map(GREY)),
         row("D3", diffuse(1.0), [0.73122, 0.74350, 0.77873].map(GREY)),
-        row("G1", glossy(white, 0.5, 0.0, false), [0.91580, 0.88624, 0.83936].map(GREY)),
-        row("G2", glossy(white, 1.0, 0.0, false), [0.30688, 0.37680, 0.59059].map(GREY)),
-        row("G3", glossy(white, 1.0, 0.0, true), [1.0; 3].map(GREY)),
-        row("G4", glossy([0.5; 3], 1.0, 0.0, true), [0.25408, 0.27887, 0.35472].map(GREY)),
-        row("G8", glossy(white, 0.5, 0.8, false), [0.53209, 0.53154, 0.52673].map(GREY)),
-        row("L1 R", glass(0.5, false), [0.03698, 0.04613, 0.11653].map(GREY)),
-        through("L1 T", glass(0.5, false), [0.95512, 0.93358, 0.80672].map(GREY)),
-        row("L2 R", glass(0.5, true), [0.03729, 0.04711, 0.12629].map(GREY)),
-        through("L2 T", glass(0.5, true), [0.96306, 0.95341, 0.87433].map(GREY)),
-        row("L3 R", glass(1.0, true), [0.01419, 0.02158, 0.05349].map(GREY)),
-        through("L3 T", glass(1.0, true), [0.98621, 0.97866, 0.94614].map(GREY)),
-        row("L4 R", glass(0.0, true), [0.04007, 0.05025, 0.25306].map(GREY)),
-        through("L4 T", glass(0.0, true), [0.95993, 0.94975, 0.74694].map(GREY)),
-        row("M1", metallic(Metal::F82, true), [[0.59489, 0.55465, 0.51771], [0.58413, 0.54458, 0.50858], [0.53339, 0.50593, 0.48406]]),
+        row("G1", glossy(white, 0.5, 0.0, Ggx), [0.91580, 0.88624, 0.83936].map(GREY)),
+        row("G2", glossy(white, 1.0, 0.0, Ggx), [0.30688, 0.37680, 0.59059].map(GREY)),
+        row("G3", glossy(white, 1.0, 0.0, MultiGgx), [1.0; 3].map(GREY)),
+        row("G4", glossy([0.5; 3], 1.0, 0.0, MultiGgx), [0.25408, 0.27887, 0.35472].map(GREY)),
+        row("G5", glossy(white, 0.5, 0.0, Beckmann), [1.0, 0.98608, 0.90556].map(GREY)),
+        row("G6", glossy(white, 1.0, 0.0, Beckmann), [0.46157, 0.65077, 0.88083].map(GREY)),
+        row("G7", glossy(white, 0.5, 0.0, AshikhminShirley), [0.87879, 0.80193, 0.62923].map(GREY)),
+        through("T1", single(Closure::Translucent, &[]), [0.8; 3].map(GREY)),
+        row("L5 R", coloured_glass(Closure::Glass, 0.8, 1.5, 0.5, Beckmann), [0.03209, 0.04252, 0.12645].map(GREY)),
+        through("L5 T", coloured_glass(Closure::Glass, 0.8, 1.5, 0.5, Beckmann), [0.76785, 0.75594, 0.63542].map(GREY)),
+        through("R1", coloured_glass(Closure::Refraction, 1.0, 1.45, 0.5, Ggx), [0.99966, 0.99327, 0.97061].map(GREY)),
+        through("R2", coloured_glass(Closure::Refraction, 1.0, 1.45, 0.5, Beckmann), [1.0; 3].map(GREY)),
+        row("G8", glossy(white, 0.5, 0.8, Ggx), [0.53209, 0.53154, 0.52673].map(GREY)),
+        row("L1 R", glass(0.5, Ggx), [0.03698, 0.04613, 0.11653].map(GREY)),
+        through("L1 T", glass(0.5, Ggx), [0.95512, 0.93358, 0.80672].map(GREY)),
+        row("L2 R", glass(0.5, MultiGgx), [0.03729, 0.04711, 0.12629].map(GREY)),
+        through("L2 T", glass(0.5, MultiGgx), [0.96306, 0.95341, 0.87433].map(GREY)),
+        row("L3 R", glass(1.0, MultiGgx), [0.01419, 0.02158, 0.05349].map(GREY)),
+        through("L3 T", glass(1.0, MultiGgx), [0.98621, 0.97866, 0.94614].map(GREY)),
+        row("L4 R", glass(0.0, MultiGgx), [0.04007, 0.05025, 0.25306].map(GREY)),
+        through("L4 T", glass(0.0, MultiGgx), [0.95993, 0.94975, 0.74694].map(GREY)),
+        row("M1", metallic(Metal::F82, MultiGgx), [[0.59489, 0.55465, 0.51771], [0.58413, 0.54458, 0.50858], [0.53339, 0.50593, 0.48406]]),
         row(
             "M2",
-            metallic(Metal::Conductor, true),
+            metallic(Metal::Conductor, MultiGgx),
             [[0.59865, 0.55762, 0.51994], [0.58415, 0.54432, 0.50840], [0.55254, 0.52114, 0.49552]],
         ),
-        row(
-            "M3",
-            metallic(Metal::Conductor, false),
-            [[0.56802, 0.53079, 0.49633], [0.54337, 0.50854, 0.47683], [0.49713, 0.47183, 0.45116]],
-        ),
+        row("M3", metallic(Metal::Conductor, Ggx), [[0.56802, 0.53079, 0.49633], [0.54337, 0.50854, 0.47683], [0.49713, 0.47183, 0.45116]]),
     ]
 }
 
 fn from_behind() -> Vec<Row> {
     let tinted = || transmission([0.8, 0.5, 0.2], 1.0, 0.3);
     let rows = vec![
-        row("L4b R", glass(0.0, true), [0.04001, 0.05519, 1.0].map(GREY)),
-        through("L4b T", glass(0.0, true), [0.95999, 0.94481, 0.0].map(GREY)),
-        row("L2b R", glass(0.5, true), [0.05146, 0.19735, 0.86780].map(GREY)),
-        through("L2b T", glass(0.5, true), [0.94852, 0.80401, 0.12316].map(GREY)),
+        row("L4b R", glass(0.0, MultiGgx), [0.04001, 0.05519, 1.0].map(GREY)),
+        through("L4b T", glass(0.0, MultiGgx), [0.95999, 0.94481, 0.0].map(GREY)),
+        row("L2b R", glass(0.5, MultiGgx), [0.05146, 0.19735, 0.86780].map(GREY)),
+        through("L2b T", glass(0.5, MultiGgx), [0.94852, 0.80401, 0.12316].map(GREY)),
         row("P18b R", tinted(), [[0.04253, 0.04245, 0.04234], [0.09893, 0.09868, 0.09835], [0.97701, 0.97156, 0.96409]]),
         through("P18b T", tinted(), [[0.85582, 0.67538, 0.42610], [0.80572, 0.63540, 0.40050], [0.01737, 0.01366, 0.00857]]),
     ];
@@ -86,7 +91,7 @@ fn metal(more: &[(usize, &[f32])]) -> Surface {
 }
 
 fn layered() -> Vec<Row> {
-    let plain_ggx = Switches { multiscatter: false, ..Switches::principled() };
+    let plain_ggx = Switches { distribution: Ggx, ..Switches::principled() };
     let tint: &[f32] = &[0.9, 0.5, 0.2];
     vec![
         row("P1", principled(&[]), [0.80736, 0.80897, 0.81931].map(GREY)),
@@ -163,6 +168,21 @@ fn coated_metal() -> Surface {
     principled(&[(p::METALNESS, &[1.0]), (p::COAT_WEIGHT, &[0.5]), (p::COAT_ROUGHNESS, &[0.5]), (p::COAT_COLOR, &[0.9, 0.5, 0.2])])
 }
 
+fn films() -> Vec<Row> {
+    vec![
+        row(
+            "P21",
+            filmed(&[(p::BASE_COLOR, &[0.0; 3])]),
+            [[0.03578, 0.00846, 0.03652], [0.04149, 0.04711, 0.01281], [0.16021, 0.20108, 0.25333]],
+        ),
+        row(
+            "P22",
+            filmed(&[(p::METALNESS, &[1.0])]),
+            [[0.76472, 0.69152, 0.79913], [0.80150, 0.78327, 0.69296], [0.65011, 0.78937, 0.79310]],
+        ),
+    ]
+}
+
 fn transmissive() -> Vec<Row> {
     let tinted = || transmission([0.8, 0.5, 0.2], 1.0, 0.3);
     let half = || transmission([1.0; 3], 0.5, 0.5);
@@ -208,6 +228,10 @@ fn fuzz_has_cycles_albedo() {
     check(fuzzy());
 }
 #[test]
+fn films_have_cycles_albedo() {
+    check(films());
+}
+#[test]
 fn transmission_has_cycles_albedo() {
     check(transmissive());
 }
@@ -230,12 +254,18 @@ fn suns() -> Vec<(&'static str, Surface, [f32; 7])> {
     vec![
         ("D1", diffuse(0.0), [0.2205, 0.1801, 0.2205, 0.1273, 0.1273, 0.0, 0.0]),
         ("D3", diffuse(1.0), [0.2096, 0.09225, 0.2028, 0.02052, 0.2557, 0.0, 0.0]),
-        ("G1", glossy([1.0; 3], 0.5, 0.0, false), [0.3152, 1.747, 0.08757, 2.54, 0.01557, 0.0, 0.0]),
-        ("G4", glossy([0.5; 3], 1.0, 0.0, true), [0.06115, 0.0589, 0.06485, 0.06299, 0.05386, 0.0, 0.0]),
-        ("G8", glossy([1.0; 3], 0.5, 0.8, false), [0.00207, 2.248, 0.000_528_3, 0.1001, 3.518e-5, 0.0, 0.0]),
-        ("L2", glass(0.5, true), [N, 0.08963, 0.003651, 0.393, 0.000_648_8, 0.1296, 13.4]),
-        ("L3", glass(1.0, true), [N, 0.004985, 0.00446, 0.02134, 0.004291, 0.9023, 1.165]),
-        ("M2", metallic(Metal::Conductor, true), [0.2061, 1.152, 0.05835, 1.643, 0.0106, 0.0, 0.0]),
+        ("G1", glossy([1.0; 3], 0.5, 0.0, Ggx), [0.3152, 1.747, 0.08757, 2.54, 0.01557, 0.0, 0.0]),
+        ("G4", glossy([0.5; 3], 1.0, 0.0, MultiGgx), [0.06115, 0.0589, 0.06485, 0.06299, 0.05386, 0.0, 0.0]),
+        ("G8", glossy([1.0; 3], 0.5, 0.8, Ggx), [0.00207, 2.248, 0.000_528_3, 0.1001, 3.518e-5, 0.0, 0.0]),
+        ("G5", glossy([1.0; 3], 0.5, 0.0, Beckmann), [0.4637, 1.801, 0.02396, 3.795, 5.807e-20, 0.0, 0.0]),
+        ("G7", glossy([1.0; 3], 0.5, 0.0, AshikhminShirley), [0.3909, 1.744, 0.02591, 2.491, 1.149e-9, 0.0, 0.0]),
+        ("R1", coloured_glass(Closure::Refraction, 1.0, 1.45, 0.5, Ggx), [0.0, 0.0, 0.0, 0.0, 0.0, 0.1196, 10.54]),
+        ("R2", coloured_glass(Closure::Refraction, 1.0, 1.45, 0.5, Beckmann), [0.0, 0.0, 0.0, 0.0, 0.0, 1.142e-11, 14.02]),
+        ("P21", filmed(&[(p::BASE_COLOR, &[0.0; 3])]), [7.193e-5, 46.58, 9.774e-6, 0.006905, 1.011e-6, 0.0, 0.0]),
+        ("P22", filmed(&[(p::METALNESS, &[1.0])]), [0.001392, 900.0, 0.0001704, 0.07333, 2.163e-5, 0.0, 0.0]),
+        ("L2", glass(0.5, MultiGgx), [N, 0.08963, 0.003651, 0.393, 0.000_648_8, 0.1296, 13.4]),
+        ("L3", glass(1.0, MultiGgx), [N, 0.004985, 0.00446, 0.02134, 0.004291, 0.9023, 1.165]),
+        ("M2", metallic(Metal::Conductor, MultiGgx), [0.2061, 1.152, 0.05835, 1.643, 0.0106, 0.0, 0.0]),
         ("S1", sheen(0.3), [6.239e-5, 0.000_328_1, 0.000_213, 0.01687, 0.003069, 0.0, 0.0]),
         ("S2", sheen(0.8), [0.03663, 0.05259, 0.05536, 0.09201, 0.08717, 0.0, 0.0]),
         ("P16", principled(&[(p::FUZZ_WEIGHT, &[1.0])]), [0.2232, 0.2519, 0.2065, 0.3651, 0.1353, 0.0, 0.0]),

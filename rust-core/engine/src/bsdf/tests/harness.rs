@@ -1,6 +1,6 @@
 //! Batches of samples and evaluations of one surface from one view, at any level.
 
-use crate::bsdf::{ParameterValues, Surface};
+use crate::bsdf::{BsdfSample, Lobes, ParameterValues, Surface};
 use gonio_simd::{Execution, F, Lanes, Rgb, Vec3, dispatch};
 
 /// A surface seen from one direction.
@@ -18,6 +18,7 @@ pub(super) struct Sample {
     pub(super) value: [f32; 3],
     pub(super) pdf: f32,
     pub(super) delta: bool,
+    pub(super) entered: bool,
 }
 
 /// What the lobes tell without a direction.
@@ -45,18 +46,28 @@ struct Job<'a> {
     summary: Summary,
 }
 
+/// [`Lobes::sample`], compiled once for a level.
+#[inline(never)]
+pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sample(l, wo, u),
+    )
+}
+
 #[inline(always)]
 fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
     let wo = Vec3::splat(l, view.wo);
     let values = ParameterValues::constant(&view.surface.constants);
     let lobes = view.surface.resolve(l, &values, 0, wo, l.m(view.entering));
     for chunk in job.numbers.chunks(L::COUNT) {
-        let s = lobes.sample(l, wo, lanes(l, chunk));
+        let s = sample(l, &lobes, wo, lanes(l, chunk));
         let (wi, value) = ([s.wi.x, s.wi.y, s.wi.z].map(|x| x.to_array()), rgb(s.value));
-        let (pdf, delta) = (s.pdf.to_array(), s.delta.bits());
+        let (pdf, delta, entered) = (s.pdf.to_array(), s.delta.bits(), s.entered.bits());
         for lane in 0..chunk.len() {
             let value = value.map(|x| x[lane]);
-            job.samples.push(Sample { wi: wi.map(|x| x[lane]), value, pdf: pdf[lane], delta: delta >> lane & 1 == 1 });
+            let set = |bits: u64| bits >> lane & 1 == 1;
+            job.samples.push(Sample { wi: wi.map(|x| x[lane]), value, pdf: pdf[lane], delta: set(delta), entered: set(entered) });
         }
     }
     for chunk in job.directions.chunks(L::COUNT) {

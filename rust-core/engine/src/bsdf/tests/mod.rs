@@ -2,6 +2,9 @@
 
 mod chi_square;
 mod cycles;
+mod film;
 mod furnace;
 mod harness;
+mod normals;
 mod rows;
+mod subsurface;

@@ -3,7 +3,7 @@
 use super::harness::{draw, light, numbers, turned};
 use super::shape::element;
 use crate::light::vector::length;
-use crate::light::{LightKind, LightRecord, LightTable, LightTexture, Shaping, blackbody_rgb, size_factor};
+use crate::light::{LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, blackbody_rgb, size_factor};
 use gonio_simd::{Execution, Lanes, One, Vec3};
 use std::f64::consts::PI;
 
@@ -96,7 +96,10 @@ fn odd_lights_and_odd_places_stay_finite() {
     for kind in kinds {
         for axes in axes {
             for shaping in [Shaping::default(), Shaping { cone_angle: 0.0, softness: 1.0, focus: 100.0, focus_tint: [0.0; 3] }] {
-                let record = LightRecord { shaping, angle: 0.01, ..light(kind, axes, [0.0; 3]) };
+                let narrowed = shaping != Shaping::default();
+                let spot = narrowed.then_some(Spot { angle: 0.0, blend: 0.0, stretch: [0.0, f32::NAN] });
+                let spread = if narrowed { 0.0 } else { 3.0 };
+                let record = LightRecord { shaping, spot, spread, angle: 0.01, ..light(kind, axes, [0.0; 3]) };
                 let table = LightTable::build(&[record, light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [0.0, 0.0, -5.0])], Vec::new());
                 for p in places {
                     for n in [[0.0, 0.0, 1.0], [0.0; 3]] {

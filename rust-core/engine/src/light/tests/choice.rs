@@ -1,7 +1,7 @@
 //! Choosing among lights.
 
 use super::harness::{draw, light, numbers, turned, uniform};
-use crate::light::{LightKind, LightRecord, LightTable, Shaping};
+use crate::light::{LightKind, LightRecord, LightTable, Shaping, Spot};
 use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
 
 fn crowd(count: usize) -> Vec<LightRecord> {
@@ -13,6 +13,7 @@ fn crowd(count: usize) -> Vec<LightRecord> {
         LightKind::Point,
         LightKind::Distant,
         LightKind::Dome,
+        LightKind::FacingDisk,
     ];
     (0..count)
         .map(|i| {
@@ -24,6 +25,12 @@ fn crowd(count: usize) -> Vec<LightRecord> {
             record.radiance = [random(8) * random(9) * 10.0; 3];
             if i % 3 == 0 {
                 record.shaping = Shaping { cone_angle: 0.7, softness: 0.5, ..Shaping::default() };
+            }
+            if i % 4 == 1 {
+                record.spread = 0.4 + 2.0 * random(10);
+            }
+            if i % 5 == 2 {
+                record.spot = Some(Spot { angle: 0.5 + 3.0 * random(11), blend: random(12), stretch: [1.0, 0.5 + random(13)] });
             }
             record
         })

@@ -3,7 +3,9 @@
 mod accuracy;
 mod agreement;
 mod basics;
+mod beam;
 mod choice;
 mod dome;
 mod harness;
+mod portal;
 mod shape;

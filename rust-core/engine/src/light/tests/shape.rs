@@ -39,7 +39,7 @@ pub(super) fn element(record: &LightRecord, s: f64, t: f64) -> (Vector, Vector) 
             let n = scale(n, 4.0 * PI);
             (add(origin, out), if dot(n, out) < 0.0 { scale(n, -1.0) } else { n })
         }
-        LightKind::Distant | LightKind::Dome | LightKind::Point => panic!("no surface"),
+        LightKind::Distant | LightKind::Dome | LightKind::Point | LightKind::FacingDisk => panic!("no surface of its own"),
     }
 }
 
@@ -60,12 +60,54 @@ pub(super) fn shaping(record: &LightRecord, direction: Vector) -> Vector {
         let t = if cutoff > start { ((angle - start) / (cutoff - start)).clamp(0.0, 1.0) } else { 0.0 };
         factor = scale(factor, if angle > cutoff { 0.0 } else { 1.0 - t * t * (3.0 - 2.0 * t) });
     }
-    factor
+    scale(factor, spot(record, direction) * spread(record, direction))
+}
+
+/// The factor of the spot's cone.
+pub(super) fn spot(record: &LightRecord, direction: Vector) -> f64 {
+    let Some(spot) = record.spot else { return 1.0 };
+    let [x, y, z] = [0, 1, 2].map(|k| dot(unit_or(widen(record.to_world[k]), [0.0; 3]), direction));
+    let local = unit_or([x / f64::from(spot.stretch[0]), y / f64::from(spot.stretch[1]), z], [0.0; 3]);
+    let edge = (f64::from(spot.angle) / 2.0).cos();
+    let range = (1.0 - edge) * f64::from(spot.blend);
+    let inside = -local[2] - edge;
+    let t = if range > 0.0 { (inside / range).clamp(0.0, 1.0) } else { f64::from(u8::from(inside > 0.0)) };
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// The factor of a flat light's spread.
+pub(super) fn spread(record: &LightRecord, direction: Vector) -> f64 {
+    if !record.kind.is_flat() || record.spread >= std::f32::consts::PI {
+        return 1.0;
+    }
+    let half = f64::from(record.spread) / 2.0;
+    let normal = unit_or(element(record, 0.5, 0.5).1, [0.0; 3]);
+    let tangent = length(cross(normal, direction)) / dot(normal, direction).abs();
+    (half.tan() - tangent).max(0.0) / (half.tan() - half)
+}
+
+/// Two directions across the way from a facing disk to a point.
+pub(super) fn facing_axes(record: &LightRecord, p: Vector) -> [Vector; 2] {
+    let away = unit_or(add(widen(record.to_world[3]), scale(p, -1.0)), [0.0, 0.0, 1.0]);
+    let first = unit_or(cross(away, if away[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }), [0.0; 3]);
+    [first, cross(away, first)]
+}
+
+fn element_seen(record: &LightRecord, p: Vector, s: f64, t: f64) -> (Vector, Vector) {
+    if record.kind != LightKind::FacingDisk {
+        return element(record, s, t);
+    }
+    let origin = widen(record.to_world[3]);
+    let radius = length(widen(record.to_world[0]));
+    let (sine, cosine) = (TAU * t).sin_cos();
+    let [a, b] = facing_axes(record, p);
+    let place = add(origin, add(scale(a, radius * s.sqrt() * cosine), scale(b, radius * s.sqrt() * sine)));
+    (place, scale(unit_or(add(p, scale(origin, -1.0)), [0.0; 3]), PI * radius * radius))
 }
 
 /// What one element of the surface sends to a point: unit direction to it, distance, solid angle per unit of `s t` (0 from behind).
 pub(super) fn seen(record: &LightRecord, p: Vector, s: f64, t: f64) -> (Vector, f64, f64) {
-    let (place, normal) = element(record, s, t);
+    let (place, normal) = element_seen(record, p, s, t);
     let v = add(place, scale(p, -1.0));
     let distance = length(v);
     let wi = scale(v, 1.0 / distance);

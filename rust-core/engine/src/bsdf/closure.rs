@@ -1,0 +1,84 @@
+//! Surfaces of a single lobe.
+
+use super::fresnel::Curve;
+use super::fuzz::FuzzLobe;
+use super::glass::Interface;
+use super::lobes::{Normal, Shape, Side, turned};
+use super::microfacet::Widths;
+use super::parameter as p;
+use super::reflect::ReflectLobe;
+use super::resolve::Layers;
+use super::switches::{Closure, Fuzz};
+use gonio_simd::{Lanes, Rgb};
+
+impl<L: Lanes> Layers<'_, '_, L> {
+    /// The lobe that the switches name.
+    #[inline(always)]
+    fn single(&mut self) {
+        let colour = self.rgb(p::BASE_COLOR).max(0.0);
+        match self.surface.switches.closure {
+            Closure::Diffuse => self.diffuse_lobe(colour, Side::Reflected, Normal::Base),
+            Closure::Translucent => self.diffuse_lobe(colour, Side::Mirrored, Normal::Specular),
+            Closure::Glossy => self.single_glossy(colour),
+            Closure::Glass | Closure::Refraction => self.single_interface(colour),
+            Closure::Metallic => {
+                let curve = self.metal_curve();
+                self.metal_lobe(curve, self.weight);
+            }
+            Closure::Sheen => self.single_fuzz(colour),
+            Closure::Subsurface => {
+                if self.surface.lobes.walk {
+                    let left = self.walk(colour.saturate(), self.l.f(1.0), self.get(p::SUBSURFACE_IOR));
+                    self.diffuse_lobe(left, Side::Reflected, Normal::Base);
+                } else {
+                    self.diffuse_lobe(colour, Side::Reflected, Normal::Base);
+                }
+            }
+            Closure::Transparent => self.push(Shape::Straight, colour, colour, None, Side::Mirrored, Normal::Base),
+            Closure::Emission | Closure::Layered => {}
+        }
+    }
+
+    /// A mirror of any roughness that has its colour at all angles; compensation deepens it.
+    #[inline(always)]
+    fn single_glossy(&mut self, colour: Rgb<L>) {
+        let (widths, turn) = self.widths(self.base_roughness());
+        let [factor, albedo] = self.glossy(&Curve::Schlick { f0: colour, f90: colour }, widths.roughness());
+        let lobe = ReflectLobe::new(turned(self.specular_wo, turn), widths, Curve::One, self.surface.switches.distribution);
+        self.push(Shape::Reflect(lobe), colour * factor, albedo, turn, Side::Reflected, Normal::Specular);
+    }
+
+    /// Glass, or refraction alone.
+    #[inline(always)]
+    fn single_interface(&mut self, colour: Rgb<L>) {
+        let ior = self.get(p::IOR).max(1e-5);
+        let eta = self.entering.select(ior, ior.recip());
+        let film = self.film(self.entering.select(self.l.f(1.0), ior));
+        let refracts_only = self.surface.switches.closure == Closure::Refraction;
+        let plain = Interface::clear(eta);
+        let interface = Interface { f0: plain.f0 * colour, f90: colour, passed: colour, refracts_only, film, ..plain };
+        let roughness = self.base_roughness();
+        self.interface(self.weight, Widths::isotropic(roughness * roughness), None, interface);
+    }
+
+    /// Fuzz alone.
+    #[inline(always)]
+    fn single_fuzz(&mut self, colour: Rgb<L>) {
+        let roughness = self.get(p::FUZZ_ROUGHNESS).saturate();
+        let (lobe, albedo) = match self.surface.switches.fuzz {
+            Fuzz::Zeltner => FuzzLobe::zeltner(self.wo, roughness),
+            Fuzz::Charlie => FuzzLobe::charlie(self.wo, roughness),
+            Fuzz::Velvet => FuzzLobe::velvet(roughness),
+        };
+        self.push(Shape::Fuzz(lobe), colour, colour * albedo, None, Side::Reflected, Normal::Base);
+    }
+}
+
+/// [`Layers::single`] as a function of its own.
+#[inline(never)]
+pub(super) fn single<L: Lanes>(l: L, layers: &mut Layers<'_, '_, L>) {
+    l.vectorize(
+        #[inline(always)]
+        || layers.single(),
+    );
+}
