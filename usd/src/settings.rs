@@ -203,11 +203,7 @@ pub fn aov_by_name(name: &str) -> Option<Aov> {
         "z" | "Z" | "depth" | "Depth" | "cameraDepth" => Aov::Depth,
         "N" | "Nn" | "normal" | "Normal" => Aov::Normal,
         "P" | "position" | "Position" => Aov::P,
-        "albedo" | "Albedo" => Aov::Albedo,
-        "primId" | "PrimId" => Aov::PrimId,
-        "luminance" | "Luminance" => Aov::Luminance,
-        "illuminance" | "Illuminance" => Aov::Illuminance,
-        _ => return None,
+        other => return Aov::by_name(other),
     })
 }
 

@@ -4,7 +4,6 @@ use crate::{error::exception, pass::Pass};
 use gonio::{
     film::{Image, Layer, channel_names},
     output::{ExrOptions, ToneMap, write_exr, write_picture},
-    scene::Aov,
 };
 use gonio_simd::Execution;
 use pyo3::{exceptions::PyKeyError, prelude::*};
@@ -17,35 +16,12 @@ pub(crate) struct Film {
     exposure: f32,
 }
 
-/// Names of the passes in Python.
-const NAMES: [(Aov, &str); 9] = [
-    (Aov::Color, "color"),
-    (Aov::Alpha, "alpha"),
-    (Aov::Depth, "depth"),
-    (Aov::Normal, "normal"),
-    (Aov::P, "P"),
-    (Aov::Albedo, "albedo"),
-    (Aov::PrimId, "primId"),
-    (Aov::Luminance, "luminance"),
-    (Aov::Illuminance, "illuminance"),
-];
-
-/// A pass's name in Python.
-fn aov_name(aov: Aov) -> &'static str {
-    NAMES.iter().find(|(known, _)| *known == aov).map_or("", |(_, name)| name)
-}
-
-/// The pass of a name.
-pub(crate) fn aov_by_name(name: &str) -> Option<Aov> {
-    NAMES.iter().find(|(_, known)| *known == name).map(|(aov, _)| *aov)
-}
-
 impl Film {
     pub(crate) fn new(image: Image, exposure: f32) -> Self {
         Self { image, exposure }
     }
     fn layer(&self, name: &str) -> PyResult<&Layer> {
-        let layer = self.image.layers.iter().find(|layer| aov_name(layer.aov) == name);
+        let layer = self.image.layers.iter().find(|layer| layer.aov.name() == name);
         layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))
     }
 }
@@ -66,7 +42,7 @@ impl Film {
     /// Names of the passes.
     #[getter]
     fn passes(&self) -> Vec<&'static str> {
-        self.image.layers.iter().map(|layer| aov_name(layer.aov)).collect()
+        self.image.layers.iter().map(|layer| layer.aov.name()).collect()
     }
     /// A pass by name.
     fn __getitem__(&self, name: &str) -> PyResult<Pass> {

@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
-use crate::{error::exception, film::aov_by_name};
-use gonio::scene::{Crop, Filter, Integrator, Settings};
+use crate::error::exception;
+use gonio::scene::{Aov, Crop, Filter, Integrator, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -43,6 +43,10 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "filter_width" => s.filter_width = within(key, value, 0.0, 16.0)? as f32,
         "clamp_direct" => s.clamp_direct = within(key, value, 0.0, f64::MAX)? as f32,
         "clamp_indirect" => s.clamp_indirect = within(key, value, 0.0, f64::MAX)? as f32,
+        "mist" => {
+            let (start, depth, falloff) = value.extract()?;
+            s.mist = Mist { start, depth, falloff };
+        }
         "film_transparent" => s.film_transparent = value.extract()?,
         "time_limit" => {
             let limit: f64 = value.extract()?;
@@ -53,7 +57,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         }
         "passes" => {
             let names: Vec<String> = value.extract()?;
-            let find = |name: &String| aov_by_name(name).ok_or_else(|| wrong(key, format!("there is no pass '{name}'")));
+            let find = |name: &String| Aov::by_name(name).ok_or_else(|| wrong(key, format!("there is no pass '{name}'")));
             s.aovs = names.iter().map(find).collect::<PyResult<_>>()?;
         }
         _ => return Err(pyo3::exceptions::PyTypeError::new_err(format!("set() got an unexpected keyword argument '{key}'"))),

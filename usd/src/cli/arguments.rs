@@ -101,7 +101,7 @@ pub(super) struct RenderOptions {
     /// Width of the pixel filter in pixels.
     #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
     pub(super) filter_width: f32,
-    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance.
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(super) aov: Vec<String>,
     /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.

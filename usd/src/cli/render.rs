@@ -273,7 +273,7 @@ impl Job<'_> {
 }
 
 fn aovs(names: &[String]) -> Result<Vec<Aov>> {
-    let known = "color, alpha, depth, normal, P, albedo, primId, luminance, illuminance";
+    let known = Aov::NAMES.map(|(_, name)| name).join(", ");
     let one = |name: &String| {
         let problem = || Error::Setting { name: "aov".into(), problem: format!("'{name}' was found, expected one of {known}") };
         aov_by_name(name.trim()).ok_or_else(problem)

@@ -102,6 +102,8 @@ pub struct Lobes<L: Lanes> {
     count: usize,
     total: F<L>,
     albedo: Rgb<L>,
+    /// Albedos by kind: diffuse, glossy, transmitted.
+    kinds: [Rgb<L>; 3],
     pub(crate) coat: Option<CoatTint<L>>,
     pub(crate) emission: Rgb<L>,
     pub(crate) opacity: F<L>,
@@ -247,6 +249,7 @@ impl<L: Lanes> Lobes<L> {
             count: 0,
             total: l.f(0.0),
             albedo: Rgb::zero(l),
+            kinds: [Rgb::zero(l); 3],
             coat: None,
             emission: Rgb::zero(l),
             opacity: l.f(1.0),
@@ -268,6 +271,16 @@ impl<L: Lanes> Lobes<L> {
         slot.share = albedo.mean().max(0.0).keep_if(slot.weight.is_lit());
         self.total += slot.share;
         self.albedo += albedo;
+        match slot.shape {
+            Shape::Reflect(_) => self.kinds[1] += albedo,
+            // Glass does both; its parts are told apart by direction alone.
+            Shape::Glass(_) => {
+                self.kinds[1] += albedo;
+                self.kinds[2] += albedo;
+            }
+            Shape::Straight => self.kinds[2] += albedo,
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => self.kinds[0] += albedo,
+        }
         self.slots[self.count] = Some(slot);
         self.count += 1;
     }
@@ -378,6 +391,25 @@ impl<L: Lanes> Lobes<L> {
     #[inline(always)]
     pub fn albedo(&self) -> Rgb<L> {
         self.albedo
+    }
+    /// The same by kind: diffuse, glossy, transmitted; interfaces count as both of the latter.
+    #[inline(always)]
+    pub fn albedo_kinds(&self) -> [Rgb<L>; 3] {
+        self.kinds
+    }
+    /// The diffuse and the glossy part of [`Self::eval`]; the rest is transmitted.
+    #[inline(always)]
+    pub fn eval_kinds(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> [Rgb<L>; 2] {
+        let mut parts = *self;
+        for slot in parts.slots.iter_mut() {
+            if slot.is_some_and(|slot| matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_))) {
+                *slot = None;
+            }
+        }
+        let diffuse = evaluate(l, &parts, wo, wi, false).0;
+        let all = evaluate(l, self, wo, wi, false).0;
+        let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
+        [diffuse, glossy]
     }
     /// Emitted radiance towards the view, of the part that opacity leaves.
     #[inline(always)]

@@ -78,6 +78,10 @@ pub(super) fn tables(
     for (set, group) in scene.instances.iter().enumerate() {
         append_instances(scene, group, set as u32, names, materials, origin, &mut table, &mut instances, diagnostics);
     }
+    table.set_pass_index = scene.instances.iter().map(|group| group.pass_index).chain([0]).collect();
+    if scene.instances.iter().any(|group| group.holdout) {
+        table.set_holdout = scene.instances.iter().map(|group| u32::from(group.holdout)).chain([0]).collect();
+    }
     pad(&mut table);
     let first_light = instances.len() as u32;
     Ok(CompiledGeometry { table, instances, first_light })

@@ -31,7 +31,7 @@ pub(super) fn compile(
             if !normals.iter().flatten().all(known) {
                 return Err(Error::scene(&material.origin, "the material's normal refers to a node that does not exist"));
             }
-            table.surfaces.push(surface(&material.origin, closure, steps.clone(), diagnostics));
+            table.surfaces.push(surface(material, closure, steps.clone(), diagnostics));
         }
         table.numbers.push(match material.closures.as_slice() {
             [only] if only.weight == Input::Constant([1.0; 4]) => Shading::Surface(first),
@@ -66,12 +66,12 @@ fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMa
     }
 }
 
-fn surface(origin: &Origin, closure: &Closure, mut program: Program, diagnostics: &mut Vec<Diagnostic>) -> SurfaceMaterial {
+fn surface(material: &Material, closure: &Closure, mut program: Program, diagnostics: &mut Vec<Diagnostic>) -> SurfaceMaterial {
     let mut constants = parameter::DEFAULTS;
     let mut varying = [false; parameter::COUNT];
     for (name, input) in &closure.parameters {
         let Some(parameter) = parameter::find(name) else {
-            diagnostics.push(Diagnostic::warning(origin, format!("surface parameter '{name}' is not known; it is ignored")));
+            diagnostics.push(Diagnostic::warning(&material.origin, format!("surface parameter '{name}' is not known; it is ignored")));
             continue;
         };
         let places = parameter.offset..parameter.offset + parameter.width();
@@ -96,6 +96,7 @@ fn surface(origin: &Origin, closure: &Closure, mut program: Program, diagnostics
         emissive: lobes.emission,
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
+        pass_index: material.pass_index,
         surface,
         program,
         opacity_threshold: closure.opacity_threshold,

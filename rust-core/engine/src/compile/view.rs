@@ -5,7 +5,7 @@ use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
     film::FilterTable,
-    integrator::Transport,
+    integrator::{FirstPasses, Mist, Transport},
     scene::{Aov, Camera, Crop, Integrator, Projection, Settings},
 };
 use gonio_simd::Execution;
@@ -52,6 +52,10 @@ impl View {
             max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
             kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
             shows_surroundings: !settings.film_transparent,
+            passes: FirstPasses {
+                uv: settings.aovs.contains(&Aov::Uv),
+                mist: Mist { start: settings.mist.start, depth: settings.mist.depth, falloff: settings.mist.falloff },
+            },
             measure: settings.aovs.contains(&Aov::Illuminance),
             clamps: [settings.clamp_direct, settings.clamp_indirect],
             eye: table.position,

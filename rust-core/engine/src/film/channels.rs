@@ -1,6 +1,6 @@
 //! Which passes a film keeps, and where their channels lie.
 
-use crate::scene::Aov;
+use crate::scene::{Aov, LightPart};
 
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,6 +27,12 @@ impl ChannelLayout {
         layout
     }
 
+    /// A layout of the passes asked for and of those that they are divided by.
+    pub fn with_divisors(aovs: &[Aov]) -> Self {
+        let divisors = aovs.iter().filter_map(|aov| divisor(*aov));
+        Self::new(&aovs.iter().copied().chain(divisors).collect::<Vec<_>>())
+    }
+
     /// First channel of a pass.
     pub fn offset(&self, aov: Aov) -> Option<usize> {
         self.aovs.iter().position(|known| *known == aov).map(|i| self.offsets[i])
@@ -39,14 +45,30 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
         Aov::Color => &["R", "G", "B", "A"],
         Aov::Alpha => &["A"],
         Aov::Depth => &["Z"],
-        Aov::Normal | Aov::P => &["X", "Y", "Z"],
-        Aov::Albedo => &["R", "G", "B"],
-        Aov::PrimId => &["id"],
+        Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
+        Aov::Uv => &["U", "V", "A"],
+        Aov::Albedo | Aov::DenoisingAlbedo | Aov::Emission | Aov::Environment | Aov::Light(..) => &["R", "G", "B"],
+        Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
+        Aov::Mist | Aov::SampleCount => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
     }
 }
 
 /// Whether a pass holds absolute values, which files keep as 32-bit floats.
 pub fn is_absolute(aov: Aov) -> bool {
-    !matches!(aov, Aov::Color | Aov::Alpha | Aov::Albedo | Aov::Normal)
+    use Aov::{Albedo, Alpha, Color, DenoisingAlbedo, DenoisingNormal, Light, Normal};
+    !matches!(aov, Color | Alpha | Albedo | Normal | DenoisingNormal | DenoisingAlbedo | Light(_, LightPart::Color))
+}
+
+/// Whether values are numbers of things, of which the first that is met counts.
+pub fn is_index(aov: Aov) -> bool {
+    matches!(aov, Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex)
+}
+
+/// The pass that a pass of light is divided by.
+pub fn divisor(aov: Aov) -> Option<Aov> {
+    match aov {
+        Aov::Light(kind, LightPart::Direct | LightPart::Indirect) => Some(Aov::Light(kind, LightPart::Color)),
+        _ => None,
+    }
 }

@@ -1,6 +1,6 @@
 //! From sums to an image.
 
-use super::{Film, channel_names};
+use super::{Film, channel_names, divisor, is_index};
 use crate::{
     integrator::{BATCH, tile_place},
     scene::{Aov, Crop},
@@ -54,8 +54,9 @@ impl Film {
             let area = self.tile_area(tile);
             self.read(tile, |sums| {
                 least = least.min(sums.samples);
-                for (layer, offset) in layers.iter_mut().zip(&self.layout.offsets) {
-                    develop_tile(layer, *offset, sums, area, self.window.min, width);
+                for layer in &mut layers {
+                    let places = [Some(layer.aov), divisor(layer.aov)].map(|aov| aov.and_then(|aov| self.layout.offset(aov)));
+                    develop_tile(layer, places, sums, area, self.window.min, width);
                 }
             });
         }
@@ -68,11 +69,22 @@ fn empty_layer(aov: Aov, pixels: usize) -> Layer {
     Layer { aov, values: vec![0.0; pixels * channels], channels }
 }
 
-fn develop_tile(layer: &mut Layer, offset: usize, tile: &super::TileFilm, area: Crop, corner: [u32; 2], width: usize) {
-    if tile.samples == 0 {
-        return;
-    }
-    let scale = if layer.aov == Aov::PrimId { 1.0 } else { 1.0 / f64::from(tile.samples) };
+/// A sum of light over the sum of its colour; what has no colour shows none.
+fn share(light: f64, colour: f64) -> f64 {
+    if colour > 0.0 { light / colour } else { 0.0 }
+}
+
+fn develop_tile(
+    layer: &mut Layer,
+    [offset, divisor]: [Option<usize>; 2],
+    tile: &super::TileFilm,
+    area: Crop,
+    corner: [u32; 2],
+    width: usize,
+) {
+    let Some(offset) = offset.filter(|_| tile.samples > 0) else { return };
+    let index = is_index(layer.aov);
+    let scale = if index { 1.0 } else { 1.0 / f64::from(tile.samples) };
     for code in 0..BATCH {
         let [x, y] = tile_place(code);
         let place = [area.min[0] + x as u32, area.min[1] + y as u32];
@@ -82,8 +94,15 @@ fn develop_tile(layer: &mut Layer, offset: usize, tile: &super::TileFilm, area: 
         let pixel = (place[1] - corner[1]) as usize * width + (place[0] - corner[0]) as usize;
         for channel in 0..layer.channels {
             let sum = tile.sums[(offset + channel) * BATCH + code];
-            // Ids are kept one higher, so that nothing met is −1.
-            let value = if layer.aov == Aov::PrimId { sum - 1.0 } else { sum * scale };
+            let value = match (layer.aov, divisor) {
+                (_, Some(divisor)) => share(sum, tile.sums[(divisor + channel) * BATCH + code]),
+                // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
+                (Aov::PrimId, _) => sum - 1.0,
+                (_, None) if index => (sum - 1.0).max(0.0),
+                (Aov::Mist, _) => 1.0 - sum * scale,
+                (Aov::SampleCount, _) => f64::from(tile.samples),
+                _ => sum * scale,
+            };
             layer.values[pixel * layer.channels + channel] = value as f32;
         }
     }

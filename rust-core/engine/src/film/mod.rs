@@ -5,7 +5,7 @@ mod develop;
 mod filter;
 mod tile;
 
-pub use channels::{ChannelLayout, channel_names, is_absolute};
+pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
 pub use filter::FilterTable;
 pub use tile::{Block, TileFilm};
@@ -33,7 +33,7 @@ impl Film {
     /// An empty film; `window` lies inside the resolution.
     pub fn new(resolution: [u32; 2], window: Crop, aovs: &[Aov]) -> Self {
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
-        let layout = ChannelLayout::new(aovs);
+        let layout = ChannelLayout::with_divisors(aovs);
         let count = (across(0) * across(1)) as usize;
         let tiles = (0..count).map(|_| Mutex::new(TileFilm::new(&layout))).collect();
         Self { resolution, window, layout, tiles, columns: across(0) }

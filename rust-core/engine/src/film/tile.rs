@@ -1,9 +1,9 @@
 //! A tile's sums.
 
-use super::ChannelLayout;
+use super::{ChannelLayout, is_index};
 use crate::{
-    integrator::{BATCH, FirstHit},
-    scene::Aov,
+    integrator::{BATCH, FirstHit, code},
+    scene::{Aov, LightPart},
 };
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub struct TileFilm {
     /// Blocks added.
     pub blocks: u32,
     waiting: BTreeMap<u32, Block>,
-    id_channel: Option<usize>,
+    index_channels: Vec<usize>,
     color_channel: Option<usize>,
 }
 
@@ -41,7 +41,7 @@ impl TileFilm {
             samples: 0,
             blocks: 0,
             waiting: BTreeMap::new(),
-            id_channel: layout.offset(Aov::PrimId),
+            index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
             color_channel: layout.offset(Aov::Color),
         }
     }
@@ -58,8 +58,8 @@ impl TileFilm {
     fn add_now(&mut self, block: &Block) {
         for (channel, sums) in self.sums.chunks_exact_mut(BATCH).enumerate() {
             let values = &block.sums[channel * BATCH..(channel + 1) * BATCH];
-            if Some(channel) == self.id_channel {
-                // Ids are not averaged: the first sample that met something names it.
+            if self.index_channels.contains(&channel) {
+                // Indices are not averaged: the first sample that met something names it.
                 sums.iter_mut().zip(values).filter(|(sum, _)| **sum == 0.0).for_each(|(sum, value)| *sum = f64::from(*value));
             } else {
                 sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
@@ -103,8 +103,18 @@ fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, orig
         }
         Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
         Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
-        Aov::Normal => copy3(channels, &gathered.normal),
-        Aov::Albedo => copy3(channels, &gathered.albedo),
+        Aov::Normal | Aov::DenoisingNormal => copy3(channels, &gathered.normal),
+        Aov::Albedo | Aov::DenoisingAlbedo => copy3(channels, &gathered.albedo),
+        Aov::Uv => copy3(channels, &gathered.uv),
+        Aov::Mist => channels.copy_from_slice(&gathered.clearness[..BATCH]),
+        Aov::Emission => copy3(channels, gathered.lights.part(code::EMISSION)),
+        Aov::Environment => copy3(channels, gathered.lights.part(code::ENVIRONMENT)),
+        Aov::Light(kind, LightPart::Direct) => copy3(channels, gathered.lights.part(kind as u32)),
+        Aov::Light(kind, LightPart::Indirect) => copy3(channels, gathered.lights.part(code::INDIRECT + kind as u32)),
+        Aov::Light(kind, LightPart::Color) => copy3(channels, gathered.lights.part(code::COLOUR + kind as u32)),
+        Aov::ObjectIndex => channels.iter_mut().zip(&gathered.object_index[..]).for_each(|(out, id)| *out = *id as f32),
+        Aov::MaterialIndex => channels.iter_mut().zip(&gathered.material_index[..]).for_each(|(out, id)| *out = *id as f32),
+        Aov::SampleCount => {}
         Aov::P => {
             for (c, out) in channels.chunks_exact_mut(BATCH).enumerate() {
                 let place = origin[c] as f32;

@@ -49,6 +49,10 @@ pub struct GeometryTable {
     pub instance_primvar: Vec<u32>,
     /// Number of the set an instance came from: what the primId pass shows.
     pub instance_set: Vec<u32>,
+    /// Pass index of each set.
+    pub set_pass_index: Vec<u32>,
+    /// 1 for sets that cut holes into the coverage, else 0; empty where there is none.
+    pub set_holdout: Vec<u32>,
     /// Material numbers by slot.
     pub materials: Vec<u32>,
 }

@@ -1,10 +1,11 @@
 //! What is kept of the first surface a camera ray meets, and limits on contributions.
 
 use super::{
+    light_sums::code,
     scatter::{add, add_rgb},
     state::FirstHit,
 };
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
 
 /// A contribution held to the user's limit for fireflies; zero means no limit.
 #[inline(always)]
@@ -28,6 +29,11 @@ pub(super) struct FirstSurface<L: Lanes> {
     pub(super) position: Vec3<L>,
     pub(super) albedo: Rgb<L>,
     pub(super) prim_id: U<L>,
+    pub(super) object_index: U<L>,
+    pub(super) material_index: U<L>,
+    pub(super) clearness: F<L>,
+    pub(super) uv: Option<[F<L>; 2]>,
+    pub(super) kinds: [Rgb<L>; 3],
 }
 
 impl FirstHit {
@@ -44,15 +50,32 @@ impl FirstHit {
         add_rgb(&mut self.normal, slot, triple(surface.normal), chosen);
         add_rgb(&mut self.position, slot, triple(surface.position), chosen);
         add_rgb(&mut self.albedo, slot, surface.albedo, chosen);
-        let (slots, ids) = (slot.to_array(), surface.prim_id.to_array());
-        let mut bits = chosen.bits();
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize;
-            let known = &mut self.prim_id[slots[lane] as usize];
-            if *known == 0 {
-                *known = ids[lane] + 1;
-            }
-            bits &= bits - 1;
+        add(&mut self.clearness, slot, surface.clearness, chosen);
+        if let Some([u, v]) = surface.uv {
+            add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)), chosen);
         }
+        if self.lights.wanted() {
+            for (kind, colour) in surface.kinds.into_iter().enumerate() {
+                self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour, chosen);
+            }
+        }
+        keep_first(&mut self.prim_id, slot, surface.prim_id, chosen);
+        keep_first(&mut self.object_index, slot, surface.object_index, chosen);
+        keep_first(&mut self.material_index, slot, surface.material_index, chosen);
+    }
+}
+
+/// Keeps a number, one higher, in slots that have none yet.
+#[inline(always)]
+fn keep_first<L: Lanes>(column: &mut Column<u32>, slot: U<L>, number: U<L>, chosen: M<L>) {
+    let (slots, numbers) = (slot.to_array(), number.to_array());
+    let mut bits = chosen.bits();
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize;
+        let known = &mut column[slots[lane] as usize];
+        if *known == 0 {
+            *known = numbers[lane] + 1;
+        }
+        bits &= bits - 1;
     }
 }

@@ -3,9 +3,10 @@
 use super::{
     accumulate::clamped,
     kernels::{self, LightHit},
+    light_sums::code,
     material::Tables,
     path::Transport,
-    scatter::add_rgb,
+    scatter::{add_light, code_of},
     state::{Paths, Workspace, flag, gather3},
 };
 use crate::{
@@ -81,7 +82,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let throughput = gather3(l, &ws.paths.throughput, path);
         let slot = l.gather_integers(&ws.paths.slot, path);
         let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z) * weight, transport.clamp(depth));
-        add_rgb(&mut ws.first_hit.radiance, slot, value, alive & value.is_lit());
+        add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, alive & value.is_lit());
     }
     ws.at_lights.truncate(count);
 }
@@ -144,7 +145,8 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         );
         let throughput = gather3(l, &ws.paths.throughput, path);
         let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z), transport.clamp(depth));
-        add_rgb(&mut ws.first_hit.radiance, l.gather_integers(&ws.paths.slot, path), value, alive & value.is_lit());
+        let slot = l.gather_integers(&ws.paths.slot, path);
+        add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, alive & value.is_lit());
     }
 }
 

@@ -56,6 +56,15 @@ pub(super) fn eval<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -
     )
 }
 
+/// [`Lobes::eval_kinds`].
+#[inline(never)]
+pub(super) fn eval_kinds<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> [Rgb<L>; 2] {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.eval_kinds(l, wo, wi),
+    )
+}
+
 /// [`Lobes::sample`].
 #[inline(never)]
 pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {

@@ -26,6 +26,8 @@ pub struct SurfaceMaterial {
     pub anisotropic: bool,
     /// Whether it cuts a hole into the coverage.
     pub holdout: bool,
+    /// What the material index pass shows.
+    pub pass_index: u32,
 }
 
 impl SurfaceMaterial {

@@ -7,7 +7,7 @@ use super::{
     material::Tables,
     path::SampleContext,
     scatter::add_rgb,
-    state::{BATCH, PathLanes, Workspace, flag, load3},
+    state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
 };
 use crate::{geometry::spawn, light::power_heuristic, sampler::dimension};
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
@@ -74,7 +74,9 @@ fn light<L: Lanes>(l: L, tables: &Tables, point: &Point<L>, u_choice: F<L>, u: [
     add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
     let origin = spawn(point.position, point.geometric, point.error, sample.wi);
     let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
-    ws.shadows.append(lit & sample.casts_shadow, origin, sample.wi, t_max, contribution, point.slot);
+    let (slot, code) = (point.slot, l.u(0));
+    let ray = ShadowLanes { origin, direction: sample.wi, t_max, contribution, slot, code, shares: None };
+    ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
 
 #[inline(always)]

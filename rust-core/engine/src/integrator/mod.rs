@@ -5,6 +5,7 @@ mod closure;
 mod generate;
 mod intersect;
 mod kernels;
+mod light_sums;
 mod material;
 mod measure;
 mod path;
@@ -15,6 +16,7 @@ mod state;
 mod surface;
 
 pub(crate) use generate::tile_place;
+pub use light_sums::{LightSums, code};
 pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};
-pub use path::{Tracer, Transport};
+pub use path::{FirstPasses, Mist, Tracer, Transport};
 pub use state::{BATCH, FirstHit, STAGES, Statistics, TILE, Workspace, ray_mask};

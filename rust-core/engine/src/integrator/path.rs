@@ -30,6 +30,8 @@ pub struct Transport {
     pub kind_bounces: [u32; 4],
     /// Whether the camera sees lights at infinity.
     pub shows_surroundings: bool,
+    /// What passes want to know of first surfaces.
+    pub passes: FirstPasses,
     /// Whether illuminance is measured.
     pub measure: bool,
     /// Limits of direct and indirect contributions; 0 is off.
@@ -42,6 +44,26 @@ pub struct Transport {
     pub seed: u32,
     /// Samples a pixel in the whole render.
     pub samples: u32,
+}
+
+/// What passes want to know of first surfaces beyond the usual.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FirstPasses {
+    /// Texture coordinates.
+    pub uv: bool,
+    /// Start, depth and falloff of the mist.
+    pub mist: Mist,
+}
+
+/// The mist pass: metres at which it starts, metres until it is full, exponent.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mist {
+    /// Metres.
+    pub start: f32,
+    /// Metres.
+    pub depth: f32,
+    /// Exponent.
+    pub falloff: f32,
 }
 
 impl Transport {

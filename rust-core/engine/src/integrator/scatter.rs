@@ -1,5 +1,9 @@
 //! Adding lanes to sums by slot.
 
+use super::{
+    light_sums::code,
+    state::{FirstHit, flag},
+};
 use gonio_simd::{Column, F, Lanes, M, Rgb, U};
 
 /// Adds a colour to the sums at each chosen lane's slot. Slots of one register differ, since each belongs to another path.
@@ -20,6 +24,40 @@ pub(super) fn add_rgb<L: Lanes>(sums: &mut [Column; 3], slot: U<L>, value: Rgb<L
         blue[at] += b[lane];
         bits &= bits - 1;
     }
+}
+
+/// Adds to the radiance, and to the passes of light what they want of it.
+#[inline(always)]
+pub(super) fn add_light<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, value: Rgb<L>, chosen: M<L>) {
+    add_rgb(&mut sums.radiance, slot, value, chosen);
+    if sums.lights.wanted() {
+        sums.lights.add(code, slot, value, chosen);
+    }
+}
+
+/// Adds direct light at first surfaces to the passes of the kinds that scatter it: the diffuse and the glossy part, and the rest.
+#[inline(always)]
+pub(super) fn add_shares<L: Lanes>(sums: &mut FirstHit, slot: U<L>, value: Rgb<L>, [diffuse, glossy]: [Rgb<L>; 2], chosen: M<L>) {
+    let transmitted = (value - diffuse - glossy).max(0.0);
+    for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
+        sums.lights.add((slot & 0) + kind as u32, slot, part, chosen & part.is_lit());
+    }
+}
+
+/// What light that a path finds counts as: `seen` if the camera sees it, direct after one scattering, indirect after more.
+#[inline(always)]
+pub(super) fn code_of<L: Lanes>(flags: U<L>, seen: u32) -> U<L> {
+    let bounces = flags >> flag::BOUNCE_SHIFT;
+    let first = (flags >> flag::FIRST_SHIFT) & 3;
+    let scattered = bounces.eq(1).select(first, first + code::INDIRECT);
+    bounces.eq(0).select((first & 0) + seen, scattered)
+}
+
+/// What light from a sampled light counts as.
+#[inline(always)]
+pub(super) fn code_of_sampled<L: Lanes>(flags: U<L>) -> U<L> {
+    let first = (flags >> flag::FIRST_SHIFT) & 3;
+    (flags >> flag::BOUNCE_SHIFT).eq(0).select((first & 0) + code::SHARED, first + code::INDIRECT)
 }
 
 /// Adds a number to the sums at each chosen lane's slot.

@@ -3,10 +3,11 @@
 use super::{
     accumulate::{FirstSurface, clamped},
     kernels::{self, LightHit},
+    light_sums::code,
     material::{SurfaceMaterial, Tables},
-    path::{SampleContext, Transport},
-    scatter::add_rgb,
-    state::{MeasurePoints, PathLanes, Workspace, append3, event, flag, gather3, load3},
+    path::{Mist, SampleContext, Transport},
+    scatter::{add_light, add_rgb, add_shares, code_of, code_of_sampled},
+    state::{MeasurePoints, PathLanes, ShadowLanes, Workspace, append3, event, flag, gather3, load3},
 };
 use crate::{
     bsdf::{Lobes, ParameterValues, normals::Normals, parameter::COUNT},
@@ -179,6 +180,8 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     } else {
         point.alive
     };
+    let present =
+        if material.holdout || !tables.geometry.set_holdout.is_empty() { covered(stage, point, present, at, ws) } else { present };
     if material.surface.lobes.emission {
         add_emission(stage, point, lobes.emission(), present, at, ws);
     }
@@ -198,6 +201,20 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], going_on, ws);
+}
+
+/// Leaves out what the camera sees of holdouts: paths end there without light or coverage.
+#[inline(always)]
+fn covered<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, present: M<L>, at: usize, ws: &Workspace) -> M<L> {
+    let Stage { l, tables, material, .. } = *stage;
+    let camera = (point.flags & flag::CAMERA).ne(0);
+    let hole = if material.holdout {
+        l.m(true)
+    } else {
+        let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
+        l.gather_integers(&tables.geometry.set_holdout, set).ne(0)
+    };
+    present.and_not(hole & camera)
 }
 
 /// Whether all counts of scatterings are within their limits.
@@ -263,26 +280,53 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
             value = value * weight;
         }
     }
-    add_rgb(&mut ws.first_hit.radiance, point.slot, clamped(value, transport.clamp(context.depth)), present & value.is_lit());
+    let value = clamped(value, transport.clamp(context.depth));
+    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, present & value.is_lit());
 }
 
 /// Keeps what camera rays met first.
 #[inline(always)]
 fn record_first<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &Lobes<L>, present: M<L>, at: usize, ws: &mut Workspace) {
-    let Stage { l, tables, transport, .. } = *stage;
+    let Stage { l, tables, transport, material, .. } = *stage;
     let seen = present & (point.flags & flag::CAMERA).ne(0);
     if !seen.any() {
         return;
     }
+    let eye = Vec3::splat(l, transport.eye);
+    let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
     let surface = FirstSurface {
         slot: point.slot,
-        depth: (point.position - Vec3::splat(l, transport.eye)).dot(Vec3::splat(l, transport.forward)),
+        depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,
         position: point.position,
         albedo: lobes.albedo(),
-        prim_id: l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at)),
+        prim_id: set,
+        object_index: l.gather_integers(&tables.geometry.set_pass_index, set),
+        material_index: l.u(material.pass_index),
+        clearness: clearness(transport, point.position - eye),
+        uv: if transport.passes.uv { Some(texture_coordinates(l, tables, material, at, ws)) } else { None },
+        kinds: lobes.albedo_kinds(),
     };
     ws.first_hit.record(l, &surface, seen);
+}
+
+/// What the mist leaves of a point this far from the camera.
+#[inline(always)]
+fn clearness<L: Lanes>(transport: &Transport, from_eye: Vec3<L>) -> F<L> {
+    let Mist { start, depth, falloff } = transport.passes.mist;
+    let inside = ((from_eye.length() - start) * (1.0 / depth.max(1e-6))).saturate();
+    1.0 - inside.max(1e-9).pow(inside.lanes().f(falloff))
+}
+
+/// The texture coordinates that the material's images follow.
+#[inline(always)]
+fn texture_coordinates<L: Lanes>(l: L, tables: &Tables, material: &SurfaceMaterial, at: usize, ws: &Workspace) -> [F<L>; 2] {
+    let Some(column) = material.program.uv else { return [l.f(0.0); 2] };
+    let barycentric = [l.load(&ws.surface.barycentric[0], at), l.load(&ws.surface.barycentric[1], at)];
+    let (instance, primitive) = (l.load_integers(&ws.surface.instance, at), l.load_integers(&ws.surface.primitive, at));
+    let hit = tables.geometry.hit_lanes(l, instance, primitive, barycentric[0], barycentric[1]);
+    let ([u, v, ..], _) = tables.geometry.primvar(l, &hit, column);
+    [u, v]
 }
 
 #[inline(always)]
@@ -316,11 +360,33 @@ fn light<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, wo: Vec3<L>, lobes: &
     let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     let free = lit.and_not(sample.casts_shadow);
-    add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free);
+    let code = code_of_sampled(point.flags);
+    let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, point.frame.to_local(sample.wi), value)) } else { None };
+    if let Some([diffuse, glossy]) = shares {
+        let at_first = code.eq(code::SHARED);
+        let parts = [contribution * diffuse, contribution * glossy];
+        add_shares(&mut ws.first_hit, point.slot, contribution, parts, free & at_first);
+        add_light(&mut ws.first_hit, code, point.slot, contribution, free.and_not(at_first));
+        add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free & at_first);
+    } else {
+        add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free);
+    }
     let origin = spawn(point.position, point.geometric, point.error, sample.wi);
     // Lights that are meshes must not shadow themselves.
     let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
-    ws.shadows.append(lit & sample.casts_shadow, origin, sample.wi, t_max, contribution, point.slot);
+    let ray = ShadowLanes { origin, direction: sample.wi, t_max, contribution, slot: point.slot, code, shares };
+    ws.shadows.append(&ray, lit & sample.casts_shadow);
+}
+
+/// The diffuse and the glossy share of what all lobes scatter.
+#[inline(always)]
+fn shares<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L>) -> [Rgb<L>; 2] {
+    let mut parts = kernels::eval_kinds(l, lobes, wo, wi);
+    for part in &mut parts {
+        let share = |part: F<L>, all: F<L>| (part / all.max(1e-30)).saturate();
+        *part = Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b));
+    }
+    parts
 }
 
 /// Samples the next direction and appends the paths that go on.

@@ -3,9 +3,10 @@
 use super::{
     closure::weigh,
     kernels,
+    light_sums::code,
     material::{Shading, Tables},
     path::Transport,
-    scatter::add_rgb,
+    scatter::{add_light, add_rgb, add_shares},
     shade::{parameter_values, threshold},
     state::{ShadowRays, Workspace, load3},
     surface::ChunkSource,
@@ -64,7 +65,20 @@ fn add_arrived<L: Lanes>(l: L, ws: &mut Workspace) {
         let arrived = gonio_simd::M(l.mask_from_bits(bits)) & l.first(ws.shadows.count - at);
         let value = load3(l, &ws.shadows.contribution, at);
         let slot = l.load_integers(&ws.shadows.slot, at);
-        add_rgb(&mut ws.first_hit.radiance, slot, Rgb::new(value.x, value.y, value.z), arrived);
+        let value = Rgb::new(value.x, value.y, value.z);
+        let code = l.load_integers(&ws.shadows.code, at);
+        if !ws.first_hit.lights.wanted() {
+            add_rgb(&mut ws.first_hit.radiance, slot, value, arrived);
+            continue;
+        }
+        let shared = code.eq(code::SHARED);
+        add_light(&mut ws.first_hit, code, slot, value, arrived.and_not(shared));
+        add_rgb(&mut ws.first_hit.radiance, slot, value, arrived & shared);
+        let share = |columns: &[gonio_simd::Column; 3]| {
+            let share = load3(l, columns, at);
+            value * Rgb::new(share.x, share.y, share.z)
+        };
+        add_shares(&mut ws.first_hit, slot, value, [share(&ws.shadows.shares[0]), share(&ws.shadows.shares[1])], arrived & shared);
     }
 }
 

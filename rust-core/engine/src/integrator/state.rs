@@ -1,5 +1,6 @@
 //! The state of a batch of paths, in columns.
 
+use super::light_sums::LightSums;
 use crate::{
     accel::{Hits, PassedHit},
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
@@ -182,6 +183,18 @@ impl Paths {
     }
 }
 
+/// One register of shadow rays, to be appended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShadowLanes<L: Lanes> {
+    pub(super) origin: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) t_max: F<L>,
+    pub(super) contribution: Rgb<L>,
+    pub(super) slot: U<L>,
+    pub(super) code: U<L>,
+    pub(super) shares: Option<[Rgb<L>; 2]>,
+}
+
 /// Shadow rays with what they bring if nothing is in the way.
 #[derive(Debug)]
 pub(super) struct ShadowRays {
@@ -191,6 +204,10 @@ pub(super) struct ShadowRays {
     pub(super) t_max: Column,
     pub(super) contribution: Columns3,
     pub(super) slot: Column<u32>,
+    /// What the contribution counts as, see [`super::light_sums::code`].
+    pub(super) code: Column<u32>,
+    /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
+    pub(super) shares: [Columns3; 2],
     /// Constant columns that the traversal wants.
     pub(super) t_min: Vec<f32>,
     pub(super) mask: Vec<u8>,
@@ -206,6 +223,8 @@ impl Default for ShadowRays {
             t_max: Column::new(room),
             contribution: columns3(room),
             slot: Column::new(room),
+            code: Column::new(room),
+            shares: [columns3(room), columns3(room)],
             t_min: vec![0.0; room],
             mask: vec![ray_mask::SHADOW; room],
         }
@@ -214,21 +233,19 @@ impl Default for ShadowRays {
 
 impl ShadowRays {
     #[inline(always)]
-    pub(super) fn append<L: Lanes>(
-        &mut self,
-        chosen: M<L>,
-        origin: Vec3<L>,
-        direction: Vec3<L>,
-        t_max: F<L>,
-        contribution: Rgb<L>,
-        slot: U<L>,
-    ) {
+    pub(super) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        append3(origin, chosen, &mut self.origin, n);
-        append3(direction, chosen, &mut self.direction, n);
-        t_max.append(chosen, &mut self.t_max, n);
-        append3(Vec3::new(contribution.r, contribution.g, contribution.b), chosen, &mut self.contribution, n);
-        slot.append(chosen, &mut self.slot, n);
+        let triple = |colour: Rgb<L>| Vec3::new(colour.r, colour.g, colour.b);
+        append3(ray.origin, chosen, &mut self.origin, n);
+        append3(ray.direction, chosen, &mut self.direction, n);
+        ray.t_max.append(chosen, &mut self.t_max, n);
+        append3(triple(ray.contribution), chosen, &mut self.contribution, n);
+        ray.slot.append(chosen, &mut self.slot, n);
+        ray.code.append(chosen, &mut self.code, n);
+        if let Some(shares) = ray.shares {
+            append3(triple(shares[0]), chosen, &mut self.shares[0], n);
+            append3(triple(shares[1]), chosen, &mut self.shares[1], n);
+        }
         self.count += chosen.count();
     }
 }
@@ -279,6 +296,16 @@ pub struct FirstHit {
     pub albedo: Columns3,
     /// Instance sets; of the block's first sample that met one, plus one, zero for none.
     pub prim_id: Column<u32>,
+    /// Pass indices of instances and of materials, kept like `prim_id`.
+    pub object_index: Column<u32>,
+    /// See `object_index`.
+    pub material_index: Column<u32>,
+    /// Texture coordinates.
+    pub uv: Columns3,
+    /// What the mist leaves.
+    pub clearness: Column,
+    /// Light by where it comes from.
+    pub lights: LightSums,
 }
 
 impl Default for FirstHit {
@@ -291,6 +318,11 @@ impl Default for FirstHit {
             position: columns3(BATCH),
             albedo: columns3(BATCH),
             prim_id: Column::new(BATCH),
+            object_index: Column::new(BATCH),
+            material_index: Column::new(BATCH),
+            uv: columns3(BATCH),
+            clearness: Column::new(BATCH),
+            lights: LightSums::default(),
         }
     }
 }
@@ -298,9 +330,11 @@ impl Default for FirstHit {
 impl FirstHit {
     /// Empties all sums.
     pub fn clear(&mut self) {
-        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo];
-        threes.into_iter().flatten().chain([&mut self.alpha, &mut self.depth]).for_each(|column| column.fill(0.0));
-        self.prim_id.fill(0);
+        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv];
+        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness];
+        threes.into_iter().flatten().chain(ones).for_each(|column| column.fill(0.0));
+        [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
+        self.lights.clear();
     }
 }
 

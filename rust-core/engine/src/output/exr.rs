@@ -75,15 +75,9 @@ fn signed(x: u32) -> i32 {
 /// A pass's name in files.
 fn name(aov: Aov) -> &'static str {
     match aov {
-        Aov::Color => "color",
-        Aov::Alpha => "alpha",
-        Aov::Depth => "depth",
-        Aov::Normal => "normal",
-        Aov::P => "P",
-        Aov::Albedo => "albedo",
-        Aov::PrimId => "primId",
         Aov::Luminance => "Luminance",
         Aov::Illuminance => "Illuminance",
+        other => other.name(),
     }
 }
 

@@ -54,6 +54,111 @@ pub enum Aov {
     Luminance,
     /// Illuminance in lux at the first surface.
     Illuminance,
+    /// Texture coordinates `st` with 1 in the third channel.
+    Uv,
+    /// How far into the mist, 0 to 1, by [`Mist`].
+    Mist,
+    /// Normals for denoisers.
+    DenoisingNormal,
+    /// Albedo for denoisers.
+    DenoisingAlbedo,
+    /// What surfaces that the camera sees emit.
+    Emission,
+    /// What the camera sees of lights at infinity.
+    Environment,
+    /// Pass index of the instance.
+    ObjectIndex,
+    /// Pass index of the material.
+    MaterialIndex,
+    /// Samples a pixel.
+    SampleCount,
+    /// Light by the kind of the first scattering, divided by that kind's colour: of lights themselves, or of other surfaces; and the colour.
+    Light(ScatteringKind, LightPart),
+}
+
+/// Kinds of scattering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum ScatteringKind {
+    /// Diffuse, fuzz and subsurface.
+    Diffuse,
+    /// Reflection off facets.
+    Glossy,
+    /// Refraction and straight transmission.
+    Transmission,
+}
+
+/// Parts of the light that a kind of scattering shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum LightPart {
+    /// Straight from lights.
+    Direct,
+    /// From other surfaces.
+    Indirect,
+    /// Not light but the albedo.
+    Color,
+}
+
+impl Aov {
+    /// All passes with their names.
+    pub const NAMES: [(Self, &'static str); 27] = {
+        use LightPart::{Color, Direct, Indirect};
+        use ScatteringKind::{Diffuse, Glossy, Transmission};
+        [
+            (Self::Color, "color"),
+            (Self::Alpha, "alpha"),
+            (Self::Depth, "depth"),
+            (Self::Normal, "normal"),
+            (Self::P, "P"),
+            (Self::Albedo, "albedo"),
+            (Self::PrimId, "primId"),
+            (Self::Luminance, "luminance"),
+            (Self::Illuminance, "illuminance"),
+            (Self::Uv, "uv"),
+            (Self::Mist, "mist"),
+            (Self::DenoisingNormal, "denoising_normal"),
+            (Self::DenoisingAlbedo, "denoising_albedo"),
+            (Self::Emission, "emission"),
+            (Self::Environment, "environment"),
+            (Self::ObjectIndex, "object_index"),
+            (Self::MaterialIndex, "material_index"),
+            (Self::SampleCount, "sample_count"),
+            (Self::Light(Diffuse, Direct), "diffuse_direct"),
+            (Self::Light(Diffuse, Indirect), "diffuse_indirect"),
+            (Self::Light(Diffuse, Color), "diffuse_color"),
+            (Self::Light(Glossy, Direct), "glossy_direct"),
+            (Self::Light(Glossy, Indirect), "glossy_indirect"),
+            (Self::Light(Glossy, Color), "glossy_color"),
+            (Self::Light(Transmission, Direct), "transmission_direct"),
+            (Self::Light(Transmission, Indirect), "transmission_indirect"),
+            (Self::Light(Transmission, Color), "transmission_color"),
+        ]
+    };
+
+    /// The pass's name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
+    }
+    /// The pass of a name, in any case of letters.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(_, known)| known.eq_ignore_ascii_case(name)).map(|(aov, _)| *aov)
+    }
+}
+
+/// Where the mist pass starts and how deep it is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mist {
+    /// Distance from the camera at which it begins, metres.
+    pub start: f32,
+    /// Metres until it is full.
+    pub depth: f32,
+    /// Exponent of the way between.
+    pub falloff: f32,
+}
+
+impl Default for Mist {
+    fn default() -> Self {
+        Self { start: 5.0, depth: 25.0, falloff: 2.0 }
+    }
 }
 
 /// How a scene is rendered.
@@ -81,6 +186,9 @@ pub struct Settings {
     /// Lights at infinity do not cover the background.
     #[serde(default)]
     pub film_transparent: bool,
+    /// The mist pass.
+    #[serde(default)]
+    pub mist: Mist,
     /// Pixel filter.
     pub filter: Filter,
     /// Width of the filter in pixels.
@@ -115,6 +223,7 @@ impl Default for Settings {
             max_bounces: 12,
             kind_bounces: all_bounces(),
             film_transparent: false,
+            mist: Mist::default(),
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,
             clamp_direct: 0.0,

@@ -193,6 +193,7 @@ class Scene:
         clamp_direct: float | None = ...,
         clamp_indirect: float | None = ...,
         film_transparent: bool | None = ...,
+        mist: tuple[float, float, float] | None = ...,
         time_limit: float | None = ...,
         passes: Sequence[str] | None = ...,
     ) -> None: ...
