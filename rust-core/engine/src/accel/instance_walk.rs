@@ -44,6 +44,25 @@ pub(super) fn walk_scene<K: Lanes8, C: Collector>(
     walk_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], collector)
 }
 
+/// Sends ray `i` of a batch through the mesh of one instance.
+#[inline(always)]
+pub(super) fn walk_instance<K: Lanes8, C: Collector>(
+    lanes: K,
+    scene: &SceneBvh,
+    stack: &mut Stack,
+    rays: &RayBatch,
+    i: usize,
+    instance: u32,
+    collector: &mut C,
+) {
+    let Some(record) = scene.record_of.get(instance as usize).and_then(|place| scene.records.get(*place as usize)) else { return };
+    let Geometry::Mesh(index) = record.geometry.get() else { return };
+    let origin = transform_point(&record.world_to_object, [rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]]);
+    let direction = transform_direction(&record.world_to_object, [rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]]);
+    let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], collector.t_max()) else { return };
+    walk_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, collector);
+}
+
 /// Sends a ray through the part of the scene's tree below `start`.
 #[inline(always)]
 pub(super) fn walk_scene_from<K: Lanes8, C: Collector>(

@@ -1,6 +1,6 @@
 //! The queries a ray can ask, as sinks of hits, and their loops over a batch of single rays.
 
-use super::instance_walk::{Collector, SceneWalk, walk_scene};
+use super::instance_walk::{Collector, SceneWalk, walk_instance, walk_scene};
 use super::lanes8::Lanes8;
 use super::ray::{Hits, NONE, PassedHit, RayBatch};
 use super::scalar::Scalar;
@@ -93,6 +93,16 @@ impl Collector for Passed<'_> {
 }
 
 impl SceneBvh {
+    /// The nearest hit of every ray on the mesh of one instance, whatever else is in the way: `instances[i]` is that of ray `i`.
+    pub fn first_hit_within(&self, level: Level, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
+        dispatch!(level, simd => first_hit_within(Wide(simd), self, rays, instances, hits));
+    }
+
+    /// [`SceneBvh::first_hit_within`] without vector code.
+    pub fn first_hit_within_scalar(&self, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
+        first_hit_within(Scalar, self, rays, instances, hits);
+    }
+
     /// The nearest hit of every ray, one by one: for incoherent rays.
     pub fn first_hit(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
         dispatch!(level, simd => first_hit(Wide(simd), self, rays, hits));
@@ -138,6 +148,20 @@ fn first_hit<K: Lanes8>(lanes: K, scene: &SceneBvh, rays: &RayBatch, hits: &mut 
         walk_scene(lanes, scene, &mut SceneWalk { stack: &mut upper, mesh_stack: &mut lower }, &rays, i, &mut nearest);
         let hit = nearest.0;
         (t[i], u[i], v[i], primitive[i], instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
+    }
+}
+
+#[inline(always)]
+fn first_hit_within<K: Lanes8>(lanes: K, scene: &SceneBvh, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
+    let rays = rays.same_length();
+    let n = rays.len();
+    hits.resize(n);
+    let mut stack = EMPTY_STACK;
+    for (i, instance) in instances[..n].iter().enumerate() {
+        let mut nearest = Nearest(Hit::miss(rays.t_max[i]));
+        walk_instance(lanes, scene, &mut stack, &rays, i, *instance, &mut nearest);
+        let hit = nearest.0;
+        (hits.t[i], hits.u[i], hits.v[i], hits.primitive[i], hits.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
     }
 }
 

@@ -6,6 +6,7 @@ use super::build::{Effort, build};
 use super::collapse::LeafMaker;
 use super::instance::{Geometry, Instance, InstanceRecord, PackedGeometry};
 use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::ray::NONE;
 use super::transform::{inverse, transformed_bounds};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -15,6 +16,8 @@ use std::sync::atomic::AtomicBool;
 pub struct SceneBvh {
     pub(super) nodes: Vec<Node>,
     pub(super) records: Vec<InstanceRecord>,
+    /// Record of each instance by its number, [`NONE`] for those left out.
+    pub(super) record_of: Vec<u32>,
     pub(super) meshes: Vec<Arc<Blas>>,
 }
 
@@ -34,7 +37,11 @@ impl SceneBvh {
         assert!(boxes.len() <= MAX_INDEX, "a scene holds at most {MAX_INDEX} instances");
         let effort = if boxes.len() <= MANY_INSTANCES { Effort::SCENE } else { Effort::MESH };
         let tree = build(&boxes, &Records(&records), effort, cancel)?;
-        Ok(SceneBvh { nodes: tree.nodes, records: tree.leaves, meshes })
+        let mut record_of = vec![NONE; instances.len()];
+        for (place, record) in tree.leaves.iter().enumerate() {
+            record_of[record.id as usize] = place as u32;
+        }
+        Ok(SceneBvh { nodes: tree.nodes, records: tree.leaves, record_of, meshes })
     }
 
     /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
@@ -50,7 +57,7 @@ impl SceneBvh {
 
     /// Bytes of the top level, without the meshes.
     pub fn memory(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.records.capacity() * size_of::<InstanceRecord>()
+        self.nodes.capacity() * size_of::<Node>() + self.records.capacity() * size_of::<InstanceRecord>() + self.record_of.capacity() * 4
     }
 }
 

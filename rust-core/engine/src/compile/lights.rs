@@ -9,17 +9,39 @@ use crate::{
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
     integrator::{MaterialTable, ray_mask},
-    light::{LightKind, LightRecord, LightTable, Shaping, Spot, size_factor},
+    light::{LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
 };
+use std::sync::Arc;
 
 /// Emissive triangles beyond this many are found by scattered rays alone: a table of more would cost more than it saves.
 const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
 
+/// A light table and what it was laid out from.
+#[derive(Clone, Debug, Default)]
+pub(super) struct KeptLights {
+    records: Vec<LightRecord>,
+    images: Vec<Arc<LightTexture>>,
+    table: Option<Arc<LightTable>>,
+}
+
+impl KeptLights {
+    /// The table of these lights: the one at hand if nothing differs, for images are slow to lay out.
+    fn table(&self, records: &[LightRecord], images: &[Arc<LightTexture>]) -> Arc<LightTable> {
+        let same_images = self.images.len() == images.len() && self.images.iter().zip(images).all(|(a, b)| Arc::ptr_eq(a, b));
+        match &self.table {
+            Some(table) if same_images && self.records == records => table.clone(),
+            _ => Arc::new(LightTable::build(records, images)),
+        }
+    }
+}
+
 /// The light table and what belongs to it.
 #[derive(Debug)]
 pub(super) struct CompiledLights {
-    pub(super) table: LightTable,
+    pub(super) table: Arc<LightTable>,
+    /// For the next compilation.
+    pub(super) kept: KeptLights,
     pub(super) instances: Vec<Instance>,
     pub(super) instance_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
@@ -31,6 +53,7 @@ pub(super) fn compile(
     geometry: &GeometryTable,
     materials: &MaterialTable,
     textures: &CompiledTextures,
+    previous: &KeptLights,
     origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> CompiledLights {
@@ -47,7 +70,10 @@ pub(super) fn compile(
     }
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
-    CompiledLights { table: LightTable::build(&records, textures.of_lights.clone()), instances, instance_light, triangle_lights }
+    let images = textures.of_lights.clone();
+    let table = previous.table(&records, &images);
+    let kept = KeptLights { records, images, table: Some(table.clone()) };
+    CompiledLights { table, kept, instances, instance_light, triangle_lights }
 }
 
 /// The light's map with its size in the axes: half sides, radii, half length.

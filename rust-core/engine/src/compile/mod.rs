@@ -4,6 +4,7 @@
 
 mod bounds;
 mod geometry;
+mod kept;
 mod lights;
 mod materials;
 mod primvars;
@@ -41,6 +42,8 @@ pub struct CompiledScene {
     /// Sizes and times.
     pub statistics: CompileStatistics,
     trees: Vec<geometry::KeptTree>,
+    images: kept::KeptImages,
+    kept_lights: lights::KeptLights,
 }
 
 /// Sizes and times of a compiled scene.
@@ -68,7 +71,9 @@ pub struct CompileStatistics {
 pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
     let start = Instant::now();
     let mut diagnostics = Vec::new();
-    let textures = textures::compile(scene, cancel, &mut diagnostics)?;
+    let none = (kept::KeptImages::default(), lights::KeptLights::default());
+    let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
+    let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
     let names = primvars::used_names(scene);
     let materials = materials::compile(scene, &textures, &names, &mut diagnostics)?;
     check(cancel)?;
@@ -77,7 +82,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let trees = geometry::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
     let built = start.elapsed().as_secs_f64();
     let mut geometry = geometry::tables(scene, &names, &materials, origin, &mut diagnostics)?;
-    let lights = lights::compile(scene, &geometry.table, &materials, &textures, origin, &mut diagnostics);
+    let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
@@ -108,7 +113,16 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         any_absorbing,
         origin,
     };
-    Ok(CompiledScene { tables, cameras: scene.cameras.clone(), bounds, diagnostics, statistics, trees })
+    Ok(CompiledScene {
+        tables,
+        cameras: scene.cameras.clone(),
+        bounds,
+        diagnostics,
+        statistics,
+        trees,
+        images: textures.kept,
+        kept_lights: lights.kept,
+    })
 }
 
 fn instanced_triangles(scene: &Scene) -> u64 {

@@ -1,5 +1,6 @@
 //! Images of materials as mip maps, images of lights as plain arrays.
 
+use super::kept::{KeptImages, Stamp, Tiles};
 use crate::{
     colour::{ColourSpace, file_rule},
     error::{Diagnostic, Error, Result},
@@ -18,8 +19,10 @@ pub(super) struct CompiledTextures {
     pub(super) table: TextureTable,
     numbers: Vec<Option<u32>>,
     /// Images of lights, and which of them each light of the scene has.
-    pub(super) of_lights: Vec<LightTexture>,
+    pub(super) of_lights: Vec<Arc<LightTexture>>,
     pub(super) light_numbers: Vec<Option<u32>>,
+    /// For the next compilation.
+    pub(super) kept: KeptImages,
 }
 
 impl CompiledTextures {
@@ -37,11 +40,22 @@ struct Wanted {
 }
 
 /// Loads all images that materials and lights use; those that fail are reported.
-pub(super) fn compile(scene: &Scene, cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>) -> Result<CompiledTextures> {
+pub(super) fn compile(
+    scene: &Scene,
+    previous: &KeptImages,
+    cancel: &AtomicBool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<CompiledTextures> {
     let used = used_by_materials(scene);
     let mut wanted = Vec::new();
-    let mut maps: Vec<Vec<(u32, Arc<MipMap>)>> = vec![Vec::new(); scene.textures.len()];
+    let mut maps: Vec<Tiles> = vec![Vec::new(); scene.textures.len()];
+    let mut kept = KeptImages::default();
+    let stamps: Vec<Stamp> = scene.textures.iter().map(Stamp::of).collect();
     for (number, texture) in scene.textures.iter().enumerate().filter(|(number, _)| used[*number]) {
+        if let Some(tiles) = previous.tiles(&stamps[number]) {
+            maps[number].clone_from(tiles);
+            continue;
+        }
         match &texture.source {
             TextureSource::Pixels { width, height, rgba } => {
                 let image = float_image(*width, *height, rgba.to_vec());
@@ -62,13 +76,16 @@ pub(super) fn compile(scene: &Scene, cancel: &AtomicBool, diagnostics: &mut Vec<
             Err(error) => report(&scene.textures[w.texture], &error.to_string(), diagnostics),
         }
     }
+    for (number, tiles) in maps.iter().enumerate().filter(|(_, tiles)| !tiles.is_empty()) {
+        kept.keep_tiles(stamps[number].clone(), tiles.clone());
+    }
     let mut table = TextureTable::new();
     let numbers = maps.into_iter().map(|tiles| push(&mut table, tiles)).collect();
-    let (of_lights, light_numbers) = light_images(scene, diagnostics)?;
-    Ok(CompiledTextures { table, numbers, of_lights, light_numbers })
+    let (of_lights, light_numbers) = light_images(scene, &stamps, previous, &mut kept, diagnostics)?;
+    Ok(CompiledTextures { table, numbers, of_lights, light_numbers, kept })
 }
 
-fn push(table: &mut TextureTable, mut tiles: Vec<(u32, Arc<MipMap>)>) -> Option<u32> {
+fn push(table: &mut TextureTable, mut tiles: Tiles) -> Option<u32> {
     match tiles.as_slice() {
         [] => None,
         [(0, _)] => tiles.pop().map(|(_, map)| table.push(map)),
@@ -138,20 +155,32 @@ fn float_image(width: u32, height: u32, rgba: Vec<f32>) -> Image {
 }
 
 /// The images of rectangles and domes.
-fn light_images(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Result<(Vec<LightTexture>, Vec<Option<u32>>)> {
+fn light_images(
+    scene: &Scene,
+    stamps: &[Stamp],
+    previous: &KeptImages,
+    kept: &mut KeptImages,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(Vec<Arc<LightTexture>>, Vec<Option<u32>>)> {
     let mut images = Vec::new();
     let mut numbers = Vec::with_capacity(scene.lights.len());
     for light in &scene.lights {
-        let Some(texture) = light.texture.and_then(|id| scene.textures.get(id.index())) else {
+        let Some(id) = light.texture.filter(|id| id.index() < scene.textures.len()) else {
             numbers.push(None);
             continue;
         };
+        let (texture, stamp) = (&scene.textures[id.index()], &stamps[id.index()]);
         let format = match light.shape {
             LightShape::Dome { format } => dome_format(format),
             _ => texture::DomeFormat::LatLong,
         };
-        match light_image(texture, format, diagnostics) {
+        let image = match previous.light(stamp, format) {
+            Some(image) => Ok(image),
+            None => light_image(texture, format, diagnostics).map(Arc::new),
+        };
+        match image {
             Ok(image) => {
+                kept.keep_light(stamp.clone(), format, image.clone());
                 numbers.push(Some(images.len() as u32));
                 images.push(image);
             }

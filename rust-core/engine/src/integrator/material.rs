@@ -8,6 +8,7 @@ use crate::{
     light::LightTable,
     texture::TextureTable,
 };
+use std::sync::Arc;
 
 /// One compiled closure: what a path meets at a hit.
 #[derive(Clone, Debug)]
@@ -123,7 +124,7 @@ pub struct Tables {
     /// Images.
     pub textures: TextureTable,
     /// Lights.
-    pub lights: LightTable,
+    pub lights: Arc<LightTable>,
     /// First instance that is a light's shape.
     pub first_light_instance: u32,
     /// Light of each such instance.

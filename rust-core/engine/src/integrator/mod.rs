@@ -13,6 +13,7 @@ mod scatter;
 mod shade;
 mod shadow;
 mod state;
+mod subsurface;
 mod surface;
 
 pub(crate) use generate::tile_place;

@@ -10,6 +10,7 @@ use super::{
     shade::shade_chunk,
     shadow::trace_shadows,
     state::{Workspace, flag},
+    subsurface::walk,
     surface::ChunkSource,
 };
 use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, sampler::Sampler};
@@ -119,6 +120,7 @@ impl Tracer<'_> {
             ws.next.count = 0;
             self.shade(&context, ws);
             time = Instant::now();
+            walk(self.tables, &self.transport, &context, ws, cancelled);
             if ws.measure.count > 0 {
                 dispatch!(execution, l => measure(l, self.tables, &context, ws));
             }

@@ -8,9 +8,15 @@ use super::{
     path::{Mist, SampleContext, Transport},
     scatter::{add_light, add_rgb, add_shares, code_of, code_of_sampled},
     state::{MeasurePoints, PathLanes, ShadowLanes, Workspace, append3, event, flag, gather3, load3},
+    subsurface::WalkLanes,
 };
 use crate::{
-    bsdf::{Lobes, ParameterValues, normals::Normals, parameter::COUNT},
+    bsdf::{
+        Lobes, ParameterValues,
+        normals::Normals,
+        parameter::COUNT,
+        subsurface::{self, Medium},
+    },
     geometry::{NONE, spawn},
     graph::{OutputColumns, Program},
     light::power_heuristic,
@@ -54,6 +60,7 @@ struct Point<L: Lanes> {
     flags: U<L>,
     counts: U<L>,
     slot: U<L>,
+    instance: U<L>,
     width: F<L>,
     spread: F<L>,
     bounces: U<L>,
@@ -128,6 +135,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         flags,
         counts: l.gather_integers(&ws.paths.counts, path),
         slot: l.gather_integers(&ws.paths.slot, path),
+        instance: l.load_integers(&ws.surface.instance, at),
         width: l.gather(&ws.hits.t, path).mul_add(spread, l.gather(&ws.paths.width, path)),
         spread,
         bounces: flags >> flag::BOUNCE_SHIFT,
@@ -389,6 +397,86 @@ fn shares<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L
     parts
 }
 
+/// Starts walks under the surface.
+#[inline(always)]
+fn enter<L: Lanes>(point: &Point<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
+    if !chosen.any() {
+        return;
+    }
+    let walk = WalkLanes {
+        origin: point.position,
+        direction: wi,
+        t_min: point.error / point.geometric.dot(wi).abs().max(0.05),
+        throughput,
+        medium: *medium,
+        instance: point.instance,
+        slot: point.slot,
+        flags: point.flags,
+        counts: point.counts,
+        width: point.width,
+    };
+    ws.walks.append(&walk, chosen);
+}
+
+/// Where walks come out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExitPoint<L: Lanes> {
+    pub(super) alive: M<L>,
+    pub(super) position: Vec3<L>,
+    pub(super) error: F<L>,
+    pub(super) geometric: Vec3<L>,
+    pub(super) shading: Vec3<L>,
+    pub(super) throughput: Rgb<L>,
+    pub(super) slot: U<L>,
+    pub(super) flags: U<L>,
+    pub(super) counts: U<L>,
+    pub(super) width: F<L>,
+}
+
+/// Lights and scatters what comes out from under a surface, as a white Lambertian surface does; `base` is the first dimension of its numbers.
+#[inline(always)]
+pub(super) fn leave<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    transport: &Transport,
+    context: &SampleContext,
+    exit: &ExitPoint<L>,
+    base: u32,
+    ws: &mut Workspace,
+) {
+    let stage = Stage { l, tables, transport, context, material: &tables.materials.surfaces[0] };
+    let point = Point {
+        alive: exit.alive,
+        path: l.u(0),
+        position: exit.position,
+        error: exit.error,
+        geometric: exit.geometric,
+        frame: Frame::from_normal(exit.shading),
+        wo: exit.shading,
+        throughput: exit.throughput,
+        flags: exit.flags,
+        counts: exit.counts,
+        slot: exit.slot,
+        instance: l.u(0),
+        width: exit.width,
+        spread: l.f(CONE_PER_ROUGHNESS),
+        bounces: exit.flags >> flag::BOUNCE_SHIFT,
+        medium: Rgb::zero(l),
+        behind: Rgb::zero(l),
+        only_delta: l.m(false),
+    };
+    let lobes = subsurface::exit(l);
+    let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);
+    let index = context.sampler.index(l, exit.slot & (super::state::BATCH as u32 - 1), context.sample);
+    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    if !tables.lights.is_empty() {
+        let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+        light(&stage, &point, wo, &lobes, [u_choice, u, v], exit.alive, ws);
+    }
+    let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
+    scatter(&stage, &point, wo, &lobes, [l.f(0.5), u, v, u_roulette], exit.alive, ws);
+}
+
 /// Samples the next direction and appends the paths that go on.
 #[inline(always)]
 fn scatter<L: Lanes>(
@@ -415,6 +503,11 @@ fn scatter<L: Lanes>(
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
         & throughput.max_component().is_finite();
+    if let Some(medium) = lobes.medium() {
+        let entered = alive & sample.entered;
+        alive = alive.and_not(sample.entered);
+        enter(point, wi, throughput, medium, entered, ws);
+    }
     let mut throughput = throughput;
     if stage.context.depth >= ROULETTE_FROM {
         let survival = throughput.max_component().clamp(0.05, 1.0);

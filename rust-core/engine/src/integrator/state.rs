@@ -1,6 +1,6 @@
 //! The state of a batch of paths, in columns.
 
-use super::light_sums::LightSums;
+use super::{light_sums::LightSums, subsurface::Walks};
 use crate::{
     accel::{Hits, PassedHit},
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
@@ -56,7 +56,7 @@ pub mod ray_mask {
     pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;
 }
 
-type Columns3 = [Column; 3];
+pub(super) type Columns3 = [Column; 3];
 
 pub(super) fn columns3(len: usize) -> Columns3 {
     [Column::new(len), Column::new(len), Column::new(len)]
@@ -215,7 +215,8 @@ pub(super) struct ShadowRays {
 
 impl Default for ShadowRays {
     fn default() -> Self {
-        let room = padded(CAPACITY) + gonio_simd::PADDING;
+        // Walks under surfaces come out and are lit beside the surfaces themselves.
+        let room = padded(2 * CAPACITY) + gonio_simd::PADDING;
         Self {
             count: 0,
             origin: columns3(room),
@@ -377,6 +378,10 @@ pub struct Workspace {
     pub(super) blocked: Vec<u8>,
     pub(super) passed: Vec<PassedHit>,
     pub(super) measure: MeasurePoints,
+    pub(super) walks: Walks,
+    pub(super) walk_hits: Hits,
+    /// Walks that reached the surface.
+    pub(super) out: Vec<u32>,
     /// Path numbers in the order of their materials.
     pub(super) order: Vec<u32>,
     pub(super) material_start: Vec<u32>,

@@ -82,7 +82,7 @@ pub struct Spot {
 }
 
 /// A light, in world space and metres.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightRecord {
     /// The emitter.
     pub kind: LightKind,

@@ -7,6 +7,7 @@ use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use gonio_simd::{F, Lanes, M, U};
+use std::sync::Arc;
 
 /// An infinite light, visited by every ray that leaves the scene.
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ pub struct LightTable {
 impl LightTable {
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
     /// never chosen. A texture whose values do not fit its size counts as white.
-    pub fn build(records: &[LightRecord], textures: Vec<LightTexture>) -> Self {
+    pub fn build(records: &[LightRecord], textures: &[Arc<LightTexture>]) -> Self {
         let mut pool = TexturePool::default();
         let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image)).collect();
         let mut rows = vec![0.0; records.len() * ROW];
@@ -46,7 +47,7 @@ impl LightTable {
         for (light, (record, row)) in records.iter().zip(rows.chunks_exact_mut(ROW)).enumerate() {
             let textured = matches!(record.kind, LightKind::Rectangle | LightKind::Dome);
             let index = record.texture.filter(|_| textured).map(|index| index as usize);
-            let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, &textures[i])));
+            let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, &*textures[i])));
             let distribution = image.filter(|_| record.kind == LightKind::Dome).map(|(_, texture)| DomeDistribution::new(texture));
             let mean = match (&distribution, image) {
                 (Some(distribution), _) => distribution.mean_luminance,

@@ -1,0 +1,285 @@
+//! Light under surfaces: walks from where paths entered to where they come out again, and what they do there.
+//!
+//! All walks of a batch take their steps together: a flight each, a ray within the same instance, then out or scattered. Chiang, Kutz, Burley:
+//! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
+
+use super::{
+    kernels,
+    material::Tables,
+    path::{SampleContext, Transport},
+    shade::{ExitPoint, leave},
+    state::{BATCH, Columns3, Workspace, append3, columns3, gather3, load3},
+    surface::ChunkSource,
+};
+use crate::{
+    accel::{Hits, NONE, RayBatch},
+    bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, Medium, REDUCED_FROM},
+    graph::{CHUNK, Program},
+    sampler::dimension,
+};
+use gonio_simd::{Column, Execution, F, Lanes, M, PADDING, Rgb, U, Vec3, dispatch, padded};
+
+/// Walks under way, a column entry each.
+#[derive(Debug)]
+pub(super) struct Walks {
+    pub(super) count: usize,
+    origin: Columns3,
+    direction: Columns3,
+    /// Distance within which the surface that was entered is not met again: walks start on it, for an offset would count as depth.
+    t_min: Column,
+    throughput: Columns3,
+    albedo: Columns3,
+    extinction: Columns3,
+    anisotropy: Column,
+    /// Length of the flight, and the probabilities of the channels it was drawn by.
+    distance: Column,
+    channels: Columns3,
+    instance: Column<u32>,
+    slot: Column<u32>,
+    flags: Column<u32>,
+    counts: Column<u32>,
+    width: Column,
+}
+
+impl Default for Walks {
+    fn default() -> Self {
+        let room = padded(2 * BATCH) + PADDING;
+        let three = || columns3(room);
+        Self {
+            count: 0,
+            origin: three(),
+            direction: three(),
+            t_min: Column::new(room),
+            throughput: three(),
+            albedo: three(),
+            extinction: three(),
+            anisotropy: Column::new(room),
+            distance: Column::new(room),
+            channels: three(),
+            instance: Column::new(room),
+            slot: Column::new(room),
+            flags: Column::new(room),
+            counts: Column::new(room),
+            width: Column::new(room),
+        }
+    }
+}
+
+/// One register of walks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WalkLanes<L: Lanes> {
+    pub(super) origin: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) t_min: F<L>,
+    pub(super) throughput: Rgb<L>,
+    pub(super) medium: Medium<L>,
+    pub(super) instance: U<L>,
+    pub(super) slot: U<L>,
+    pub(super) flags: U<L>,
+    pub(super) counts: U<L>,
+    pub(super) width: F<L>,
+}
+
+fn vector<L: Lanes>(colour: Rgb<L>) -> Vec3<L> {
+    Vec3::new(colour.r, colour.g, colour.b)
+}
+
+fn colour<L: Lanes>(v: Vec3<L>) -> Rgb<L> {
+    Rgb::new(v.x, v.y, v.z)
+}
+
+impl Walks {
+    #[inline(always)]
+    pub(super) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
+        let n = self.count;
+        append3(w.origin, chosen, &mut self.origin, n);
+        append3(w.direction, chosen, &mut self.direction, n);
+        w.t_min.append(chosen, &mut self.t_min, n);
+        append3(vector(w.throughput), chosen, &mut self.throughput, n);
+        append3(vector(w.medium.albedo), chosen, &mut self.albedo, n);
+        append3(vector(w.medium.extinction), chosen, &mut self.extinction, n);
+        w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
+        w.instance.append(chosen, &mut self.instance, n);
+        w.slot.append(chosen, &mut self.slot, n);
+        w.flags.append(chosen, &mut self.flags, n);
+        w.counts.append(chosen, &mut self.counts, n);
+        w.width.append(chosen, &mut self.width, n);
+        self.count += chosen.count();
+    }
+
+    #[inline(always)]
+    fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
+        WalkLanes {
+            origin: load3(l, &self.origin, at),
+            direction: load3(l, &self.direction, at),
+            t_min: l.load(&self.t_min, at),
+            throughput: colour(load3(l, &self.throughput, at)),
+            medium: Medium {
+                albedo: colour(load3(l, &self.albedo, at)),
+                extinction: colour(load3(l, &self.extinction, at)),
+                anisotropy: l.load(&self.anisotropy, at),
+            },
+            instance: l.load_integers(&self.instance, at),
+            slot: l.load_integers(&self.slot, at),
+            flags: l.load_integers(&self.flags, at),
+            counts: l.load_integers(&self.counts, at),
+            width: l.load(&self.width, at),
+        }
+    }
+
+    fn rays<'a>(&'a self, mask: &'a [u8]) -> RayBatch<'a> {
+        let n = self.count;
+        RayBatch {
+            origin: [&self.origin[0][..n], &self.origin[1][..n], &self.origin[2][..n]],
+            direction: [&self.direction[0][..n], &self.direction[1][..n], &self.direction[2][..n]],
+            t_min: &self.t_min[..n],
+            t_max: &self.distance[..n],
+            mask: &mask[..n],
+        }
+    }
+}
+
+/// Walks until all walks are out or lost; those that are out are lit and scatter.
+pub(super) fn walk(tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+    for step in 0..MAXIMUM_STEPS {
+        if ws.walks.count == 0 || cancelled() {
+            break;
+        }
+        dispatch!(transport.execution, l => fly(l, context, step, &mut ws.walks));
+        let rays = ws.walks.rays(&ws.shadows.mask);
+        match transport.execution {
+            Execution::Scalar => tables.bvh.first_hit_within_scalar(&rays, &ws.walks.instance, &mut ws.walk_hits),
+            Execution::Vector(level) => tables.bvh.first_hit_within(level, &rays, &ws.walks.instance, &mut ws.walk_hits),
+        }
+        ws.statistics.rays += ws.walks.count as u64;
+        ws.out.clear();
+        ws.out.extend(ws.walk_hits.instance.iter().enumerate().filter(|(_, hit)| **hit != NONE).map(|(walk, _)| walk as u32));
+        dispatch!(transport.execution, l => arrive(l, &mut ws.walks, &ws.walk_hits));
+        come_out(tables, transport, context, ws);
+        dispatch!(transport.execution, l => turn(l, context, step, &mut ws.walks, &ws.walk_hits));
+    }
+    ws.walks.count = 0;
+}
+
+/// The random numbers of a step: two pairs beyond those of all surfaces.
+fn step_dimension(context: &SampleContext, step: u32) -> u32 {
+    (1 << 16) + (context.depth * MAXIMUM_STEPS + step) * 2
+}
+
+#[inline(always)]
+fn random<L: Lanes>(l: L, context: &SampleContext, slot: U<L>, dimension: u32) -> [F<L>; 2] {
+    let index = context.sampler.index(l, slot & (BATCH as u32 - 1), context.sample);
+    context.sampler.pair(l, index, dimension)
+}
+
+/// Draws the length of every walk's next flight.
+#[inline(always)]
+fn fly<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks) {
+    for at in (0..walks.count).step_by(L::COUNT) {
+        let walk = walks.load(l, at);
+        if step == REDUCED_FROM {
+            let reduced = walk.medium.reduced();
+            store3(vector(reduced.albedo), &mut walks.albedo, at);
+            store3(vector(reduced.extinction), &mut walks.extinction, at);
+            reduced.anisotropy.store(&mut walks.anisotropy, at);
+        }
+        let medium = walks.load(l, at).medium;
+        let u = random(l, context, walk.slot, step_dimension(context, step));
+        let flight = medium.flight(walk.throughput, u);
+        flight.distance.store(&mut walks.distance, at);
+        store3(vector(flight.channels), &mut walks.channels, at);
+    }
+}
+
+#[inline(always)]
+fn store3<L: Lanes>(v: Vec3<L>, columns: &mut Columns3, at: usize) {
+    let [x, y, z] = columns;
+    v.store([x, y, z], at);
+}
+
+/// Weighs the flights, which end at the surface or at a scattering.
+#[inline(always)]
+fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
+    for at in (0..walks.count).step_by(L::COUNT) {
+        let walk = walks.load(l, at);
+        let flight = Flight { distance: l.load(&walks.distance, at), channels: colour(load3(l, &walks.channels, at)) };
+        let mut surface = 0u64;
+        let mut distance = [0.0; PADDING];
+        for lane in 0..L::COUNT.min(walks.count - at) {
+            surface |= u64::from(hits.instance[at + lane] != NONE) << lane;
+            distance[lane] = hits.t[at + lane];
+        }
+        let surface = M(l.mask_from_bits(surface));
+        let throughput = walk.medium.arrive(walk.throughput, &flight, l.load(&distance, 0), surface);
+        store3(vector(throughput), &mut walks.throughput, at);
+    }
+}
+
+/// Lights the walks that reached the surface and sends them on, a chunk at a time.
+fn come_out(tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace) {
+    let out = std::mem::take(&mut ws.out);
+    let nothing = Program::default();
+    for chunk in out.chunks(CHUNK) {
+        let mut order = [chunk[0]; CHUNK + PADDING];
+        order[..chunk.len()].copy_from_slice(chunk);
+        dispatch!(transport.execution, l => come_out_chunk(l, tables, transport, context, &nothing, &order, chunk.len(), ws));
+    }
+    ws.out = out;
+}
+
+#[expect(clippy::too_many_arguments, reason = "the whole state of a stage comes in here")]
+#[inline(always)]
+fn come_out_chunk<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    transport: &Transport,
+    context: &SampleContext,
+    program: &Program,
+    order: &[u32; CHUNK + PADDING],
+    count: usize,
+    ws: &mut Workspace,
+) {
+    let source = ChunkSource { order, count, direction: &ws.walks.direction, cone: None };
+    kernels::surface_points(l, tables, program, &ws.walk_hits, &source, &mut ws.surface);
+    for at in (0..count).step_by(L::COUNT) {
+        let walk = l.load_integers(order, at);
+        let w = &ws.walks;
+        // Surface columns face the ray's start, which is inside; the way out is the other one.
+        let exit = ExitPoint {
+            alive: l.first(count - at),
+            position: load3(l, &ws.surface.position, at),
+            error: l.load(&ws.surface.error, at),
+            geometric: -load3(l, &ws.surface.geometric_normal, at),
+            shading: -load3(l, &ws.surface.shading_normal, at),
+            throughput: colour(gather3(l, &w.throughput, walk)),
+            slot: l.gather_integers(&w.slot, walk),
+            flags: l.gather_integers(&w.flags, walk),
+            counts: l.gather_integers(&w.counts, walk),
+            width: l.gather(&w.width, walk),
+        };
+        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
+        leave(l, tables, transport, context, &exit, base, ws);
+    }
+}
+
+/// Scatters the walks that are still inside and closes the ranks.
+#[inline(always)]
+fn turn<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks, hits: &Hits) {
+    let count = walks.count;
+    walks.count = 0;
+    for at in (0..count).step_by(L::COUNT) {
+        let mut walk = walks.load(l, at);
+        let distance = l.load(&walks.distance, at);
+        let mut inside = 0u64;
+        for lane in 0..L::COUNT.min(count - at) {
+            inside |= u64::from(hits.instance[at + lane] == NONE) << lane;
+        }
+        let inside = M(l.mask_from_bits(inside)) & walk.throughput.max_component().gt(LEAST_THROUGHPUT);
+        walk.origin = walk.direction.mul_add(distance, walk.origin);
+        walk.t_min = l.f(0.0);
+        let u = random(l, context, walk.slot, step_dimension(context, step) + 1);
+        walk.direction = walk.medium.scatter(walk.direction, u);
+        // What is appended lies at or before what was just read.
+        walks.append(&walk, inside);
+    }
+}
