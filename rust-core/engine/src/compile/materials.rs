@@ -1,14 +1,16 @@
 //! Materials: parameter blocks and programs.
 
-use super::{primvars::column, textures::CompiledTextures};
+mod program;
+
+use super::textures::CompiledTextures;
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
-    graph::{Arithmetic, Output, Program, Source, Step},
+    graph::{Output, Program, Source},
     integrator::{MaterialTable, Mix, Shading, SurfaceMaterial},
-    scene::{self, Channel, Closure, Input, Material, Model, Node, NodeId, Operation, Origin, Scene, TextureFilter, WrapMode},
-    texture::{Filter, Wrap},
+    scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
 };
+use program::{source, steps};
 
 /// Reflectance of surfaces without a material.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
@@ -143,113 +145,4 @@ fn switches_of(closure: &Closure) -> Switches {
         scene::SubsurfaceMethod::Burley => SubsurfaceMethod::Burley,
     };
     Switches { thin_walled: closure.thin_walled, distribution, subsurface, ..switches }
-}
-
-fn source(input: Input) -> Source {
-    match input {
-        Input::Constant(value) => Source::Constant(value),
-        Input::Node(node, Channel::Rgb) => Source::Register(node.0),
-        Input::Node(node, Channel::R) => Source::Component(node.0, 0),
-        Input::Node(node, Channel::G) => Source::Component(node.0, 1),
-        Input::Node(node, Channel::B) => Source::Component(node.0, 2),
-        Input::Node(node, Channel::A) => Source::Component(node.0, 3),
-    }
-}
-
-/// What is known of a node while the graph is laid out.
-#[derive(Clone, Copy, Debug, Default)]
-struct NodeFacts {
-    /// Primvar column its value follows.
-    column: Option<usize>,
-    /// How much transforms scaled its coordinates.
-    scale: f32,
-}
-
-fn steps(material: &Material, textures: &CompiledTextures, names: &[String]) -> Result<Program> {
-    let mut program = Program::default();
-    let mut facts: Vec<NodeFacts> = Vec::new();
-    for (number, node) in material.graph.nodes.iter().enumerate() {
-        let late = node.inputs.iter().find(|input| matches!(input, Input::Node(id, _) if usize::from(id.0) >= number));
-        if late.is_some() {
-            return Err(Error::scene(&material.origin, format!("node {number} of the material's graph reads a node that comes after it")));
-        }
-        let fact = facts_of(node, &facts, names);
-        let step = step_of(node, fact, textures, names);
-        if matches!(step, Step::Image { .. }) {
-            program.uv = program.uv.or(fact.column);
-        }
-        program.steps.push(step);
-        facts.push(fact);
-    }
-    // A tangent is wanted even where no image is: for anisotropy.
-    program.uv = program.uv.or_else(|| ["st", "UVMap", "map1", "uv"].iter().find_map(|name| column(names, name)));
-    Ok(program)
-}
-
-fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
-    let inherited = node.inputs.iter().find_map(|input| match input {
-        Input::Node(id, _) => Some(facts[usize::from(id.0)]),
-        Input::Constant(_) => None,
-    });
-    let inherited = inherited.unwrap_or(NodeFacts { column: None, scale: 1.0 });
-    match &node.operation {
-        Operation::Primvar { name, .. } => NodeFacts { column: column(names, name), scale: 1.0 },
-        Operation::Transform2d { scale, .. } => NodeFacts { scale: inherited.scale * (scale[0] * scale[1]).abs().sqrt(), ..inherited },
-        Operation::Multiply => match node.inputs.get(1) {
-            Some(Input::Constant(value)) => NodeFacts { scale: inherited.scale * (value[0] * value[1]).abs().sqrt(), ..inherited },
-            _ => inherited,
-        },
-        _ => inherited,
-    }
-}
-
-fn step_of(node: &Node, fact: NodeFacts, textures: &CompiledTextures, names: &[String]) -> Step {
-    let input = |i: usize| node.inputs.get(i).map_or(Source::Constant([0.0; 4]), |input| source(*input));
-    let three = || [input(0), input(1), input(2)];
-    match &node.operation {
-        Operation::Image { texture, wrap, filter, scale, bias, fallback } => match textures.number(*texture) {
-            Some(texture) => Step::Image {
-                texture,
-                uv: input(0),
-                wrap: wrap.map(wrap_of),
-                filter: match filter {
-                    TextureFilter::Linear => Filter::Trilinear,
-                    TextureFilter::Closest => Filter::Nearest,
-                },
-                scale: *scale,
-                bias: *bias,
-                footprint: fact.scale,
-            },
-            None => Step::Combine(fallback.map(|x| Source::Constant([x; 4]))),
-        },
-        Operation::Primvar { name, fallback } => match column(names, name) {
-            Some(column) => Step::Primvar { column, fallback: *fallback },
-            None => Step::Combine(fallback.map(|x| Source::Constant([x; 4]))),
-        },
-        Operation::Transform2d { scale, rotation_deg, translation } => {
-            let (sin, cos) = rotation_deg.to_radians().sin_cos();
-            let matrix = [[cos * scale[0], -sin * scale[1]], [sin * scale[0], cos * scale[1]]];
-            Step::Transform2d { input: input(0), matrix, offset: *translation }
-        }
-        Operation::NormalMap { scale } => Step::NormalMap { input: input(0), scale: *scale },
-        Operation::Add => Step::Arithmetic(Arithmetic::Add, three()),
-        Operation::Subtract => Step::Arithmetic(Arithmetic::Subtract, three()),
-        Operation::Multiply => Step::Arithmetic(Arithmetic::Multiply, three()),
-        Operation::Divide => Step::Arithmetic(Arithmetic::Divide, three()),
-        Operation::Mix => Step::Arithmetic(Arithmetic::Mix, three()),
-        Operation::Power => Step::Arithmetic(Arithmetic::Power, three()),
-        Operation::Invert => Step::Arithmetic(Arithmetic::Invert, three()),
-        Operation::Clamp => Step::Arithmetic(Arithmetic::Clamp, three()),
-        Operation::Luminance => Step::Arithmetic(Arithmetic::Luminance, three()),
-        Operation::Combine => Step::Combine([input(0), input(1), input(2), input(3)]),
-    }
-}
-
-fn wrap_of(mode: WrapMode) -> Wrap {
-    match mode {
-        WrapMode::Repeat => Wrap::Repeat,
-        WrapMode::Clamp => Wrap::Clamp,
-        WrapMode::Mirror => Wrap::Mirror,
-        WrapMode::Black => Wrap::Black,
-    }
 }

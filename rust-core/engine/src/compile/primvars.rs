@@ -9,9 +9,12 @@ use crate::{
 pub(super) fn used_names(scene: &Scene) -> Vec<String> {
     let mut names = Vec::new();
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
-        if let Operation::Primvar { name, .. } = &node.operation
-            && !names.contains(name)
-        {
+        let name = match &node.operation {
+            Operation::Primvar { name, .. } | Operation::PrimvarStep { name, .. } => name,
+            Operation::UvTangent { uv } | Operation::NormalMapAlong { uv: Some(uv), .. } => uv,
+            _ => continue,
+        };
+        if !names.contains(name) {
             names.push(name.clone());
         }
     }

@@ -1,8 +1,10 @@
 //! Compiled geometry: flat tables that surface points are gathered from, for all meshes and instances at once.
 
+mod derivatives;
 mod primvar;
 mod surface_point;
 
+pub use derivatives::UvDerivatives;
 pub use primvar::{PrimvarKind, PrimvarRef};
 pub use surface_point::{HitLanes, SurfacePoint, spawn};
 

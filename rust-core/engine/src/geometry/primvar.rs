@@ -92,6 +92,22 @@ impl GeometryTable {
         value
     }
 
+    /// Four components of a primvar column at the three corners; missing ones are zero.
+    #[inline(always)]
+    pub(super) fn corner_values<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> [[F<L>; 4]; 3] {
+        let reference = self.reference(l, hit, column);
+        let present = reference.kind.ne(PrimvarKind::Absent as u32);
+        let mut corners = [[l.f(0.0); 4]; 3];
+        for (corner, values) in corners.iter_mut().enumerate() {
+            let at = self.value_place(l, hit, &reference, corner as u32);
+            for (component, value) in values.iter_mut().enumerate() {
+                let inside = present & l.u(component as u32).lt(reference.components);
+                *value = l.gather(&self.values, at + component as u32).keep_if(inside);
+            }
+        }
+        corners
+    }
+
     /// The first two components at the three corners; zeros where there is no value.
     #[inline(always)]
     pub fn corner_uvs<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> [[F<L>; 2]; 3] {

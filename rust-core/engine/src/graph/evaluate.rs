@@ -1,80 +1,15 @@
 //! Running a program over a chunk of hits.
 
-use super::{Arithmetic, CHUNK, Program, Source, Step};
+use super::{
+    CHUNK, GraphScratch, OutputColumns, Program, Source, Step, SurfaceColumns,
+    arithmetic::arithmetic,
+    columns::load3,
+    normals::{bend_normals, normal_map},
+    shading::{Place, hit_value, instance_transform, matrix_transform},
+    vector::vector,
+};
 use crate::{geometry::GeometryTable, texture::TextureTable};
-use gonio_simd::{Column, F, Frame, Lanes, PADDING, Rgb, Vec2, Vec3};
-
-/// Surface points of a chunk, one entry a hit; normals lie on the side of `wo`.
-#[derive(Clone, Debug)]
-pub struct SurfaceColumns {
-    /// Instance numbers.
-    pub instance: Column<u32>,
-    /// Triangle numbers in their meshes.
-    pub primitive: Column<u32>,
-    /// Barycentric coordinates of corners 1 and 2.
-    pub barycentric: [Column; 2],
-    /// Positions, world space.
-    pub position: [Column; 3],
-    /// Error bounds of the positions along the normals.
-    pub error: Column,
-    /// Unit triangle normals.
-    pub geometric_normal: [Column; 3],
-    /// Unit shading normals.
-    pub shading_normal: [Column; 3],
-    /// Unit shading normals before the program bent them; only where it does.
-    pub smooth_normal: [Column; 3],
-    /// Unit normals of the coat; only where the program gives them.
-    pub coat_normal: [Column; 3],
-    /// Tangents along the first texture coordinate, not unit; zero where there is none.
-    pub tangent: [Column; 3],
-    /// Width of a pixel in texture coordinates.
-    pub uv_width: Column,
-    /// 1 on the front side, −1 on the back.
-    pub side: Column,
-    /// Unit directions to where the ray came from.
-    pub wo: [Column; 3],
-}
-
-impl Default for SurfaceColumns {
-    fn default() -> Self {
-        let column = || Column::new(CHUNK);
-        let three = || [column(), column(), column()];
-        Self {
-            instance: Column::new(CHUNK),
-            primitive: Column::new(CHUNK),
-            barycentric: [column(), column()],
-            position: three(),
-            error: column(),
-            geometric_normal: three(),
-            shading_normal: three(),
-            smooth_normal: three(),
-            coat_normal: three(),
-            tangent: three(),
-            uv_width: column(),
-            side: column(),
-            wo: three(),
-        }
-    }
-}
-
-/// The parameters that a program computed, `CHUNK` values a place, in the order of its outputs.
-#[derive(Clone, Debug, Default)]
-pub struct OutputColumns {
-    values: Vec<f32>,
-}
-
-impl OutputColumns {
-    /// The column of the `place`-th computed place.
-    pub fn column(&self, place: usize) -> &[f32] {
-        &self.values[place * CHUNK..(place + 1) * CHUNK]
-    }
-}
-
-/// Registers of the steps for one register's worth of hits.
-#[derive(Clone, Debug, Default)]
-pub struct GraphScratch {
-    registers: Vec<f32>,
-}
+use gonio_simd::{F, Lanes, PADDING, Vec2, Vec3};
 
 /// Runs a program over the first `count` hits of a chunk: fills `outputs`, and bends the shading normals if it says so.
 #[expect(clippy::too_many_arguments, reason = "tables, hits, scratch and results")]
@@ -109,11 +44,10 @@ pub fn evaluate<L: Lanes>(
             Vec3::new(x, y, z).store([a, b, c], at);
         }
         if let Some(step) = program.coat_normal {
-            let side = l.load(&points.side, at);
             let [x, y, z, _] = direction(step);
-            let smooth = Vec3::load(l, [&points.shading_normal[0], &points.shading_normal[1], &points.shading_normal[2]], at);
+            let smooth = load3(l, &points.shading_normal, at);
             let [a, b, c] = &mut points.coat_normal;
-            (Vec3::new(x, y, z) * side).normalize_or(smooth).store([a, b, c], at);
+            Vec3::new(x, y, z).normalize_or(smooth).store([a, b, c], at);
         }
         if let Some(step) = program.normal {
             bend_normals(l, points, at, direction(step), program.free_normal);
@@ -134,6 +68,7 @@ fn run_steps<L: Lanes>(
     let instance = l.load_integers(&points.instance, at);
     let primitive = l.load_integers(&points.primitive, at);
     let hit = geometry.hit_lanes(l, instance, primitive, l.load(&points.barycentric[0], at), l.load(&points.barycentric[1], at));
+    let place = Place { geometry, hit, points, at };
     for (number, step) in program.steps.iter().enumerate() {
         let value = match step {
             Step::Image { texture, uv, wrap, filter, scale, bias, footprint } => {
@@ -159,14 +94,24 @@ fn run_steps<L: Lanes>(
                 let row = |r: usize| uv[0] * matrix[r][0] + uv[1] * matrix[r][1] + offset[r];
                 [row(0), row(1), uv[2], uv[3]]
             }
-            Step::NormalMap { input, scale } => normal_map(l, points, at, read(l, registers, *input), *scale),
-            Step::Arithmetic(operation, sources) => {
-                let [a, b, c] = [read(l, registers, sources[0]), read(l, registers, sources[1]), read(l, registers, sources[2])];
-                arithmetic(l, *operation, a, b, c)
+            Step::Transform3d { input, rows } => matrix_transform(read(l, registers, *input), rows),
+            Step::Transform { input, to_world, quantity } => {
+                instance_transform(l, &place, read(l, registers, *input), *to_world, *quantity)
+            }
+            Step::NormalMap { input, scale, uv } => normal_map(l, &place, read(l, registers, *input), *scale, *uv),
+            Step::Hit(value) => hit_value(l, points, at, *value),
+            Step::PositionStep { axis } => place.position_step(l, *axis),
+            Step::PrimvarStep { column, axis } => place.primvar_step(l, *column, *axis),
+            Step::UvTangent { column } => place.uv_tangent(l, *column),
+            Step::Curve { input, curve } => curve.value(l, read(l, registers, *input)),
+            Step::Vector(operation, [a, b]) => vector(l, *operation, read(l, registers, *a), read(l, registers, *b)),
+            Step::Arithmetic { operation, inputs, even } => {
+                arithmetic(l, *operation, *inputs, *even, registers, number);
+                continue;
             }
             Step::Combine(sources) => [0, 1, 2, 3].map(
                 #[inline(always)]
-                |i| read(l, registers, sources[i])[0],
+                |i| read_component(l, registers, sources[i], 0),
             ),
         };
         for (i, component) in value.iter().enumerate() {
@@ -176,7 +121,7 @@ fn run_steps<L: Lanes>(
 }
 
 #[inline(always)]
-fn read<L: Lanes>(l: L, registers: &[f32], source: Source) -> [F<L>; 4] {
+pub(super) fn read<L: Lanes>(l: L, registers: &[f32], source: Source) -> [F<L>; 4] {
     let component = |number: u16, i: usize| l.load(registers, (usize::from(number) * 4 + i) * PADDING);
     match source {
         Source::Constant([x, y, z, w]) => [l.f(x), l.f(y), l.f(z), l.f(w)],
@@ -186,63 +131,11 @@ fn read<L: Lanes>(l: L, registers: &[f32], source: Source) -> [F<L>; 4] {
 }
 
 #[inline(always)]
-fn arithmetic<L: Lanes>(l: L, operation: Arithmetic, a: [F<L>; 4], b: [F<L>; 4], c: [F<L>; 4]) -> [F<L>; 4] {
-    let zero = l.f(0.0);
-    let mut out = a;
-    for i in 0..4 {
-        out[i] = match operation {
-            Arithmetic::Add => a[i] + b[i],
-            Arithmetic::Subtract => a[i] - b[i],
-            Arithmetic::Multiply => a[i] * b[i],
-            Arithmetic::Divide => b[i].eq(0.0).select(zero, a[i] / b[i]),
-            Arithmetic::Mix => a[i].lerp(b[i], c[i]),
-            Arithmetic::Power => a[i].lt(0.0).select(zero, a[i].max(0.0).pow(b[i])),
-            Arithmetic::Invert => b[i] - a[i],
-            Arithmetic::Clamp => a[i].max(b[i]).min(c[i]),
-            Arithmetic::Luminance => Rgb::new(a[0], a[1], a[2]).luminance(),
-        };
-    }
-    out
-}
-
-/// A tangent-space normal in world space, on the front side.
-#[inline(always)]
-fn normal_map<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, map: [F<L>; 4], scale: f32) -> [F<L>; 4] {
-    let load = |columns: &[Column; 3]| Vec3::load(l, [&columns[0], &columns[1], &columns[2]], at);
-    let front = load(&points.shading_normal) * l.load(&points.side, at);
-    let frame = Frame::from_tangent(front, load(&points.tangent));
-    let local = Vec3::new(map[0] * scale, map[1] * scale, map[2]);
-    let bent = frame.to_world(local).normalize_or(front);
-    [bent.x, bent.y, bent.z, l.f(0.0)]
-}
-
-/// Puts the mapped normals in place, turned to the side of `wo`, where they are usable.
-#[inline(always)]
-fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: [F<L>; 4], free: bool) {
-    let load = |columns: &[Column; 3]| Vec3::load(l, [&columns[0], &columns[1], &columns[2]], at);
-    let smooth = load(&points.shading_normal);
-    let bent = Vec3::new(normal[0], normal[1], normal[2]) * l.load(&points.side, at);
-    let (geometric, wo) = (load(&points.geometric_normal), load(&points.wo));
-    let bent = bent.normalize_or(smooth);
-    let bent = if free { bent } else { facing(l, bent, geometric, wo) };
-    let [x, y, z] = &mut points.smooth_normal;
-    smooth.store([x, y, z], at);
-    let [x, y, z] = &mut points.shading_normal;
-    bent.store([x, y, z], at);
-}
-
-/// The normal nearest to `bent` about which the mirror direction of `wo` stays above the surface by at least
-/// min(0.9 n_g·wo, 0.01), so that mapped reflections never point into the surface.
-#[inline(always)]
-fn facing<L: Lanes>(l: L, bent: Vec3<L>, geometric: Vec3<L>, wo: Vec3<L>) -> Vec3<L> {
-    let limit = (geometric.dot(wo) * 0.9).min(0.01);
-    let mirror = wo.reflect(bent);
-    let short = mirror.dot(geometric).lt(limit);
-    if !short.any() {
-        return bent;
-    }
-    // In the plane of wo and the surface normal, halfway between wo and the lowest allowed mirror direction.
-    let flat = (mirror - geometric * mirror.dot(geometric)).normalize_or(Frame::from_normal(geometric).x);
-    let lowest = flat.mul_add((l.f(1.0) - limit * limit).safe_sqrt(), geometric * limit);
-    short.select((wo + lowest).normalize_or(geometric), bent)
+pub(super) fn read_component<L: Lanes>(l: L, registers: &[f32], source: Source, component: usize) -> F<L> {
+    let (number, place) = match source {
+        Source::Constant(value) => return l.f(value[component]),
+        Source::Register(number) => (number, component),
+        Source::Component(number, place) => (number, usize::from(place)),
+    };
+    l.load(registers, (usize::from(number) * 4 + place) * PADDING)
 }

@@ -1,6 +1,8 @@
 //! A material's graph laid out for running: steps in order, each with a four-component register.
 
+use super::Curve;
 use crate::texture::{Filter, Wrap};
+use std::sync::Arc;
 
 /// Where a step reads: a constant, or the register of an earlier step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +15,7 @@ pub enum Source {
     Component(u16, u8),
 }
 
-/// Arithmetic on four components at once.
+/// Arithmetic on each of four components alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// a + b.
@@ -26,14 +28,85 @@ pub enum Arithmetic {
     Divide,
     /// a at c = 0, b at c = 1.
     Mix,
-    /// a to the power b, zero for negative a.
+    /// a to the power b, zero for negative a; zero to the power zero is one, to any other zero.
     Power,
     /// b − a.
     Invert,
     /// a held between b and c.
     Clamp,
-    /// The luminance of a.
+    /// The lesser of a and b.
+    Minimum,
+    /// The greater of a and b.
+    Maximum,
+    /// The magnitude of a.
+    Absolute,
+    /// −1, 0 or 1.
+    Sign,
+    /// The largest integer not above a.
+    Floor,
+    /// The square root of a, zero below zero.
+    SquareRoot,
+    /// e to the power a, which is held to 88.
+    Exponential,
+    /// The natural logarithm of a, zero for a ≤ 0.
+    Logarithm,
+    /// The sine of a, radians.
+    Sine,
+    /// The cosine of a, radians.
+    Cosine,
+    /// The angle whose sine is a, held to [−1, 1].
+    ArcSine,
+    /// The angle whose cosine is a, held to [−1, 1].
+    ArcCosine,
+    /// The angle of the point (b, a).
+    ArcTangent2,
+    /// 1 where a < b, else 0.
+    Less,
+    /// Reflectance of a smooth dielectric at the cosine |a|; b is the far side's index over the near side's.
+    Fresnel,
+}
+
+/// Operations that mix components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VectorOperation {
+    /// The luminance of a in all components.
     Luminance,
+    /// The inner product of the first three components in all.
+    Dot,
+    /// The cross product.
+    Cross,
+    /// The unit vector; zero stays zero.
+    Normalize,
+    /// Hue in turns, saturation and value of a colour; the fourth component stays.
+    RgbToHsv,
+    /// Its inverse.
+    HsvToRgb,
+}
+
+/// What is known of a hit; normals are unit and on the side of `wo`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HitValue {
+    /// World position, metres, not rebased.
+    Position,
+    /// The shading normal before the program bends it.
+    Normal,
+    /// The triangle's normal.
+    GeometricNormal,
+    /// The unit direction to where the ray came from.
+    Incoming,
+    /// 1 on the front side, 0 on the back.
+    FrontFacing,
+}
+
+/// What a vector stands for when spaces change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A point.
+    Point,
+    /// A difference of points.
+    Vector,
+    /// A normal, made unit.
+    Normal,
 }
 
 /// A step of a program.
@@ -72,15 +145,68 @@ pub enum Step {
         /// Offset.
         offset: [f32; 2],
     },
-    /// A world-space normal from a tangent-space one.
+    /// A 3×4 matrix by rows applied to a point; the fourth component stays.
+    Transform3d {
+        /// What is transformed.
+        input: Source,
+        /// Rows.
+        rows: [[f32; 4]; 3],
+    },
+    /// From the hit instance's space to the world, or back.
+    Transform {
+        /// What is transformed.
+        input: Source,
+        /// Whether the result is in world space.
+        to_world: bool,
+        /// What it stands for.
+        quantity: Quantity,
+    },
+    /// A world-space normal on the side of `wo` from a tangent-space one.
     NormalMap {
         /// The tangent-space normal in [−1, 1].
         input: Source,
         /// Factor on x and y.
         scale: f32,
+        /// Column of the texture coordinates it lies along, else those of the program.
+        uv: Option<usize>,
     },
-    /// Arithmetic.
-    Arithmetic(Arithmetic, [Source; 3]),
+    /// What is known of the hit.
+    Hit(HitValue),
+    /// The world vector to the next pixel along one of two directions in the surface.
+    PositionStep {
+        /// Which of the two.
+        axis: u8,
+    },
+    /// How much a primvar changes over that step.
+    PrimvarStep {
+        /// Column number.
+        column: usize,
+        /// Which of the two directions.
+        axis: u8,
+    },
+    /// The unit tangent along the first of a primvar's coordinates, world space; zero where there is none.
+    UvTangent {
+        /// Column number.
+        column: usize,
+    },
+    /// Each component looked up in a curve.
+    Curve {
+        /// The argument.
+        input: Source,
+        /// The curve; programs of one material share it.
+        curve: Arc<Curve>,
+    },
+    /// An operation that mixes components.
+    Vector(VectorOperation, [Source; 2]),
+    /// Arithmetic on each component.
+    Arithmetic {
+        /// What is computed.
+        operation: Arithmetic,
+        /// Its inputs.
+        inputs: [Source; 3],
+        /// Whether all four components of every input are the same: one serves for all.
+        even: bool,
+    },
     /// The first components of four sources.
     Combine([Source; 4]),
 }

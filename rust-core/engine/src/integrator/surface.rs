@@ -3,7 +3,6 @@
 use super::{material::Tables, state::gather3};
 use crate::{
     accel::Hits,
-    geometry::HitLanes,
     graph::{Program, SurfaceColumns},
 };
 use gonio_simd::{Column, F, Lanes, U, Vec3};
@@ -76,6 +75,7 @@ pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     source: &ChunkSource<'_>,
     out: &mut SurfaceColumns,
 ) {
+    out.origin = tables.origin.map(|x| x as f32);
     let mut distance = [0.0; gonio_simd::PADDING];
     let mut rays = [0; gonio_simd::PADDING];
     for at in (0..source.count).step_by(L::COUNT) {
@@ -113,34 +113,19 @@ fn surface_lanes<L: Lanes>(l: L, tables: &Tables, program: &Program, direction: 
     side.store(&mut out.side, at);
     store3(wo, &mut out.wo, at);
     let (tangent, density) = match program.uv {
-        Some(column) => uv_derivatives(l, tables, &hit, column, point.edges, point.double_area),
+        Some(column) => {
+            let uv = geometry.uv_derivatives(l, &hit, column, point.edges);
+            // Units of the coordinates a metre.
+            (uv.tangent, (uv.determinant.abs() / point.double_area.max(1e-30)).sqrt())
+        }
         None => (Vec3::splat(l, [0.0; 3]), l.f(0.0)),
     };
     store3(tangent, &mut out.tangent, at);
     // A pixel's cone meets an inclined surface in a longer ellipse; its shorter axis would blur less, its longer one more.
     let cosine = point.geometric_normal.dot(wo).abs().max(0.05);
-    (width * density / cosine.sqrt()).store(&mut out.uv_width, at);
-}
-
-/// Derivative of the position along u, and how many units of the coordinates a metre has.
-#[inline(always)]
-fn uv_derivatives<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    hit: &HitLanes<L>,
-    column: usize,
-    edges: [Vec3<L>; 2],
-    double_area: F<L>,
-) -> (Vec3<L>, F<L>) {
-    let [a, b, c] = tables.geometry.corner_uvs(l, hit, column);
-    let (du1, dv1, du2, dv2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
-    let determinant = du1 * dv2 - du2 * dv1;
-    let usable = determinant.abs().gt(1e-20);
-    let sign = l.f(1.0).copysign(determinant);
-    // The length does not matter, only the direction.
-    let tangent = (edges[0] * dv2 - edges[1] * dv1) * sign;
-    let density = (determinant.abs() / double_area.max(1e-30)).sqrt();
-    (usable.select(tangent, Vec3::splat(l, [0.0; 3])), density.keep_if(usable))
+    let width = width / cosine.sqrt();
+    width.store(&mut out.width, at);
+    (width * density).store(&mut out.uv_width, at);
 }
 
 #[inline(always)]

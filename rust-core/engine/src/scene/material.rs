@@ -113,6 +113,44 @@ pub enum OutputKind {
     Vector,
 }
 
+/// A space that values are given in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Space {
+    /// The world.
+    World,
+    /// The space of the points of the mesh that was hit.
+    Object,
+}
+
+impl Space {
+    /// Whether it is the world.
+    pub fn is_world(self) -> bool {
+        self == Self::World
+    }
+}
+
+/// What a vector stands for when it changes spaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Quantity {
+    /// A point.
+    Point,
+    /// A difference of points.
+    Vector,
+    /// A normal: stays perpendicular to the surface, and is made unit.
+    Normal,
+}
+
+impl Quantity {
+    /// Whether it is a point: moves with the origin.
+    pub fn is_point(self) -> bool {
+        self == Self::Point
+    }
+    /// Whether it is a normal.
+    pub fn is_normal(self) -> bool {
+        self == Self::Normal
+    }
+}
+
 /// What a node computes, in MaterialX's vocabulary; all values have four components.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Operation {
@@ -147,10 +185,73 @@ pub enum Operation {
         /// Offset.
         translation: [f32; 2],
     },
-    /// A shading normal in world space from the tangent-space normal `inputs[0]` in [-1, 1], scaled in x and y by `scale`.
+    /// `inputs[0]` as a point to which the rows are applied; the fourth component stays.
+    Transform3d {
+        /// Three rows of a 3×4 matrix.
+        rows: [[f32; 4]; 3],
+    },
+    /// `inputs[0]` carried from one space to another; zero where the object is flat and its inverse would be needed.
+    Transform {
+        /// The space it is given in.
+        from: Space,
+        /// The space of the result.
+        to: Space,
+        /// What it stands for.
+        quantity: Quantity,
+    },
+    /// A shading normal in world space, on the side the surface is seen from, from the tangent-space normal `inputs[0]` in [-1, 1], scaled
+    /// in x and y by `scale`; along the texture coordinates of the surface's first image. Read from descriptions as [`Self::NormalMapAlong`].
+    #[serde(skip_deserializing)]
     NormalMap {
         /// Strength of the bend.
         scale: f32,
+    },
+    /// The same along the texture coordinates of a named primvar, whose mirrored parts turn the bitangent round.
+    #[serde(rename = "NormalMap")]
+    NormalMapAlong {
+        /// Strength of the bend.
+        scale: f32,
+        /// The primvar, or the coordinates of the surface's first image.
+        #[serde(default)]
+        uv: Option<String>,
+    },
+    /// The hit's position in the world, metres.
+    Position,
+    /// The unit shading normal on the side the surface is seen from, world space, before the material bends it.
+    Normal,
+    /// The triangle's unit normal on the side it is seen from, world space.
+    GeometricNormal,
+    /// The unit direction to where the ray came from, world space.
+    Incoming,
+    /// 1 where the front is seen, 0 where the back is.
+    FrontFacing,
+    /// The world-space vector in the surface to the next pixel along one of two directions that span it.
+    PositionStep {
+        /// 0 or 1: which of the two.
+        axis: u8,
+    },
+    /// How much the named primvar changes over that step.
+    PrimvarStep {
+        /// The name without prefix.
+        name: String,
+        /// 0 or 1: which of the two directions.
+        axis: u8,
+    },
+    /// The unit tangent along the first of the coordinates of the named primvar, world space; zero where the mesh has none.
+    UvTangent {
+        /// The primvar.
+        uv: String,
+    },
+    /// Each component of `inputs[0]` looked up in its own column of the table, whose rows are evenly spread over the range.
+    Curve {
+        /// Rows of four components, at most 65,536.
+        table: Vec<[f32; 4]>,
+        /// What the first and the last row stand for.
+        range: [f32; 2],
+        /// Whether values between rows are interpolated; else the row below counts.
+        linear: bool,
+        /// Whether the first and last two rows are prolonged beyond the range; else the outer rows are held.
+        extrapolate: bool,
     },
     /// `inputs[0] + inputs[1]`.
     Add,
@@ -162,7 +263,7 @@ pub enum Operation {
     Divide,
     /// `inputs[0]` where `inputs[2]` is 0, `inputs[1]` where it is 1 (MaterialX's bg, fg, mix).
     Mix,
-    /// `inputs[0]` to the power `inputs[1]`, zero for negative bases.
+    /// `inputs[0]` to the power `inputs[1]`, zero for negative bases; zero to the power zero is one, to any other zero.
     Power,
     /// `inputs[1] - inputs[0]`, MaterialX's invert with its amount.
     Invert,
@@ -170,8 +271,49 @@ pub enum Operation {
     Clamp,
     /// Components of `inputs[0..4]`, the first of each.
     Combine,
+    /// The lesser of `inputs[0]` and `inputs[1]`.
+    Minimum,
+    /// The greater of `inputs[0]` and `inputs[1]`.
+    Maximum,
+    /// The magnitude of `inputs[0]`.
+    Absolute,
+    /// −1, 0 or 1, as `inputs[0]` is negative, zero or positive.
+    Sign,
+    /// The largest integer not above `inputs[0]`.
+    Floor,
+    /// The square root of `inputs[0]`, zero below zero.
+    SquareRoot,
+    /// e to the power `inputs[0]`, which is held to 88.
+    Exponential,
+    /// The natural logarithm of `inputs[0]`, zero where that is not positive.
+    Logarithm,
+    /// The sine of `inputs[0]`, radians.
+    Sine,
+    /// The cosine of `inputs[0]`, radians.
+    Cosine,
+    /// The angle in radians whose sine is `inputs[0]`, held to [-1, 1].
+    ArcSine,
+    /// The angle in radians whose cosine is `inputs[0]`, held to [-1, 1].
+    ArcCosine,
+    /// The angle in radians of the point whose ordinate is `inputs[0]` and whose abscissa is `inputs[1]`.
+    ArcTangent2,
+    /// 1 where `inputs[0]` is less than `inputs[1]`, else 0.
+    Less,
+    /// The unpolarised reflectance of a smooth dielectric at the cosine `inputs[0]`, either sign; `inputs[1]` is the index of refraction on
+    /// the far side over that on the near side.
+    Fresnel,
     /// The luminance of `inputs[0]` in all components.
     Luminance,
+    /// The inner product of the first three components of `inputs[0]` and `inputs[1]` in all components.
+    Dot,
+    /// The cross product of `inputs[0]` and `inputs[1]`.
+    Cross,
+    /// `inputs[0]` made unit; zero stays zero.
+    Normalize,
+    /// Hue in turns, saturation and value of the colour `inputs[0]`; the fourth component stays.
+    RgbToHsv,
+    /// The colour of the hue in turns, saturation and value in `inputs[0]`; the fourth component stays.
+    HsvToRgb,
 }
 
 /// A node: an operation and where its inputs come from.

@@ -1,0 +1,88 @@
+//! What a program reads and writes: surface points, registers and computed parameters, in columns.
+
+use super::CHUNK;
+use gonio_simd::{Column, Lanes, Vec3};
+
+/// Surface points of a chunk, one entry a hit; normals lie on the side of `wo`.
+#[derive(Clone, Debug)]
+pub struct SurfaceColumns {
+    /// Instance numbers.
+    pub instance: Column<u32>,
+    /// Triangle numbers in their meshes.
+    pub primitive: Column<u32>,
+    /// Barycentric coordinates of corners 1 and 2.
+    pub barycentric: [Column; 2],
+    /// Positions, rebased world space.
+    pub position: [Column; 3],
+    /// World position of the rebased origin, metres; the same for all points.
+    pub origin: [f32; 3],
+    /// Error bounds of the positions along the normals.
+    pub error: Column,
+    /// Unit triangle normals.
+    pub geometric_normal: [Column; 3],
+    /// Unit shading normals.
+    pub shading_normal: [Column; 3],
+    /// Unit shading normals before the program bent them; only where it does.
+    pub smooth_normal: [Column; 3],
+    /// Unit normals of the coat; only where the program gives them.
+    pub coat_normal: [Column; 3],
+    /// Tangents along the first texture coordinate, not unit; zero where there is none.
+    pub tangent: [Column; 3],
+    /// Width of a pixel on the surface, metres; zero where the ray has no cone.
+    pub width: Column,
+    /// Width of a pixel in texture coordinates.
+    pub uv_width: Column,
+    /// 1 on the front side, −1 on the back.
+    pub side: Column,
+    /// Unit directions to where the ray came from.
+    pub wo: [Column; 3],
+}
+
+impl Default for SurfaceColumns {
+    fn default() -> Self {
+        let column = || Column::new(CHUNK);
+        let three = || [column(), column(), column()];
+        Self {
+            instance: Column::new(CHUNK),
+            primitive: Column::new(CHUNK),
+            barycentric: [column(), column()],
+            position: three(),
+            origin: [0.0; 3],
+            error: column(),
+            geometric_normal: three(),
+            shading_normal: three(),
+            smooth_normal: three(),
+            coat_normal: three(),
+            tangent: three(),
+            width: column(),
+            uv_width: column(),
+            side: column(),
+            wo: three(),
+        }
+    }
+}
+
+/// One register of three columns.
+#[inline(always)]
+pub(super) fn load3<L: Lanes>(l: L, columns: &[Column; 3], at: usize) -> Vec3<L> {
+    Vec3::load(l, [&columns[0], &columns[1], &columns[2]], at)
+}
+
+/// The parameters that a program computed, `CHUNK` values a place, in the order of its outputs.
+#[derive(Clone, Debug, Default)]
+pub struct OutputColumns {
+    pub(super) values: Vec<f32>,
+}
+
+impl OutputColumns {
+    /// The column of the `place`-th computed place.
+    pub fn column(&self, place: usize) -> &[f32] {
+        &self.values[place * CHUNK..(place + 1) * CHUNK]
+    }
+}
+
+/// Registers of the steps for one register's worth of hits.
+#[derive(Clone, Debug, Default)]
+pub struct GraphScratch {
+    pub(super) registers: Vec<f32>,
+}
