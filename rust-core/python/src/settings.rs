@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Aov, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Aov, Background, Crop, Filter, Integrator, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -47,7 +47,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             let (start, depth, falloff) = value.extract()?;
             s.mist = Mist { start, depth, falloff };
         }
-        "film_transparent" => s.film_transparent = value.extract()?,
+        "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
         "time_limit" => {
             let limit: f64 = value.extract()?;
             if !(limit.is_finite() && limit >= 0.0) {

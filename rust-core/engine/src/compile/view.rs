@@ -6,7 +6,7 @@ use crate::{
     error::{Error, Result},
     film::FilterTable,
     integrator::{FirstPasses, Mist, Transport},
-    scene::{Aov, Camera, Crop, Integrator, Projection, Settings},
+    scene::{Aov, Background, Camera, Crop, Integrator, Projection, Settings},
 };
 use gonio_simd::Execution;
 
@@ -51,7 +51,8 @@ impl View {
             execution,
             max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
             kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
-            shows_surroundings: !settings.film_transparent,
+            shows_surroundings: settings.background != Background::Transparent,
+            surroundings_cover: settings.background == Background::Covering,
             passes: FirstPasses {
                 uv: settings.aovs.contains(&Aov::Uv),
                 mist: Mist { start: settings.mist.start, depth: settings.mist.depth, falloff: settings.mist.falloff },

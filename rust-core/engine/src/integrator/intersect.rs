@@ -6,7 +6,7 @@ use super::{
     light_sums::code,
     material::Tables,
     path::Transport,
-    scatter::{add_light, code_of},
+    scatter::{add, add_light, code_of},
     state::{Paths, Workspace, flag, gather3},
 };
 use crate::{
@@ -132,6 +132,9 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let path = l.load_integers(&ws.escaped, at);
         let flags = l.gather_integers(&ws.paths.flags, path);
         let camera = (flags & flag::CAMERA).ne(0);
+        if transport.surroundings_cover {
+            add(&mut ws.first_hit.alpha, l.gather_integers(&ws.paths.slot, path), l.f(1.0), alive & camera);
+        }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
         let radiance = tables.lights.escaped(

@@ -31,6 +31,8 @@ pub struct Transport {
     pub kind_bounces: [u32; 4],
     /// Whether the camera sees lights at infinity.
     pub shows_surroundings: bool,
+    /// Whether they cover the background.
+    pub surroundings_cover: bool,
     /// What passes want to know of first surfaces.
     pub passes: FirstPasses,
     /// Whether illuminance is measured.

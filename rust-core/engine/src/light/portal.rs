@@ -1,5 +1,5 @@
 //! Portals: rectangles that a dome shines through. Half of a dome's directions are drawn through those that look at the point, evenly among them and by
-//! solid angle in each (Bitterli, Novák and Jarosz, Portal-Masked Environment Map Sampling, EGSR 2015, section 2, has the ways to do it).
+//! solid angle in each; the other half by the dome's own brightness, so that what passes no portal is found as well.
 
 use super::emitter::Emitter;
 use super::rectangle::Rectangle;

@@ -7,7 +7,7 @@ use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use gonio_simd::{F, Lanes, M, U};
-use std::sync::Arc;
+use std::borrow::Borrow;
 
 /// An infinite light, visited by every ray that leaves the scene.
 #[derive(Clone, Debug)]
@@ -37,9 +37,9 @@ pub struct LightTable {
 impl LightTable {
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
     /// never chosen. A texture whose values do not fit its size counts as white.
-    pub fn build(records: &[LightRecord], textures: &[Arc<LightTexture>]) -> Self {
+    pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>]) -> Self {
         let mut pool = TexturePool::default();
-        let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image)).collect();
+        let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image.borrow())).collect();
         let mut rows = vec![0.0; records.len() * ROW];
         let mut infinite = Vec::new();
         let mut portals = Vec::new();
@@ -47,7 +47,7 @@ impl LightTable {
         for (light, (record, row)) in records.iter().zip(rows.chunks_exact_mut(ROW)).enumerate() {
             let textured = matches!(record.kind, LightKind::Rectangle | LightKind::Dome);
             let index = record.texture.filter(|_| textured).map(|index| index as usize);
-            let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, &*textures[i])));
+            let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, textures[i].borrow())));
             let distribution = image.filter(|_| record.kind == LightKind::Dome).map(|(_, texture)| DomeDistribution::new(texture));
             let mean = match (&distribution, image) {
                 (Some(distribution), _) => distribution.mean_luminance,

@@ -22,7 +22,7 @@ pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use material::{Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, SubsurfaceMethod};
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
-pub use settings::{Aov, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings};
+pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 

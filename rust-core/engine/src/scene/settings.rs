@@ -144,6 +144,18 @@ impl Aov {
     }
 }
 
+/// What is where the camera sees no surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Background {
+    /// Lights at infinity, without coverage.
+    #[default]
+    Seen,
+    /// Lights at infinity, with coverage as if they were a wall.
+    Covering,
+    /// Nothing.
+    Transparent,
+}
+
 /// Where the mist pass starts and how deep it is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mist {
@@ -183,9 +195,9 @@ pub struct Settings {
     /// The same by kind: diffuse, glossy and transmitted scatterings, and surfaces seen straight through; at most 255.
     #[serde(default = "all_bounces")]
     pub kind_bounces: [u32; 4],
-    /// Lights at infinity do not cover the background.
+    /// What is where the camera sees no surface.
     #[serde(default)]
-    pub film_transparent: bool,
+    pub background: Background,
     /// The mist pass.
     #[serde(default)]
     pub mist: Mist,
@@ -222,7 +234,7 @@ impl Default for Settings {
             integrator: Integrator::Path,
             max_bounces: 12,
             kind_bounces: all_bounces(),
-            film_transparent: false,
+            background: Background::default(),
             mist: Mist::default(),
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,

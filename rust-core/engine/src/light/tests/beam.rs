@@ -1,6 +1,7 @@
 //! Spots, spreads and radii as Cycles has them. The figures were measured with the Cycles of Blender 5.0.1: a white Lambertian floor one metre below the
 //! light, seen from above without bounces, pixels at x = (k + ½) / 4 m; they are the floor's radiance for an intensity of π W/sr on the axis.
 
+use super::harness::NO_IMAGES;
 use super::harness::{draw, estimate, light, numbers, turned};
 use crate::light::{LightKind, LightRecord, LightTable, Spot};
 use gonio_simd::Execution;
@@ -17,7 +18,7 @@ fn floor(record: LightRecord, x: f64, count: usize) -> (f64, f64) {
         },
         ..record
     };
-    let table = LightTable::build(&[record], Vec::new());
+    let table = LightTable::build(&[record], NO_IMAGES);
     let drawn = draw(Execution::best(), &table, [x as f32, 0.0, 0.0], UP.map(|v| v as f32), &numbers(43, count));
     let (mean, error) = estimate(&drawn, UP, count);
     (mean[1] / PI, error[1] / PI)

@@ -123,3 +123,6 @@ pub(super) fn turned(lengths: [f32; 3], angles: [f32; 3]) -> [[f32; 3]; 3] {
     }
     axes
 }
+
+/// No light has an image.
+pub(super) const NO_IMAGES: &[crate::light::LightTexture] = &[];

@@ -1,5 +1,6 @@
 //! Domes looked for through portals.
 
+use super::harness::NO_IMAGES;
 use super::harness::{draw, light, numbers, turned, uniform};
 use crate::light::{LightKind, LightRecord, LightTable, LightTexture, power_heuristic};
 use gonio_simd::{Column, Execution, F, Lanes, M, One, Vec3, dispatch};
@@ -27,7 +28,7 @@ fn table(textured: bool, with_portals: bool) -> LightTable {
     if with_portals {
         records.extend(portals());
     }
-    LightTable::build(&records, vec![sky()])
+    LightTable::build(&records, &[sky()])
 }
 
 const NORMAL: [f32; 3] = [0.0, 0.0, 1.0];
@@ -152,7 +153,7 @@ fn portals_change_the_noise_and_not_the_light() {
 
 #[test]
 fn portals_are_no_lights() {
-    let table = LightTable::build(&portals(), Vec::new());
+    let table = LightTable::build(&portals(), NO_IMAGES);
     let drawn = draw(Execution::best(), &table, [0.0; 3], NORMAL, &numbers(59, 256));
     assert!(drawn.pdf.iter().all(|pdf| *pdf == 0.0));
 }
