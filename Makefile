@@ -6,7 +6,10 @@ BIN := $(VENV)/bin
 export VIRTUAL_ENV := $(VENV)
 export PYO3_PYTHON := $(BIN)/python
 
-.PHONY: build render test test-rust test-python lint validate bench bench-peers clean
+# Blender as a Python package, in the versions that Python 3.11 can load.
+BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
+
+.PHONY: build render extension test test-rust test-python test-blender lint validate bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -23,7 +26,20 @@ render: build
 	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64 --exposure 0.7
 	@echo "The picture is out/office.png; radiance, luminance (cd/m2) and illuminance (lx) are in out/office.exr."
 
-test: lint build test-rust test-python
+# The Blender extension: one zip, the wheel inside.
+extension: build
+	rm -rf dist/wheels
+	$(BIN)/maturin build --release --quiet --out dist/wheels
+	$(BIN)/python blender-addon/build.py dist/wheels/*.whl --output-dir dist
+
+$(CURDIR)/.venv-bpy45/ready: VERSION := 4.5.15
+$(CURDIR)/.venv-bpy50/ready: VERSION := 5.0.1
+$(addsuffix /ready,$(BPY)):
+	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(@D) || python3 -m venv $(@D)
+	$(@D)/bin/python -m pip install --quiet bpy==$(VERSION) numpy
+	touch $@
+
+test: lint build test-rust test-python test-blender
 
 lint:
 	cargo fmt --all --check
@@ -34,6 +50,11 @@ test-rust: $(VENV)/ready
 
 test-python: build
 	$(BIN)/python -m pytest tests/python tests/usd
+
+# Each test in a Blender of its own, both versions.
+test-blender: extension $(addsuffix /ready,$(BPY))
+	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl || exit 1; done
+	$(BIN)/python -m pytest tests/blender -m "not validate"
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had.
 validate: build
@@ -49,4 +70,4 @@ bench-peers:
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist
+	rm -rf $(VENV) $(BPY) out dist

@@ -136,9 +136,7 @@ fn switches_of(closure: &Closure) -> Switches {
         scene::Distribution::Beckmann => Distribution::Beckmann,
         scene::Distribution::AshikhminShirley => Distribution::AshikhminShirley,
     };
-    let walks = matches!(closure.model, Model::Principled | Model::Subsurface);
     let subsurface = match closure.subsurface {
-        _ if !walks => SubsurfaceMethod::Diffuse,
         scene::SubsurfaceMethod::RandomWalk => SubsurfaceMethod::RandomWalk,
         scene::SubsurfaceMethod::RandomWalkLegacy => SubsurfaceMethod::RandomWalkLegacy,
         scene::SubsurfaceMethod::RandomWalkSkin => SubsurfaceMethod::RandomWalkSkin,

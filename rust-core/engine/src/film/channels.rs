@@ -33,6 +33,11 @@ impl ChannelLayout {
         Self::new(&aovs.iter().copied().chain(divisors).collect::<Vec<_>>())
     }
 
+    /// Whether a pass shows light by where it comes from.
+    pub fn shows_lights(&self) -> bool {
+        self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::Emission | Aov::Environment))
+    }
+
     /// First channel of a pass.
     pub fn offset(&self, aov: Aov) -> Option<usize> {
         self.aovs.iter().position(|known| *known == aov).map(|i| self.offsets[i])

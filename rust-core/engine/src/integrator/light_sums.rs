@@ -1,7 +1,6 @@
 //! Radiance by where it comes from, for the passes of light.
 
 use super::state::{BATCH, columns3};
-use crate::scene::Aov;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
 
 /// What a contribution counts as. 0 to 2 are direct light by the kind of the first scattering.
@@ -27,10 +26,9 @@ pub struct LightSums {
 }
 
 impl LightSums {
-    /// Makes room if one of the passes needs it.
-    pub fn prepare(&mut self, aovs: &[Aov]) {
-        let wanted = |aov: &Aov| matches!(aov, Aov::Light(..) | Aov::Emission | Aov::Environment);
-        if self.parts.is_empty() && aovs.iter().any(wanted) {
+    /// Makes room if a pass wants any of the sums.
+    pub fn prepare(&mut self, wanted: bool) {
+        if self.parts.is_empty() && wanted {
             self.parts = (0..code::COUNT).map(|_| columns3(BATCH)).collect();
         }
     }
