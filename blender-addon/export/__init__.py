@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From evaluated Blender data to a `gonio.Scene`: everything once, then only what changed."""
+
+import gonio
+
+from . import camera, limits, settings, view, world
+from .changes import Changes, touched
+from .gather import fill_random, gather
+from .images import Images
+from .instances import Instances
+from .lights import Lights
+from .material.inputs import RANDOM
+from .materials import Materials
+from .meshes import Meshes
+from .slots import Slots
+
+__all__ = ["Changes", "Exporter"]
+
+
+class Exporter:
+    """One session's scene and what is known of it; holds no Blender data between calls."""
+
+    def __init__(self, report):
+        self.report = report
+        self.scene = gonio.Scene()
+        self._textures = Slots()
+        self._images = Images(self.scene, self._textures)
+        self._materials = Materials(self.scene, Slots(), self._images, report)
+        self._meshes = Meshes(self.scene, Slots(), report)
+        self._instances = Instances(self.scene, report)
+        self._lights = Lights(self.scene, self._images, report)
+        self._camera, self._follows_view, self._synced = None, False, False
+
+    def sync(self, depsgraph, *, preview=False):
+        """Exports everything; what is as it was is found by comparing and is not written again."""
+        self._textures.begin()
+        self._everything(depsgraph)
+        self._textures.sweep()
+        self._synced = True
+        return self.scene
+
+    def update(self, depsgraph):
+        """Exports what `depsgraph.updates` says was touched; gives what came out different."""
+        if not self._synced:
+            self.sync(depsgraph)
+            return Changes(True, True, True, True, True, True)
+        found = touched(depsgraph)
+        changes = Changes()
+        if found.nothing:
+            return changes
+        self._meshes.forget(found.geometry)
+        if found.every_material:
+            self._materials.forget_all()
+        for uid in found.materials:
+            self._materials.forget(uid)
+        if found.placements or found.geometry or found.materials or found.every_material:
+            self._placements(depsgraph, changes, keep_known=True)
+        if found.world:
+            self._lights.domes(world.domes(_world(depsgraph), self._images, self.report))
+        self._lights.write()
+        changes.lights = self._lights.any_written
+        changes.world = found.world and self._lights.any_written
+        if found.camera or found.placements:
+            changes.camera = self._scene_camera(depsgraph)
+        return changes
+
+    def set_view(self, depsgraph, space_view3d, region_3d, width, height):
+        """Looks where a 3D view looks."""
+        self._follows_view = True
+        return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report))
+
+    def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",)):
+        """Sets resolution, samples, limits and passes."""
+        arguments = settings.settings(depsgraph, width=width, height=height, crop=crop, preview=preview, passes=passes)
+        if not self._follows_view:
+            self._scene_camera(depsgraph, (width, height))
+        self.scene.set(**arguments)
+        return arguments
+
+    def _everything(self, depsgraph):
+        self._materials.forget_all()
+        self._placements(depsgraph, Changes(), keep_known=False)
+        self._lights.domes(world.domes(_world(depsgraph), self._images, self.report))
+        self._lights.write()
+        self._scene_camera(depsgraph)
+        limits.of_scene(depsgraph, self.report)
+
+    def _placements(self, depsgraph, changes, keep_known):
+        """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
+        self._meshes.begin(keep_known)
+        self._materials.begin()
+        groups = gather(depsgraph)
+        override = depsgraph.view_layer_eval.material_override
+        surfaces = [group for group in groups if group.kind != "LIGHT"]
+        entries = [entry for group in surfaces if (entry := self._entry(group, override)) is not None]
+        fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
+        self._instances.write(entries)
+        for group in groups:
+            limits.of_object(group.source.original, self.report)
+        self._lights.lamps([group for group in groups if group.kind == "LIGHT"])
+        self._meshes.sweep()
+        changes.geometry |= self._meshes.any_written
+        changes.shading |= self._materials.any_written
+        changes.transforms |= self._instances.any_written
+
+    def _entry(self, group, override):
+        """What an entry of placements needs; None for what has no surface."""
+        slots = [override] * max(1, len(group.slots)) if override is not None else group.slots or [None]
+        numbers = [self._materials.number(material) for material in slots]
+        primvars, placed = self._materials.wants(slots)
+        mesh = self._meshes.number(group, primvars)
+        return None if mesh is None else (group, mesh, numbers, placed)
+
+    def _scene_camera(self, depsgraph, size=None):
+        """The scene's camera, unless a 3D view was set; gives whether it differs."""
+        source = depsgraph.scene.camera
+        if self._follows_view or source is None:
+            return False
+        render = depsgraph.scene.render
+        share = render.resolution_percentage / 100.0
+        width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
+        aspect = (render.pixel_aspect_x, render.pixel_aspect_y)
+        return self._put_camera(camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph))
+
+    def _put_camera(self, description):
+        if description == self._camera:
+            return False
+        self.scene.put_camera(description, index=None if self._camera is None else 0)
+        self._camera = description
+        return True
+
+
+def _world(depsgraph):
+    """The world that the view layer shows."""
+    layer = depsgraph.view_layer_eval
+    return getattr(layer, "world_override", None) or depsgraph.scene_eval.world

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lamps, by Cycles' laws: watts become radiance of the lamp's surface, or intensity where it has none."""
+
+from math import degrees, hypot, pi, sin
+
+import numpy as np
+
+from ..units import LUMENS_PER_WATT
+from .material.closures import flatten
+from .material.sockets import active_output, input_socket
+from .material.translator import Translator
+from .transforms import columns, without_scale
+from .visibility import RAYS
+
+
+def describe(group, matrix, images, report):
+    """The description of one lamp at one place."""
+    lamp = group.data
+    strength = _strength(lamp, images, report)
+    shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
+    keeps_size = lamp.type == "AREA"
+    return {
+        "origin": {"name": group.name, "file": ""},
+        "shape": shape,
+        "emission": {
+            "radiance": [float(radiance * s * LUMENS_PER_WATT) for s in strength],
+            "normalized": False,
+            "metres_per_unit": 1.0,
+        },
+        "shaping": {"cone_angle_deg": None, "cone_softness": 0.0, "focus": 0.0, "focus_tint": [0.0, 0.0, 0.0]},
+        "texture": None,
+        "transform": columns(matrix if keeps_size else without_scale(matrix)),
+        "visibility": {ray: group.visibility[ray] for ray in RAYS},
+        "casts_shadow": bool(lamp.use_shadow),
+        "spot": None,
+        "spread_deg": 180.0,
+        "portal": False,
+        **extra,
+    }
+
+
+def _strength(lamp, images, report):
+    """The lamp's colour in W or W/m²: its own, of its temperature, and of its nodes."""
+    strength = np.array(lamp.color, dtype=float) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
+    if getattr(lamp, "use_temperature", False):
+        strength = strength * np.array(lamp.temperature_color, dtype=float)
+    if lamp.use_nodes and lamp.node_tree is not None:
+        strength = strength * _nodes_colour(lamp, images, report)
+    return strength
+
+
+def _nodes_colour(lamp, images, report):
+    """What a lamp's nodes multiply its strength by."""
+    report.forget("Light", lamp.name)
+    t = Translator(lamp, lamp.node_tree, images, report, kind="Light")
+    end = active_output(lamp.node_tree, "Light")
+    if end is None:
+        return np.zeros(3)
+    flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
+    total = np.zeros(3)
+    for closure in t.closures:
+        if closure["model"] != "Emission":
+            continue
+        colour, weight = dict(closure["parameters"])["emission_color"], closure["weight"]
+        if "Node" in colour or "Node" in weight:
+            report.add("Light", lamp.name, "a texture or a value that varies drives the light; its strength is taken as even")
+            continue
+        total += np.array(colour["Constant"][:3]) * np.array(weight["Constant"][:3]) / LUMENS_PER_WATT
+    return total
+
+
+def _is_normalized(lamp):
+    return getattr(lamp, "normalize", True)
+
+
+def _point(lamp, matrix):
+    radius = lamp.shadow_soft_size
+    if radius <= 0.0:
+        return "Point", 1.0 / (4.0 * pi), {}
+    area = 4.0 * pi * radius * radius if _is_normalized(lamp) else 1.0
+    # With soft falloff Cycles takes a disk that faces what it lights, as bright as the sphere.
+    kind = "FacingDisk" if getattr(lamp, "use_soft_falloff", False) else "Sphere"
+    return {kind: {"radius": float(radius)}}, 1.0 / (pi * area), {}
+
+
+def _spot(lamp, matrix):
+    # The cone cuts the light and does not gather it.
+    shape, radiance, _ = _point(lamp, matrix)
+    lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+    stretch = [float(lengths[axis] / lengths[2]) if lengths[2] > 0.0 and lengths[axis] > 0.0 else 1.0 for axis in (0, 1)]
+    return shape, radiance, {"spot": {"angle_deg": degrees(lamp.spot_size), "blend": float(lamp.spot_blend), "stretch": stretch}}
+
+
+def _sun(lamp, matrix):
+    half = 0.5 * lamp.angle
+    if half <= 0.0:
+        return {"Distant": {"angle_deg": 0.0}}, 1.0, {}
+    solid_angle = pi * sin(min(half, 0.5 * pi)) ** 2 if _is_normalized(lamp) else 1.0
+    return {"Distant": {"angle_deg": degrees(lamp.angle)}}, 1.0 / solid_angle, {}
+
+
+def _area(lamp, matrix):
+    width = float(lamp.size)
+    height = float(lamp.size_y) if lamp.shape in ("RECTANGLE", "ELLIPSE") else width
+    is_round = lamp.shape in ("DISK", "ELLIPSE")
+    scale = [hypot(*matrix[:3, axis]) for axis in (0, 1)]
+    area = width * scale[0] * height * scale[1] * (0.25 * pi if is_round else 1.0)
+    kind = "Ellipse" if is_round else "Rectangle"
+    extra = {"spread_deg": degrees(lamp.spread), "portal": is_portal(lamp)}
+    return {kind: {"width": width, "height": height}}, 1.0 / (pi * (area if _is_normalized(lamp) and area > 0.0 else 1.0)), extra
+
+
+SHAPES = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
+
+
+def is_portal(lamp):
+    """Whether an area light only says where light comes in."""
+    return any(getattr(getattr(lamp, engine, None), "is_portal", False) for engine in ("gonio", "cycles"))
+
+
+class Lights:
+    """The scene's lights: lamps first, then the world's domes."""
+
+    def __init__(self, scene, images, report):
+        self._scene, self._images, self._report = scene, images, report
+        self._written, self._lamps, self._domes = [], [], []
+        self.any_written = False
+
+    def lamps(self, groups):
+        """Describes the lamps anew."""
+        self._lamps = []
+        for group in groups:
+            for matrix in group.matrices:
+                if np.isfinite(matrix).all():
+                    self._lamps.append(describe(group, matrix, self._images, self._report))
+                else:
+                    self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
+
+    def domes(self, descriptions):
+        """Takes the world's descriptions."""
+        self._domes = descriptions
+
+    def write(self):
+        """Writes what differs."""
+        wanted = [*self._lamps, *self._domes]
+        self.any_written = len(wanted) != len(self._written)
+        for number, description in enumerate(wanted):
+            known = number < len(self._written)
+            if not known or self._written[number] != description:
+                self._scene.put_light(description, index=number if known else None)
+                self.any_written = True
+        if len(wanted) < len(self._written):
+            self._scene.truncate(lights=len(wanted))
+        self._written = wanted

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender materials as descriptions of gonio materials."""
+
+from dataclasses import dataclass, field
+
+import bpy
+
+from . import closures, colour, inputs, maths, principled, textures, vectors  # noqa: F401 (they register their nodes)
+from .closures import closure, flatten
+from .graph import Graph, renumber
+from .sockets import active_output, follow, input_socket
+from .translator import Translator
+
+
+@dataclass
+class Translated:
+    """A material's description, and the named values it wants of meshes and placements."""
+
+    description: dict
+    primvars: set = field(default_factory=set)
+    instance_primvars: set = field(default_factory=set)
+
+
+def translate(material, images, report, version=None):
+    """The description of a material; None stands for no material at all (Blender's default grey)."""
+    if material is None:
+        return Translated(_plain("default", (0.8, 0.8, 0.8)))
+    tree = material.node_tree
+    # Since 5.0 a material has nodes always, and asking is deprecated.
+    if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
+        return Translated(_plain(material.name, tuple(material.diffuse_color)[:3], material.pass_index))
+    t = Translator(material, tree, images, report, version=version)
+    end = active_output(tree, "Material")
+    if end is None:
+        report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
+    else:
+        flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
+        _report_rest(t, end)
+    return Translated(_described(t, material), t.primvars, t.instance_primvars)
+
+
+def _report_rest(t, end):
+    for name, consequence in (("Volume", "the inside stays empty"), ("Displacement", "the surface stays as it is")):
+        socket = input_socket(end, name)
+        found = None if socket is None else follow(socket, t.root)
+        if found is not None and found[0] is not None:
+            t.say(end, t.root, f"{name.lower()} is not supported; {consequence}")
+
+
+def _described(t, material):
+    """Closures and the graph without what nothing needs."""
+    wanted = []
+    for made in t.closures:
+        wanted += [made["weight"], *(source for _, source in made["parameters"])]
+        wanted += [{"Node": [made[key], "Rgb"]} for key in ("normal", "coat_normal", "tangent") if made[key] is not None]
+    nodes, order = t.graph.reachable(wanted)
+    return {
+        "origin": {"name": material.name, "file": ""},
+        "graph": {"nodes": nodes},
+        "closures": [_renumbered(made, order) for made in t.closures],
+        "pass_index": material.pass_index,
+    }
+
+
+def _renumbered(made, order):
+    return {
+        **made,
+        "weight": renumber(made["weight"], order),
+        "parameters": [[name, renumber(source, order)] for name, source in made["parameters"]],
+        **{key: None if made[key] is None else order[made[key]] for key in ("normal", "coat_normal", "tangent")},
+    }
+
+
+def _plain(name, rgb, pass_index=0):
+    """A Lambertian surface without nodes."""
+    made = {"weight": {"Constant": [1.0] * 4}, **closure(Graph(), "Diffuse", base_color=rgb)}
+    return {"origin": {"name": name, "file": ""}, "graph": {"nodes": []}, "closures": [made], "pass_index": pass_index}

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shader nodes: Mix and Add flattened into weighted closures, and the nodes that are one closure each."""
+
+from ...units import LUMENS_PER_WATT
+from .inputs import hit
+from .sockets import follow, input_socket
+from .translator import CLOSURES, closure_node
+from .vectors import radial_tangent
+
+# More closures than this in one material are left out: the surface would not be shaded in reasonable time.
+MOST_CLOSURES = 64
+DISTRIBUTIONS = {"MULTI_GGX": "MultiGgx", "GGX": "Ggx", "BECKMANN": "Beckmann", "ASHIKHMIN_SHIRLEY": "AshikhminShirley"}
+SUBSURFACE = {
+    "BURLEY": "Burley",
+    "RANDOM_WALK": "RandomWalk",
+    "RANDOM_WALK_LEGACY": "RandomWalkLegacy",
+    "RANDOM_WALK_SKIN": "RandomWalkSkin",
+}
+
+
+def flatten(t, socket, context, weight):
+    """Appends the closures that reach a shader input, their weights multiplied by `weight`."""
+    if weight.is_zero():
+        return
+    found = follow(socket, context)
+    if found is None or found[0] is None:
+        return
+    node, _, context = found
+    if len(t.closures) >= MOST_CLOSURES:
+        t.say(node, context, f"more than {MOST_CLOSURES} shaders are mixed; the rest is left out")
+        return
+    if node.bl_idname == "ShaderNodeMixShader":
+        share = t.input(node, "Fac", context, 0.5).clamp()
+        flatten(t, node.inputs[1], context, weight * (1.0 - share))
+        flatten(t, node.inputs[2], context, weight * share)
+    elif node.bl_idname == "ShaderNodeAddShader":
+        flatten(t, node.inputs[0], context, weight)
+        flatten(t, node.inputs[1], context, weight)
+    else:
+        _append(t, node, context, weight)
+
+
+def _append(t, node, context, weight):
+    handler = CLOSURES.get(node.bl_idname)
+    if handler is None:
+        t.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; a diffuse surface of its colour is used")
+        handler = _stand_in
+    t.closures += [{"weight": weight.input(), **closure} for closure in handler(t, node, context)]
+
+
+def _stand_in(t, node, context):
+    colour = next((socket for socket in node.inputs if socket.type == "RGBA"), None)
+    return [closure(t.graph, "Diffuse", base_color=t.socket(colour, context) if colour else t.graph.colour((0.8, 0.8, 0.8)))]
+
+
+def closure(
+    graph,
+    model,
+    *,
+    normal=None,
+    coat_normal=None,
+    tangent=None,
+    thin_walled=False,
+    distribution="MultiGgx",
+    subsurface="RandomWalk",
+    **parameters,
+):
+    """A closure of the scene description; parameters are values by the names of the core's parameter block."""
+    return {
+        "model": model,
+        "parameters": [[name, graph.value(value).input()] for name, value in parameters.items()],
+        "normal": normal,
+        "coat_normal": coat_normal,
+        "tangent": tangent,
+        "thin_walled": thin_walled,
+        "distribution": distribution,
+        "subsurface": subsurface,
+    }
+
+
+def normal_node(t, node, context, name="Normal"):
+    """The graph node that bends a shader's normal; None if nothing does."""
+    socket = input_socket(node, name)
+    if socket is None or not t.linked(node, name, context):
+        return None
+    return node_number(t, t.socket(socket, context), hit(t, "Normal"))
+
+
+def node_number(t, value, usual):
+    """The number of the node that computes a vector; None for constants and for the usual value."""
+    return None if value.node == usual.node else value.node
+
+
+def tangent_node(t, node, context, anisotropy):
+    """The graph node that gives the tangent of an anisotropic shader; around the object's z axis if nothing is linked."""
+    if anisotropy.is_zero() or input_socket(node, "Tangent") is None:
+        return None
+    value = t.input(node, "Tangent", context) if t.linked(node, "Tangent", context) else radial_tangent(t)
+    return value.node
+
+
+def subsurface_method(name, version):
+    """The method by its name; until 5.1 the random walk is the one that later versions call legacy."""
+    if name == "RANDOM_WALK" and version < (5, 2, 0):
+        return "RandomWalkLegacy"
+    return SUBSURFACE.get(name, "RandomWalk")
+
+
+@closure_node("ShaderNodeEmission", "ShaderNodeBackground")
+def emission(t, node, context):
+    colour = t.input(node, "Color", context) * t.input(node, "Strength", context, 1.0)
+    return [closure(t.graph, "Emission", emission_color=colour * LUMENS_PER_WATT)]
+
+
+@closure_node("ShaderNodeBsdfDiffuse")
+def diffuse(t, node, context):
+    colour, roughness = t.input(node, "Color", context), t.input(node, "Roughness", context)
+    return [closure(t.graph, "Diffuse", base_color=colour, diffuse_roughness=roughness, normal=normal_node(t, node, context))]
+
+
+@closure_node("ShaderNodeBsdfAnisotropic", "ShaderNodeBsdfGlossy")
+def glossy(t, node, context):
+    anisotropy = t.input(node, "Anisotropy", context)
+    if node.distribution not in DISTRIBUTIONS:
+        t.say(node, context, f"distribution {node.distribution} is not supported; GGX is used")
+    return [
+        closure(
+            t.graph,
+            "Glossy",
+            base_color=t.input(node, "Color", context),
+            specular_roughness=t.input(node, "Roughness", context, 0.5),
+            specular_anisotropy=anisotropy,
+            specular_rotation=t.input(node, "Rotation", context),
+            distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
+            normal=normal_node(t, node, context),
+            tangent=tangent_node(t, node, context, anisotropy),
+        )
+    ]
+
+
+def thin_film(t, node, context):
+    """Parameters of a film, none where it is off or unknown to this Blender."""
+    thickness = t.input(node, "Thin Film Thickness", context)
+    if thickness.is_zero():
+        return {}
+    return {"thin_film_weight": 1.0, "thin_film_thickness": thickness, "thin_film_ior": t.input(node, "Thin Film IOR", context, 1.33)}
+
+
+@closure_node("ShaderNodeBsdfGlass")
+def glass(t, node, context):
+    return [
+        closure(
+            t.graph,
+            "Glass",
+            base_color=t.input(node, "Color", context),
+            specular_roughness=t.input(node, "Roughness", context),
+            specular_ior=t.input(node, "IOR", context, 1.5),
+            distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
+            normal=normal_node(t, node, context),
+            **thin_film(t, node, context),
+        )
+    ]
+
+
+@closure_node("ShaderNodeBsdfRefraction")
+def refraction(t, node, context):
+    return [
+        closure(
+            t.graph,
+            "Refraction",
+            base_color=t.input(node, "Color", context),
+            specular_roughness=t.input(node, "Roughness", context),
+            specular_ior=t.input(node, "IOR", context, 1.45),
+            distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
+            normal=normal_node(t, node, context),
+        )
+    ]
+
+
+@closure_node("ShaderNodeBsdfMetallic")
+def metallic(t, node, context):
+    anisotropy = t.input(node, "Anisotropy", context)
+    is_f82 = node.fresnel_type == "F82"
+    colours = {"base_color": "Base Color", "metal_edge_tint": "Edge Tint"} if is_f82 else {"metal_n": "IOR", "metal_k": "Extinction"}
+    return [
+        closure(
+            t.graph,
+            "Metallic" if is_f82 else "Conductor",
+            **{name: t.input(node, socket, context) for name, socket in colours.items()},
+            specular_roughness=t.input(node, "Roughness", context, 0.5),
+            specular_anisotropy=anisotropy,
+            specular_rotation=t.input(node, "Rotation", context),
+            distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
+            normal=normal_node(t, node, context),
+            tangent=tangent_node(t, node, context, anisotropy),
+            **thin_film(t, node, context),
+        )
+    ]
+
+
+@closure_node("ShaderNodeBsdfTransparent")
+def transparent(t, node, context):
+    return [closure(t.graph, "Transparent", base_color=t.input(node, "Color", context))]
+
+
+@closure_node("ShaderNodeBsdfTranslucent")
+def translucent(t, node, context):
+    return [closure(t.graph, "Translucent", base_color=t.input(node, "Color", context), normal=normal_node(t, node, context))]
+
+
+@closure_node("ShaderNodeBsdfSheen")
+def sheen(t, node, context):
+    model = "Sheen" if node.distribution == "MICROFIBER" else "Velvet"
+    colour, roughness = t.input(node, "Color", context), t.input(node, "Roughness", context, 0.5)
+    return [closure(t.graph, model, fuzz_color=colour, fuzz_roughness=roughness, normal=normal_node(t, node, context))]
+
+
+@closure_node("ShaderNodeSubsurfaceScattering")
+def subsurface(t, node, context):
+    return [
+        closure(
+            t.graph,
+            "Subsurface",
+            subsurface_color=t.input(node, "Color", context),
+            subsurface_radius=t.input(node, "Radius", context) * t.input(node, "Scale", context, 0.05),
+            subsurface_scatter_anisotropy=t.input(node, "Anisotropy", context),
+            specular_ior=t.input(node, "IOR", context, 1.4),
+            specular_roughness=t.input(node, "Roughness", context, 1.0),
+            subsurface=subsurface_method(node.falloff, t.version),
+            normal=normal_node(t, node, context),
+        )
+    ]
+
+
+@closure_node("ShaderNodeHoldout")
+def holdout(t, node, context):
+    return [closure(t.graph, "Holdout")]

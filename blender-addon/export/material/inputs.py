@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
+
+from .translator import value_node
+
+# Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
+UV = "st"
+GENERATED = "blender generated"
+POSITION = "blender position"
+RANDOM = "blender random"
+LOCATION = "blender location"
+COLOUR = "blender colour"
+INDEX = "blender index"
+ACTIVE_COLOUR = "blender active colour"
+
+
+@value_node("ShaderNodeValue", "ShaderNodeRGB")
+def constant(t, node, context, output):
+    return t.default_of(output, "VALUE" if output.type == "VALUE" else "RGBA")
+
+
+@value_node("ShaderNodeUVMap")
+def uv_map(t, node, context, output):
+    if node.from_instancer:
+        t.say(node, context, "texture coordinates of the instancer are not supported; the mesh's own are used")
+    return t.primvar(node.uv_map or UV)
+
+
+@value_node("ShaderNodeTexCoord")
+def texture_coordinates(t, node, context, output):
+    name = output.identifier
+    if t.is_world:
+        return _world_coordinates(t, node, name)
+    if name == "UV":
+        return t.primvar(UV)
+    if name == "Generated":
+        return t.primvar(GENERATED)
+    if name == "Object":
+        if node.object is None:
+            return t.primvar(POSITION)
+        return to_object_space(t, hit(t, "Position"), node.object.matrix_world.inverted_safe())
+    if name == "Normal":
+        return t.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Normal"}}, hit(t, "Normal"), kind="VECTOR")
+    if name == "Reflection":
+        normal, incoming = hit(t, "Normal"), hit(t, "Incoming")
+        return normal * (normal.dot(incoming) * 2.0) - incoming
+    return None
+
+
+def _world_coordinates(t, node, name):
+    if name == "Object" and node.object is not None:
+        return to_object_space(t, direction(t), node.object.matrix_world.inverted_safe(), is_point=False)
+    if name in ("Generated", "Object", "Normal"):
+        return direction(t)
+    if name == "Reflection":
+        return -direction(t)
+    return None
+
+
+def to_object_space(t, value, matrix, is_point=True):
+    """A matrix applied to a point or a direction."""
+    rows = [[*row[:3], row[3] if is_point else 0.0] for row in matrix[:3]]
+    return t.graph.add({"Transform3d": {"rows": rows}}, value, kind="VECTOR")
+
+
+def direction(t):
+    """The direction that a world is asked for."""
+    return t.graph.add("Direction", kind="VECTOR")
+
+
+def hit(t, what):
+    """Position, Normal, GeometricNormal, Incoming (to where the ray came from) or FrontFacing of the hit."""
+    if what == "Position":
+        return t.position()
+    return t.graph.add(what, kind="VALUE" if what == "FrontFacing" else "VECTOR")
+
+
+def normal_of(t, node, context, name="Normal"):
+    """A node's normal input, the hit's shading normal if nothing is linked."""
+    return t.input(node, name, context) if t.linked(node, name, context) else hit(t, "Normal")
+
+
+@value_node("ShaderNodeNewGeometry")
+def geometry(t, node, context, output):
+    if t.is_world:
+        return {"Position": direction(t), "Incoming": -direction(t), "Normal": -direction(t)}.get(output.identifier)
+    simple = {"Position": "Position", "Normal": "Normal", "True Normal": "GeometricNormal", "Incoming": "Incoming"}
+    if output.identifier in simple:
+        return hit(t, simple[output.identifier])
+    if output.identifier == "Backfacing":
+        return 1.0 - hit(t, "FrontFacing")
+    return None
+
+
+@value_node("ShaderNodeObjectInfo")
+def object_info(t, node, context, output):
+    if output.identifier == "Material Index":
+        return t.graph.scalar(getattr(t.owner, "pass_index", 0))
+    names = {"Random": (RANDOM, "VALUE"), "Location": (LOCATION, "VECTOR"), "Object Index": (INDEX, "VALUE"), "Color": (COLOUR, "RGBA")}
+    if output.identifier == "Alpha":
+        return t.instance_primvar(COLOUR, "RGBA").component(3)
+    return t.instance_primvar(*names[output.identifier]) if output.identifier in names else None
+
+
+@value_node("ShaderNodeVertexColor")
+def colour_attribute(t, node, context, output):
+    value = t.primvar(node.layer_name or ACTIVE_COLOUR, kind="RGBA")
+    return value.component(3) if output.identifier == "Alpha" else value
+
+
+@value_node("ShaderNodeAttribute")
+def attribute(t, node, context, output):
+    kind = node.attribute_type
+    if kind == "VIEW_LAYER":
+        return None
+    if kind == "GEOMETRY":
+        value = t.primvar(node.attribute_name or ACTIVE_COLOUR, kind="RGBA")
+    else:
+        if kind == "INSTANCER":
+            t.say(node, context, "attributes of the instancer are not supported; the object's own is used")
+        value = t.instance_primvar(f"object {node.attribute_name}", "RGBA")
+    if output.identifier == "Alpha":
+        return value.component(3)
+    # An attribute of one number fills all components, so its first is its value; a colour's value is the mean.
+    return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
+
+
+@value_node("ShaderNodeLightPath")
+def light_path(t, node, context, output):
+    t.asked_for_ray = True
+    name = output.identifier
+    if t.is_world:
+        return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
+    kinds = {
+        "Is Camera Ray",
+        "Is Shadow Ray",
+        "Is Diffuse Ray",
+        "Is Glossy Ray",
+        "Is Singular Ray",
+        "Is Reflection Ray",
+        "Is Transmission Ray",
+    }
+    if name not in kinds:
+        return None
+    t.say(node, context, f"{name} is not known while shading; camera rays are assumed")
+    return t.graph.scalar(1.0 if name == "Is Camera Ray" else 0.0)
+
+
+@value_node("ShaderNodeFresnel")
+def fresnel(t, node, context, output):
+    ior = t.input(node, "IOR", context, 1.5).maximum(1e-5)
+    eta = (t.graph.value(1.0) / ior).mix(ior, hit(t, "FrontFacing"))
+    return cosine(t, node, context).apply("Fresnel", eta)
+
+
+def cosine(t, node, context):
+    """Between a node's normal and the direction to where the ray came from."""
+    return normal_of(t, node, context).dot(hit(t, "Incoming"))
+
+
+@value_node("ShaderNodeLayerWeight")
+def layer_weight(t, node, context, output):
+    blend = t.input(node, "Blend", context, 0.5)
+    if output.identifier == "Fresnel":
+        eta = (1.0 - blend).maximum(1e-5)
+        eta = eta.mix(t.graph.value(1.0) / eta, hit(t, "FrontFacing"))
+        return cosine(t, node, context).apply("Fresnel", eta)
+    facing = abs(cosine(t, node, context))
+    blend = blend.clamp(0.0, 1.0 - 1e-5)
+    exponent = (t.graph.value(0.5) / (1.0 - blend)).mix(blend * 2.0, blend.less(0.5))
+    return 1.0 - facing**exponent

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Texture nodes: images and environments, checker and gradient."""
+
+from math import pi
+
+from .inputs import GENERATED, UV, direction, hit
+from .translator import value_node
+from .vectors import mapping_matrix, transform3d
+
+WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirror"}
+# What Blender shows for an image that is missing.
+MISSING = (1.0, 0.0, 1.0, 1.0)
+
+
+def coordinates(t, node, context, default):
+    """The vector input, or the default coordinates, through the node's own mapping."""
+    value = t.input(node, "Vector", context) if t.linked(node, "Vector", context) else default
+    legacy = node.texture_mapping
+    scale = tuple(legacy.scale)
+    if legacy.vector_type == "POINT" and not any(legacy.translation) and not any(legacy.rotation) and scale == (1.0, 1.0, 1.0):
+        return value
+    return transform3d(t, value, mapping_matrix(legacy.vector_type, legacy.translation, legacy.rotation, scale))
+
+
+@value_node("ShaderNodeTexImage")
+def image_texture(t, node, context, output):
+    uv = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(UV))
+    if node.projection in ("SPHERE", "TUBE"):
+        uv = _wrapped_around(t, uv, node.projection)
+    elif node.projection == "BOX":
+        t.say(node, context, "box projection is not supported; the image is laid flat")
+    texel = _sample(t, node, context, uv, WRAP[node.extension])
+    return texel if texel is None else _with_alpha(t, node, output, texel)
+
+
+def _sample(t, node, context, uv, wrap):
+    if node.image is None:
+        return t.graph.colour((0.0, 0.0, 0.0, 0.0))
+    if node.interpolation == "Cubic":
+        t.say(node, context, "cubic interpolation is not supported; it is linear")
+    number = t.images.texture(node.image, node.image_user, t.report)
+    if number is None:
+        return t.graph.colour(MISSING)
+    fields = {
+        "texture": number,
+        "wrap": [wrap, "Clamp" if wrap == "Repeat" and node.bl_idname == "ShaderNodeTexEnvironment" else wrap],
+        "filter": "Closest" if node.interpolation == "Closest" else "Linear",
+        "scale": [1.0] * 4,
+        "bias": [0.0] * 4,
+        "fallback": list(MISSING),
+    }
+    return t.graph.add({"Image": fields}, uv, kind="RGBA")
+
+
+def _with_alpha(t, node, output, texel):
+    """Cycles' rule: colours stand multiplied by alpha, unless the Alpha output is in use too."""
+    mode = node.image.alpha_mode if node.image else "NONE"
+    if output.identifier == "Alpha":
+        return t.graph.scalar(1.0) if mode == "NONE" else texel.component(3)
+    # Data is taken as it stands.
+    if (
+        mode in ("NONE", "CHANNEL_PACKED")
+        or texel.is_constant
+        or node.image.colorspace_settings.is_data
+        or not t.images.has_alpha(node.image)
+    ):
+        return texel
+    is_premultiplied = mode == "PREMUL" or t.images.stores_premultiplied(node.image)
+    if node.outputs["Alpha"].is_linked:
+        return texel / texel.component(3) if is_premultiplied else texel
+    return texel if is_premultiplied else texel * texel.component(3)
+
+
+def _wrapped_around(t, value, projection):
+    """Blender's sphere and tube projections of coordinates in 0..1."""
+    centred = value * 2.0 - 1.0
+    x, y, z = (centred.component(i) for i in range(3))
+    u = (1.0 - x.apply("ArcTangent2", y) * (1.0 / pi)) * 0.5
+    if projection == "TUBE":
+        return t.graph.combine(u, (z + 1.0) * 0.5, t.graph.scalar(0.0))
+    return t.graph.combine(u, 1.0 - (z / centred.length()).apply("ArcCosine") * (1.0 / pi), t.graph.scalar(0.0))
+
+
+@value_node("ShaderNodeTexEnvironment")
+def environment_texture(t, node, context, output):
+    towards = coordinates(t, node, context, direction(t) if t.is_world else hit(t, "Position"))
+    if t.is_world and node.image is not None:
+        return t.environment(node, context, towards)
+    if node.projection == "MIRROR_BALL":
+        return _sample(t, node, context, mirror_ball(t, towards), "Clamp")
+    return _sample(t, node, context, equirectangular(t, towards), "Repeat")
+
+
+def equirectangular(t, towards):
+    """Texture coordinates of a direction: u falls with the longitude from +X over +Y, v rises with the latitude."""
+    x, y, z = (towards.component(i) for i in range(3))
+    u = y.apply("ArcTangent2", x) * (-0.5 / pi) + 0.5
+    v = z.apply("ArcTangent2", (x * x + y * y).sqrt()) * (1.0 / pi) + 0.5
+    return t.graph.combine(u, v, t.graph.scalar(0.0))
+
+
+def mirror_ball(t, towards):
+    """Texture coordinates of a direction on a ball seen along +Y."""
+    moved = towards.normalized() - (0.0, 1.0, 0.0)
+    ball = moved / ((moved.component(1) * -0.5).sqrt() * 2.0)
+    return t.graph.combine(ball.component(0) * 0.5 + 0.5, ball.component(2) * 0.5 + 0.5, t.graph.scalar(0.0))
+
+
+@value_node("ShaderNodeTexChecker")
+def checker(t, node, context, output):
+    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED)) * t.input(node, "Scale", context)
+    # Blender's own nudge, which keeps faces that lie on a border in one colour.
+    cell = ((place + 1e-6) * 0.999999).floor()
+    odd = (cell.dot((1.0, 1.0, 1.0)) * 0.5).fraction() * 2.0
+    first = 1.0 - odd.maximum(0.0).minimum(1.0)
+    if output.identifier == "Fac":
+        return odd
+    return t.input(node, "Color2", context).mix(t.input(node, "Color1", context), 1.0 - first)
+
+
+@value_node("ShaderNodeTexGradient")
+def gradient(t, node, context, output):
+    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
+    x, y = place.component(0), place.component(1)
+    inside = (1.0 - place.length()).maximum(0.0)
+    ramp = x.clamp()
+    kinds = {
+        "LINEAR": lambda: x,
+        "QUADRATIC": lambda: x.maximum(0.0) * x.maximum(0.0),
+        "EASING": lambda: ramp * ramp * (3.0 - ramp * 2.0),
+        "DIAGONAL": lambda: (x + y) * 0.5,
+        "RADIAL": lambda: y.apply("ArcTangent2", x) * (0.5 / pi) + 0.5,
+        "SPHERICAL": lambda: (0.999999 - place.length()).maximum(0.0),
+        "QUADRATIC_SPHERE": lambda: inside * inside,
+    }
+    return kinds[node.gradient_type]().clamp()

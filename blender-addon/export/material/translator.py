@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From one Blender node tree to graph values; the handlers of single nodes register themselves here."""
+
+import bpy
+
+from .graph import Graph, Value
+from .sockets import KINDS, Context, follow, input_socket
+
+# bl_idname of a node -> function(translator, node, context, output socket) -> Value
+VALUES = {}
+# bl_idname of a shader node -> function(translator, node, context) -> list of closures without their weights
+CLOSURES = {}
+
+
+def value_node(*names):
+    """Registers a function that computes a node's outputs."""
+
+    def register(function):
+        VALUES.update(dict.fromkeys(names, function))
+        return function
+
+    return register
+
+
+def closure_node(*names):
+    """Registers a function that turns a shader node into closures."""
+
+    def register(function):
+        CLOSURES.update(dict.fromkeys(names, function))
+        return function
+
+    return register
+
+
+class Translator:
+    """The state while one node tree is translated."""
+
+    def __init__(self, owner, tree, images, report, *, kind="Material", is_world=False, is_camera_ray=True, version=None):
+        self.version = tuple(version or bpy.app.version)
+        self.owner, self.images, self.report, self.kind = owner, images, report, kind
+        self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
+        self.graph = Graph()
+        self.root = Context(tree)
+        self.primvars, self.instance_primvars = set(), set()
+        self.closures = []
+        self._values, self._open = {}, set()
+        # While a height is taken beside the hit: along which of the two steps, and how far.
+        self._step = None
+
+    def say(self, node, context, message):
+        """One report line for a node, with its path through groups."""
+        path = "/".join([*(group.name for group in context.groups()), node.name])
+        material = self.owner.name if self.kind == "Material" else None
+        self.report.add(self.kind, self.owner.name, message, material=material, node=path)
+
+    def socket(self, socket, context):
+        """The value that reaches an input, converted to the input's kind."""
+        kind = KINDS.get(socket.type, "VALUE")
+        found = follow(socket, context)
+        if found is None:
+            return self.default_of(None, kind)
+        node, source, inner = found
+        if node is None:
+            value = self.default_of(source, KINDS.get(source.type, kind))
+        else:
+            value = self.output(node, source, inner)
+        return value.as_kind(kind)
+
+    def input(self, node, name, context, default=0.0):
+        """The value of a node's input by identifier or name; the default where this Blender has no such input."""
+        socket = input_socket(node, name)
+        return self.graph.value(default) if socket is None else self.socket(socket, context)
+
+    def linked(self, node, name, context):
+        """Whether something feeds this input."""
+        socket = input_socket(node, name)
+        found = None if socket is None else follow(socket, context)
+        return found is not None and found[0] is not None
+
+    def default_of(self, socket, kind):
+        """The value that an unlinked socket shows."""
+        shown = getattr(socket, "default_value", None)
+        if shown is None or isinstance(shown, str):
+            return Value(self.graph, kind, (0.0, 0.0, 0.0, 1.0) if kind == "RGBA" else (0.0,) * 4)
+        if kind == "VALUE":
+            return self.graph.scalar(shown)
+        components = [*shown, 0.0, 0.0][:3] if kind == "VECTOR" else list(shown)
+        return self.graph.vector(components) if kind == "VECTOR" else self.graph.colour(components)
+
+    def output(self, node, output, context):
+        """The value of a node's output."""
+        key = (context, node.name, output.identifier, self._step)
+        if key not in self._values:
+            if key in self._open:
+                return self.graph.scalar(0.0)
+            self._open.add(key)
+            self._values[key] = self._compute(node, output, context)
+            self._open.discard(key)
+        return self._values[key]
+
+    def _compute(self, node, output, context):
+        kind = KINDS.get(output.type, "VALUE")
+        handler = VALUES.get(node.bl_idname)
+        value = None if handler is None else handler(self, node, context, output)
+        if value is None:
+            value = self.unsupported(node, output, context)
+        return value.as_kind(kind)
+
+    def unsupported(self, node, output, context):
+        """The nearest sane value of a node that cannot be computed, with a report line."""
+        from .fallback import stand_in
+
+        value, what = stand_in(self, node, output, context)
+        self.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; {what}")
+        return value
+
+    def stepped(self, axis, share, function):
+        """What a function gives a share of a pixel beside the hit, along one of two directions in the surface."""
+        outer, self._step = self._step, (axis, share)
+        try:
+            return function()
+        finally:
+            self._step = outer
+
+    def primvar(self, name, fallback=(0.0, 0.0, 0.0, 0.0), kind="VECTOR"):
+        """A named value of the mesh."""
+        self.primvars.add(name)
+        value = self.graph.add({"Primvar": {"name": name, "fallback": list(fallback)}}, kind=kind)
+        if self._step is None:
+            return value
+        axis, share = self._step
+        return value + self.graph.add({"PrimvarStep": {"name": name, "axis": axis}}, kind=kind) * share
+
+    def position(self):
+        """The hit's position in the world."""
+        value = self.graph.add("Position", kind="VECTOR")
+        return value if self._step is None else value + self.step(self._step[0]) * self._step[1]
+
+    def step(self, axis):
+        """The way to the next pixel along one of two directions in the surface, in the world."""
+        return self.graph.add({"PositionStep": {"axis": axis}}, kind="VECTOR")
+
+    def instance_primvar(self, name, kind):
+        """A named value of the placement."""
+        self.instance_primvars.add(name)
+        return self.graph.add({"Primvar": {"name": name, "fallback": [0.0] * 4}}, kind=kind)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vector nodes: Mapping, Vector Math, Vector Rotate, Normal Map, Bump, Tangent, Normal."""
+
+from mathutils import Euler, Matrix, Vector
+
+from .inputs import GENERATED, UV, hit, normal_of
+from .maths import wrap
+from .translator import value_node
+
+
+def transform3d(t, value, matrix):
+    """A 4×4 matrix applied to a point; nothing if it is the identity."""
+    if all(abs(matrix[i][j] - (1.0 if i == j else 0.0)) < 1e-9 for i in range(3) for j in range(4)):
+        return value
+    return t.graph.add({"Transform3d": {"rows": [list(row) for row in matrix[:3]]}}, value, kind="VECTOR")
+
+
+def mapping_matrix(kind, location, rotation, scale):
+    """The matrix of a Mapping node; None if it is not linear (a scale of zero stays zero, as Blender divides)."""
+    turn = Euler(rotation, "XYZ").to_matrix().to_4x4()
+    if kind == "POINT":
+        return Matrix.Translation(location) @ turn @ Matrix.Diagonal((*scale, 1.0))
+    inverse = Matrix.Diagonal((*(1.0 / s if s else 0.0 for s in scale), 1.0))
+    if kind == "TEXTURE":
+        return inverse @ turn.transposed() @ Matrix.Translation(-Vector(location))
+    return turn @ (inverse if kind == "NORMAL" else Matrix.Diagonal((*scale, 1.0)))
+
+
+@value_node("ShaderNodeMapping")
+def mapping(t, node, context, output):
+    value = t.input(node, "Vector", context)
+    location, rotation, scale = (t.input(node, name, context) for name in ("Location", "Rotation", "Scale"))
+    kind = node.vector_type
+    if location.is_constant and rotation.is_constant and scale.is_constant:
+        matrix = mapping_matrix(kind, location.constant[:3], rotation.constant[:3], scale.constant[:3])
+        moved = transform3d(t, value, matrix)
+    else:
+        moved = _varying_mapping(t, kind, value, location, rotation, scale)
+    return moved.normalized() if kind == "NORMAL" else moved
+
+
+def _varying_mapping(t, kind, value, location, rotation, scale):
+    if kind == "TEXTURE":
+        return euler_rotated(t, value - location, rotation, inverse=True) / scale
+    turned = euler_rotated(t, value / scale if kind == "NORMAL" else value * scale, rotation)
+    return turned + location if kind == "POINT" else turned
+
+
+def euler_rotated(t, value, rotation, inverse=False):
+    """A vector turned by XYZ angles that may vary."""
+    angles = [rotation.component(i) for i in range(3)]
+    for axis in (2, 1, 0) if inverse else (0, 1, 2):
+        angle = -angles[axis] if inverse else angles[axis]
+        sine, cosine = angle.apply("Sine"), angle.apply("Cosine")
+        parts = [value.component(i) for i in range(3)]
+        a, b = (axis + 1) % 3, (axis + 2) % 3
+        parts[a], parts[b] = parts[a] * cosine - parts[b] * sine, parts[a] * sine + parts[b] * cosine
+        value = t.graph.combine(*parts)
+    return value
+
+
+def _refract(a, b, ior):
+    b = b.normalized()
+    cosine = a.dot(b)
+    k = 1.0 - ior * ior * (1.0 - cosine * cosine)
+    return (a * ior - b * (ior * cosine + k.sqrt())) * (1.0 - k.less(0.0))
+
+
+def _reflect(a, b):
+    b = b.normalized()
+    return a - b * (a.dot(b) * 2.0)
+
+
+OPERATIONS = {
+    "ADD": lambda a, b, c, s: a + b,
+    "SUBTRACT": lambda a, b, c, s: a - b,
+    "MULTIPLY": lambda a, b, c, s: a * b,
+    "DIVIDE": lambda a, b, c, s: a / b,
+    "MULTIPLY_ADD": lambda a, b, c, s: a * b + c,
+    "CROSS_PRODUCT": lambda a, b, c, s: a.cross(b),
+    "PROJECT": lambda a, b, c, s: b * (a.dot(b) / b.dot(b)),
+    "REFLECT": lambda a, b, c, s: _reflect(a, b),
+    "REFRACT": lambda a, b, c, s: _refract(a, b, s),
+    "FACEFORWARD": lambda a, b, c, s: a * (c.dot(b).less(0.0) * 2.0 - 1.0),
+    "DOT_PRODUCT": lambda a, b, c, s: a.dot(b),
+    "DISTANCE": lambda a, b, c, s: (a - b).length(),
+    "LENGTH": lambda a, b, c, s: a.length(),
+    "SCALE": lambda a, b, c, s: a * s,
+    "NORMALIZE": lambda a, b, c, s: a.normalized(),
+    "ABSOLUTE": lambda a, b, c, s: abs(a),
+    "POWER": lambda a, b, c, s: a**b,
+    "SIGN": lambda a, b, c, s: a.sign(),
+    "MINIMUM": lambda a, b, c, s: a.minimum(b),
+    "MAXIMUM": lambda a, b, c, s: a.maximum(b),
+    "FLOOR": lambda a, b, c, s: a.floor(),
+    "CEIL": lambda a, b, c, s: -((-a).floor()),
+    "FRACTION": lambda a, b, c, s: a.fraction(),
+    "MODULO": lambda a, b, c, s: (a - b * ((a / b).sign() * abs(a / b).floor())) * (b * b).sign(),
+    "WRAP": lambda a, b, c, s: wrap(a, b, c),
+    "SNAP": lambda a, b, c, s: (a / b).floor() * b,
+    "SINE": lambda a, b, c, s: a.apply("Sine"),
+    "COSINE": lambda a, b, c, s: a.apply("Cosine"),
+    "TANGENT": lambda a, b, c, s: a.apply("Sine") / a.apply("Cosine"),
+}
+
+
+@value_node("ShaderNodeVectorMath")
+def vector_math(t, node, context, output):
+    operation = OPERATIONS.get(node.operation)
+    if operation is None:
+        return None
+    operands = [t.input(node, name, context) for name in ("Vector", "Vector_001", "Vector_002", "Scale")]
+    return operation(*operands)
+
+
+@value_node("ShaderNodeVectorRotate")
+def vector_rotate(t, node, context, output):
+    value, centre = t.input(node, "Vector", context), t.input(node, "Center", context)
+    offset, sign = value - centre, -1.0 if node.invert else 1.0
+    if node.rotation_type == "EULER_XYZ":
+        return euler_rotated(t, offset, t.input(node, "Rotation", context), inverse=node.invert) + centre
+    axes = {"X_AXIS": (1, 0, 0), "Y_AXIS": (0, 1, 0), "Z_AXIS": (0, 0, 1)}
+    axis = axes.get(node.rotation_type)
+    axis = t.graph.vector(axis) if axis else t.input(node, "Axis", context).normalized()
+    angle = t.input(node, "Angle", context) * sign
+    # Rodrigues' rotation.
+    sine, cosine = angle.apply("Sine"), angle.apply("Cosine")
+    return offset * cosine + axis.cross(offset) * sine + axis * (axis.dot(offset) * (1.0 - cosine)) + centre
+
+
+@value_node("ShaderNodeNormalMap")
+def normal_map(t, node, context, output):
+    colour = t.input(node, "Color", context).as_kind("VECTOR")
+    strength = t.input(node, "Strength", context, 1.0).maximum(0.0)
+    vector = colour * 2.0 - 1.0
+    if getattr(node, "convention", "OPENGL") == "DIRECTX":
+        vector = vector * (1.0, -1.0, 1.0)
+    if node.space == "TANGENT":
+        scale = t.graph.combine(strength, strength, strength.clamp())
+        vector = vector * scale + t.graph.combine(t.graph.scalar(0.0), t.graph.scalar(0.0), 1.0 - strength.clamp())
+        t.primvars.add(node.uv_map or UV)
+        operation = {"NormalMap": {"scale": 1.0, "uv": node.uv_map or UV}} if node.uv_map else {"NormalMap": {"scale": 1.0}}
+        return t.graph.add(operation, vector, kind="VECTOR")
+    if node.space.startswith("BLENDER_"):
+        vector = vector * (1.0, -1.0, -1.0)
+    if node.space.endswith("OBJECT"):
+        vector = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, vector, kind="VECTOR")
+    mapped = vector.normalized() * (hit(t, "FrontFacing") * 2.0 - 1.0)
+    return mapped if strength.equals(1.0) else hit(t, "Normal").mix(mapped, strength).normalized()
+
+
+@value_node("ShaderNodeBump")
+def bump(t, node, context, output):
+    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit."""
+    smooth = normal_of(t, node, context)
+    width = t.input(node, "Filter Width", context, 0.1)
+    share = max(width.constant[0], 1e-3) if width.is_constant else 0.1
+    height = t.input(node, "Height", context)
+    rise = [t.stepped(axis, share, lambda: t.input(node, "Height", context)) - height for axis in (0, 1)]
+    if height.is_constant or all(each.is_zero() for each in rise):
+        return smooth
+    steps = [t.step(0), t.step(1)]
+    across = [steps[1].cross(smooth), smooth.cross(steps[0])]
+    area = steps[0].dot(across[0])
+    distance = t.input(node, "Distance", context, 1.0) * (-1.0 if node.invert else 1.0)
+    gradient = (across[0] * rise[0] + across[1] * rise[1]) * (1.0 / share)
+    bent = (smooth * abs(area) - gradient * (distance * area.sign())).normalized()
+    strength = t.input(node, "Strength", context, 1.0).maximum(0.0)
+    return bent if strength.equals(1.0) else smooth.mix(bent, strength).normalized()
+
+
+@value_node("ShaderNodeNormal")
+def normal(t, node, context, output):
+    shown = node.outputs["Normal"].default_value
+    fixed = t.graph.vector(shown).normalized()
+    return t.input(node, "Normal", context).normalized().dot(fixed) if output.identifier == "Dot" else fixed
+
+
+@value_node("ShaderNodeTangent")
+def tangent(t, node, context, output):
+    if node.direction_type == "UV_MAP":
+        name = node.uv_map or UV
+        t.primvars.add(name)
+        return t.graph.add({"UvTangent": {"uv": name}}, kind="VECTOR")
+    return radial_tangent(t, node.axis)
+
+
+def radial_tangent(t, axis="Z"):
+    """The direction around one of the object's axes through the middle of its bounding box."""
+    x, y, z = ((t.primvar(GENERATED) - 0.5).component(i) for i in range(3))
+    zero = t.graph.scalar(0.0)
+    around = {"X": (zero, -z, y), "Y": (-z, zero, x), "Z": (-y, x, zero)}[axis]
+    world = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, t.graph.combine(*around), kind="VECTOR")
+    shading = hit(t, "Normal")
+    return shading.cross(world.cross(shading).normalized())
+
+
+@value_node("ShaderNodeVectorTransform")
+def vector_transform(t, node, context, output):
+    value = t.input(node, "Vector", context)
+    spaces = {"WORLD": "World", "OBJECT": "Object"}
+    if node.convert_from == node.convert_to:
+        return value
+    if node.convert_from not in spaces or node.convert_to not in spaces:
+        return None
+    fields = {"from": spaces[node.convert_from], "to": spaces[node.convert_to], "quantity": node.vector_type.capitalize()}
+    return t.graph.add({"Transform": fields}, value, kind="VECTOR")

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender mesh as the arrays of `gonio.Scene.add_mesh`; raw attributes, so that little happens a vertex in Python."""
+
+import numpy as np
+
+from .material.inputs import ACTIVE_COLOUR, GENERATED, POSITION, UV
+
+# Data type of an attribute -> (property to read, numbers in it, numpy type).
+ATTRIBUTES = {
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "INT8": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
+    # Blender decodes bytes to linear values here.
+    "BYTE_COLOR": ("color", 4, np.float32),
+}
+
+
+def read(attribute):
+    """The values of an attribute as (elements, numbers), or None for types that no shader can use."""
+    form = ATTRIBUTES.get(attribute.data_type)
+    if form is None:
+        return None
+    name, width, dtype = form
+    values = np.empty(len(attribute.data) * width, dtype=dtype)
+    attribute.data.foreach_get(name, values)
+    return values.reshape(-1, width)
+
+
+def fingerprint(mesh):
+    """A number that differs for meshes that differ: over positions, corners and every attribute."""
+    parts = [len(mesh.vertices), len(mesh.polygons)]
+    for attribute in mesh.attributes:
+        if attribute.data_type in ATTRIBUTES and attribute.data_type != "BYTE_COLOR" and not attribute.name.startswith(".select"):
+            values = read(attribute)
+            parts.append((attribute.name, attribute.domain, hash(values.tobytes())))
+        else:
+            parts.append((attribute.name, attribute.domain, attribute.data_type, len(attribute.data)))
+    # Which triangle belongs to which face says where faces begin.
+    mesh.calc_loop_triangles()
+    faces = np.empty(len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangle_polygons.foreach_get("value", faces)
+    parts += [hash(faces.tobytes()), mesh.normals_domain, _active_uv(mesh), tuple(mesh.texspace_location), tuple(mesh.texspace_size)]
+    return hash(tuple(parts))
+
+
+def _active_uv(mesh):
+    """Name of the UV map that renders, None if there is none."""
+    return next((layer.name for layer in mesh.uv_layers if layer.active_render), None)
+
+
+def mesh_arguments(mesh, primvars):
+    """The arguments of `add_mesh` with the named values that materials want; None for a mesh without faces."""
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    if count == 0:
+        return None
+    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
+    faces = np.empty(count, dtype=np.int32)
+    mesh.loop_triangle_polygons.foreach_get("value", faces)
+    arguments = {
+        "points": points,
+        "triangles": _triangles(mesh, count),
+        "corners": corners,
+        "faces": faces,
+        "normals": _normals(mesh),
+        "slots": _slots(mesh),
+        "primvars": _uv_maps(mesh, primvars),
+    }
+    arguments["primvars"].update(_wanted(mesh, points, primvars))
+    return arguments
+
+
+def _triangles(mesh, count):
+    """Corner numbers of each triangle."""
+    if count == len(mesh.polygons):
+        return np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+    triangles = np.empty((count, 3), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", triangles.reshape(-1))
+    return triangles
+
+
+def _normals(mesh):
+    """Normals of corners or points; None for flat faces."""
+    if mesh.normals_domain == "FACE":
+        return None
+    source, count = (mesh.corner_normals, len(mesh.loops)) if mesh.normals_domain == "CORNER" else (mesh.vertex_normals, len(mesh.vertices))
+    normals = np.empty((count, 3), dtype=np.float32)
+    source.foreach_get("vector", normals.reshape(-1))
+    return normals
+
+
+def _slots(mesh):
+    """The material slot of each face; None if all have the first."""
+    attribute = mesh.attributes.get("material_index")
+    if attribute is None or attribute.domain != "FACE" or attribute.data_type != "INT":
+        return None
+    slots = np.empty(len(mesh.polygons), dtype=np.int32)
+    attribute.data.foreach_get("value", slots)
+    return np.maximum(slots, 0, out=slots) if slots.any() else None
+
+
+def _uv_maps(mesh, primvars):
+    """Every UV map by its name; the one that renders as the usual coordinates, and by its name too if a material asks for it."""
+    maps = {}
+    for layer in mesh.uv_layers:
+        values = np.empty((len(mesh.loops), 2), dtype=np.float32)
+        layer.uv.foreach_get("vector", values.reshape(-1))
+        if layer.active_render:
+            maps[UV] = values
+        if not layer.active_render or layer.name in primvars:
+            maps[layer.name] = values
+    return maps
+
+
+def _wanted(mesh, points, primvars):
+    """The other named values that materials want of this mesh, as far as it has them."""
+    found = {}
+    for name in primvars:
+        if name == POSITION:
+            found[name] = points
+        elif name == GENERATED:
+            found[name] = _generated(mesh, points)
+        else:
+            attribute = _attribute(mesh, name)
+            # Edges have no place in a shader; a UV map is there already.
+            if attribute is not None and attribute.domain in ("POINT", "CORNER", "FACE") and attribute.name not in mesh.uv_layers:
+                values = read(attribute)
+                if values is not None:
+                    found[name] = _as_shader_value(attribute, values)
+    return found
+
+
+def present(mesh, primvars):
+    """Which of these names the mesh can give."""
+    return [name for name in primvars if name in (POSITION, GENERATED) or _attribute(mesh, name) is not None]
+
+
+def _attribute(mesh, name):
+    if name != ACTIVE_COLOUR:
+        return mesh.attributes.get(name)
+    number = mesh.color_attributes.render_color_index
+    return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
+
+
+def _as_shader_value(attribute, values):
+    """One number fills a colour with alpha 1, as Blender converts it."""
+    values = np.ascontiguousarray(values, dtype=np.float32)
+    if values.shape[1] == 1:
+        return np.concatenate([np.repeat(values, 3, axis=1), np.ones_like(values)], axis=1)
+    return values
+
+
+def _generated(mesh, points):
+    """Positions over the texture space's box, 0 to 1."""
+    centre, size = np.array(mesh.texspace_location), np.array(mesh.texspace_size)
+    size = np.where(size == 0.0, 1.0, size)
+    return ((points - (centre - size)) / (2.0 * size)).astype(np.float32)

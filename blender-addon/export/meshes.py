@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene's meshes: each data-block once, known by its content."""
+
+import numpy as np
+
+from .gather import AS_MESH
+from .mesh import fingerprint, mesh_arguments, present
+
+
+class Meshes:
+    """Numbers of the scene's meshes, by what is in them, so that the same mesh keeps its tree from frame to frame."""
+
+    def __init__(self, scene, slots, report):
+        self._scene, self._slots, self._report = scene, slots, report
+        # (object, data) -> (content, values wanted) as of the last time it was read
+        self._known, self._seen = {}, set()
+        self.any_written = False
+
+    def begin(self, keep_known):
+        """Starts a pass; without `keep_known` every mesh is compared again."""
+        self._slots.begin()
+        self.any_written, self._seen = False, set()
+        if not keep_known:
+            self._known = {}
+
+    def forget(self, uids):
+        """Has the data of these objects or data-blocks read again."""
+        self._known = {key: known for key, known in self._known.items() if key[0] not in uids and key[1] not in uids}
+
+    def number(self, group, primvars):
+        """The number of a group's mesh; None if it has no faces."""
+        place = (group.object_uid, group.data_uid)
+        self._seen.add(place)
+        wanted = frozenset(primvars)
+        known = self._known.get(place)
+        if known is None or known[1] != wanted:
+            known = self._known[place] = (self._read(group, wanted), wanted)
+        key = known[0]
+        if key is None:
+            return None
+        return self._slots.take(key)[0]
+
+    def _read(self, group, primvars):
+        """Reads a mesh and writes it to the scene if nothing like it is there; gives its key."""
+        if group.kind == "MESH":
+            return self._write(group, group.data, primvars)
+        if group.kind not in AS_MESH:
+            self._report.add("Object", group.name, f"objects of type {group.kind.capitalize()} are not supported; it is left out")
+            return None
+        mesh = group.source.to_mesh()
+        try:
+            return None if mesh is None else self._write(group, mesh, primvars)
+        finally:
+            group.source.to_mesh_clear()
+
+    def _write(self, group, mesh, primvars):
+        key = (fingerprint(mesh), frozenset(present(mesh, primvars)))
+        if key not in self._slots:
+            arguments = mesh_arguments(mesh, primvars)
+            if arguments is None:
+                return None
+            number, _ = self._slots.take(key)
+            self._add(number, group.name, arguments)
+        return key
+
+    def _add(self, number, name, arguments):
+        self.any_written = True
+        points, triangles = arguments.pop("points"), arguments.pop("triangles")
+        self._slots.place(lambda index: self._scene.add_mesh(points, triangles, name=name, index=index, **arguments), number)
+
+    def sweep(self):
+        """Frees the memory of meshes that nothing shows any more."""
+        self._known = {place: known for place, known in self._known.items() if place in self._seen}
+        for number in self._slots.sweep():
+            nothing = np.zeros((0, 3), dtype=np.float32), np.zeros((0, 3), dtype=np.int32)
+            self._slots.place(lambda index, nothing=nothing: self._scene.add_mesh(*nothing, name="unused", index=index), number)

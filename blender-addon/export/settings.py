@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render settings: those of `scene.gonio`, by Cycles' names, and Blender's own."""
+
+from ..units import LUMENS_PER_WATT
+
+FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
+FALLOFFS = {"QUADRATIC": "quadratic", "LINEAR": "linear", "INVERSE_QUADRATIC": "inverse_quadratic"}
+
+
+def settings(depsgraph, *, width, height, crop, preview, passes):
+    """The arguments of `gonio.Scene.set`."""
+    scene = depsgraph.scene
+    render, own = scene.render, getattr(scene, "gonio", None)
+
+    def ask(name, usual):
+        return getattr(own, name, usual)
+
+    samples = ask("preview_samples", 1024) or 1 << 24 if preview else ask("samples", 128)
+    arguments = {
+        "width": int(width),
+        "height": int(height),
+        "crop": crop,
+        "pixel_aspect": 1.0 if preview else render.pixel_aspect_x / render.pixel_aspect_y,
+        "samples": int(samples),
+        "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
+        "max_bounces": int(ask("max_bounces", 12)),
+        "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
+        "max_glossy_bounces": int(ask("glossy_bounces", 4)),
+        "max_transmission_bounces": int(ask("transmission_bounces", 12)),
+        "max_transparent_bounces": int(ask("transparent_max_bounces", 8)),
+        # Limits are in Blender's units, the scene's radiances in cd/m².
+        "clamp_direct": float(ask("clamp_direct", 0.0)) * LUMENS_PER_WATT,
+        "clamp_indirect": float(ask("clamp_indirect", 0.0)) * LUMENS_PER_WATT,
+        "filter": FILTERS.get(ask("pixel_filter_type", "BLACKMAN_HARRIS"), "blackman-harris"),
+        "filter_width": float(ask("filter_width", 1.5)),
+        "time_limit": 0.0 if preview else float(ask("time_limit", 0.0)),
+        "threads": int(render.threads) if render.threads_mode == "FIXED" else 0,
+        "film_transparent": bool(render.film_transparent),
+        "passes": list(passes),
+    }
+    mist = scene.world.mist_settings if scene.world is not None else None
+    if mist is not None and "mist" in passes:
+        arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])
+    return arguments

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The world as domes: an even one, an image turned by its mapping, or whatever the nodes compute, baked."""
+
+import bpy
+import numpy as np
+
+from ..units import LUMENS_PER_WATT
+from .bake import bake
+from .material.closures import flatten
+from .material.graph import Value
+from .material.sockets import active_output, input_socket
+from .material.textures import equirectangular, mirror_ball
+from .material.translator import Translator
+from .transforms import columns
+from .visibility import RAYS
+
+# Axes of gonio's dome (latitude-longitude by the OpenEXR convention: +Y up, +Z in the middle, longitude to the left) in Blender's
+# world, where +Z is up and an image's middle lies at +X.
+DOME_TO_BLENDER = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+# Axes of the mirrored ball, seen along −Z of the dome, where Blender sees it along +Y.
+BALL_TO_BLENDER = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+
+class WorldTranslator(Translator):
+    """Keeps which image lies how around the scene, so that it need not be baked."""
+
+    def __init__(self, *arguments, **keywords):
+        super().__init__(*arguments, **keywords)
+        # node number -> (image node, direction's matrix or None)
+        self.environments = {}
+
+    def environment(self, node, context, towards):
+        """The value of an environment texture: a node of its own, remembered with its image."""
+        is_ball = node.projection == "MIRROR_BALL"
+        uv = mirror_ball(self, towards) if is_ball else equirectangular(self, towards)
+        fields = {"image": node.image.name, "closest": node.interpolation == "Closest", "repeat": not is_ball}
+        value = self.graph.add({"Lookup": fields}, uv, kind="RGBA")
+        number = self.images.texture(node.image, node.image_user, self.report)
+        matrix = None if number is None else self._linear(towards)
+        self.environments[value.node] = (node.image, number, is_ball, matrix)
+        return value
+
+    def _linear(self, towards):
+        """The 3×3 matrix that turns the asked direction into this one; None if it is anything else."""
+        matrix, value = np.eye(3), towards.input()
+        while "Node" in value:
+            node = self.graph.nodes[value["Node"][0]]
+            operation = node["operation"]
+            if operation == "Direction":
+                return matrix
+            if not isinstance(operation, dict) or "Transform3d" not in operation:
+                return None
+            rows = np.array(operation["Transform3d"]["rows"])
+            if np.abs(rows[:, 3]).max() > 1e-6:
+                return None
+            matrix, value = matrix @ rows[:, :3], node["inputs"][0]
+        return None
+
+
+def domes(world, images, report):
+    """Descriptions of the domes that a world amounts to."""
+    if world is None:
+        return []
+    report.forget("World", world.name)
+    tree = world.node_tree
+    if tree is None or not _uses_nodes(world):
+        return _with_visibility(world, [_even(world, np.array(world.color))])
+    seen, t = _dome(world, tree, images, report, is_camera_ray=False)
+    if not t.asked_for_ray:
+        return _with_visibility(world, seen)
+    # Camera rays see another world than the one that lights the scene.
+    shown, _ = _dome(world, tree, images, report, is_camera_ray=True)
+    for dome in seen:
+        dome["visibility"]["camera"] = False
+    for dome in shown:
+        dome["visibility"].update({ray: ray == "camera" for ray in RAYS})
+    return _with_visibility(world, [*seen, *shown])
+
+
+def _uses_nodes(world):
+    return bpy.app.version >= (5, 0, 0) or world.use_nodes
+
+
+def _with_visibility(world, descriptions):
+    """Takes Cycles' ray switches of the world over."""
+    switches = getattr(world, "cycles_visibility", None)
+    for dome in descriptions if switches is not None else ():
+        for ray in ("camera", "diffuse", "glossy", "transmission"):
+            dome["visibility"][ray] &= bool(getattr(switches, ray, True))
+    return [dome for dome in descriptions if any(dome["visibility"][ray] for ray in RAYS[:4])]
+
+
+def _dome(world, tree, images, report, is_camera_ray):
+    t = WorldTranslator(world, tree, images, report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
+    end = active_output(tree, "World")
+    if end is None:
+        return [], t
+    volume = input_socket(end, "Volume")
+    if volume is not None and volume.is_linked:
+        t.say(end, t.root, "volume is not supported; the air stays clear")
+    flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
+    total = t.graph.colour((0.0, 0.0, 0.0))
+    for closure in t.closures:
+        if closure["model"] == "Emission":
+            total = total + _value(t, dict(closure["parameters"])["emission_color"]) * _value(t, closure["weight"])
+    return _described(world, t, total, images, report), t
+
+
+def _value(t, source):
+    if "Constant" in source:
+        return Value(t.graph, "RGBA", tuple(source["Constant"]))
+    number, channel = source["Node"]
+    return Value(t.graph, "RGBA", node=number, channel=channel)
+
+
+def _described(world, t, total, images, report):
+    if total.is_constant:
+        return [] if total.is_zero() else [_even(world, np.array(total.constant[:3]) / LUMENS_PER_WATT)]
+    factor, node = _factored(t, total)
+    if node in t.environments:
+        _, number, is_ball, matrix = t.environments[node]
+        orientation = None if number is None or matrix is None else _orientation(matrix, is_ball)
+        if orientation is not None:
+            return [_dome_of(world, factor, orientation, number, "MirroredBall" if is_ball else "LatLong")]
+    pixels = bake(t, total, images, report)
+    number = images.baked((world.original.session_uid, t.is_camera_ray), world.name, pixels)
+    return [_dome_of(world, np.ones(3), DOME_TO_BLENDER, number, "LatLong")]
+
+
+def _factored(t, value):
+    """A value as a constant times a node."""
+    factor, source = np.ones(3), value.input()
+    while "Node" in source and source["Node"][1] == "Rgb":
+        node = t.graph.nodes[source["Node"][0]]
+        constants = [i for i in node["inputs"] if "Constant" in i]
+        if node["operation"] != "Multiply" or len(constants) != 1:
+            return factor, source["Node"][0]
+        factor = factor * np.array(constants[0]["Constant"][:3])
+        source = next(i for i in node["inputs"] if "Node" in i)
+    return factor, None
+
+
+def _orientation(matrix, is_ball):
+    """Axes of the dome in the world, for a direction that is multiplied by `matrix` before it is looked up; None if that bends it."""
+    scale = np.cbrt(abs(np.linalg.det(matrix)))
+    if scale == 0.0 or np.abs(matrix @ matrix.T / scale**2 - np.eye(3)).max() > 1e-4:
+        return None
+    return (matrix / scale).T @ (BALL_TO_BLENDER if is_ball else DOME_TO_BLENDER)
+
+
+def _even(world, radiance):
+    return _dome_of(world, radiance * LUMENS_PER_WATT, DOME_TO_BLENDER, None, "LatLong")
+
+
+def _dome_of(world, radiance, axes, texture, layout):
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    return {
+        "origin": {"name": world.name, "file": ""},
+        "shape": {"Dome": {"format": layout}},
+        "emission": {"radiance": [float(x) for x in radiance], "normalized": False, "metres_per_unit": 1.0},
+        "shaping": {"cone_angle_deg": None, "cone_softness": 0.0, "focus": 0.0, "focus_tint": [0.0, 0.0, 0.0]},
+        "texture": texture,
+        "transform": columns(matrix),
+        "visibility": dict.fromkeys(RAYS, True),
+        "casts_shadow": True,
+        "spot": None,
+        "spread_deg": 180.0,
+        "portal": False,
+    }

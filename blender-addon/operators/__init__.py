@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What buttons do."""
+
+import bpy
+
+from .denoise import GONIO_OT_add_denoise_node
+from .from_cycles import GONIO_OT_settings_from_cycles
+from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
+
+CLASSES = (GONIO_OT_settings_from_cycles, GONIO_OT_add_denoise_node, GONIO_OT_report_jump, GONIO_OT_report_copy)
+
+
+def register() -> None:
+    for kind in CLASSES:
+        bpy.utils.register_class(kind)
+
+
+def unregister() -> None:
+    for kind in reversed(CLASSES):
+        bpy.utils.unregister_class(kind)

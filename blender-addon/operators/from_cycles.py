@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Takes over what a file says to Cycles."""
+
+import bpy
+
+# Gonio's names of scene settings, with Cycles' where they differ.
+SCENE = {
+    name: name
+    for name in (
+        "samples",
+        "preview_samples",
+        "use_adaptive_sampling",
+        "adaptive_threshold",
+        "adaptive_min_samples",
+        "use_preview_adaptive_sampling",
+        "preview_adaptive_threshold",
+        "preview_adaptive_min_samples",
+        "time_limit",
+        "seed",
+        "use_animated_seed",
+        "max_bounces",
+        "diffuse_bounces",
+        "glossy_bounces",
+        "transmission_bounces",
+        "transparent_max_bounces",
+        "film_exposure",
+        "pixel_filter_type",
+        "filter_width",
+    )
+} | {"clamp_direct": "sample_clamp_direct", "clamp_indirect": "sample_clamp_indirect"}
+VIEW_LAYER = {name: name for name in ("denoising_store_passes", "pass_debug_sample_count")}
+LIGHT = {"is_portal": "is_portal"}
+
+
+def take_over(owner, names: dict[str, str]) -> list[str]:
+    """Copies settings of one data-block from Cycles' to Gonio's; returns the names of those that changed."""
+    cycles = getattr(owner, "cycles", None)
+    changed = []
+    for name, source in names.items():
+        if cycles is not None and hasattr(cycles, source) and getattr(owner.gonio, name) != getattr(cycles, source):
+            setattr(owner.gonio, name, getattr(cycles, source))
+            changed.append(name)
+    return changed
+
+
+class GONIO_OT_settings_from_cycles(bpy.types.Operator):
+    """Take sampling, light paths, film, passes and portals over from what this file says to Cycles"""
+
+    bl_idname = "gonio.settings_from_cycles"
+    bl_label = "Take Settings from Cycles"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene is not None and hasattr(context.scene, "cycles")
+
+    def execute(self, context):
+        changed = take_over(context.scene, SCENE)
+        for layer in context.scene.view_layers:
+            changed += take_over(layer, VIEW_LAYER)
+        lights = {each.data for each in context.scene.objects if each.type == "LIGHT"}
+        for light in lights:
+            if light.library is None:
+                changed += take_over(light, LIGHT)
+        self.report({"INFO"}, f"{len(changed)} settings taken over from Cycles" if changed else "All settings are Cycles' already")
+        return {"FINISHED"}

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings that live in the .blend file: `scene.gonio`, `view_layer.gonio`, `light.gonio`."""
+
+import bpy
+
+from . import light, scene, view_layer
+
+OWNERS = (
+    (bpy.types.Scene, scene.GonioSceneSettings),
+    (bpy.types.ViewLayer, view_layer.GonioViewLayerSettings),
+    (bpy.types.Light, light.GonioLightSettings),
+)
+
+
+def register() -> None:
+    for owner, settings in OWNERS:
+        bpy.utils.register_class(settings)
+        owner.gonio = bpy.props.PointerProperty(name="Gonio", description="Settings of the Gonio render engine", type=settings)
+
+
+def unregister() -> None:
+    for owner, settings in reversed(OWNERS):
+        del owner.gonio
+        bpy.utils.unregister_class(settings)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Final renders and previews of materials, lights and worlds."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import gonio
+
+from .. import report
+from ..export import Exporter
+from . import passes, status
+from .frame import Frame, final_frame
+
+# Seconds between two looks at ESC.
+POLL = 0.04
+# Seconds between two pictures, at least, and this many times what showing one takes.
+SHOW_EVERY = 0.3
+SHOW_SHARE = 10.0
+# A preview of a material is small and wanted at once.
+PREVIEW_SAMPLES = 64
+PREVIEW_SECONDS = 4.0
+
+
+class _Layer:
+    """What a view layer keeps from one render to the next when data is persistent."""
+
+    def __init__(self) -> None:
+        self.report = report.Report()
+        self.exporter = Exporter(self.report)
+        self.render: gonio.Render | None = None
+
+
+class FinalSession:
+    """Renders view layers into Blender's results. Lives as long as the engine: with persistent data, over all frames."""
+
+    def __init__(self) -> None:
+        self._layers: dict[str, _Layer] = {}
+
+    def sync(self, depsgraph, *, preview: bool = False) -> None:
+        """Exports what changed since the last call; Blender's data is locked during its `update` callback only."""
+        name = depsgraph.view_layer.name
+        # An export that fails half way is not gone on with.
+        layer = self._layers.pop(name, None) or _Layer()
+        layer.report.clear()
+        layer.exporter.sync(depsgraph, preview=preview)
+        self._layers[name] = layer
+
+    def render(self, engine, depsgraph, *, preview: bool = False) -> report.Report:
+        """Renders one view layer; returns what is to be told about it."""
+        name = depsgraph.view_layer.name
+        if name not in self._layers:
+            self.sync(depsgraph, preview=preview)
+        layer = self._layers[name]
+        try:
+            self._render(engine, depsgraph, layer, preview)
+        finally:
+            if not depsgraph.scene.render.use_persistent_data:
+                del self._layers[name]
+        return layer.report
+
+    def _render(self, engine, depsgraph, layer: _Layer, preview: bool) -> None:
+        frame, exposure = final_frame(depsgraph.scene.render), depsgraph.scene.gonio.film_exposure
+        kinds = passes.add_passes(engine, depsgraph.view_layer)
+        samples = self._settings(depsgraph, layer, frame, kinds, preview)
+        for kind in kinds:
+            if kind.source is None:
+                layer.report.add("ViewLayer", depsgraph.view_layer.name, f"the pass '{kind.name}' stays empty: shader AOVs are not rendered")
+        with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer) as render:
+            shown = time.monotonic()
+            pause = SHOW_EVERY / 3
+            while not (done := render.wait(POLL)):
+                if engine.test_break():
+                    render.cancel()
+                    break
+                now = time.monotonic()
+                if now - shown >= pause and render.progress.samples > 0:
+                    passes.write_passes(result, render.film(), kinds, exposure, samples)
+                    engine.update_result(result)
+                    shown = time.monotonic()
+                    pause = max(SHOW_EVERY, SHOW_SHARE * (shown - now))
+                engine.update_progress(render.progress.fraction)
+                engine.update_stats("", status.text(render.progress, samples))
+            layer.report.add_render(render.diagnostics)
+            if done or render.progress.samples > 0:
+                passes.write_passes(result, render.film(), kinds, exposure, samples)
+
+    def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool) -> int:
+        """Puts the settings into the scene; returns the samples of a pixel."""
+        names = passes.sources(kinds)
+        layer.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=preview, passes=names)
+        if preview:
+            layer.exporter.scene.set(samples=PREVIEW_SAMPLES, time_limit=PREVIEW_SECONDS)
+            return PREVIEW_SAMPLES
+        own = depsgraph.view_layer.samples
+        if own > 0:
+            layer.exporter.scene.set(samples=own)
+        return own or depsgraph.scene.gonio.samples
+
+
+@contextmanager
+def _result(engine, frame: Frame, layer: str) -> Iterator:
+    """A render result that is ended whatever happens: one left open crashes Blender later."""
+    width, height = frame.size
+    result = engine.begin_result(0, 0, width, height, layer=layer)
+    whole = False
+    try:
+        yield result
+        whole = True
+    finally:
+        engine.end_result(result, cancel=not whole)
+
+
+@contextmanager
+def _started(layer: _Layer) -> Iterator[gonio.Render]:
+    """A render under way, cancelled when it is left before its end."""
+    render = gonio.Render(layer.exporter.scene, previous=layer.render)
+    try:
+        yield render
+    finally:
+        render.cancel()
+    layer.render = render

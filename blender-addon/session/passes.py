@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Passes: Blender's names, the renderer's names, and the scale between them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy
+
+from .. import compat
+from ..units import LUMENS_PER_WATT
+
+
+class Scale(Enum):
+    """What a pass's values are divided by on their way to Blender."""
+
+    NONE = 0
+    # Radiance times the film's exposure, in Blender's watts.
+    RADIANCE = 1
+    # The most samples that a pixel may have.
+    SAMPLES = 2
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A pass as Blender and as the renderer know it. `source` is None when the renderer has nothing to put there."""
+
+    name: str
+    channels: str
+    type: str
+    source: str | None
+    scale: Scale = Scale.NONE
+
+    def factor(self, exposure: float, samples: int) -> float:
+        """What the renderer's values are multiplied by."""
+        if self.scale is Scale.RADIANCE:
+            return exposure / LUMENS_PER_WATT
+        return 1.0 / max(1, samples) if self.scale is Scale.SAMPLES else 1.0
+
+
+COMBINED = Pass("Combined", "RGBA", "COLOR", "color", Scale.RADIANCE)
+
+# By the property of the view layer that switches the pass on.
+_LAYER_PASSES = {
+    "use_pass_z": Pass("Depth", "Z", "VALUE", "depth"),
+    "use_pass_mist": Pass("Mist", "Z", "VALUE", "mist"),
+    "use_pass_position": Pass("Position", "XYZ", "VECTOR", "P"),
+    "use_pass_normal": Pass("Normal", "XYZ", "VECTOR", "normal"),
+    "use_pass_uv": Pass("UV", "UVA", "VECTOR", "uv"),
+    "use_pass_object_index": Pass("Object Index", "X", "VALUE", "object_index"),
+    "use_pass_material_index": Pass("Material Index", "X", "VALUE", "material_index"),
+    "use_pass_emit": Pass("Emission", "RGB", "COLOR", "emission", Scale.RADIANCE),
+    "use_pass_environment": Pass("Environment", "RGB", "COLOR", "environment", Scale.RADIANCE),
+} | {
+    f"use_pass_{lobe}_{part}": Pass(
+        f"{lobe.title()} {part.title()}", "RGB", "COLOR", f"{lobe}_{part}", Scale.NONE if part == "color" else Scale.RADIANCE
+    )
+    for lobe in ("diffuse", "glossy", "transmission")
+    for part in ("direct", "indirect", "color")
+}
+
+# By the property of `view_layer.gonio`.
+_OWN_PASSES = {
+    "use_pass_luminance": (Pass("Luminance", "X", "VALUE", "luminance"),),
+    "use_pass_illuminance": (Pass("Illuminance", "X", "VALUE", "illuminance"),),
+    "use_pass_albedo": (Pass("Albedo", "RGB", "COLOR", "albedo"),),
+    "denoising_store_passes": (
+        Pass("Denoising Normal", "XYZ", "VECTOR", "denoising_normal"),
+        Pass("Denoising Albedo", "RGB", "COLOR", "denoising_albedo"),
+    ),
+    "pass_debug_sample_count": (Pass("Debug Sample Count", "X", "VALUE", "sample_count", Scale.SAMPLES),),
+}
+
+
+def enabled_passes(layer) -> Iterator[Pass]:
+    """The passes that a view layer asks for, under this Blender's names."""
+    yield COMBINED
+    for switch, kind in _LAYER_PASSES.items():
+        if getattr(layer, switch, False):
+            yield Pass(compat.pass_name(kind.name), kind.channels, kind.type, kind.source, kind.scale)
+    for switch, kinds in _OWN_PASSES.items():
+        if getattr(layer.gonio, switch):
+            yield from kinds
+    for aov in layer.aovs:
+        if aov.is_valid:
+            yield Pass(aov.name, "X", "VALUE", None) if aov.type == "VALUE" else Pass(aov.name, "RGBA", "COLOR", None)
+
+
+def register_passes(engine, scene, layer) -> None:
+    """Gives Render Layers nodes their sockets."""
+    for kind in enabled_passes(layer):
+        engine.register_pass(scene, layer, kind.name, len(kind.channels), kind.channels, kind.type)
+
+
+def add_passes(engine, layer) -> list[Pass]:
+    """Gives the coming result its passes; returns them."""
+    kinds = list(enabled_passes(layer))
+    for kind in kinds[1:]:
+        engine.add_pass(kind.name, len(kind.channels), kind.channels, layer=layer.name)
+    return kinds
+
+
+def sources(kinds: list[Pass]) -> list[str]:
+    """The renderer's names of passes, each once."""
+    return list(dict.fromkeys(kind.source for kind in kinds if kind.source is not None))
+
+
+def write_passes(result, film, kinds: list[Pass], exposure: float, samples: int) -> None:
+    """Copies a film into a render result of the same size, rows from the bottom."""
+    targets = {target.name: target for target in result.layers[0].passes}
+    for kind in kinds:
+        if kind.source is not None and kind.name in targets:
+            targets[kind.name].rect.foreach_set(read_flat(film, kind.source, kind.factor(exposure, samples)))
+
+
+def read_flat(film, source: str, factor: float) -> numpy.ndarray:
+    """A pass of a film as Blender takes pixels: flat float32, channels interleaved, rows from the bottom."""
+    return numpy.frombuffer(film.read(source, scale=factor, bottom_up=True), numpy.float32)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels of the properties editor."""
+
+import bpy
+
+from . import film, light, light_paths, material, object_visibility, passes, performance, report, sampling, simplify, stock, world
+
+PANELS = (
+    *sampling.PANELS,
+    *light_paths.PANELS,
+    *film.PANELS,
+    *simplify.PANELS,
+    *performance.PANELS,
+    *report.PANELS,
+    *passes.PANELS,
+    *light.PANELS,
+    *world.PANELS,
+    *material.PANELS,
+    *object_visibility.PANELS,
+)
+
+
+def register() -> None:
+    stock.register()
+    for panel in PANELS:
+        bpy.utils.register_class(panel)
+
+
+def unregister() -> None:
+    for panel in reversed(PANELS):
+        bpy.utils.unregister_class(panel)
+    stock.unregister()

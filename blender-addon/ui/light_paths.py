@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light paths."""
+
+from bpy.types import Panel
+
+from .base import RenderPanel
+
+
+class GONIO_RENDER_PT_light_paths(RenderPanel, Panel):
+    bl_label = "Light Paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class GONIO_RENDER_PT_light_paths_max_bounces(RenderPanel, Panel):
+    bl_label = "Max Bounces"
+    bl_parent_id = "GONIO_RENDER_PT_light_paths"
+
+    def draw_settings(self, layout, scene):
+        settings = scene.gonio
+        layout.column().prop(settings, "max_bounces", text="Total")
+        lobes = layout.column(align=True)
+        lobes.prop(settings, "diffuse_bounces", text="Diffuse")
+        lobes.prop(settings, "glossy_bounces", text="Glossy")
+        lobes.prop(settings, "transmission_bounces", text="Transmission")
+        layout.column().prop(settings, "transparent_max_bounces", text="Transparent")
+
+
+class GONIO_RENDER_PT_light_paths_clamping(RenderPanel, Panel):
+    bl_label = "Clamping"
+    bl_parent_id = "GONIO_RENDER_PT_light_paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_settings(self, layout, scene):
+        column = layout.column(align=True)
+        column.prop(scene.gonio, "clamp_direct", text="Direct Light")
+        column.prop(scene.gonio, "clamp_indirect", text="Indirect Light")
+
+
+PANELS = (GONIO_RENDER_PT_light_paths, GONIO_RENDER_PT_light_paths_max_bounces, GONIO_RENDER_PT_light_paths_clamping)

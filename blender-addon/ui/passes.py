@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Passes of a view layer."""
+
+from bpy.types import Panel
+
+from .base import GonioPanel
+
+
+class LayerPanel(GonioPanel):
+    """A panel of the view layer tab."""
+
+    bl_context = "view_layer"
+    bl_parent_id = "GONIO_VIEWLAYER_PT_passes"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.draw_passes(self.layout, context.view_layer)
+
+
+class GONIO_VIEWLAYER_PT_passes(GonioPanel, Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        pass
+
+
+class GONIO_VIEWLAYER_PT_passes_photometry(LayerPanel, Panel):
+    bl_label = "Photometry"
+
+    def draw_passes(self, layout, layer):
+        column = layout.column(heading="Include")
+        column.prop(layer.gonio, "use_pass_luminance", text="Luminance (cd/m²)")
+        column.prop(layer.gonio, "use_pass_illuminance", text="Illuminance (lx)")
+
+
+class GONIO_VIEWLAYER_PT_passes_data(LayerPanel, Panel):
+    bl_label = "Data"
+
+    def draw_passes(self, layout, layer):
+        column = layout.column(heading="Include")
+        for switch, text in (
+            ("use_pass_combined", "Combined"),
+            ("use_pass_z", "Z"),
+            ("use_pass_mist", "Mist"),
+            ("use_pass_position", "Position"),
+            ("use_pass_normal", "Normal"),
+            ("use_pass_uv", "UV"),
+        ):
+            column.prop(layer, switch, text=text)
+        column = layout.column(heading="Indexes")
+        column.prop(layer, "use_pass_object_index")
+        column.prop(layer, "use_pass_material_index")
+        column = layout.column(heading="Guides")
+        column.prop(layer.gonio, "use_pass_albedo")
+        column.prop(layer.gonio, "denoising_store_passes")
+        column = layout.column(heading="Debug")
+        column.prop(layer.gonio, "pass_debug_sample_count")
+
+
+class GONIO_VIEWLAYER_PT_passes_light(LayerPanel, Panel):
+    bl_label = "Light"
+
+    def draw_passes(self, layout, layer):
+        for lobe in ("diffuse", "glossy", "transmission"):
+            row = layout.column(heading=lobe.title()).row(align=True)
+            for part, text in (("direct", "Direct"), ("indirect", "Indirect"), ("color", "Color")):
+                row.prop(layer, f"use_pass_{lobe}_{part}", text=text, toggle=True)
+        column = layout.column(heading="Other")
+        column.prop(layer, "use_pass_emit", text="Emission")
+        column.prop(layer, "use_pass_environment")
+
+
+class GONIO_VIEWLAYER_PT_passes_aov(LayerPanel, Panel):
+    bl_label = "Shader AOV"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_passes(self, layout, layer):
+        row = layout.row()
+        row.template_list("VIEWLAYER_UL_aov", "aovs", layer, "aovs", layer, "active_aov_index", rows=3)
+        buttons = row.column(align=True)
+        buttons.operator("scene.view_layer_add_aov", icon="ADD", text="")
+        buttons.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
+        if layer.active_aov is not None and not layer.active_aov.is_valid:
+            layout.label(text="Another pass has this name", icon="ERROR")
+
+
+PANELS = (
+    GONIO_VIEWLAYER_PT_passes,
+    GONIO_VIEWLAYER_PT_passes_data,
+    GONIO_VIEWLAYER_PT_passes_light,
+    GONIO_VIEWLAYER_PT_passes_photometry,
+    GONIO_VIEWLAYER_PT_passes_aov,
+)

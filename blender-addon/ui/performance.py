@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Performance."""
+
+from bpy.types import Panel
+
+from .base import RenderPanel
+
+
+class GONIO_RENDER_PT_performance(RenderPanel, Panel):
+    bl_label = "Performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class GONIO_RENDER_PT_performance_threads(RenderPanel, Panel):
+    bl_label = "Threads"
+    bl_parent_id = "GONIO_RENDER_PT_performance"
+
+    def draw_settings(self, layout, scene):
+        render = scene.render
+        layout.prop(render, "threads_mode")
+        number = layout.column()
+        number.enabled = render.threads_mode == "FIXED"
+        number.prop(render, "threads")
+
+
+class GONIO_RENDER_PT_performance_final(RenderPanel, Panel):
+    bl_label = "Final Render"
+    bl_parent_id = "GONIO_RENDER_PT_performance"
+
+    def draw_settings(self, layout, scene):
+        layout.prop(scene.render, "use_persistent_data", text="Persistent Data")
+
+
+class GONIO_RENDER_PT_performance_viewport(RenderPanel, Panel):
+    bl_label = "Viewport"
+    bl_parent_id = "GONIO_RENDER_PT_performance"
+
+    def draw_settings(self, layout, scene):
+        layout.prop(scene.render, "preview_pixel_size", text="Pixel Size")
+
+
+PANELS = (
+    GONIO_RENDER_PT_performance,
+    GONIO_RENDER_PT_performance_threads,
+    GONIO_RENDER_PT_performance_final,
+    GONIO_RENDER_PT_performance_viewport,
+)

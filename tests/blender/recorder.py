@@ -1,0 +1,148 @@
+"""A scene that only remembers what the exporter told it, and the exporter that talks to it."""
+
+import importlib
+import sys
+
+import numpy as np
+
+EXTENSION = "gonio_extension"
+
+
+class Recorder:
+    """Has the methods of `gonio.Scene` that the exporter calls, and its checks of shapes and numbers."""
+
+    def __init__(self):
+        self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras = ([] for _ in range(6))
+        self.settings, self.calls = {}, []
+
+    def _put(self, what, thing, index):
+        things = getattr(self, what)
+        self.calls.append(what)
+        if index is None:
+            things.append(thing)
+            return len(things) - 1
+        assert 0 <= index < len(things), (what, index, len(things))
+        things[index] = thing
+        return index
+
+    def add_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
+        arrays = {"points": points, "triangles": triangles, "corners": corners, "faces": faces, "normals": normals, "slots": slots}
+        for key, array in {**arrays, **(primvars or {})}.items():
+            assert array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key
+        return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
+
+    def put_instances(self, mesh, materials, transforms, *, name, visibility=None, primvars=None, pass_index=0, index=None):
+        assert transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all()
+        assert 0 <= mesh < len(self.meshes) and all(0 <= m < len(self.materials) for m in materials)
+        fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
+        return self._put("instances", {**fields, "primvars": primvars or {}, "pass_index": pass_index}, index)
+
+    def put_material(self, description, index=None):
+        return self._put("materials", description, index)
+
+    def put_texture(self, description, index=None, *, data=None, pixels=None):
+        return self._put("textures", {**description, "data": data, "pixels": pixels}, index)
+
+    def put_light(self, description, index=None):
+        return self._put("lights", description, index)
+
+    def put_camera(self, description, index=None):
+        return self._put("cameras", description, index)
+
+    def truncate(self, **lengths):
+        for what, length in lengths.items():
+            del getattr(self, what)[length:]
+
+    def set(self, **settings):
+        self.settings.update(settings)
+
+
+def module(name):
+    """A module of the extension."""
+    return importlib.import_module(f"{EXTENSION}.{name}")
+
+
+def exporter():
+    """An exporter whose scene is a recorder, and its report."""
+    export, report = module("export"), module("report").Report()
+    real = sys.modules["gonio"].Scene
+    sys.modules["gonio"].Scene = Recorder
+    try:
+        return export.Exporter(report), report
+    finally:
+        sys.modules["gonio"].Scene = real
+
+
+def depsgraph():
+    """The evaluated depsgraph of the open file."""
+    import bpy
+
+    bpy.context.view_layer.update()
+    return bpy.context.evaluated_depsgraph_get()
+
+
+def empty():
+    """An empty file."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+def link(thing):
+    """Puts an object into the open scene."""
+    import bpy
+
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def quad(name="Quad"):
+    """A unit square with one UV map."""
+    import bpy
+
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", [0, 0, 1, 0, 1, 1, 0, 1])
+    return mesh
+
+
+def material(name="Material"):
+    """A material whose tree holds an output alone: the material, its tree and the output node."""
+    import bpy
+
+    made = bpy.data.materials.new(name)
+    if bpy.app.version < (5, 0, 0):
+        made.use_nodes = True
+    made.node_tree.nodes.clear()
+    return made, made.node_tree, made.node_tree.nodes.new("ShaderNodeOutputMaterial")
+
+
+def translated(made):
+    """A material's description and the lines of the report."""
+    report = module("report").Report()
+    images = module("export.images").Images(Recorder(), module("export.slots").Slots())
+    return module("export.material").translate(made, images, report).description, [line.text for line in report.diagnostics]
+
+
+def evaluated(description, source, primvars):
+    """The value of a description's input, by the extension's own formulas; primvars by name."""
+    compute, results = module("export.material.operations").compute, []
+
+    def read(entry):
+        if "Constant" in entry:
+            return np.array(entry["Constant"])
+        value, channel = results[entry["Node"][0]], entry["Node"][1]
+        return value if channel == "Rgb" else np.full(4, value["RGBA".index(channel)])
+
+    for node in description["graph"]["nodes"]:
+        operation = node["operation"]
+        if isinstance(operation, dict) and "Primvar" in operation:
+            results.append(np.array(primvars[operation["Primvar"]["name"]]))
+        else:
+            results.append(compute(operation, [read(entry) for entry in node["inputs"]]))
+    return read(source)
+
+
+def constant(closure, name):
+    """A closure's constant parameter."""
+    return dict(closure["parameters"])[name]["Constant"]

@@ -1,0 +1,172 @@
+"""Meshes as arrays: what Blender shows is what the scene gets, fast."""
+
+import time
+
+import pytest
+
+
+@pytest.mark.blender
+def test_default_file(tmp_path):
+    import bpy
+    from recorder import depsgraph, exporter
+
+    bpy.ops.wm.read_factory_settings()
+    exported, report = exporter()
+    scene = exported.sync(depsgraph())
+    assert [mesh["name"] for mesh in scene.meshes] == ["Cube"] and len(scene.meshes[0]["triangles"]) == 12
+    assert [len(things) for things in (scene.instances, scene.materials, scene.cameras)] == [1, 1, 1]
+    assert [light["origin"]["name"] for light in scene.lights] == ["Light", "World"] and not report.diagnostics
+    scene.calls.clear()
+    exported.sync(depsgraph())
+    assert scene.calls == []
+
+
+@pytest.mark.blender
+def test_arrays_of_a_mesh(tmp_path):
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link, material
+
+    empty()
+    mesh = bpy.data.meshes.new("Two")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 2, 1)], [], [(0, 1, 2, 3), (3, 2, 4)])
+    first, second = mesh.uv_layers.new(name="First"), mesh.uv_layers.new(name="Second")
+    second.active_render = True
+    first.uv.foreach_set("vector", np.arange(14, dtype=np.float32))
+    second.uv.foreach_set("vector", -np.arange(14, dtype=np.float32))
+    mesh.attributes.new("heat", "FLOAT", "POINT").data.foreach_set("value", [0.0, 0.1, 0.2, 0.3, 0.4])
+    mesh.color_attributes.new("paint", "BYTE_COLOR", "CORNER").data.foreach_set("color", [0.5, 0.25, 0.125, 1.0] * 7)
+    mesh.attributes.new("unused", "FLOAT", "POINT")
+    made, tree, end = material()
+    shader, heat, paint, place = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfDiffuse", "Attribute", "VertexColor", "TexCoord"))
+    heat.attribute_name, paint.layer_name = "heat", "paint"
+    tree.links.new(heat.outputs["Fac"], shader.inputs["Roughness"])
+    mix = tree.nodes.new("ShaderNodeVectorMath")
+    tree.links.new(paint.outputs[0], mix.inputs[0])
+    tree.links.new(place.outputs["Generated"], mix.inputs[1])
+    tree.links.new(mix.outputs[0], shader.inputs["Color"])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    for _ in range(2):
+        mesh.materials.append(made)
+    mesh.polygons.foreach_set("material_index", [0, 1])
+    mesh.polygons.foreach_set("use_smooth", [True, False])
+    link(bpy.data.objects.new("Two", mesh))
+    exported, _ = exporter()
+    (found,) = exported.sync(depsgraph()).meshes
+    assert found["points"].shape == (5, 3) and found["corners"].tolist() == [0, 1, 2, 3, 3, 2, 4]
+    assert found["faces"].tolist() == [0, 0, 1] and found["slots"].tolist() == [0, 1]
+    assert sorted(found["triangles"][:2].ravel().tolist())[0] == 0 and sorted(found["triangles"][2].tolist()) == [4, 5, 6]
+    assert found["normals"].shape == (7, 3) and np.allclose(found["normals"][:4], (0, 0, 1), atol=1e-5)
+    assert set(found["primvars"]) == {"st", "First", "heat", "paint", "blender generated"}
+    assert np.allclose(found["primvars"]["st"].ravel(), -np.arange(14)) and np.allclose(found["primvars"]["First"].ravel(), np.arange(14))
+    assert np.allclose(found["primvars"]["heat"][:, 0], [0.0, 0.1, 0.2, 0.3, 0.4]) and found["primvars"]["heat"].shape == (5, 4)
+    assert np.allclose(found["primvars"]["paint"][0], (0.5, 0.25, 0.125, 1.0), atol=0.01)
+    generated = found["primvars"]["blender generated"]
+    assert np.allclose(generated.min(axis=0), 0.0) and np.allclose(generated.max(axis=0), 1.0)
+
+
+@pytest.mark.blender
+def test_curves_texts_and_surfaces_come_once(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link
+
+    empty()
+    text = bpy.data.curves.new("Text", "FONT")
+    text.body, text.extrude = "Hi", 0.1
+    link(bpy.data.objects.new("Text", text))
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.object.data.bevel_depth = 0.1
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    bpy.ops.object.metaball_add()
+    bpy.ops.object.volume_add()
+    exported, report = exporter()
+    scene = exported.sync(depsgraph())
+    assert len(scene.meshes) == len(scene.instances) == 4 and all(len(mesh["triangles"]) for mesh in scene.meshes)
+    assert [line.name for line in report.diagnostics] == ["Volume"]
+
+
+@pytest.mark.blender
+def test_bad_meshes_and_transforms_are_told(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    empty()
+    shared = quad()
+    link(bpy.data.objects.new("Flat", shared)).scale = (0, 1, 1)
+    link(bpy.data.objects.new("Nowhere", shared)).location = (float("nan"), 0, 0)
+    link(bpy.data.objects.new("Mirrored", shared)).scale = (-1, 1, 1)
+    link(bpy.data.objects.new("Nothing", bpy.data.meshes.new("Nothing")))
+    loose = bpy.data.meshes.new("Loose")
+    loose.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    link(bpy.data.objects.new("Loose", loose))
+    exported, report = exporter()
+    scene = exported.sync(depsgraph())
+    assert [entry["name"] for entry in scene.instances] == ["Mirrored"]
+    assert scene.instances[0]["transforms"][0, 0, 0] == -1.0 and scene.instances[0]["materials"] == [0]
+    assert sorted(line.name for line in report.diagnostics) == ["Flat", "Nowhere"]
+
+
+@pytest.mark.blender
+def test_a_large_polygon(tmp_path):
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link
+
+    empty()
+    count = 20_000
+    angles = np.arange(count) / count * 2 * np.pi
+    mesh = bpy.data.meshes.new("Disk")
+    mesh.from_pydata(np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1).tolist(), [], [tuple(range(count))])
+    link(bpy.data.objects.new("Disk", mesh))
+    exported, _ = exporter()
+    assert len(exported.sync(depsgraph()).meshes[0]["triangles"]) == count - 2
+
+
+def seconds(work, tries=10):
+    """The processor time of the shortest of a few tries: the machine may be busy."""
+    shortest = float("inf")
+    for _ in range(tries):
+        start = time.process_time()
+        work()
+        shortest = min(shortest, time.process_time() - start)
+    return shortest
+
+
+@pytest.mark.blender
+def test_280_thousand_triangles_within_60_ms(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter
+
+    empty()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=375, y_subdivisions=375)
+    bpy.ops.object.shade_smooth()
+    graph = depsgraph()
+    taken = seconds(lambda: exporter()[0].sync(graph))
+    print(f"280,000 triangles in {taken * 1e3:.1f} ms")
+    assert taken < 0.06
+
+
+@pytest.mark.blender
+def test_20_thousand_instances_within_60_ms(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    empty()
+    points = bpy.data.meshes.new("Points")
+    points.from_pydata([(x, y, 0) for x in range(142) for y in range(142)], [], [])
+    field, thing = link(bpy.data.objects.new("Field", points)), link(bpy.data.objects.new("Thing", quad()))
+    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    start, stop = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    scatter, chosen = tree.nodes.new("GeometryNodeInstanceOnPoints"), tree.nodes.new("GeometryNodeObjectInfo")
+    chosen.inputs["Object"].default_value, chosen.inputs["As Instance"].default_value = thing, True
+    tree.links.new(start.outputs[0], scatter.inputs["Points"])
+    tree.links.new(chosen.outputs["Geometry"], scatter.inputs["Instance"])
+    tree.links.new(scatter.outputs[0], stop.inputs[0])
+    field.modifiers.new("Scatter", "NODES").node_group = tree
+    graph = depsgraph()
+    assert sum(len(entry["transforms"]) for entry in exporter()[0].sync(graph).instances) == 142 * 142 + 1
+    taken = seconds(lambda: exporter()[0].sync(graph))
+    print(f"20,164 instances in {taken * 1e3:.1f} ms")
+    assert taken < 0.06
