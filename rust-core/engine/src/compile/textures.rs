@@ -154,6 +154,9 @@ fn float_image(width: u32, height: u32, rgba: Vec<f32>) -> Image {
     Image { width, height, channels: 4, texels: Texels::Float(rgba), primaries: None }
 }
 
+/// Images, and which of them each light of the scene has.
+type LightImages = (Vec<Arc<LightTexture>>, Vec<Option<u32>>);
+
 /// The images of rectangles and domes.
 fn light_images(
     scene: &Scene,
@@ -161,7 +164,7 @@ fn light_images(
     previous: &KeptImages,
     kept: &mut KeptImages,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<(Vec<Arc<LightTexture>>, Vec<Option<u32>>)> {
+) -> Result<LightImages> {
     let mut images = Vec::new();
     let mut numbers = Vec::with_capacity(scene.lights.len());
     for light in &scene.lights {

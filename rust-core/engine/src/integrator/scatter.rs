@@ -40,7 +40,7 @@ pub(super) fn add_light<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, v
 pub(super) fn add_shares<L: Lanes>(sums: &mut FirstHit, slot: U<L>, value: Rgb<L>, [diffuse, glossy]: [Rgb<L>; 2], chosen: M<L>) {
     let transmitted = (value - diffuse - glossy).max(0.0);
     for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
-        sums.lights.add((slot & 0) + kind as u32, slot, part, chosen & part.is_lit());
+        sums.lights.add(slot.lanes().u(kind as u32), slot, part, chosen & part.is_lit());
     }
 }
 
@@ -50,14 +50,14 @@ pub(super) fn code_of<L: Lanes>(flags: U<L>, seen: u32) -> U<L> {
     let bounces = flags >> flag::BOUNCE_SHIFT;
     let first = (flags >> flag::FIRST_SHIFT) & 3;
     let scattered = bounces.eq(1).select(first, first + code::INDIRECT);
-    bounces.eq(0).select((first & 0) + seen, scattered)
+    bounces.eq(0).select(first.lanes().u(seen), scattered)
 }
 
 /// What light from a sampled light counts as.
 #[inline(always)]
 pub(super) fn code_of_sampled<L: Lanes>(flags: U<L>) -> U<L> {
     let first = (flags >> flag::FIRST_SHIFT) & 3;
-    (flags >> flag::BOUNCE_SHIFT).eq(0).select((first & 0) + code::SHARED, first + code::INDIRECT)
+    (flags >> flag::BOUNCE_SHIFT).eq(0).select(first.lanes().u(code::SHARED), first + code::INDIRECT)
 }
 
 /// Adds a number to the sums at each chosen lane's slot.

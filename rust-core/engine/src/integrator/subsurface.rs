@@ -205,9 +205,9 @@ fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
         let flight = Flight { distance: l.load(&walks.distance, at), channels: colour(load3(l, &walks.channels, at)) };
         let mut surface = 0u64;
         let mut distance = [0.0; PADDING];
-        for lane in 0..L::COUNT.min(walks.count - at) {
+        for (lane, distance) in distance[..L::COUNT.min(walks.count - at)].iter_mut().enumerate() {
             surface |= u64::from(hits.instance[at + lane] != NONE) << lane;
-            distance[lane] = hits.t[at + lane];
+            *distance = hits.t[at + lane];
         }
         let surface = M(l.mask_from_bits(surface));
         let throughput = walk.medium.arrive(walk.throughput, &flight, l.load(&distance, 0), surface);
