@@ -22,9 +22,12 @@ const EPSILON: f64 = 3e-7;
 /// Results below the smallest normal number may be zero.
 const TINY: f64 = 2e-38;
 
+/// The smallest normal number of single precision.
+const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
+
 fn power(a: f64, b: f64) -> f64 {
     match (a > 0.0, a == 0.0 && b == 0.0) {
-        (true, _) => a.powf(b),
+        (true, _) => a.max(SMALLEST).powf(b),
         (_, true) => 1.0,
         _ => 0.0,
     }
@@ -43,9 +46,9 @@ fn fresnel(cosine: f64, eta: f64) -> f64 {
     0.5 * a * a * (1.0 + b * b)
 }
 
-/// The exact logarithm, of the smallest normal number below that.
+/// The exact logarithm; denormals count as the smallest normal number.
 fn logarithm(a: f64) -> f64 {
-    if a > 0.0 { a.max(f64::from(f32::MIN_POSITIVE)).ln() } else { 0.0 }
+    if a > 0.0 { a.max(SMALLEST).ln() } else { 0.0 }
 }
 
 /// Angles beyond 10⁴ are reduced with the precision they are given in.
@@ -53,9 +56,9 @@ fn angle_error(a: f64) -> f64 {
     if a.abs() <= 1e4 { EPSILON } else { a.abs() * EPSILON }
 }
 
-/// Near the onset of total reflection the root multiplies rounding errors, so nothing is asked there; the formula loses digits elsewhere.
+/// Near the onset of total reflection the root multiplies rounding errors, so nothing is asked there.
 fn fresnel_error(cosine: f64, eta: f64) -> f64 {
-    if (eta * eta - 1.0 + cosine * cosine).abs() < 1e-3 { 1.0 } else { 1e-4 }
+    if (eta * eta - 1.0 + cosine * cosine).abs() < 1e-3 { 1.0 } else { 1e-5 }
 }
 
 /// Operations with their formulas, and how far results may be off.
