@@ -56,7 +56,7 @@ fn component<L: Lanes>(l: L, operation: Arithmetic, a: F<L>, b: F<L>, c: F<L>) -
     }
 }
 
-/// a to the power b: zero for negative bases, and for zero unless b is zero.
+/// a to the power b: zero for negative bases, and for zero unless b is zero; denormals count as the smallest normal number.
 #[inline(always)]
 fn power<L: Lanes>(a: F<L>, b: F<L>) -> F<L> {
     let at_zero = a.lanes().f(1.0).keep_if(a.eq(0.0) & b.eq(0.0));
@@ -80,13 +80,16 @@ fn sin_cos<L: Lanes>(angle: F<L>) -> [F<L>; 2] {
 #[inline(always)]
 fn fresnel<L: Lanes>(l: L, cosine: F<L>, eta: F<L>) -> F<L> {
     let one = l.f(1.0);
-    let c = cosine.abs();
-    let squared = eta.mul_add(eta, c.mul_add(c, -1.0));
-    let root = squared.safe_sqrt();
     let or_one = |x: F<L>| x.eq(0.0).select(one, x);
-    let perpendicular = (root - c) / or_one(root + c);
-    let (sum, difference) = (c.mul_add(root + c, -1.0), c.mul_add(root - c, 1.0));
-    let ratio = sum / or_one(difference);
+    let c = cosine.abs();
+    let excess = (eta - 1.0) * (eta + 1.0);
+    let squared = c.mul_add(c, excess);
+    let root = squared.safe_sqrt();
+    let sum = or_one(root + c);
+    // root − c without cancellation.
+    let difference = excess / sum;
+    let perpendicular = difference / sum;
+    let ratio = c.mul_add(root + c, -1.0) / or_one(c.mul_add(difference, 1.0));
     let reflectance = perpendicular * perpendicular * 0.5 * ratio.mul_add(ratio, 1.0);
     squared.gt(0.0).select(reflectance, one)
 }
