@@ -338,3 +338,31 @@ def test_a_stage_and_its_bundle(render, tmp_path):
     scene.set(width=32, height=32, samples=2)
     scene.save(tmp_path / "room.json")
     assert arrays(render(gonio.Scene.load(tmp_path / "room.json"))) == arrays(render(scene))
+
+
+def test_a_compilation_that_is_not_wanted_any_more_is_cancelled():
+    scene = gonio.Scene()
+    steps = np.arange(1500)
+    x, y = np.meshgrid(steps, steps, indexing="ij")
+    points = np.stack([x, np.zeros_like(x), y], -1).reshape(-1, 3).astype("f4")
+    first = (x[:-1, :-1] * 1500 + y[:-1, :-1]).reshape(-1)
+    triangles = np.stack([first, first + 1, first + 1500], -1).astype("i4")
+    mesh = scene.add_mesh(points, triangles)
+    scene.add_instance(mesh)
+    scene.add_camera()
+    asked = []
+    with pytest.raises(gonio.Cancelled):
+        gonio.Render(scene, cancelled=lambda: asked.append(1) or len(asked) > 1)
+    assert len(asked) == 2
+
+
+def test_what_is_asked_while_compiling_may_fail(floor):
+    def fails():
+        raise ZeroDivisionError
+
+    scene = floor()
+    # A small scene may be ready before anybody asks.
+    try:
+        gonio.Render(scene, cancelled=fails).cancel()
+    except ZeroDivisionError:
+        pass

@@ -1,6 +1,7 @@
 //! A render as an iterator of tiles.
 
 use crate::{error::exception, film::Film, scene::Scene};
+use crossbeam_channel::RecvTimeoutError;
 use gonio::{
     compile::{CompiledScene, compile},
     render,
@@ -8,7 +9,10 @@ use gonio::{
 use gonio_simd::Execution;
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use std::{
-    sync::{Arc, atomic::AtomicBool},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -56,22 +60,57 @@ impl Render {
     }
 }
 
+/// Time between two looks at whether a compilation is still wanted.
+const COMPILE_POLL: Duration = Duration::from_millis(50);
+
+/// Compiles and starts; gives the camera's exposure too.
+fn start(
+    scene: &gonio::scene::Scene,
+    before: Option<&CompiledScene>,
+    stop: &AtomicBool,
+) -> gonio::Result<(render::Render, f32, Arc<CompiledScene>)> {
+    let settings = scene.settings.clone();
+    let exposure = scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
+    let compiled = Arc::new(compile(scene, before, stop)?);
+    render::Render::start(compiled.clone(), &settings, Execution::detect()).map(|render| (render, exposure, compiled))
+}
+
 #[pymethods]
 impl Render {
     /// Compiles the scene as it is now and starts the workers; `previous` lends the trees and images of what did not change.
+    ///
+    /// While it compiles, signals are looked at and `cancelled`, a function that says whether to stop, is asked every 50 ms.
     #[new]
-    #[pyo3(signature = (scene, previous = None))]
-    fn new(py: Python<'_>, scene: &Scene, previous: Option<&Self>) -> PyResult<Self> {
+    #[pyo3(signature = (scene, previous = None, *, cancelled = None))]
+    fn new(py: Python<'_>, scene: &Scene, previous: Option<&Self>, cancelled: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let description = scene.scene.clone();
         let before = previous.and_then(|render| render.compiled.clone());
-        let started = py.detach(move || {
-            let settings = description.settings.clone();
-            let exposure = description.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
-            let compiled = Arc::new(compile(&description, before.as_deref(), &AtomicBool::new(false))?);
-            render::Render::start(compiled.clone(), &settings, Execution::detect()).map(|render| (render, exposure, compiled))
-        });
-        let (running, exposure, compiled) = started.map_err(exception)?;
-        Ok(Self { running: Some(running), exposure, compiled: Some(compiled) })
+        let stop = Arc::new(AtomicBool::new(false));
+        let (send, started) = crossbeam_channel::bounded(1);
+        let asked = stop.clone();
+        // A thread that panics drops its sender, which the loop below finds out.
+        std::thread::spawn(move || send.send(start(&description, before.as_deref(), &asked)));
+        let wanted_no_more = || -> PyResult<bool> {
+            py.check_signals()?;
+            cancelled.map_or(Ok(false), |cancelled| cancelled.call0()?.is_truthy())
+        };
+        loop {
+            match py.detach(|| started.recv_timeout(COMPILE_POLL)) {
+                Ok(result) => {
+                    let (running, exposure, compiled) = result.map_err(exception)?;
+                    return Ok(Self { running: Some(running), exposure, compiled: Some(compiled) });
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("compiling the scene broke off")),
+                Err(RecvTimeoutError::Timeout) => {
+                    let outcome = wanted_no_more();
+                    if !matches!(outcome, Ok(false)) {
+                        stop.store(true, Ordering::Relaxed);
+                        outcome?;
+                        return Err(exception(gonio::Error::Cancelled));
+                    }
+                }
+            }
+        }
     }
     fn __enter__(slf: Py<Self>) -> Py<Self> {
         slf
