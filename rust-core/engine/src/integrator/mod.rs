@@ -1,7 +1,11 @@
 //! Light transport in stages over batches of paths: generate, intersect, shade by material, sample lights, trace shadows, accumulate.
 
 mod accumulate;
+mod bounce;
 mod closure;
+mod direct_light;
+mod exit;
+mod first_surface;
 mod generate;
 mod intersect;
 mod kernels;

@@ -4,10 +4,10 @@
 //! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
 
 use super::{
+    exit::{ExitPoint, leave},
     kernels,
     material::Tables,
     path::{SampleContext, Transport},
-    shade::{ExitPoint, leave},
     state::{BATCH, Columns3, Workspace, append3, columns3, gather3, load3},
     surface::ChunkSource,
 };
