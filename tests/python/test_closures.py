@@ -128,6 +128,15 @@ def test_light_under_the_surface(method, level):
     assert (np.abs(pixels.mean(0) - SUBSURFACE[method, level]) < 4.9 * error).all(), pixels.mean(0)
 
 
+def test_a_dome_for_the_camera_alone_lights_nothing():
+    scene = plane([closure("Diffuse", base_color=0.5)])
+    dome = scene.to_dict()["lights"][0]
+    dome["emission"]["radiance"] = [9.0] * 3
+    dome["visibility"] |= {"diffuse": False, "glossy": False, "transmission": False}
+    scene.put_light(dome)
+    close(mean(scene)[:3], [0.5] * 3)
+
+
 def test_unknown_descriptions_are_named():
     with pytest.raises(gonio.SettingError, match="material: the description is not understood"):
         gonio.Scene().put_material({"closures": [{"model": "Chrome"}]})

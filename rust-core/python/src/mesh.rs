@@ -85,11 +85,12 @@ impl Topology {
         let values: Arc<[f32]> = grouped.values.into();
         let primvar = |interpolation, indices| Primvar { name: name.into(), interpolation, components, values, indices };
         match elements {
-            n if n == self.points => Ok(primvar(PrimvarInterpolation::Vertex, None)),
+            // Where there are corners, values for each are what hosts have most of.
             n if self.corners.as_ref().is_some_and(|(corners, _)| *corners == n) => {
                 let of_triangles = self.corners.as_ref().map(|(_, corners)| corners.clone());
                 Ok(primvar(PrimvarInterpolation::FaceVarying, of_triangles))
             }
+            n if n == self.points => Ok(primvar(PrimvarInterpolation::Vertex, None)),
             n if n == self.triangles * 3 => Ok(primvar(PrimvarInterpolation::FaceVarying, None)),
             n if self.faces.as_ref().is_some_and(|(faces, _)| *faces == n) => {
                 Ok(primvar(PrimvarInterpolation::Uniform, self.faces.as_ref().map(|(_, faces)| faces.clone())))

@@ -138,6 +138,7 @@ fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: 
         texture,
         angle: angle as f32,
         visible_to_camera: light.visibility.camera,
+        visible_to_scattered: light.visibility.diffuse || light.visibility.glossy || light.visibility.transmission,
         casts_shadow: light.casts_shadow,
         ..LightRecord::new(kind)
     }
@@ -184,7 +185,12 @@ fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
         }
         LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => return None,
     };
-    let mask = ray_mask::INDIRECT | if light.visibility.camera { ray_mask::CAMERA } else { 0 };
+    let seen = |visible: bool, bit: u8| if visible { bit } else { 0 };
+    let visibility = light.visibility;
+    let mask = seen(visibility.camera, ray_mask::CAMERA)
+        | seen(visibility.diffuse, ray_mask::DIFFUSE)
+        | seen(visibility.glossy, ray_mask::GLOSSY)
+        | seen(visibility.transmission, ray_mask::TRANSMISSION);
     Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })
 }
 

@@ -110,7 +110,7 @@ fn finite(value: f32) -> f32 {
 }
 
 fn switches_of(closure: &Closure) -> Switches {
-    let single = Switches::single;
+    let single = |closure| Switches { bump: Bump::Cycles, ..Switches::single(closure) };
     let switches = match closure.model {
         Model::OpenPbr => Switches::default(),
         Model::Principled => Switches { bump: Bump::Cycles, ..Switches::principled() },

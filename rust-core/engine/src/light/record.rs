@@ -111,6 +111,8 @@ pub struct LightRecord {
     pub two_sided: bool,
     /// Whether camera rays see the emitter.
     pub visible_to_camera: bool,
+    /// Whether scattered rays find the emitter; without it the light is not sampled either.
+    pub visible_to_scattered: bool,
     /// Whether things block it.
     pub casts_shadow: bool,
     /// Factor on diffuse reflection of this light (not physical; 1 leaves it alone).
@@ -135,6 +137,7 @@ impl LightRecord {
             area: 0.0,
             two_sided: false,
             visible_to_camera: true,
+            visible_to_scattered: true,
             casts_shadow: true,
             diffuse: 1.0,
             specular: 1.0,

@@ -363,7 +363,7 @@ impl LightTable {
                 let pdf = pdf * self.choice_probability(l, from, n, l.u(infinite.light));
                 weight = weighed.select(power_heuristic(bsdf_pdf, pdf), weight);
             }
-            let seen = if infinite.visible { l.m(true) } else { !first };
+            let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
             sum += (radiance * weight).keep_if(seen);
         }
         sum

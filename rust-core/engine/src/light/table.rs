@@ -17,6 +17,8 @@ pub(crate) struct InfiniteLight {
     /// Of a textured dome.
     pub(crate) distribution: Option<DomeDistribution>,
     pub(crate) visible: bool,
+    /// To scattered rays.
+    pub(crate) scattered: bool,
 }
 
 /// All lights of a scene, laid out for sampling.
@@ -64,7 +66,8 @@ impl LightTable {
             }
             kinds |= 1 << record.kind as u32;
             if record.kind.is_infinite() && row[field::FLAGS].to_bits() & (flag::LIT | flag::DELTA) == flag::LIT {
-                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible: record.visible_to_camera });
+                let (visible, scattered) = (record.visible_to_camera, record.visible_to_scattered);
+                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered });
             }
         }
         let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Power(power_table(&rows, records.len())) };
