@@ -37,9 +37,7 @@ class Touched:
     @property
     def nothing(self) -> bool:
         """Whether the list was empty."""
-        return not (
-            self.placements or self.geometry or self.materials or self.every_material or self.world or self.camera or self.everything
-        )
+        return not (self.placements or self.geometry or self.materials or self.every_material or self.world or self.camera)
 
 
 def touched(depsgraph) -> Touched:

@@ -21,6 +21,8 @@ COLOUR_SPACES = {
     "Working Space": "lin_rec709",
     "scene_linear": "lin_rec709",
 }
+# File formats that gonio reads itself; of others Blender gives the pixels.
+READABLE = {"PNG", "JPEG", "HDR", "OPEN_EXR", "OPEN_EXR_MULTILAYER"}
 # File formats that keep colours multiplied by alpha.
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
 
@@ -77,6 +79,8 @@ class Images:
             return self._pixels(image, user, report)
         if image.source == "TILED":
             return self._tiled(image, report)
+        if image.packed_file is not None and image.file_format not in READABLE:
+            return self._pixels(image, user, report)
         if image.packed_file is not None:
             packed = image.packed_file
             name = image.filepath or f"{image.name}.{image.file_format.lower()}"
@@ -86,6 +90,8 @@ class Images:
         if not path or not os.path.isfile(path):
             report.add("Image", image.name, f"the file '{path or image.filepath}' was not found", severity="ERROR")
             return None, None
+        if image.file_format not in READABLE:
+            return self._pixels(image, user, report)
         state = os.stat(path)
         return ("file", path, state.st_mtime_ns, state.st_size), lambda: ({"source": {"File": path}}, {})
 

@@ -64,17 +64,22 @@ def mesh_arguments(mesh, primvars):
     mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
     faces = np.empty(count, dtype=np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", faces)
-    arguments = {
-        "points": points,
+    # The scene tells points from corners by their number: where both are as many, each corner gets a point of its own.
+    spread = corners if len(points) == len(corners) else None
+    return {
+        "points": _spread(points, spread),
         "triangles": _triangles(mesh, count),
-        "corners": corners,
+        "corners": corners if spread is None else None,
         "faces": faces,
-        "normals": _normals(mesh),
+        "normals": _normals(mesh, spread),
         "slots": _slots(mesh),
-        "primvars": _uv_maps(mesh, primvars),
+        "primvars": {**_uv_maps(mesh, primvars), **_wanted(mesh, points, primvars, spread)},
     }
-    arguments["primvars"].update(_wanted(mesh, points, primvars))
-    return arguments
+
+
+def _spread(values, corners):
+    """Values of points as values of corners, if that is asked for."""
+    return values if corners is None else np.ascontiguousarray(values[corners])
 
 
 def _triangles(mesh, count):
@@ -86,14 +91,14 @@ def _triangles(mesh, count):
     return triangles
 
 
-def _normals(mesh):
+def _normals(mesh, spread):
     """Normals of corners or points; None for flat faces."""
     if mesh.normals_domain == "FACE":
         return None
     source, count = (mesh.corner_normals, len(mesh.loops)) if mesh.normals_domain == "CORNER" else (mesh.vertex_normals, len(mesh.vertices))
     normals = np.empty((count, 3), dtype=np.float32)
     source.foreach_get("vector", normals.reshape(-1))
-    return normals
+    return normals if mesh.normals_domain == "CORNER" else _spread(normals, spread)
 
 
 def _slots(mesh):
@@ -119,22 +124,31 @@ def _uv_maps(mesh, primvars):
     return maps
 
 
-def _wanted(mesh, points, primvars):
+def _wanted(mesh, points, primvars, spread):
     """The other named values that materials want of this mesh, as far as it has them."""
     found = {}
     for name in primvars:
         if name == POSITION:
-            found[name] = points
+            found[name] = _spread(points, spread)
         elif name == GENERATED:
-            found[name] = _generated(mesh, points)
+            found[name] = _spread(_generated(mesh, points), spread)
         else:
             attribute = _attribute(mesh, name)
             # Edges have no place in a shader; a UV map is there already.
             if attribute is not None and attribute.domain in ("POINT", "CORNER", "FACE") and attribute.name not in mesh.uv_layers:
                 values = read(attribute)
                 if values is not None:
-                    found[name] = _as_shader_value(attribute, values)
+                    found[name] = _placed(mesh, attribute.domain, _as_shader_value(values), spread)
     return found
+
+
+def _placed(mesh, domain, values, spread):
+    """Values of points or corners; those of faces are given to their corners, whose number cannot be mistaken."""
+    if domain == "FACE":
+        lengths = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygons.foreach_get("loop_total", lengths)
+        return np.repeat(values, lengths, axis=0)
+    return _spread(values, spread) if domain == "POINT" else values
 
 
 def present(mesh, primvars):
@@ -149,7 +163,7 @@ def _attribute(mesh, name):
     return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
 
 
-def _as_shader_value(attribute, values):
+def _as_shader_value(values):
     """One number fills a colour with alpha 1, as Blender converts it."""
     values = np.ascontiguousarray(values, dtype=np.float32)
     if values.shape[1] == 1:

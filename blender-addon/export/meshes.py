@@ -73,4 +73,4 @@ class Meshes:
         self._known = {place: known for place, known in self._known.items() if place in self._seen}
         for number in self._slots.sweep():
             nothing = np.zeros((0, 3), dtype=np.float32), np.zeros((0, 3), dtype=np.int32)
-            self._slots.place(lambda index, nothing=nothing: self._scene.add_mesh(*nothing, name="unused", index=index), number)
+            self._slots.place(lambda index, nothing=nothing: self._scene.add_mesh(*nothing, name="nothing", index=index), number)

@@ -4,7 +4,8 @@
 from ..units import LUMENS_PER_WATT
 
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
-FALLOFFS = {"QUADRATIC": "quadratic", "LINEAR": "linear", "INVERSE_QUADRATIC": "inverse_quadratic"}
+# Exponents of the way into the mist, as Cycles has them.
+FALLOFFS = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
 
 
 def settings(depsgraph, *, width, height, crop, preview, passes):

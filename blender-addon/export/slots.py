@@ -9,9 +9,6 @@ class Slots:
         self._numbers, self._written, self._used = {}, {}, set()
         self._free, self._length = [], 0
 
-    def __len__(self):
-        return self._length
-
     def __contains__(self, key):
         return key in self._numbers
 
@@ -24,11 +21,6 @@ class Slots:
         self._length = max(self._length, number + 1)
         self._numbers[key] = number
         return number, True
-
-    def rename(self, old, new):
-        """Lets a place be known by another key."""
-        self._numbers[new] = self._numbers.pop(old)
-        self._used.add(new)
 
     def put(self, write, description, number):
         """Writes a description, if it differs from what stands there; gives whether it was written."""
@@ -47,10 +39,6 @@ class Slots:
     def begin(self):
         """Starts a pass after which keys that were not taken are gone."""
         self._used = set()
-
-    def keep(self, keys):
-        """Counts keys as used."""
-        self._used.update(keys)
 
     def sweep(self):
         """Frees the places of keys that were not taken since the pass began; gives their numbers."""

@@ -54,6 +54,10 @@ class FinalSession:
         layer = self._layers[name]
         try:
             self._render(engine, depsgraph, layer, preview)
+        except gonio.Cancelled:
+            # ESC while the scene was still being laid out.
+            if not engine.test_break():
+                raise
         finally:
             if not depsgraph.scene.render.use_persistent_data:
                 del self._layers[name]
@@ -63,10 +67,8 @@ class FinalSession:
         frame, exposure = final_frame(depsgraph.scene.render), depsgraph.scene.gonio.film_exposure
         kinds = passes.add_passes(engine, depsgraph.view_layer)
         samples = self._settings(depsgraph, layer, frame, kinds, preview)
-        for kind in kinds:
-            if kind.source is None:
-                layer.report.add("ViewLayer", depsgraph.view_layer.name, f"the pass '{kind.name}' stays empty: shader AOVs are not rendered")
-        with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer) as render:
+        _tell_of_settings(layer.report, depsgraph, kinds)
+        with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
             while not (done := render.wait(POLL)):
@@ -98,6 +100,16 @@ class FinalSession:
         return own or depsgraph.scene.gonio.samples
 
 
+def _tell_of_settings(told: report.Report, depsgraph, kinds: list[passes.Pass]) -> None:
+    """Settings of the session that have no effect are not passed over in silence."""
+    for kind in kinds:
+        if kind.source is None:
+            told.add("ViewLayer", depsgraph.view_layer.name, f"the pass '{kind.name}' stays empty: shader AOVs are not rendered")
+    if depsgraph.scene.gonio.use_adaptive_sampling:
+        message = "a noise threshold is not supported; each pixel gets all samples unless the time limit ends the render"
+        told.add("Scene", depsgraph.scene.name, message, severity="INFO")
+
+
 @contextmanager
 def _result(engine, frame: Frame, layer: str) -> Iterator:
     """A render result that is ended whatever happens: one left open crashes Blender later."""
@@ -112,9 +124,9 @@ def _result(engine, frame: Frame, layer: str) -> Iterator:
 
 
 @contextmanager
-def _started(layer: _Layer) -> Iterator[gonio.Render]:
+def _started(layer: _Layer, engine) -> Iterator[gonio.Render]:
     """A render under way, cancelled when it is left before its end."""
-    render = gonio.Render(layer.exporter.scene, previous=layer.render)
+    render = gonio.Render(layer.exporter.scene, previous=layer.render, cancelled=engine.test_break)
     try:
         yield render
     finally:

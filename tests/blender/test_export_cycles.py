@@ -165,3 +165,40 @@ def test_worlds(tmp_path, rotation):
     scene = stage()
     world(scene, 2.0, gradient_picture(), rotation)
     assert_same(scene, tmp_path / "cycles.exr")
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("kind", ["Generated", "Object", "UV", "bump", "normal map"])
+def test_textures(tmp_path, kind):
+    import bpy
+    from recorder import material
+
+    scene = stage()
+    made, tree, end = material("Textured")
+    place, mapping, shader, fraction = (
+        tree.nodes.new(f"ShaderNode{name}") for name in ("TexCoord", "Mapping", "BsdfPrincipled", "VectorMath")
+    )
+    mapping.inputs["Rotation"].default_value, mapping.inputs["Scale"].default_value = (0.3, 0.2, 0.5), (1.3, 2.1, 0.7)
+    fraction.operation = "FRACTION"
+    tree.links.new(place.outputs[kind if kind in place.outputs else "UV"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs[0], fraction.inputs[0])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    if kind in place.outputs:
+        tree.links.new(fraction.outputs[0], shader.inputs["Base Color"])
+    elif kind == "bump":
+        bump, wave, apart = (tree.nodes.new(f"ShaderNode{name}") for name in ("Bump", "Math", "SeparateXYZ"))
+        wave.operation, bump.inputs["Distance"].default_value = "SINE", 0.05
+        mapping.inputs["Scale"].default_value = (40.0, 20.0, 1.0)
+        tree.links.new(mapping.outputs[0], apart.inputs[0])
+        tree.links.new(apart.outputs[0], wave.inputs[0])
+        tree.links.new(wave.outputs[0], bump.inputs["Height"])
+        tree.links.new(bump.outputs[0], shader.inputs["Normal"])
+    else:
+        bent = tree.nodes.new("ShaderNodeNormalMap")
+        bent.inputs["Strength"].default_value, bent.inputs["Color"].default_value = 0.6, (0.7, 0.55, 0.9, 1.0)
+        tree.links.new(bent.outputs[0], shader.inputs["Normal"])
+    for thing in bpy.data.objects:
+        if thing.type == "MESH":
+            thing.data.materials[0] = made
+    world(scene, 0.7)
+    assert_same(scene, tmp_path / "cycles.exr")

@@ -45,7 +45,11 @@ def _append(t, node, context, weight):
     if handler is None:
         t.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; a diffuse surface of its colour is used")
         handler = _stand_in
-    t.closures += [{"weight": weight.input(), **closure} for closure in handler(t, node, context)]
+    for made in handler(t, node, context):
+        share = made.pop("share", None)
+        part = weight if share is None else weight * share
+        if not part.is_zero():
+            t.closures.append({"weight": part.input(), **made})
 
 
 def _stand_in(t, node, context):
@@ -193,7 +197,7 @@ def metallic(t, node, context):
             distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
             normal=normal_node(t, node, context),
             tangent=tangent_node(t, node, context, anisotropy),
-            **thin_film(t, node, context),
+            **(thin_film(t, node, context) if t.version >= (5, 0, 0) else {}),
         )
     ]
 

@@ -56,20 +56,21 @@ def principled(t, node, context):
         parameters["subsurface_radius"] = radius * t.input(node, "Subsurface Scale", context, 0.05)
         if node.subsurface_method == "RANDOM_WALK_SKIN":
             parameters["subsurface_ior"] = t.input(node, "Subsurface IOR", context, 1.4)
-    return [
-        closure(
-            t.graph,
-            "Principled",
-            **parameters,
-            **thin_film(t, node, context),
-            normal=normal_node(t, node, context),
-            coat_normal=normal_node(t, node, context, "Coat Normal"),
-            tangent=tangent_node(t, node, context, parameters["specular_anisotropy"]),
-            thin_walled=thin_walled,
-            distribution=DISTRIBUTIONS.get(node.distribution, "MultiGgx"),
-            subsurface=subsurface_method(node.subsurface_method, t.version),
-        )
-    ]
+    common = {
+        "normal": normal_node(t, node, context),
+        "coat_normal": normal_node(t, node, context, "Coat Normal"),
+        "tangent": tangent_node(t, node, context, parameters["specular_anisotropy"]),
+        "thin_walled": thin_walled,
+        "distribution": DISTRIBUTIONS.get(node.distribution, "MultiGgx"),
+        "subsurface": subsurface_method(node.subsurface_method, t.version),
+    }
+    film, metalness = thin_film(t, node, context), parameters["metalness"]
+    if film and t.version < (5, 0, 0) and not metalness.is_zero():
+        # Before 5.0 films lie on the dielectric alone; metal and dielectric are mixed linearly, so they may stand apart.
+        dielectric = closure(t.graph, "Principled", **{**parameters, "metalness": 0.0}, **film, **common)
+        metal = closure(t.graph, "Principled", **{**parameters, "metalness": 1.0}, **common)
+        return [{**dielectric, "share": 1.0 - metalness}, {**metal, "share": metalness}]
+    return [closure(t.graph, "Principled", **parameters, **film, **common)]
 
 
 def _is_thin_walled(t, node, context):

@@ -139,7 +139,7 @@ def normal_map(t, node, context, output):
         scale = t.graph.combine(strength, strength, strength.clamp())
         vector = vector * scale + t.graph.combine(t.graph.scalar(0.0), t.graph.scalar(0.0), 1.0 - strength.clamp())
         t.primvars.add(node.uv_map or UV)
-        operation = {"NormalMap": {"scale": 1.0, "uv": node.uv_map or UV}} if node.uv_map else {"NormalMap": {"scale": 1.0}}
+        operation = {"NormalMap": {"scale": 1.0, "uv": node.uv_map or UV}}
         return t.graph.add(operation, vector, kind="VECTOR")
     if node.space.startswith("BLENDER_"):
         vector = vector * (1.0, -1.0, -1.0)
