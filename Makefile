@@ -56,9 +56,9 @@ test-blender: extension $(addsuffix /ready,$(BPY))
 	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl || exit 1; done
 	$(BIN)/python -m pytest tests/blender -m "not validate"
 
-# The long checks: all luxtest frames, kill tests, other renderers where they can be had.
-validate: build
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate -m "validate or not validate" --timeout 1800
+# The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
+validate: test-blender
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 bench:
