@@ -80,10 +80,12 @@ pub(super) struct WalkLanes<L: Lanes> {
     pub(super) width: F<L>,
 }
 
+#[inline(always)]
 fn vector<L: Lanes>(colour: Rgb<L>) -> Vec3<L> {
     Vec3::new(colour.r, colour.g, colour.b)
 }
 
+#[inline(always)]
 fn colour<L: Lanes>(v: Vec3<L>) -> Rgb<L> {
     Rgb::new(v.x, v.y, v.z)
 }
