@@ -36,7 +36,7 @@ $(CURDIR)/.venv-bpy45/ready: VERSION := 4.5.15
 $(CURDIR)/.venv-bpy50/ready: VERSION := 5.0.1
 $(addsuffix /ready,$(BPY)):
 	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(@D) || python3 -m venv $(@D)
-	$(@D)/bin/python -m pip install --quiet bpy==$(VERSION) numpy
+	$(@D)/bin/python -m pip install --quiet bpy==$(VERSION) numpy pytest
 	touch $@
 
 test: lint build test-rust test-python test-blender
