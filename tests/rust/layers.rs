@@ -56,11 +56,12 @@ fn the_core_knows_no_host() {
 }
 
 #[test]
-fn unsafe_code_has_two_homes() {
+fn unsafe_code_has_few_homes() {
     let found: Vec<_> = ["rust-core/engine/src", "rust-core/python/src", "usd/src"]
         .iter()
         .flat_map(|folder| lines_with(folder, "unsafe "))
-        .filter(|line| !line.contains("/accel/") && !line.contains("//"))
+        // Traversal, and the buffer protocol of a film's passes.
+        .filter(|line| !["/accel/", "python/src/pass.rs", "//"].iter().any(|home| line.contains(home)))
         .collect();
     assert_eq!(found, Vec::<String>::new());
 }
