@@ -1,6 +1,6 @@
 //! Linear Rec.709 colours, one per lane.
 
-use crate::{F, Lanes, M, Select};
+use crate::{F, Lanes, M, Select, Vec3};
 use core::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// A linear Rec.709 triple in each lane.
@@ -105,6 +105,18 @@ impl<L: Lanes> Rgb<L> {
     }
 }
 
+impl<L: Lanes> From<Vec3<L>> for Rgb<L> {
+    #[inline(always)]
+    fn from(v: Vec3<L>) -> Self {
+        Self::new(v.x, v.y, v.z)
+    }
+}
+impl<L: Lanes> From<Rgb<L>> for Vec3<L> {
+    #[inline(always)]
+    fn from(c: Rgb<L>) -> Self {
+        Self::new(c.r, c.g, c.b)
+    }
+}
 impl<L: Lanes> Select<L> for Rgb<L> {
     #[inline(always)]
     fn select(mask: M<L>, a: Self, b: Self) -> Self {

@@ -78,7 +78,7 @@ pub(super) struct RenderOptions {
     #[arg(long, short = 'f', alias = "frame", value_name = "FRAMES")]
     pub(super) frames: Option<String>,
     /// Width and height in pixels.
-    #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"])]
+    #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], overrides_with = "res")]
     pub(super) res: Option<Vec<u32>>,
     /// Width in pixels; the height follows the camera's shape.
     #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", conflicts_with = "res")]
@@ -111,7 +111,7 @@ pub(super) struct RenderOptions {
     #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
     pub(super) tonemap: String,
     /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
-    #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true)]
+    #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(super) crop: Option<Vec<String>>,
     /// Stop after this many seconds, with whole passes over the picture.
     #[arg(long = "time-limit", alias = "timelimit", value_name = "SECONDS", default_value_t = 0.0)]

@@ -266,7 +266,7 @@ fn normal_map<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> 
         network.warn(shader, "a normal map with two strengths counts with the first for both");
     }
     let signed = signed(&mut network.graph, input);
-    (!is_constant(signed, 0.0)).then(|| network.node(Operation::NormalMap { scale }, vec![signed]))
+    (!is_constant(signed, 0.0)).then(|| network.node(Operation::NormalMap { scale, uv: None }, vec![signed]))
 }
 
 /// `2 x - 1`, folded into the image that `x` comes from.

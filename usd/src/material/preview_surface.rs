@@ -91,6 +91,6 @@ fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closur
 fn normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<NodeId> {
     match tangent_normal(network, shader)? {
         Input::Constant(_) => None,
-        tangent @ Input::Node(..) => Some(network.graph.add(Operation::NormalMap { scale: 1.0 }, vec![tangent])),
+        tangent @ Input::Node(..) => Some(network.graph.add(Operation::NormalMap { scale: 1.0, uv: None }, vec![tangent])),
     }
 }

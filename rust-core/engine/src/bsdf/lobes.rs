@@ -397,19 +397,16 @@ impl<L: Lanes> Lobes<L> {
     pub fn albedo_kinds(&self) -> [Rgb<L>; 3] {
         self.kinds
     }
-    /// The diffuse and the glossy part of [`Self::eval`]; the rest is transmitted.
+    /// The diffuse part of [`Self::eval`]: all but facets and interfaces.
     #[inline(always)]
-    pub fn eval_kinds(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> [Rgb<L>; 2] {
+    pub fn eval_diffuse(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
         let mut parts = *self;
         for slot in parts.slots.iter_mut() {
             if slot.is_some_and(|slot| matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_))) {
                 *slot = None;
             }
         }
-        let diffuse = evaluate(l, &parts, wo, wi, false).0;
-        let all = evaluate(l, self, wo, wi, false).0;
-        let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
-        [diffuse, glossy]
+        evaluate(l, &parts, wo, wi, false).0
     }
     /// Emitted radiance towards the view, of the part that opacity leaves.
     #[inline(always)]

@@ -20,7 +20,8 @@ impl Default for Bounds {
 impl Bounds {
     /// World bounds of everything placed in a scene.
     pub fn of_scene(scene: &Scene) -> Self {
-        of_scene(scene)
+        let meshes: Vec<Self> = scene.meshes.iter().map(of_mesh).collect();
+        of_instances(scene, &meshes)
     }
     /// Whether nothing is inside.
     pub fn is_empty(&self) -> bool {
@@ -74,9 +75,8 @@ pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
     bounds
 }
 
-/// Bounds of all instances.
-fn of_scene(scene: &Scene) -> Bounds {
-    let meshes: Vec<Bounds> = scene.meshes.iter().map(of_mesh).collect();
+/// Bounds of all instances of meshes whose own bounds are known.
+pub(super) fn of_instances(scene: &Scene, meshes: &[Bounds]) -> Bounds {
     let mut bounds = Bounds::default();
     for instances in &scene.instances {
         let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };

@@ -1,7 +1,7 @@
 //! Lights as records, and the shapes of those that rays can meet.
 
 use super::{
-    geometry::{rebased, rows},
+    instances::{rebased, rows},
     textures::CompiledTextures,
 };
 use crate::{

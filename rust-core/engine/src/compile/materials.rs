@@ -26,12 +26,11 @@ pub(super) fn compile(
     let mut table = MaterialTable::default();
     for material in scene.materials.iter().chain([&default]) {
         let steps = steps(material, textures, names)?;
-        let known = |node: &NodeId| usize::from(node.0) < steps.steps.len();
         let first = table.surfaces.len() as u32;
         for closure in &material.closures {
-            let normals = [closure.normal, closure.coat_normal, closure.tangent];
-            if !normals.iter().flatten().all(known) {
-                return Err(Error::scene(&material.origin, "the material's normal refers to a node that does not exist"));
+            if let Some(node) = nodes_of(closure).find(|node| usize::from(node.0) >= steps.steps.len()) {
+                let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
+                return Err(Error::scene(&material.origin, problem));
             }
             table.surfaces.push(surface(material, closure, steps.clone(), diagnostics));
         }
@@ -46,6 +45,16 @@ pub(super) fn compile(
     Ok(table)
 }
 
+/// The nodes that a closure reads.
+fn nodes_of(closure: &Closure) -> impl Iterator<Item = NodeId> {
+    let inputs = closure.parameters.iter().map(|(_, input)| input).chain([&closure.weight]);
+    let parameters = inputs.filter_map(|input| match input {
+        Input::Node(node, _) => Some(*node),
+        Input::Constant(_) => None,
+    });
+    parameters.chain([closure.normal, closure.coat_normal, closure.tangent].into_iter().flatten())
+}
+
 /// A material of several closures, or of one with a weight.
 fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMaterial]) -> Mix {
     let weights: Vec<Source> = closures.iter().map(|closure| source(closure.weight)).collect();
@@ -55,7 +64,7 @@ fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMa
     Mix {
         first,
         count: closures.len(),
-        program: Program { outputs, ..program },
+        program: Program { outputs, ..program }.pruned(),
         transparent: own.iter().any(|surface| surface.transparent),
         emissive: own.iter().any(|surface| surface.emissive),
         even_emission: (constant && own.iter().all(SurfaceMaterial::emits_evenly)).then(|| {
@@ -87,10 +96,10 @@ fn surface(material: &Material, closure: &Closure, mut program: Program, diagnos
     }
     let step = |node: Option<NodeId>| node.map(|node| node.0);
     program.normal = step(closure.normal);
-    program.free_normal = switches_of(closure).bump == Bump::Cycles;
+    let switches = switches_of(closure);
+    program.free_normal = switches.bump == Bump::Cycles;
     program.coat_normal = step(closure.coat_normal);
     program.tangent = step(closure.tangent);
-    let switches = switches_of(closure);
     let surface = Surface::new(constants, &varying, switches);
     let lobes = surface.lobes;
     SurfaceMaterial {
@@ -100,7 +109,7 @@ fn surface(material: &Material, closure: &Closure, mut program: Program, diagnos
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
         surface,
-        program,
+        program: program.pruned(),
         opacity_threshold: closure.opacity_threshold,
     }
 }

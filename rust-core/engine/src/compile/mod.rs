@@ -4,11 +4,13 @@
 
 mod bounds;
 mod geometry;
+mod instances;
 mod kept;
 mod lights;
 mod materials;
 mod primvars;
 mod textures;
+mod trees;
 mod view;
 
 pub use bounds::Bounds;
@@ -41,7 +43,7 @@ pub struct CompiledScene {
     pub diagnostics: Vec<Diagnostic>,
     /// Sizes and times.
     pub statistics: CompileStatistics,
-    trees: Vec<geometry::KeptTree>,
+    trees: Vec<trees::KeptTree>,
     images: kept::KeptImages,
     kept_lights: lights::KeptLights,
 }
@@ -77,11 +79,12 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let names = primvars::used_names(scene);
     let materials = materials::compile(scene, &textures, &names, &mut diagnostics)?;
     check(cancel)?;
-    let bounds = Bounds::of_scene(scene);
-    let origin = bounds.rebase_origin();
-    let trees = geometry::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
+    let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
     let built = start.elapsed().as_secs_f64();
-    let mut geometry = geometry::tables(scene, &names, &materials, origin, &mut diagnostics)?;
+    let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).collect();
+    let bounds = bounds::of_instances(scene, &mesh_bounds);
+    let origin = bounds.rebase_origin();
+    let mut geometry = geometry::tables(scene, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;

@@ -11,7 +11,7 @@ pub(super) fn used_names(scene: &Scene) -> Vec<String> {
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
         let name = match &node.operation {
             Operation::Primvar { name, .. } | Operation::PrimvarStep { name, .. } => name,
-            Operation::UvTangent { uv } | Operation::NormalMapAlong { uv: Some(uv), .. } => uv,
+            Operation::UvTangent { uv } | Operation::NormalMap { uv: Some(uv), .. } => uv,
             _ => continue,
         };
         if !names.contains(name) {

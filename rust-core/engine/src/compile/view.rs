@@ -55,7 +55,12 @@ impl View {
             surroundings_cover: settings.background == Background::Covering,
             passes: FirstPasses {
                 uv: settings.aovs.contains(&Aov::Uv),
-                mist: Mist { start: settings.mist.start, depth: settings.mist.depth, falloff: settings.mist.falloff },
+                mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
+                    start: settings.mist.start,
+                    depth: settings.mist.depth,
+                    falloff: settings.mist.falloff,
+                }),
+                numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
             },
             measure: settings.aovs.contains(&Aov::Illuminance),
             clamps: [settings.clamp_direct, settings.clamp_indirect],

@@ -15,6 +15,23 @@ pub enum Source {
     Component(u16, u8),
 }
 
+impl Source {
+    /// The register it reads.
+    fn register(self) -> Option<u16> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Register(number) | Self::Component(number, _) => Some(number),
+        }
+    }
+    /// Follows registers to their new places.
+    fn renumber(&mut self, place: &[u16]) {
+        match self {
+            Self::Constant(_) => {}
+            Self::Register(number) | Self::Component(number, _) => *number = place[usize::from(*number)],
+        }
+    }
+}
+
 /// Arithmetic on each of four components alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
@@ -211,6 +228,26 @@ pub enum Step {
     Combine([Source; 4]),
 }
 
+impl Step {
+    /// What it reads.
+    fn inputs(&mut self) -> Vec<&mut Source> {
+        match self {
+            Self::Image { uv: input, .. }
+            | Self::Transform2d { input, .. }
+            | Self::Transform3d { input, .. }
+            | Self::Transform { input, .. }
+            | Self::NormalMap { input, .. }
+            | Self::Curve { input, .. } => vec![input],
+            Self::Vector(_, inputs) => inputs.iter_mut().collect(),
+            Self::Arithmetic { inputs, .. } => inputs.iter_mut().collect(),
+            Self::Combine(inputs) => inputs.iter_mut().collect(),
+            Self::Primvar { .. } | Self::Hit(_) | Self::PositionStep { .. } | Self::PrimvarStep { .. } | Self::UvTangent { .. } => {
+                Vec::new()
+            }
+        }
+    }
+}
+
 /// A parameter that the graph computes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output {
@@ -245,5 +282,37 @@ impl Program {
     /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {
         self.outputs.is_empty() && self.normal.is_none() && self.coat_normal.is_none() && self.tangent.is_none()
+    }
+    /// Leaves out the steps that nothing reads: closures of a material share its graph, and each wants a part of it.
+    pub fn pruned(mut self) -> Self {
+        let mut read = vec![false; self.steps.len()];
+        for source in self.outputs.iter().map(|output| output.source) {
+            source.register().into_iter().for_each(|number| read[usize::from(number)] = true);
+        }
+        for number in self.directions().into_iter().flatten() {
+            read[usize::from(*number)] = true;
+        }
+        for (number, step) in self.steps.iter_mut().enumerate().rev() {
+            if !read[number] {
+                continue;
+            }
+            step.inputs().iter().filter_map(|input| input.register()).for_each(|input| read[usize::from(input)] = true);
+        }
+        let mut place = vec![0; read.len()];
+        let mut kept = 0;
+        for (place, read) in place.iter_mut().zip(&read) {
+            *place = kept;
+            kept += u16::from(*read);
+        }
+        let mut read = read.iter();
+        self.steps.retain(|_| read.next() == Some(&true));
+        self.steps.iter_mut().flat_map(Step::inputs).for_each(|input| input.renumber(&place));
+        self.outputs.iter_mut().for_each(|output| output.source.renumber(&place));
+        self.directions().into_iter().flatten().for_each(|number| *number = place[usize::from(*number)]);
+        self
+    }
+    /// The steps that give directions.
+    fn directions(&mut self) -> [Option<&mut u16>; 3] {
+        [self.normal.as_mut(), self.coat_normal.as_mut(), self.tangent.as_mut()]
     }
 }

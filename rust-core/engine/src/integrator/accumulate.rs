@@ -28,10 +28,9 @@ pub(super) struct FirstSurface<L: Lanes> {
     pub(super) normal: Vec3<L>,
     pub(super) position: Vec3<L>,
     pub(super) albedo: Rgb<L>,
-    pub(super) prim_id: U<L>,
-    pub(super) object_index: U<L>,
-    pub(super) material_index: U<L>,
-    pub(super) clearness: F<L>,
+    /// Instance set, and the pass indices of the instance and of the material.
+    pub(super) numbers: Option<[U<L>; 3]>,
+    pub(super) clearness: Option<F<L>>,
     pub(super) uv: Option<[F<L>; 2]>,
     pub(super) kinds: [Rgb<L>; 3],
 }
@@ -44,13 +43,14 @@ impl FirstHit {
             return;
         }
         let slot = surface.slot;
-        let triple = |v: Vec3<L>| Rgb::new(v.x, v.y, v.z);
         add(&mut self.alpha, slot, l.f(1.0), chosen);
         add(&mut self.depth, slot, surface.depth, chosen);
-        add_rgb(&mut self.normal, slot, triple(surface.normal), chosen);
-        add_rgb(&mut self.position, slot, triple(surface.position), chosen);
+        add_rgb(&mut self.normal, slot, surface.normal.into(), chosen);
+        add_rgb(&mut self.position, slot, surface.position.into(), chosen);
         add_rgb(&mut self.albedo, slot, surface.albedo, chosen);
-        add(&mut self.clearness, slot, surface.clearness, chosen);
+        if let Some(clearness) = surface.clearness {
+            add(&mut self.clearness, slot, clearness, chosen);
+        }
         if let Some([u, v]) = surface.uv {
             add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)), chosen);
         }
@@ -59,9 +59,11 @@ impl FirstHit {
                 self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour, chosen);
             }
         }
-        keep_first(&mut self.prim_id, slot, surface.prim_id, chosen);
-        keep_first(&mut self.object_index, slot, surface.object_index, chosen);
-        keep_first(&mut self.material_index, slot, surface.material_index, chosen);
+        if let Some([set, object, material]) = surface.numbers {
+            keep_first(&mut self.prim_id, slot, set, chosen);
+            keep_first(&mut self.object_index, slot, object, chosen);
+            keep_first(&mut self.material_index, slot, material, chosen);
+        }
     }
 }
 

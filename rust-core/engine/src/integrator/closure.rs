@@ -8,9 +8,13 @@ use super::{
     material::{Mix, Shading, Tables},
     path::{SampleContext, Transport},
     state::{BATCH, Workspace},
-    surface::{ChunkSource, HitSource},
+    surface::ChunkSource,
 };
-use crate::{graph::CHUNK, sampler::dimension};
+use crate::{
+    accel::NONE,
+    graph::{CHUNK, OutputColumns},
+    sampler::dimension,
+};
 use gonio_simd::{F, Lanes, PADDING, Rgb, dispatch};
 
 /// Chooses closures for all hits on mixes: material numbers become surface numbers.
@@ -21,7 +25,7 @@ pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &
     let mut mixed = std::mem::take(&mut ws.mixed);
     mixed.clear();
     for (path, material) in ws.material_of.iter().enumerate() {
-        if *material != crate::accel::NONE
+        if *material != NONE
             && let Shading::Mix(mix) = tables.materials.shading(*material)
         {
             mixed.push((mix, path as u32));
@@ -51,7 +55,7 @@ fn choose_chunk<L: Lanes>(
 ) {
     let cone = Some([&ws.paths.width, &ws.paths.spread]);
     let source = ChunkSource { order, count, direction: &ws.paths.direction, cone };
-    weigh(l, tables, mix, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+    kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
@@ -85,26 +89,9 @@ fn choose_chunk<L: Lanes>(
     }
 }
 
-/// Computes the weights of a mix over a chunk of hits.
-#[expect(clippy::too_many_arguments, reason = "hits, scratch and results")]
-#[inline(always)]
-pub(super) fn weigh<L: Lanes, H: HitSource + ?Sized>(
-    l: L,
-    tables: &Tables,
-    mix: &Mix,
-    hits: &H,
-    source: &ChunkSource<'_>,
-    surface: &mut crate::graph::SurfaceColumns,
-    scratch: &mut crate::graph::GraphScratch,
-    outputs: &mut crate::graph::OutputColumns,
-) {
-    kernels::surface_points(l, tables, &mix.program, hits, source, surface);
-    kernels::evaluate(l, tables, &mix.program, surface, source.count, scratch, outputs);
-}
-
 /// The weight of a closure, not negative.
 #[inline(always)]
-pub(super) fn weight<L: Lanes>(l: L, outputs: &crate::graph::OutputColumns, closure: usize, at: usize) -> Rgb<L> {
+fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Rgb<L> {
     let channel = |c: usize| l.load(outputs.column(closure * 3 + c), at).max(0.0);
     Rgb::new(channel(0), channel(1), channel(2))
 }

@@ -3,8 +3,7 @@
 use super::{
     accumulate::clamped,
     kernels,
-    light_sums::code,
-    scatter::{add_light, add_rgb, add_shares, code_of_sampled},
+    scatter::{add_sampled, code_of_sampled},
     shade::{Point, Stage},
     state::{ShadowLanes, Workspace},
 };
@@ -22,28 +21,21 @@ pub(super) fn light<L: Lanes>(
     present: M<L>,
     ws: &mut Workspace,
 ) {
-    let Stage { l, tables, transport, context, .. } = *stage;
+    let Stage { l, tables, transport, context } = *stage;
     let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u[0], [u[1], u[2]]);
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {
         return;
     }
-    let (value, pdf) = kernels::eval(l, lobes, wo, point.frame.to_local(sample.wi));
+    let wi = point.frame.to_local(sample.wi);
+    let (value, pdf) = lobes.eval(l, wo, wi);
     let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf));
     let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     let free = lit.and_not(sample.casts_shadow);
     let code = code_of_sampled(point.flags);
-    let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, point.frame.to_local(sample.wi), value)) } else { None };
-    if let Some([diffuse, glossy]) = shares {
-        let at_first = code.eq(code::SHARED);
-        let parts = [contribution * diffuse, contribution * glossy];
-        add_shares(&mut ws.first_hit, point.slot, contribution, parts, free & at_first);
-        add_light(&mut ws.first_hit, code, point.slot, contribution, free.and_not(at_first));
-        add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free & at_first);
-    } else {
-        add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, free);
-    }
+    let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
+    add_sampled(&mut ws.first_hit, code, point.slot, contribution, shares, free);
     let origin = spawn(point.position, point.geometric, point.error, sample.wi);
     // Lights that are meshes must not shadow themselves.
     let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
@@ -54,10 +46,10 @@ pub(super) fn light<L: Lanes>(
 /// The diffuse and the glossy share of what all lobes scatter.
 #[inline(always)]
 fn shares<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L>) -> [Rgb<L>; 2] {
-    let mut parts = kernels::eval_kinds(l, lobes, wo, wi);
-    for part in &mut parts {
-        let share = |part: F<L>, all: F<L>| (part / all.max(1e-30)).saturate();
-        *part = Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b));
-    }
-    parts
+    let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
+    // What facets send to the other side is transmitted.
+    let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
+    let share = |part: F<L>, all: F<L>| (part / all.max(1e-30)).saturate();
+    let shares = |part: Rgb<L>| Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b));
+    [shares(diffuse), shares(glossy)]
 }

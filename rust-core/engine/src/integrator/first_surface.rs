@@ -3,17 +3,24 @@
 use super::{
     accumulate::FirstSurface,
     material::{SurfaceMaterial, Tables},
-    path::{Mist, Transport},
+    path::Mist,
     shade::{Point, Stage},
     state::{MeasurePoints, Workspace, append3, flag},
 };
 use crate::bsdf::Lobes;
-use gonio_simd::{F, Lanes, M, Vec3};
+use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// Leaves out what the camera sees of holdouts: paths end there without light or coverage.
 #[inline(always)]
-pub(super) fn covered<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, present: M<L>, at: usize, ws: &Workspace) -> M<L> {
-    let Stage { l, tables, material, .. } = *stage;
+pub(super) fn covered<L: Lanes>(
+    stage: &Stage<'_, L>,
+    material: &SurfaceMaterial,
+    point: &Point<L>,
+    present: M<L>,
+    at: usize,
+    ws: &Workspace,
+) -> M<L> {
+    let Stage { l, tables, .. } = *stage;
     let camera = (point.flags & flag::CAMERA).ne(0);
     let hole = if material.holdout {
         l.m(true)
@@ -28,39 +35,49 @@ pub(super) fn covered<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, present:
 #[inline(always)]
 pub(super) fn record_first<L: Lanes>(
     stage: &Stage<'_, L>,
+    material: &SurfaceMaterial,
     point: &Point<L>,
     lobes: &Lobes<L>,
     present: M<L>,
     at: usize,
     ws: &mut Workspace,
 ) {
-    let Stage { l, tables, transport, material, .. } = *stage;
+    let Stage { l, tables, transport, .. } = *stage;
     let seen = present & (point.flags & flag::CAMERA).ne(0);
     if !seen.any() {
         return;
     }
     let eye = Vec3::splat(l, transport.eye);
-    let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
     let surface = FirstSurface {
         slot: point.slot,
         depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,
         position: point.position,
         albedo: lobes.albedo(),
-        prim_id: set,
-        object_index: l.gather_integers(&tables.geometry.set_pass_index, set),
-        material_index: l.u(material.pass_index),
-        clearness: clearness(transport, point.position - eye),
+        numbers: if transport.passes.numbers { Some(numbers(stage, material, at, ws)) } else { None },
+        #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
+        clearness: match &transport.passes.mist {
+            Some(mist) => Some(clearness(mist, point.position - eye)),
+            None => None,
+        },
         uv: if transport.passes.uv { Some(texture_coordinates(l, tables, material, at, ws)) } else { None },
         kinds: lobes.albedo_kinds(),
     };
     ws.first_hit.record(l, &surface, seen);
 }
 
+/// The instance set, and the pass indices of the instance and of the material.
+#[inline(always)]
+fn numbers<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, at: usize, ws: &Workspace) -> [U<L>; 3] {
+    let Stage { l, tables, .. } = *stage;
+    let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
+    [set, l.gather_integers(&tables.geometry.set_pass_index, set), l.u(material.pass_index)]
+}
+
 /// What the mist leaves of a point this far from the camera.
 #[inline(always)]
-fn clearness<L: Lanes>(transport: &Transport, from_eye: Vec3<L>) -> F<L> {
-    let Mist { start, depth, falloff } = transport.passes.mist;
+fn clearness<L: Lanes>(mist: &Mist, from_eye: Vec3<L>) -> F<L> {
+    let Mist { start, depth, falloff } = *mist;
     let inside = ((from_eye.length() - start) * (1.0 / depth.max(1e-6))).saturate();
     1.0 - inside.max(1e-9).pow(inside.lanes().f(falloff))
 }
@@ -86,8 +103,7 @@ pub(super) fn append_measure<L: Lanes>(point: &Point<L>, chosen: M<L>, out: &mut
     point.error.append(chosen, &mut out.error, n);
     append3(point.geometric, chosen, &mut out.geometric_normal, n);
     append3(point.frame.z, chosen, &mut out.shading_normal, n);
-    let weight = point.throughput;
-    append3(Vec3::new(weight.r, weight.g, weight.b), chosen, &mut out.throughput, n);
+    append3(point.throughput.into(), chosen, &mut out.throughput, n);
     point.width.append(chosen, &mut out.width, n);
     point.slot.append(chosen, &mut out.slot, n);
     out.count += chosen.count();

@@ -79,9 +79,9 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let flags = l.gather_integers(&ws.paths.flags, path);
         let sampled = (flags & flag::DELTA).eq(0);
         let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, path), pdf), l.f(1.0));
-        let throughput = gather3(l, &ws.paths.throughput, path);
+        let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let slot = l.gather_integers(&ws.paths.slot, path);
-        let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z) * weight, transport.clamp(depth));
+        let value = clamped(radiance * throughput * weight, transport.clamp(depth));
         add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, alive & value.is_lit());
     }
     ws.at_lights.truncate(count);
@@ -132,8 +132,9 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let path = l.load_integers(&ws.escaped, at);
         let flags = l.gather_integers(&ws.paths.flags, path);
         let camera = (flags & flag::CAMERA).ne(0);
+        let slot = l.gather_integers(&ws.paths.slot, path);
         if transport.surroundings_cover {
-            add(&mut ws.first_hit.alpha, l.gather_integers(&ws.paths.slot, path), l.f(1.0), alive & camera);
+            add(&mut ws.first_hit.alpha, slot, l.f(1.0), alive & camera);
         }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
@@ -146,9 +147,8 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
             camera,
             delta,
         );
-        let throughput = gather3(l, &ws.paths.throughput, path);
-        let value = clamped(radiance * Rgb::new(throughput.x, throughput.y, throughput.z), transport.clamp(depth));
-        let slot = l.gather_integers(&ws.paths.slot, path);
+        let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
+        let value = clamped(radiance * throughput, transport.clamp(depth));
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, alive & value.is_lit());
     }
 }

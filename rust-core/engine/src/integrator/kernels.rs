@@ -8,28 +8,11 @@ use super::{
     surface::{ChunkSource, HitSource, surface_chunk},
 };
 use crate::{
-    bsdf::{BsdfSample, Lobes, ParameterValues, Surface, normals::Normals},
+    bsdf::{BsdfSample, Lobes, ParameterValues, Surface},
     graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns},
     light::LightSample,
 };
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
-
-/// [`Surface::resolve_about`].
-#[inline(never)]
-pub(super) fn resolve<L: Lanes>(
-    l: L,
-    surface: &Surface,
-    values: &ParameterValues<'_>,
-    at: usize,
-    wo: Vec3<L>,
-    entering: M<L>,
-    normals: Option<&Normals<L>>,
-) -> Lobes<L> {
-    l.vectorize(
-        #[inline(always)]
-        || surface.resolve_about(l, values, at, wo, entering, normals),
-    )
-}
 
 /// [`Surface::transmittance`].
 #[inline(never)]
@@ -47,21 +30,12 @@ pub(super) fn transmittance<L: Lanes>(
     )
 }
 
-/// [`Lobes::eval`].
+/// [`Lobes::eval_diffuse`].
 #[inline(never)]
-pub(super) fn eval<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || lobes.eval(l, wo, wi),
-    )
-}
-
-/// [`Lobes::eval_kinds`].
-#[inline(never)]
-pub(super) fn eval_kinds<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> [Rgb<L>; 2] {
-    l.vectorize(
-        #[inline(always)]
-        || lobes.eval_kinds(l, wo, wi),
+        || lobes.eval_diffuse(l, wo, wi),
     )
 }
 
@@ -133,4 +107,23 @@ pub(super) fn evaluate<L: Lanes>(
         #[inline(always)]
         || graph::evaluate(l, program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
     );
+}
+
+/// Surface points of a chunk of hits, and what a program computes there.
+#[expect(clippy::too_many_arguments, reason = "hits, scratch and results")]
+#[inline(always)]
+pub(super) fn run_program<L: Lanes, H: HitSource + ?Sized>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    surface: &mut SurfaceColumns,
+    scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
+) {
+    surface_points(l, tables, program, hits, source, surface);
+    if !program.is_empty() {
+        evaluate(l, tables, program, surface, source.count, scratch, outputs);
+    }
 }

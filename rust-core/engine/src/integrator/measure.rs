@@ -47,14 +47,13 @@ pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, context: &SampleContext, 
 #[inline(always)]
 fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
     let m = &ws.measure;
-    let throughput = load3(l, &m.throughput, at);
     Point {
         alive,
         position: load3(l, &m.position, at),
         error: l.load(&m.error, at),
         geometric: load3(l, &m.geometric_normal, at),
         frame: Frame::from_normal(load3(l, &m.shading_normal, at)),
-        throughput: Rgb::new(throughput.x, throughput.y, throughput.z),
+        throughput: load3(l, &m.throughput, at).into(),
         width: l.load(&m.width, at),
         slot: l.load_integers(&m.slot, at) + BATCH as u32,
     }

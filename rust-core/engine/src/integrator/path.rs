@@ -55,7 +55,9 @@ pub struct FirstPasses {
     /// Texture coordinates.
     pub uv: bool,
     /// Start, depth and falloff of the mist.
-    pub mist: Mist,
+    pub mist: Option<Mist>,
+    /// Numbers and pass indices of instances and materials.
+    pub numbers: bool,
 }
 
 /// The mist pass: metres at which it starts, metres until it is full, exponent.

@@ -35,12 +35,18 @@ pub(super) fn add_light<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, v
     }
 }
 
-/// Adds direct light at first surfaces to the passes of the kinds that scatter it: the diffuse and the glossy part, and the rest.
+/// Adds light from a sampled light. Where passes of light want it, `shares` tells the diffuse and the glossy share of what first surfaces
+/// scatter; the rest is transmitted.
 #[inline(always)]
-pub(super) fn add_shares<L: Lanes>(sums: &mut FirstHit, slot: U<L>, value: Rgb<L>, [diffuse, glossy]: [Rgb<L>; 2], chosen: M<L>) {
+pub(super) fn add_sampled<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, value: Rgb<L>, shares: Option<[Rgb<L>; 2]>, chosen: M<L>) {
+    add_rgb(&mut sums.radiance, slot, value, chosen);
+    let Some([diffuse, glossy]) = shares else { return };
+    let at_first = code.eq(code::SHARED);
+    sums.lights.add(code, slot, value, chosen.and_not(at_first));
+    let (diffuse, glossy) = (value * diffuse, value * glossy);
     let transmitted = (value - diffuse - glossy).max(0.0);
     for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
-        sums.lights.add(slot.lanes().u(kind as u32), slot, part, chosen & part.is_lit());
+        sums.lights.add(slot.lanes().u(kind as u32), slot, part, chosen & at_first & part.is_lit());
     }
 }
 

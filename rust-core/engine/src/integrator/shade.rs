@@ -73,7 +73,6 @@ pub(super) struct Stage<'a, L> {
     pub(super) tables: &'a Tables,
     pub(super) transport: &'a Transport,
     pub(super) context: &'a SampleContext,
-    pub(super) material: &'a SurfaceMaterial,
 }
 
 /// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
@@ -89,7 +88,7 @@ pub(super) fn shade_chunk<L: Lanes>(
     count: usize,
     ws: &mut Workspace,
 ) {
-    let stage = Stage { l, tables, transport, context, material };
+    let stage = Stage { l, tables, transport, context };
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     for at in (0..count).step_by(L::COUNT) {
@@ -103,8 +102,8 @@ pub(super) fn shade_chunk<L: Lanes>(
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
-        let lobes = kernels::resolve(l, &material.surface, &values, at, wo, entering, normals.as_ref());
-        shade_lanes(&stage, &mut point, wo, &lobes, at, ws);
+        let lobes = material.surface.resolve_about(l, &values, at, wo, entering, normals.as_ref());
+        shade_lanes(&stage, material, &mut point, wo, &lobes, at, ws);
     }
     ws.outputs = outputs;
 }
@@ -115,7 +114,6 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
     let shading = load3(l, &ws.surface.shading_normal, at);
     let frame =
         if material.anisotropic { Frame::from_tangent(shading, load3(l, &ws.surface.tangent, at)) } else { Frame::from_normal(shading) };
-    let throughput = gather3(l, &ws.paths.throughput, path);
     let flags = l.gather_integers(&ws.paths.flags, path);
     let spread = l.gather(&ws.paths.spread, path);
     Point {
@@ -126,7 +124,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         geometric: load3(l, &ws.surface.geometric_normal, at),
         frame,
         wo: load3(l, &ws.surface.wo, at),
-        throughput: Rgb::new(throughput.x, throughput.y, throughput.z),
+        throughput: gather3(l, &ws.paths.throughput, path).into(),
         flags,
         counts: l.gather_integers(&ws.paths.counts, path),
         slot: l.gather_integers(&ws.paths.slot, path),
@@ -160,7 +158,7 @@ fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Point<L>, at: usi
 #[inline(always)]
 fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'_>, point: &mut Point<L>, at: usize, ws: &Workspace) {
     let sigma = gather3(l, &ws.paths.medium, point.path);
-    point.medium = Rgb::new(sigma.x, sigma.y, sigma.z);
+    point.medium = sigma.into();
     let distance = l.gather(&ws.hits.t, point.path);
     let passed = |sigma: F<L>| (-(sigma * distance)).exp();
     point.throughput = point.throughput * Rgb::new(passed(sigma.x), passed(sigma.y), passed(sigma.z));
@@ -170,8 +168,16 @@ fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'
 }
 
 #[inline(always)]
-fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>, lobes: &Lobes<L>, at: usize, ws: &mut Workspace) {
-    let Stage { l, tables, transport, context, material } = *stage;
+fn shade_lanes<L: Lanes>(
+    stage: &Stage<'_, L>,
+    material: &SurfaceMaterial,
+    point: &mut Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<L>,
+    at: usize,
+    ws: &mut Workspace,
+) {
+    let Stage { l, tables, transport, context } = *stage;
     let pixel = point.slot & (super::state::BATCH as u32 - 1);
     let index = context.sampler.index(l, pixel, context.sample);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
@@ -183,12 +189,15 @@ fn shade_lanes<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, wo: Vec3<L>
     } else {
         point.alive
     };
-    let present =
-        if material.holdout || !tables.geometry.set_holdout.is_empty() { covered(stage, point, present, at, ws) } else { present };
+    let present = if material.holdout || !tables.geometry.set_holdout.is_empty() {
+        covered(stage, material, point, present, at, ws)
+    } else {
+        present
+    };
     if material.surface.lobes.emission {
         add_emission(stage, point, lobes.emission(), present, at, ws);
     }
-    record_first(stage, point, lobes, present, at, ws);
+    record_first(stage, material, point, lobes, present, at, ws);
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
@@ -216,7 +225,7 @@ pub(super) fn threshold<L: Lanes>(opacity: F<L>, threshold: f32) -> F<L> {
 /// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
 #[inline(always)]
 fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
-    let Stage { l, tables, transport, context, .. } = *stage;
+    let Stage { l, tables, transport, context } = *stage;
     let mut value = emission * point.throughput;
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, l.load_integers(&ws.surface.instance, at));

@@ -1,12 +1,10 @@
 //! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
 
 use super::{
-    closure::weigh,
     kernels,
-    light_sums::code,
     material::{Shading, Tables},
     path::Transport,
-    scatter::{add_light, add_rgb, add_shares},
+    scatter::add_sampled,
     shade::{parameter_values, threshold},
     state::{ShadowRays, Workspace, load3},
     surface::ChunkSource,
@@ -63,22 +61,12 @@ fn add_arrived<L: Lanes>(l: L, ws: &mut Workspace) {
             bits |= u64::from(ws.blocked[at + lane] == 0) << lane;
         }
         let arrived = gonio_simd::M(l.mask_from_bits(bits)) & l.first(ws.shadows.count - at);
-        let value = load3(l, &ws.shadows.contribution, at);
-        let slot = l.load_integers(&ws.shadows.slot, at);
-        let value = Rgb::new(value.x, value.y, value.z);
-        let code = l.load_integers(&ws.shadows.code, at);
-        if !ws.first_hit.lights.wanted() {
-            add_rgb(&mut ws.first_hit.radiance, slot, value, arrived);
-            continue;
-        }
-        let shared = code.eq(code::SHARED);
-        add_light(&mut ws.first_hit, code, slot, value, arrived.and_not(shared));
-        add_rgb(&mut ws.first_hit.radiance, slot, value, arrived & shared);
-        let share = |columns: &[gonio_simd::Column; 3]| {
-            let share = load3(l, columns, at);
-            value * Rgb::new(share.x, share.y, share.z)
-        };
-        add_shares(&mut ws.first_hit, slot, value, [share(&ws.shadows.shares[0]), share(&ws.shadows.shares[1])], arrived & shared);
+        let rays = &ws.shadows;
+        let value = load3(l, &rays.contribution, at).into();
+        let (slot, code) = (l.load_integers(&rays.slot, at), l.load_integers(&rays.code, at));
+        let [diffuse, glossy] = &rays.shares;
+        let shares = if ws.first_hit.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None };
+        add_sampled(&mut ws.first_hit, code, slot, value, shares, arrived);
     }
 }
 
@@ -109,7 +97,7 @@ fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit],
         Shading::Mix(mix) => {
             let mix = &tables.materials.mixes[mix as usize];
             let source = ChunkSource { order: &order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
-            weigh(l, tables, mix, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+            kernels::run_program(l, tables, &mix.program, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
             let mut weights = std::mem::take(&mut ws.weights);
             weights.clear();
             (0..mix.count * 3).for_each(|column| weights.extend_from_slice(ws.outputs.column(column)));
@@ -145,10 +133,7 @@ fn add_transmittance<L: Lanes>(
         return;
     }
     let source = ChunkSource { order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
-    kernels::surface_points(l, tables, &material.program, hits, &source, &mut ws.surface);
-    if !material.program.is_empty() {
-        kernels::evaluate(l, tables, &material.program, &mut ws.surface, hits.len(), &mut ws.scratch, &mut ws.outputs);
-    }
+    kernels::run_program(l, tables, &material.program, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
     let values = parameter_values(material, &ws.outputs);
     for at in (0..hits.len()).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &ws.surface.shading_normal, at));

@@ -164,14 +164,14 @@ impl Paths {
         p.t_max.append(chosen, &mut self.t_max, n);
         append3(p.vertex, chosen, &mut self.vertex, n);
         append3(p.normal, chosen, &mut self.normal, n);
-        append3(Vec3::new(p.throughput.r, p.throughput.g, p.throughput.b), chosen, &mut self.throughput, n);
+        append3(p.throughput.into(), chosen, &mut self.throughput, n);
         p.pdf.append(chosen, &mut self.pdf, n);
         p.width.append(chosen, &mut self.width, n);
         p.spread.append(chosen, &mut self.spread, n);
         p.slot.append(chosen, &mut self.slot, n);
         p.flags.append(chosen, &mut self.flags, n);
         p.counts.append(chosen, &mut self.counts, n);
-        append3(Vec3::new(p.medium.r, p.medium.g, p.medium.b), chosen, &mut self.medium, n);
+        append3(p.medium.into(), chosen, &mut self.medium, n);
         self.count += chosen.count();
     }
 
@@ -236,16 +236,15 @@ impl ShadowRays {
     #[inline(always)]
     pub(super) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        let triple = |colour: Rgb<L>| Vec3::new(colour.r, colour.g, colour.b);
         append3(ray.origin, chosen, &mut self.origin, n);
         append3(ray.direction, chosen, &mut self.direction, n);
         ray.t_max.append(chosen, &mut self.t_max, n);
-        append3(triple(ray.contribution), chosen, &mut self.contribution, n);
+        append3(ray.contribution.into(), chosen, &mut self.contribution, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);
         if let Some(shares) = ray.shares {
-            append3(triple(shares[0]), chosen, &mut self.shares[0], n);
-            append3(triple(shares[1]), chosen, &mut self.shares[1], n);
+            append3(shares[0].into(), chosen, &mut self.shares[0], n);
+            append3(shares[1].into(), chosen, &mut self.shares[1], n);
         }
         self.count += chosen.count();
     }

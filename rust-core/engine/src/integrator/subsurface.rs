@@ -4,12 +4,13 @@
 //! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
 
 use super::{
-    exit::{ExitPoint, leave},
+    exit::leave,
     kernels,
     material::Tables,
     path::{SampleContext, Transport},
-    state::{BATCH, Columns3, Workspace, append3, columns3, gather3, load3},
-    surface::ChunkSource,
+    shade::{CONE_PER_ROUGHNESS, Point, Stage},
+    state::{BATCH, Columns3, Workspace, append3, columns3, flag, gather3, load3},
+    surface::{ChunkSource, store3},
 };
 use crate::{
     accel::{Hits, NONE, RayBatch},
@@ -17,7 +18,7 @@ use crate::{
     graph::{CHUNK, Program},
     sampler::dimension,
 };
-use gonio_simd::{Column, Execution, F, Lanes, M, PADDING, Rgb, U, Vec3, dispatch, padded};
+use gonio_simd::{Column, Execution, F, Frame, Lanes, M, PADDING, Rgb, U, Vec3, dispatch, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -80,16 +81,6 @@ pub(super) struct WalkLanes<L: Lanes> {
     pub(super) width: F<L>,
 }
 
-#[inline(always)]
-fn vector<L: Lanes>(colour: Rgb<L>) -> Vec3<L> {
-    Vec3::new(colour.r, colour.g, colour.b)
-}
-
-#[inline(always)]
-fn colour<L: Lanes>(v: Vec3<L>) -> Rgb<L> {
-    Rgb::new(v.x, v.y, v.z)
-}
-
 impl Walks {
     #[inline(always)]
     pub(super) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
@@ -97,9 +88,9 @@ impl Walks {
         append3(w.origin, chosen, &mut self.origin, n);
         append3(w.direction, chosen, &mut self.direction, n);
         w.t_min.append(chosen, &mut self.t_min, n);
-        append3(vector(w.throughput), chosen, &mut self.throughput, n);
-        append3(vector(w.medium.albedo), chosen, &mut self.albedo, n);
-        append3(vector(w.medium.extinction), chosen, &mut self.extinction, n);
+        append3(w.throughput.into(), chosen, &mut self.throughput, n);
+        append3(w.medium.albedo.into(), chosen, &mut self.albedo, n);
+        append3(w.medium.extinction.into(), chosen, &mut self.extinction, n);
         w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
         w.instance.append(chosen, &mut self.instance, n);
         w.slot.append(chosen, &mut self.slot, n);
@@ -115,10 +106,10 @@ impl Walks {
             origin: load3(l, &self.origin, at),
             direction: load3(l, &self.direction, at),
             t_min: l.load(&self.t_min, at),
-            throughput: colour(load3(l, &self.throughput, at)),
+            throughput: load3(l, &self.throughput, at).into(),
             medium: Medium {
-                albedo: colour(load3(l, &self.albedo, at)),
-                extinction: colour(load3(l, &self.extinction, at)),
+                albedo: load3(l, &self.albedo, at).into(),
+                extinction: load3(l, &self.extinction, at).into(),
                 anisotropy: l.load(&self.anisotropy, at),
             },
             instance: l.load_integers(&self.instance, at),
@@ -178,25 +169,28 @@ fn random<L: Lanes>(l: L, context: &SampleContext, slot: U<L>, dimension: u32) -
 #[inline(always)]
 fn fly<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks) {
     for at in (0..walks.count).step_by(L::COUNT) {
-        let walk = walks.load(l, at);
+        let mut walk = walks.load(l, at);
         if step == REDUCED_FROM {
-            let reduced = walk.medium.reduced();
-            store3(vector(reduced.albedo), &mut walks.albedo, at);
-            store3(vector(reduced.extinction), &mut walks.extinction, at);
-            reduced.anisotropy.store(&mut walks.anisotropy, at);
+            walk.medium = walk.medium.reduced();
+            store3(walk.medium.albedo.into(), &mut walks.albedo, at);
+            store3(walk.medium.extinction.into(), &mut walks.extinction, at);
+            walk.medium.anisotropy.store(&mut walks.anisotropy, at);
         }
-        let medium = walks.load(l, at).medium;
         let u = random(l, context, walk.slot, step_dimension(context, step));
-        let flight = medium.flight(walk.throughput, u);
+        let flight = walk.medium.flight(walk.throughput, u);
         flight.distance.store(&mut walks.distance, at);
-        store3(vector(flight.channels), &mut walks.channels, at);
+        store3(flight.channels.into(), &mut walks.channels, at);
     }
 }
 
+/// Where walks met the surface.
 #[inline(always)]
-fn store3<L: Lanes>(v: Vec3<L>, columns: &mut Columns3, at: usize) {
-    let [x, y, z] = columns;
-    v.store([x, y, z], at);
+fn surface_mask<L: Lanes>(l: L, hits: &Hits, at: usize, count: usize) -> M<L> {
+    let mut bits = 0u64;
+    for lane in 0..L::COUNT.min(count - at) {
+        bits |= u64::from(hits.instance[at + lane] != NONE) << lane;
+    }
+    M(l.mask_from_bits(bits))
 }
 
 /// Weighs the flights, which end at the surface or at a scattering.
@@ -204,16 +198,13 @@ fn store3<L: Lanes>(v: Vec3<L>, columns: &mut Columns3, at: usize) {
 fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let walk = walks.load(l, at);
-        let flight = Flight { distance: l.load(&walks.distance, at), channels: colour(load3(l, &walks.channels, at)) };
-        let mut surface = 0u64;
+        let flight = Flight { distance: l.load(&walks.distance, at), channels: load3(l, &walks.channels, at).into() };
+        let here = L::COUNT.min(walks.count - at);
         let mut distance = [0.0; PADDING];
-        for (lane, distance) in distance[..L::COUNT.min(walks.count - at)].iter_mut().enumerate() {
-            surface |= u64::from(hits.instance[at + lane] != NONE) << lane;
-            *distance = hits.t[at + lane];
-        }
-        let surface = M(l.mask_from_bits(surface));
+        distance[..here].copy_from_slice(&hits.t[at..at + here]);
+        let surface = surface_mask(l, hits, at, walks.count);
         let throughput = walk.medium.arrive(walk.throughput, &flight, l.load(&distance, 0), surface);
-        store3(vector(throughput), &mut walks.throughput, at);
+        store3(throughput.into(), &mut walks.throughput, at);
     }
 }
 
@@ -243,24 +234,41 @@ fn come_out_chunk<L: Lanes>(
 ) {
     let source = ChunkSource { order, count, direction: &ws.walks.direction, cone: None };
     kernels::surface_points(l, tables, program, &ws.walk_hits, &source, &mut ws.surface);
+    let stage = Stage { l, tables, transport, context };
+    let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
     for at in (0..count).step_by(L::COUNT) {
-        let walk = l.load_integers(order, at);
-        let w = &ws.walks;
-        // Surface columns face the ray's start, which is inside; the way out is the other one.
-        let exit = ExitPoint {
-            alive: l.first(count - at),
-            position: load3(l, &ws.surface.position, at),
-            error: l.load(&ws.surface.error, at),
-            geometric: -load3(l, &ws.surface.geometric_normal, at),
-            shading: -load3(l, &ws.surface.shading_normal, at),
-            throughput: colour(gather3(l, &w.throughput, walk)),
-            slot: l.gather_integers(&w.slot, walk),
-            flags: l.gather_integers(&w.flags, walk),
-            counts: l.gather_integers(&w.counts, walk),
-            width: l.gather(&w.width, walk),
-        };
-        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
-        leave(l, tables, transport, context, &exit, base, ws);
+        let point = exit_point(l, order, at, l.first(count - at), ws);
+        leave(&stage, &point, base, ws);
+    }
+}
+
+/// Where walks come out; the normal is the direction they are seen from.
+#[inline(always)]
+fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
+    let walk = l.load_integers(order, at);
+    let (walks, surface) = (&ws.walks, &ws.surface);
+    // Surface columns face the ray's start, which is inside; the way out is the other one.
+    let normal = -load3(l, &surface.shading_normal, at);
+    let flags = l.gather_integers(&walks.flags, walk);
+    Point {
+        alive,
+        path: l.u(0),
+        position: load3(l, &surface.position, at),
+        error: l.load(&surface.error, at),
+        geometric: -load3(l, &surface.geometric_normal, at),
+        frame: Frame::from_normal(normal),
+        wo: normal,
+        throughput: gather3(l, &walks.throughput, walk).into(),
+        flags,
+        counts: l.gather_integers(&walks.counts, walk),
+        slot: l.gather_integers(&walks.slot, walk),
+        instance: l.gather_integers(&walks.instance, walk),
+        width: l.gather(&walks.width, walk),
+        spread: l.f(CONE_PER_ROUGHNESS),
+        bounces: flags >> flag::BOUNCE_SHIFT,
+        medium: Rgb::zero(l),
+        behind: Rgb::zero(l),
+        only_delta: l.m(false),
     }
 }
 
@@ -272,11 +280,8 @@ fn turn<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks, h
     for at in (0..count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
         let distance = l.load(&walks.distance, at);
-        let mut inside = 0u64;
-        for lane in 0..L::COUNT.min(count - at) {
-            inside |= u64::from(hits.instance[at + lane] == NONE) << lane;
-        }
-        let inside = M(l.mask_from_bits(inside)) & walk.throughput.max_component().gt(LEAST_THROUGHPUT);
+        let lit = walk.throughput.max_component().gt(LEAST_THROUGHPUT) & l.first(count - at);
+        let inside = lit.and_not(surface_mask(l, hits, at, count));
         walk.origin = walk.direction.mul_add(distance, walk.origin);
         walk.t_min = l.f(0.0);
         let u = random(l, context, walk.slot, step_dimension(context, step) + 1);

@@ -122,13 +122,6 @@ pub enum Space {
     Object,
 }
 
-impl Space {
-    /// Whether it is the world.
-    pub fn is_world(self) -> bool {
-        self == Self::World
-    }
-}
-
 /// What a vector stands for when it changes spaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
@@ -138,17 +131,6 @@ pub enum Quantity {
     Vector,
     /// A normal: stays perpendicular to the surface, and is made unit.
     Normal,
-}
-
-impl Quantity {
-    /// Whether it is a point: moves with the origin.
-    pub fn is_point(self) -> bool {
-        self == Self::Point
-    }
-    /// Whether it is a normal.
-    pub fn is_normal(self) -> bool {
-        self == Self::Normal
-    }
 }
 
 /// What a node computes, in MaterialX's vocabulary; all values have four components.
@@ -200,18 +182,11 @@ pub enum Operation {
         quantity: Quantity,
     },
     /// A shading normal in world space, on the side the surface is seen from, from the tangent-space normal `inputs[0]` in [-1, 1], scaled
-    /// in x and y by `scale`; along the texture coordinates of the surface's first image. Read from descriptions as [`Self::NormalMapAlong`].
-    #[serde(skip_deserializing)]
+    /// in x and y by `scale`.
     NormalMap {
         /// Strength of the bend.
         scale: f32,
-    },
-    /// The same along the texture coordinates of a named primvar, whose mirrored parts turn the bitangent round.
-    #[serde(rename = "NormalMap")]
-    NormalMapAlong {
-        /// Strength of the bend.
-        scale: f32,
-        /// The primvar, or the coordinates of the surface's first image.
+        /// The primvar whose coordinates it lies along, mirrored parts turning the bitangent round, or those of the surface's first image.
         #[serde(default)]
         uv: Option<String>,
     },

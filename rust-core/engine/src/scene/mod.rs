@@ -19,7 +19,9 @@ pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
-pub use material::{Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, SubsurfaceMethod};
+pub use material::{
+    Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, Space, SubsurfaceMethod,
+};
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
 pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings};

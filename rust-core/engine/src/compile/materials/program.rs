@@ -4,7 +4,7 @@ use crate::{
     compile::{primvars::column, textures::CompiledTextures},
     error::{Error, Result},
     graph::{Arithmetic, Curve, HitValue, Program, Quantity, Source, Step, VectorOperation},
-    scene::{Channel, Input, Material, Node, Operation, TextureFilter, WrapMode},
+    scene::{self, Channel, Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
 use std::sync::Arc;
@@ -144,15 +144,9 @@ fn step_of(node: &Node, fact: NodeFacts, textures: &CompiledTextures, names: &[S
         }
         Operation::Transform3d { rows } => Step::Transform3d { input: input(0), rows: *rows },
         Operation::Transform { from, to, quantity } if from != to => {
-            let quantity = match (quantity.is_point(), quantity.is_normal()) {
-                (true, _) => Quantity::Point,
-                (_, true) => Quantity::Normal,
-                _ => Quantity::Vector,
-            };
-            Step::Transform { input: input(0), to_world: to.is_world(), quantity }
+            Step::Transform { input: input(0), to_world: *to == Space::World, quantity: quantity_of(*quantity) }
         }
-        Operation::NormalMap { scale } => Step::NormalMap { input: input(0), scale: *scale, uv: None },
-        Operation::NormalMapAlong { scale, uv } => {
+        Operation::NormalMap { scale, uv } => {
             Step::NormalMap { input: input(0), scale: *scale, uv: uv.as_ref().and_then(|name| column(names, name)) }
         }
         Operation::Curve { table, range, linear, extrapolate } => {
@@ -218,6 +212,14 @@ fn hit_value_of(operation: &Operation) -> Option<HitValue> {
         Operation::FrontFacing => HitValue::FrontFacing,
         _ => return None,
     })
+}
+
+fn quantity_of(quantity: scene::Quantity) -> Quantity {
+    match quantity {
+        scene::Quantity::Point => Quantity::Point,
+        scene::Quantity::Vector => Quantity::Vector,
+        scene::Quantity::Normal => Quantity::Normal,
+    }
 }
 
 fn filter_of(filter: TextureFilter) -> Filter {

@@ -4,7 +4,10 @@ use crate::{
     compile::{CompiledScene, compile},
     geometry::GeometryTable,
     graph::{CHUNK, GraphScratch, Output, OutputColumns, Program, Source, SurfaceColumns, evaluate},
-    scene::{Instances, Material, Mesh, Origin, Primvar, PrimvarInterpolation, Scene, Texture, TextureSource, Transform, Visibility},
+    scene::{
+        Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, Texture, TextureSource,
+        Transform, Visibility,
+    },
 };
 use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
 use serde_json::{Value, json};
@@ -64,8 +67,11 @@ fn scene(nodes: &Value) -> Scene {
         ],
         ..Mesh::default()
     });
-    let graph = serde_json::from_value(json!({ "nodes": nodes })).expect("nodes in the form of scene descriptions");
-    let material = scene.add_material(Material { graph, ..Material::diffuse(Origin::new("test"), [0.5; 3]) });
+    let graph: Graph = serde_json::from_value(json!({ "nodes": nodes })).expect("nodes in the form of scene descriptions");
+    let mut material = Material::diffuse(Origin::new("test"), [0.5; 3]);
+    // Nodes that nothing reads would be left out.
+    material.closures[0].parameters = (0..graph.nodes.len() as u16).map(|node| ("base_color".into(), read(node))).collect();
+    let material = scene.add_material(Material { graph, ..material });
     let [x, y, z] = COLUMNS;
     scene.instances.push(Instances {
         origin: Origin::new("test"),
@@ -78,6 +84,11 @@ fn scene(nodes: &Value) -> Scene {
         pass_index: 0,
     });
     scene
+}
+
+/// The value of a node.
+pub(super) fn read(node: u16) -> Input {
+    Input::Node(NodeId(node), Channel::Rgb)
 }
 
 /// Fills what follows from the hits' numbers.

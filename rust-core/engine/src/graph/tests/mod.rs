@@ -3,6 +3,7 @@
 mod arithmetic;
 mod curve;
 mod harness;
+mod pruning;
 mod shading;
 mod steps;
 mod vector;
