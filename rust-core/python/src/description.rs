@@ -2,7 +2,7 @@
 
 use crate::{buffer::floats, error::exception};
 use gonio::scene::{Texture, TextureSource, Visibility};
-use pyo3::{prelude::*, types::PyDict};
+use pyo3::{prelude::*, pybacked::PyBackedBytes, types::PyDict};
 use serde::de::DeserializeOwned;
 use std::{collections::HashMap, sync::Arc};
 
@@ -58,11 +58,11 @@ pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, 
 /// A texture whose source may be given beside the description.
 pub(crate) fn texture(
     description: &Bound<'_, PyDict>,
-    data: Option<(String, Vec<u8>)>,
+    data: Option<(String, PyBackedBytes)>,
     pixels: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Texture> {
     let source = match (data, pixels) {
-        (Some((name, bytes)), _) => TextureSource::Encoded { name, bytes: bytes.into() },
+        (Some((name, bytes)), _) => TextureSource::Encoded { name, bytes: Arc::from(&*bytes) },
         (None, Some(pixels)) => {
             let shape: [usize; 3] = pixels.getattr("shape")?.extract()?;
             let flat = pixels.call_method1("reshape", (-1,))?;

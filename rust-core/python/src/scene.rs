@@ -14,7 +14,7 @@ use gonio::{
         PrimvarInterpolation, Transform, Visibility,
     },
 };
-use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
+use pyo3::{exceptions::PyValueError, prelude::*, pybacked::PyBackedBytes, types::PyDict};
 use std::{collections::HashMap, path::PathBuf};
 
 /// What is to be rendered: meshes, instances, materials, lights, cameras, settings; lengths in metres, radiances in cd/m².
@@ -143,7 +143,7 @@ impl Scene {
         &mut self,
         description: &Bound<'_, PyDict>,
         index: Option<u32>,
-        data: Option<(String, Vec<u8>)>,
+        data: Option<(String, PyBackedBytes)>,
         pixels: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<u32> {
         let texture = description::texture(description, data, pixels)?;
