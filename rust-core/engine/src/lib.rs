@@ -21,5 +21,6 @@ pub mod render;
 pub mod sampler;
 pub mod scene;
 pub mod texture;
+mod threads;
 
 pub use error::{Diagnostic, Error, Result, Severity};

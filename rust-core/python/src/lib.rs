@@ -4,6 +4,8 @@ mod buffer;
 mod description;
 mod error;
 mod film;
+#[cfg(unix)]
+mod memory;
 mod mesh;
 mod pass;
 mod render;

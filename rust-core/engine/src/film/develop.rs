@@ -1,10 +1,12 @@
 //! From sums to an image.
 
-use super::{Film, channel_names, divisor, is_index};
+use super::{Film, TileFilm, channel_names, divisor, is_index};
 use crate::{
-    integrator::{BATCH, tile_place},
+    integrator::{BATCH, TILE, tile_code},
     scene::{Aov, Crop},
+    threads::available_threads,
 };
+use std::sync::{Mutex, PoisonError};
 
 /// A named group of channels, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,25 +44,98 @@ impl Image {
     }
 }
 
+/// Rows of one tile's height in every layer: what one thread develops at a time.
+struct Band<'a> {
+    first_tile: usize,
+    layers: Vec<&'a mut [f32]>,
+}
+
 impl Film {
-    /// The means so far.
+    /// The means so far, on all cores.
     ///
     /// Depth, normal and position are means over what was covered; alpha tells how much that was.
     pub fn develop(&self) -> Image {
         let [width, height] = [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize);
         let mut layers: Vec<Layer> = self.layout.aovs.iter().map(|aov| empty_layer(*aov, width * height)).collect();
+        let aovs: Vec<Aov> = layers.iter().map(|layer| layer.aov).collect();
+        let bands = Mutex::new(self.bands(&mut layers, width));
+        let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).min();
+        let least = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..available_threads()).map(|_| scope.spawn(work)).collect();
+            let own = work();
+            others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).min()
+        });
+        Image { resolution: self.resolution, window: self.window, layers, samples: least.unwrap_or(0) }
+    }
+
+    fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {
+        let columns = self.columns as usize;
+        let mut bands: Vec<Band<'_>> =
+            (0..self.tile_count()).step_by(columns.max(1)).map(|first_tile| Band { first_tile, layers: Vec::new() }).collect();
+        for layer in layers {
+            let rows = layer.values.chunks_mut((width * TILE * layer.channels).max(1));
+            bands.iter_mut().zip(rows).for_each(|(band, rows)| band.layers.push(rows));
+        }
+        bands
+    }
+
+    /// Develops a row of tiles; gives the least number of samples of any.
+    fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> u32 {
         let mut least = u32::MAX;
-        for tile in 0..self.tile_count() {
+        for tile in band.first_tile..band.first_tile + self.columns as usize {
             let area = self.tile_area(tile);
+            let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
+            let left = (area.min[0] - self.window.min[0]) as usize;
             self.read(tile, |sums| {
                 least = least.min(sums.samples);
-                for layer in &mut layers {
-                    let places = [Some(layer.aov), divisor(layer.aov)].map(|aov| aov.and_then(|aov| self.layout.offset(aov)));
-                    develop_tile(layer, places, sums, area, self.window.min, width);
+                for (aov, rows) in aovs.iter().zip(&mut band.layers) {
+                    self.develop_tile(*aov, sums, &mut Part { rows, left, width, size, channels: channel_names(*aov).len() });
                 }
             });
         }
-        Image { resolution: self.resolution, window: self.window, layers, samples: if least == u32::MAX { 0 } else { least } }
+        least
+    }
+
+    fn develop_tile(&self, aov: Aov, tile: &TileFilm, part: &mut Part<'_>) {
+        let Some(offset) = self.layout.offset(aov).filter(|_| tile.samples > 0) else { return };
+        let sum = |channel: usize, code: usize| tile.sums[(offset + channel) * BATCH + code];
+        let scale = 1.0 / f64::from(tile.samples);
+        let divisor = divisor(aov).and_then(|aov| self.layout.offset(aov));
+        match (aov, divisor) {
+            (_, Some(divisor)) => part.fill(|channel, code| share(sum(channel, code), tile.sums[(divisor + channel) * BATCH + code])),
+            // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
+            (Aov::PrimId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
+            (_, None) if is_index(aov) => part.fill(|channel, code| (sum(channel, code) - 1.0).max(0.0)),
+            (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * scale),
+            (Aov::SampleCount, _) => part.fill(|_, _| f64::from(tile.samples)),
+            _ => part.fill(|channel, code| sum(channel, code) * scale),
+        }
+    }
+}
+
+/// A tile's place in the rows of a layer.
+struct Part<'a> {
+    rows: &'a mut [f32],
+    left: usize,
+    /// Pixels a row of the layer.
+    width: usize,
+    /// Pixels of the tile.
+    size: [usize; 2],
+    channels: usize,
+}
+
+impl Part<'_> {
+    /// Sets every pixel of the tile by channel and Morton number.
+    fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {
+        for y in 0..self.size[1] {
+            let first = (y * self.width + self.left) * self.channels;
+            let row = &mut self.rows[first..first + self.size[0] * self.channels];
+            for (x, pixel) in row.chunks_exact_mut(self.channels).enumerate() {
+                let code = tile_code([x, y]);
+                pixel.iter_mut().enumerate().for_each(|(channel, out)| *out = value(channel, code) as f32);
+            }
+        }
     }
 }
 
@@ -72,38 +147,4 @@ fn empty_layer(aov: Aov, pixels: usize) -> Layer {
 /// A sum of light over the sum of its colour; what has no colour shows none.
 fn share(light: f64, colour: f64) -> f64 {
     if colour > 0.0 { light / colour } else { 0.0 }
-}
-
-fn develop_tile(
-    layer: &mut Layer,
-    [offset, divisor]: [Option<usize>; 2],
-    tile: &super::TileFilm,
-    area: Crop,
-    corner: [u32; 2],
-    width: usize,
-) {
-    let Some(offset) = offset.filter(|_| tile.samples > 0) else { return };
-    let index = is_index(layer.aov);
-    let scale = if index { 1.0 } else { 1.0 / f64::from(tile.samples) };
-    for code in 0..BATCH {
-        let [x, y] = tile_place(code);
-        let place = [area.min[0] + x as u32, area.min[1] + y as u32];
-        if place[0] >= area.max[0] || place[1] >= area.max[1] {
-            continue;
-        }
-        let pixel = (place[1] - corner[1]) as usize * width + (place[0] - corner[0]) as usize;
-        for channel in 0..layer.channels {
-            let sum = tile.sums[(offset + channel) * BATCH + code];
-            let value = match (layer.aov, divisor) {
-                (_, Some(divisor)) => share(sum, tile.sums[(divisor + channel) * BATCH + code]),
-                // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
-                (Aov::PrimId, _) => sum - 1.0,
-                (_, None) if index => (sum - 1.0).max(0.0),
-                (Aov::Mist, _) => 1.0 - sum * scale,
-                (Aov::SampleCount, _) => f64::from(tile.samples),
-                _ => sum * scale,
-            };
-            layer.values[pixel * layer.channels + channel] = value as f32;
-        }
-    }
 }

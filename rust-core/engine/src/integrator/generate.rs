@@ -1,6 +1,6 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
-use super::state::{BATCH, PathLanes, Paths, TILE, flag};
+use super::state::{BATCH, PathLanes, Paths, flag};
 use crate::{
     camera::CameraTable,
     film::FilterTable,
@@ -13,7 +13,7 @@ use gonio_simd::{F, Lanes, Rgb, U, Vec3};
 pub(super) struct TileArea {
     /// First column and row in the image.
     pub(super) min: [u32; 2],
-    /// Behind the last column and row, at most [`TILE`] further.
+    /// Behind the last column and row, at most [`super::TILE`] further.
     pub(super) max: [u32; 2],
 }
 
@@ -84,15 +84,15 @@ pub(super) fn morton_even<L: Lanes>(code: U<L>) -> U<L> {
     (x | (x >> 4)) & 0x00ff_00ff
 }
 
-/// Row-major number in the tile of a pixel's Morton number.
-pub(crate) fn tile_place(code: usize) -> [usize; 2] {
-    let packed = |mut x: usize| {
-        x &= 0x5555;
-        x = (x | (x >> 1)) & 0x3333;
-        x = (x | (x >> 2)) & 0x0f0f;
-        (x | (x >> 4)) & 0x00ff
+/// The Morton number of a tile's pixel.
+#[inline]
+pub(crate) fn tile_code([x, y]: [usize; 2]) -> usize {
+    let spread = |mut x: usize| {
+        x = (x | (x << 4)) & 0x0f0f;
+        x = (x | (x << 2)) & 0x3333;
+        (x | (x << 1)) & 0x5555
     };
-    [packed(code) % TILE, packed(code >> 1) % TILE]
+    spread(x) | spread(y) << 1
 }
 
 /// A direction of the cosine distribution about +z (Malley's method).

@@ -20,7 +20,7 @@ mod state;
 mod subsurface;
 mod surface;
 
-pub(crate) use generate::tile_place;
+pub(crate) use generate::tile_code;
 pub use light_sums::{LightSums, code};
 pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};
 pub use path::{FirstPasses, Mist, Tracer, Transport};

@@ -13,6 +13,7 @@ use crate::{
     film::Film,
     integrator::Statistics,
     scene::Settings,
+    threads::available_threads,
 };
 use schedule::Schedule;
 use std::{
@@ -134,8 +135,4 @@ impl Drop for Render {
             let _ = worker.join();
         }
     }
-}
-
-fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
