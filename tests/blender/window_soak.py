@@ -16,8 +16,6 @@ from mathutils import Euler, Quaternion
 STEPS, SEED, LOG, ENGINE = (*sys.argv[sys.argv.index("--") + 1 :], "GONIO")[:4]
 STEPS, SEED = int(STEPS), int(SEED)
 ADDON = "bl_ext.user_default.gonio"
-# The first steps fill caches.
-WARM = 20
 # The scene stays as large as it is early on.
 MOST_MESHES = 5
 # Steps whose memory is compared, then and at the end.
@@ -128,7 +126,10 @@ def push():
 
 
 def shading():
-    views()[0].spaces.active.shading.type = chance.choice(("SOLID", "WIREFRAME", "RENDERED", "RENDERED"))
+    kinds = ("SOLID", "WIREFRAME", "RENDERED") if state["step"] < WARM else (chance.choice(("SOLID", "WIREFRAME", "RENDERED")),)
+    for kind in kinds:
+        views()[0].spaces.active.shading.type = kind
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
 
 
 def edit_mode():
@@ -185,7 +186,9 @@ def final():
 
 
 ACTIONS = (orbit, orbit, move, move, add, delete, material, material, unknown_node, lamp, world, undo, undo, redo, shading, edit_mode)
-ACTIONS += (sidebar, quad, border, camera_view, play, settings, final)
+ACTIONS += (sidebar, quad, quad, border, camera_view, play, settings, final)
+# The first steps do everything once and fill caches.
+WARM = len(ACTIONS)
 
 
 def step() -> float | None:
@@ -196,7 +199,7 @@ def step() -> float | None:
         return finish()
     # Undo leads back to the engine that the file had first.
     window().scene.render.engine = ENGINE
-    action = final if state["step"] % 25 == 7 else chance.choice(ACTIONS)
+    action = ACTIONS[state["step"]] if state["step"] < WARM else chance.choice(ACTIONS)
     if state["step"] % 10 == 0:
         for area in views():
             area.spaces.active.shading.type = "RENDERED"
