@@ -47,28 +47,30 @@ class Walk:
         self._depsgraph, self._visibility = depsgraph, Visibility(depsgraph.view_layer)
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
-            thing = item.object
-            original, data, is_instance = thing.original, thing.data, item.is_instance
-            key, parent = (hash(original), 0 if data is None else data.session_uid), None
-            if is_instance:
-                parents = _special_parents(depsgraph, self._visibility) if parents is None else parents
-                if parents and (uid := item.parent.original.session_uid) in parents:
-                    key, parent = (*key, uid), parents[uid]
-            # Instancers may be hidden themselves.
-            if item.show_self:
-                group = groups.get(key, self)
-                if group is self:
-                    groups[key] = self._group(thing, original, data, parent, is_instance, row)
-                elif group is not None:
-                    group.rows.append(row)
             count = row + 1
+            # Instancers may be hidden themselves.
+            if not item.show_self:
+                continue
+            thing = item.object
+            original, data = thing.original, thing.data
+            key, parent = (hash(original), 0 if data is None else data.session_uid), None
+            if parents != {} and item.is_instance:
+                parents = _special_parents(depsgraph, self._visibility) if parents is None else parents
+                if (uid := item.parent.original.session_uid) in parents:
+                    key, parent = (*key, uid), parents[uid]
+            group = groups.get(key, self)
+            if group is self:
+                groups[key] = self._group(item, thing, original, data, parent, row)
+            elif group is not None:
+                group.rows.append(row)
         self.groups = _once([group for group in groups.values() if group is not None])
         _fill(depsgraph, self.groups, count)
 
-    def _group(self, thing, original, data, parent, is_instance, row):
+    def _group(self, item, thing, original, data, parent, row):
         kind = thing.type
         if kind in SILENT or data is None:
             return None
+        is_instance = item.is_instance
         seen = self._visibility.of(original)
         return Group(
             original.name,

@@ -16,6 +16,7 @@ def prepared():
     from scenes import empty
 
     scene = empty()
+    scene.gonio.preview_samples = 1
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
     return bpy.data, scene
 
