@@ -48,7 +48,8 @@ class Exporter:
         changes = Changes()
         if found.nothing:
             return changes
-        self._meshes.forget(found.geometry)
+        if found.geometry:
+            self._meshes.forget(found.geometry)
         if found.every_material:
             self._materials.forget_all()
         for uid in found.materials:

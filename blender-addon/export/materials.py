@@ -58,11 +58,11 @@ class Materials:
         return number
 
     def _written(self, material, number):
-        """Translates and writes; a material that the scene refuses is the default one, with a report line."""
-        translated = translate(material, self._images, self._report)
+        """Translates and writes; a material that cannot be translated or that the scene refuses is the default one, with a report line."""
         try:
+            translated = translate(material, self._images, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
-        except (gonio.Error, ValueError, TypeError) as problem:
+        except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
             self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)
             translated = translate(None, self._images, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
