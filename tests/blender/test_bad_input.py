@@ -181,7 +181,9 @@ def test_meshes_with_little_or_wrong_in_them(tmp_path):
     assert picture(tmp_path).max() > 0.0
 
 
-@pytest.mark.blender
+# Blender's own triangulation, which grows faster than the points, takes a minute or more.
+@pytest.mark.validate
+@pytest.mark.blender(seconds=1200)
 def test_a_polygon_of_a_million_points(tmp_path):
     import bpy
     import numpy

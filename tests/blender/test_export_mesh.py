@@ -148,8 +148,18 @@ def test_a_large_polygon(tmp_path):
     mesh = bpy.data.meshes.new("Disk")
     mesh.from_pydata(np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1).tolist(), [], [tuple(range(count))])
     link(bpy.data.objects.new("Disk", mesh))
+    # A fan beside it, so that some points have several faces.
+    mesh = bpy.data.meshes.new("Fan")
+    rim = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1).tolist()
+    mesh.from_pydata([*rim, (2, 0, 1), (0, 2, 1)], [], [tuple(range(count)), (0, count, 1), (5, 2, count + 1)])
+    mesh.shade_smooth()
+    link(bpy.data.objects.new("Fan", mesh))
     exported, _ = exporter()
-    assert len(exported.sync(depsgraph()).meshes[0]["triangles"]) == count - 2
+    disk, fan = exported.sync(depsgraph()).meshes
+    assert len(disk["triangles"]) == count - 2
+    blenders = np.empty((count + 2, 3), dtype=np.float32)
+    mesh.vertex_normals.foreach_get("vector", blenders.ravel())
+    assert np.allclose(fan["normals"], blenders, atol=1e-3)
 
 
 def seconds(work, tries=10):
