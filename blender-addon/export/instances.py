@@ -80,7 +80,7 @@ class Instances:
             if thing.is_instancer or thing.particle_systems or any(modifier.type == "NODES" for modifier in thing.modifiers):
                 return False
             if number is not None:
-                places[number] = thing, np.array(thing.matrix_world, dtype=np.float32)[None]
+                places[number] = thing, np.array(thing.matrix_world, dtype=np.float32, order="C")[None]
             elif thing.type not in SILENT:
                 return False
         if not all(usable(transforms).all() for _, transforms in places.values()):

@@ -39,7 +39,8 @@ def measured(what, edit, *, height=3.0):
         # Later stages would share the processor with the next edit.
         view.finish()
     view.close()
-    parts = {name: statistics.median(times.get(name, 0.0) for _, times in tries) for name in ("depsgraph", "export", "scene", "compile", "picture")}
+    names = ("depsgraph", "export", "scene", "compile", "picture")
+    parts = {name: statistics.median(times.get(name, 0.0) for _, times in tries) for name in names}
     whole = statistics.median(whole for whole, _ in tries)
     print(f"{what}: {whole * 1e3:.0f} ms; " + ", ".join(f"{name} {taken * 1e3:.1f}" for name, taken in parts.items()))
     return statistics.median(whole - times["depsgraph"] for whole, times in tries)

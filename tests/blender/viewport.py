@@ -80,7 +80,7 @@ class Viewport:
         return self.session.picture
 
     def first_picture_after(self, edit):
-        """Seconds from an edit to the first picture that shows it, by what they were spent on: `scene` is part of `export`, the rest is not."""
+        """Seconds from an edit to the first picture that shows it, in all and by what they were spent on: `scene` is part of `export`."""
         self.times.clear()
         before = self.session.picture.number
         start = time.perf_counter()
