@@ -33,12 +33,16 @@ class Report:
 
     def __init__(self) -> None:
         self._lines: dict[Diagnostic, None] = {}
+        self._by_place: dict[tuple[str, str], list[Diagnostic]] = {}
 
     def add(
         self, kind: str, name: str, message: str, *, severity: str = "WARNING", material: str | None = None, node: str | None = None
     ) -> None:
         """Adds a line; one that stands already is not added again."""
-        self._lines[Diagnostic(severity, kind, name, message, material, node)] = None
+        line = Diagnostic(severity, kind, name, message, material, node)
+        if line not in self._lines:
+            self._lines[line] = None
+            self._by_place.setdefault((kind, name), []).append(line)
 
     def add_render(self, diagnostics: list[tuple[str, str]]) -> None:
         """Adds what the renderer itself had to say, pairs of origin and message."""
@@ -47,11 +51,12 @@ class Report:
 
     def forget(self, kind: str, name: str) -> None:
         """Drops the lines of a data-block that is exported again."""
-        self._lines = {line: None for line in self._lines if (line.kind, line.name) != (kind, name)}
+        for line in self._by_place.pop((kind, name), ()):
+            del self._lines[line]
 
     def clear(self) -> None:
         """Drops all lines."""
-        self._lines = {}
+        self._lines, self._by_place = {}, {}
 
     @property
     def diagnostics(self) -> list[Diagnostic]:

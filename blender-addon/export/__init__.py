@@ -3,9 +3,9 @@
 
 import gonio
 
-from . import camera, limits, settings, view, world
+from . import camera, collecting, limits, settings, view, world
 from .changes import Changes, touched
-from .gather import fill_random, gather
+from .gather import Walk, fill_random
 from .images import Images
 from .instances import Instances
 from .lights import Lights
@@ -48,19 +48,22 @@ class Exporter:
         changes = Changes()
         if found.nothing:
             return changes
-        self._meshes.forget(found.geometry)
+        if found.geometry:
+            self._meshes.forget(found.geometry)
         if found.every_material:
             self._materials.forget_all()
         for uid in found.materials:
             self._materials.forget(uid)
         if found.placements or found.geometry or found.materials or found.every_material:
             self._placements(depsgraph, changes, keep_known=True)
+        elif found.moved:
+            self._moves(depsgraph, changes, found.moved)
         if found.world:
             self._lights.domes(world.domes(_world(depsgraph), self._images, self.report))
         self._lights.write()
         changes.lights = self._lights.any_written
         changes.world = found.world and self._lights.any_written
-        if found.camera or found.placements:
+        if found.camera or found.placements or found.moved:
             changes.camera = self._scene_camera(depsgraph)
         return changes
 
@@ -85,31 +88,36 @@ class Exporter:
         self._scene_camera(depsgraph)
         limits.of_scene(depsgraph, self.report)
 
+    def _moves(self, depsgraph, changes, moved):
+        """New places of objects; everything is walked over where they may take others along."""
+        if self._instances.move(moved):
+            changes.transforms |= self._instances.any_written
+        else:
+            self._placements(depsgraph, changes, keep_known=True)
+
+    @collecting.put_off()
     def _placements(self, depsgraph, changes, keep_known):
         """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
         self._meshes.begin(keep_known)
         self._materials.begin()
-        groups = gather(depsgraph)
+        walk = Walk(depsgraph)
         override = depsgraph.view_layer_eval.material_override
-        surfaces = [group for group in groups if group.kind != "LIGHT"]
-        entries = [entry for group in surfaces if (entry := self._entry(group, override)) is not None]
+        entries = []
+        for group in walk.groups:
+            if group.kind != "LIGHT":
+                materials = self._materials.of_slots(group.slots, walk.materials, override)
+                mesh = self._meshes.number(group, materials.primvars)
+                if mesh is not None:
+                    entries.append((group, mesh, materials.numbers, materials.placed))
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         self._instances.write(entries)
-        for group in groups:
+        for group in walk.groups:
             limits.of_object(group.source.original, self.report)
-        self._lights.lamps([group for group in groups if group.kind == "LIGHT"])
+        self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
         self._meshes.sweep()
         changes.geometry |= self._meshes.any_written
         changes.shading |= self._materials.any_written
         changes.transforms |= self._instances.any_written
-
-    def _entry(self, group, override):
-        """What an entry of placements needs; None for what has no surface."""
-        slots = [override] * max(1, len(group.slots)) if override is not None else group.slots or [None]
-        numbers = [self._materials.number(material) for material in slots]
-        primvars, placed = self._materials.wants(slots)
-        mesh = self._meshes.number(group, primvars)
-        return None if mesh is None else (group, mesh, numbers, placed)
 
     def _scene_camera(self, depsgraph, size=None):
         """The scene's camera, unless a 3D view was set; gives whether it differs."""

@@ -28,6 +28,8 @@ class Touched:
     """What `depsgraph.updates` lists, sorted by what has to be done."""
 
     placements: bool = False
+    # Evaluated objects that moved and of which nothing else is said, by session_uid.
+    moved: dict = field(default_factory=dict)
     geometry: set = field(default_factory=set)
     materials: set = field(default_factory=set)
     every_material: bool = False
@@ -37,7 +39,7 @@ class Touched:
     @property
     def nothing(self) -> bool:
         """Whether the list was empty."""
-        return not (self.placements or self.geometry or self.materials or self.every_material or self.world or self.camera)
+        return not (self.placements or self.moved or self.geometry or self.materials or self.every_material or self.world or self.camera)
 
 
 def touched(depsgraph) -> Touched:
@@ -52,6 +54,8 @@ def _sort(found, update, block):
     if isinstance(block, bpy.types.Object):
         if block.type == "CAMERA":
             found.camera = True
+        elif update.is_updated_transform and not (update.is_updated_geometry or update.is_updated_shading):
+            found.moved[block.session_uid] = update.id
         else:
             # Switches of visibility, slots and properties come as shading or as neither.
             found.placements = True

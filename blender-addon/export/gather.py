@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One walk over everything that the depsgraph shows: placements grouped by what is placed."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from .random_number import of_name
-from .visibility import combined, is_ordinary, ray_visibility
+from .transforms import usable
+from .visibility import Visibility, combined, is_ordinary
 
 # Objects whose surface Blender turns into a mesh on demand.
 AS_MESH = {"CURVE", "SURFACE", "FONT", "META"}
@@ -15,7 +16,7 @@ AS_MESH = {"CURVE", "SURFACE", "FONT", "META"}
 SILENT = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
 
 
-@dataclass
+@dataclass(slots=True)
 class Group:
     """Placements of one thing: the object it came from, its data, and the rows of the walk."""
 
@@ -27,50 +28,72 @@ class Group:
     source: object
     visibility: dict
     pass_index: int
-    slots: list
-    rows: list = field(default_factory=list)
+    # The materials' session_uids, 0 for none.
+    slots: tuple
+    # Whether the first row is the object itself.
+    is_itself: bool
+    rows: list
     matrices: np.ndarray | None = None
+    # Which placements can be shown; None if all can.
+    kept: np.ndarray | None = None
     random: np.ndarray | None = None
 
 
-def gather(depsgraph):
-    """The groups of a depsgraph, with their matrices (N, 4, 4)."""
-    groups, parents = {}, _special_parents(depsgraph)
-    count = 0
-    for row, item in enumerate(depsgraph.object_instances):
-        thing = item.object
-        data = thing.data
-        key = (hash(thing.original), 0 if data is None else data.session_uid)
-        if parents and item.is_instance and item.parent.original.session_uid in parents:
-            key = (*key, item.parent.original.session_uid)
-        group = groups.get(key)
-        if group is None:
-            group = groups[key] = _group(depsgraph, item, thing, data, parents.get(key[2]) if len(key) > 2 else None)
-        if group is not None:
-            group.rows.append(row)
-        count = row + 1
-    found = _once([group for group in groups.values() if group is not None])
-    _drop_hidden_instancers(depsgraph, found)
-    _fill(depsgraph, found, count)
-    return [group for group in found if group.rows]
+class Walk:
+    """What a depsgraph shows: the groups, with their matrices (N, 4, 4), and the materials of their slots by session_uid."""
 
+    def __init__(self, depsgraph):
+        self.groups, self.materials = [], {}
+        self._depsgraph, self._visibility = depsgraph, Visibility(depsgraph.view_layer)
+        groups, parents, count = {}, None, 0
+        for row, item in enumerate(depsgraph.object_instances):
+            count = row + 1
+            # Instancers may be hidden themselves.
+            if not item.show_self:
+                continue
+            thing = item.object
+            original, data = thing.original, thing.data
+            key, parent = (hash(original), 0 if data is None else data.session_uid), None
+            if parents != {} and item.is_instance:
+                parents = _special_parents(depsgraph, self._visibility) if parents is None else parents
+                if (uid := item.parent.original.session_uid) in parents:
+                    key, parent = (*key, uid), parents[uid]
+            group = groups.get(key, self)
+            if group is self:
+                groups[key] = self._group(item, thing, original, data, parent, row)
+            elif group is not None:
+                group.rows.append(row)
+        self.groups = _once([group for group in groups.values() if group is not None])
+        _fill(depsgraph, self.groups, count)
 
-def _group(depsgraph, item, thing, data, parent):
-    if thing.type in SILENT or data is None:
-        return None
-    original = thing.original
-    seen = ray_visibility(original, depsgraph.view_layer)
-    return Group(
-        name=original.name,
-        object_uid=original.session_uid,
-        data_uid=data.session_uid,
-        kind="LIGHT" if thing.type == "LIGHT" else "MESH" if isinstance(data, bpy.types.Mesh) else thing.type,
-        data=data,
-        source=original.evaluated_get(depsgraph),
-        visibility=seen if parent is None else combined(seen, parent),
-        pass_index=thing.pass_index,
-        slots=[slot.material for slot in thing.material_slots] or list(getattr(data, "materials", [])),
-    )
+    def _group(self, item, thing, original, data, parent, row):
+        kind = thing.type
+        if kind in SILENT or data is None:
+            return None
+        is_instance = item.is_instance
+        seen = self._visibility.of(original)
+        return Group(
+            original.name,
+            original.session_uid,
+            data.session_uid,
+            "MESH" if kind != "LIGHT" and isinstance(data, bpy.types.Mesh) else kind,
+            data,
+            # What the walk gives for an instance is gone after it.
+            original.evaluated_get(self._depsgraph) if is_instance else thing,
+            seen if parent is None else combined(seen, parent),
+            thing.pass_index,
+            self._slots(thing, data),
+            not is_instance,
+            [row],
+        )
+
+    def _slots(self, thing, data):
+        uids = []
+        for material in [slot.material for slot in thing.material_slots] or getattr(data, "materials", ()):
+            uid = 0 if material is None else material.original.session_uid
+            self.materials[uid] = material
+            uids.append(uid)
+        return tuple(uids)
 
 
 def _once(groups):
@@ -79,34 +102,31 @@ def _once(groups):
     return [group for group in groups if group.kind not in AS_MESH or group.object_uid not in meshes]
 
 
-def _special_parents(depsgraph):
+def _special_parents(depsgraph, visibility):
     """Instancers with switches of their own, by session_uid: their instances are grouped apart."""
     special = {}
     for thing in depsgraph.objects:
         if thing.is_instancer or thing.particle_systems or thing.modifiers:
-            seen = ray_visibility(thing.original, depsgraph.view_layer)
+            seen = visibility.of(thing.original)
             if not is_ordinary(seen):
                 special[thing.original.session_uid] = seen
     return special
-
-
-def _drop_hidden_instancers(depsgraph, groups):
-    """Instancers may be hidden themselves; only those few groups are asked row by row."""
-    suspects = {row: group for group in groups if group.source.is_instancer or group.source.particle_systems for row in group.rows}
-    if not suspects:
-        return
-    hidden = {row for row, item in enumerate(depsgraph.object_instances) if row in suspects and not item.show_self}
-    for group in {id(group): group for group in suspects.values()}.values():
-        group.rows = [row for row in group.rows if row not in hidden]
 
 
 def _fill(depsgraph, groups, count):
     flat = np.empty(count * 16, dtype=np.float32)
     depsgraph.object_instances.foreach_get("matrix_world", flat)
     # Blender gives columns; the scene wants rows.
-    matrices = flat.reshape(-1, 4, 4).transpose(0, 2, 1)
+    matrices = np.ascontiguousarray(flat.reshape(-1, 4, 4).transpose(0, 2, 1))
+    kept = usable(matrices)
+    all_kept = kept.all()
     for group in groups:
-        group.matrices = np.ascontiguousarray(matrices[group.rows])
+        first, end = group.rows[0], group.rows[-1] + 1
+        # Most rows follow one another, and need no copy.
+        rows = slice(first, end) if end - first == len(group.rows) else group.rows
+        group.matrices = matrices[rows]
+        if not all_kept and not kept[rows].all():
+            group.kept = kept[rows]
 
 
 def fill_random(depsgraph, groups):

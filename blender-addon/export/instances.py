@@ -1,13 +1,48 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scene's placements: one entry for each group, rewritten only where something about it changed."""
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 
+from .gather import SILENT
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .transforms import usable
 
 # Names of attributes that are custom properties of the object.
 OBJECT_PREFIX = "object "
+NO_VALUES = {}
+
+
+@dataclass(slots=True)
+class Entry:
+    """What the scene was told of one group."""
+
+    mesh: int
+    materials: list
+    name: str
+    visibility: dict
+    pass_index: int
+    wanted: frozenset
+    transforms: np.ndarray
+    values: dict
+
+    def is_like(self, other):
+        """Whether another entry tells the scene the same."""
+        return (
+            self.mesh == other.mesh
+            and self.materials == other.materials
+            and self.name == other.name
+            and self.visibility == other.visibility
+            and self.pass_index == other.pass_index
+            and _same(self.transforms, other.transforms)
+            and self.values.keys() == other.values.keys()
+            and all(_same(self.values[name], other.values[name]) for name in self.values)
+        )
+
+
+def _same(a, b):
+    return a.shape == b.shape and a.tobytes() == b.tobytes()
 
 
 class Instances:
@@ -16,79 +51,111 @@ class Instances:
     def __init__(self, scene, report):
         self._scene, self._report = scene, report
         self._written, self.any_written = [], False
+        # Objects that are placed as themselves and not otherwise: the number of their entry, by session_uid.
+        self._single = {}
 
     def write(self, entries):
         """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there."""
-        self.any_written = False
-        number = 0
-        for group, mesh, materials, primvars in entries:
+        self.any_written, self._single, number = False, {}, 0
+        for group, mesh, materials, wanted in entries:
             self._report.forget("Object", group.name)
-            kept = usable(group.matrices)
-            if not kept.all():
-                lost = int((~kept).sum())
-                self._report.add(
-                    "Object", group.name, f"{lost} placement{'s' * (lost > 1)} with a scale of zero or values that are not numbers left out"
-                )
-            if kept.any():
-                self._put(number, group, mesh, materials, kept, self._values(group, kept, primvars))
-                number += 1
+            is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
+            self._single[group.object_uid] = number if is_single else None
+            if group.kept is not None and not self._leave_out(group):
+                continue
+            values = _values(group, wanted) if wanted else NO_VALUES
+            self._put(number, Entry(mesh, materials, group.name, group.visibility, group.pass_index, wanted, group.matrices, values))
+            number += 1
         if number < len(self._written):
             self.any_written = True
             self._scene.truncate(instances=number)
-        self._written = self._written[:number]
+            del self._written[number:]
 
-    def _put(self, number, group, mesh, materials, kept, values):
-        transforms = group.matrices if kept.all() else np.ascontiguousarray(group.matrices[kept])
-        about = (mesh, tuple(materials), group.name, tuple(group.visibility.items()), group.pass_index)
-        shown = (about, transforms, values)
-        if number < len(self._written) and _same(self._written[number], shown):
+    def move(self, moved):
+        """Moves the evaluated objects given by session_uid, of which nothing else has changed; False, with nothing written, where that may
+        move instances too."""
+        places = {}
+        for uid, thing in moved.items():
+            number = self._single.get(uid)
+            if thing.is_instancer or thing.particle_systems or any(modifier.type == "NODES" for modifier in thing.modifiers):
+                return False
+            if number is not None:
+                places[number] = thing, np.array(thing.matrix_world, dtype=np.float32, order="C")[None]
+            elif thing.type not in SILENT:
+                return False
+        if not all(usable(transforms).all() for _, transforms in places.values()):
+            return False
+        self.any_written = False
+        for number, (thing, transforms) in places.items():
+            entry = self._written[number]
+            values = {**entry.values, **_of_object(thing, entry.pass_index, entry.wanted, 1)}
+            if LOCATION in values:
+                values[LOCATION] = _locations(transforms)
+            self._put(number, replace(entry, transforms=transforms, values=values))
+        return True
+
+    def _leave_out(self, group):
+        """Takes the placements away that cannot be shown, with a report line; gives whether any are left."""
+        lost = int((~group.kept).sum())
+        self._report.add(
+            "Object", group.name, f"{lost} placement{'s' * (lost > 1)} with a scale of zero or values that are not numbers left out"
+        )
+        group.matrices = group.matrices[group.kept]
+        if group.random is not None:
+            group.random = group.random[group.kept]
+        return len(group.matrices) > 0
+
+    def _put(self, number, entry):
+        known = number < len(self._written)
+        if known and self._written[number].is_like(entry):
+            # The new one: the old one's transforms may be part of all the matrices of an earlier pass.
+            self._written[number] = entry
             return
         self.any_written = True
-        index = number if number < len(self._written) else None
         self._scene.put_instances(
-            mesh,
-            list(materials),
-            transforms,
-            name=group.name,
-            visibility=group.visibility,
-            primvars=values or None,
-            pass_index=group.pass_index,
-            index=index,
+            entry.mesh,
+            entry.materials,
+            entry.transforms,
+            name=entry.name,
+            visibility=entry.visibility,
+            primvars=entry.values or None,
+            pass_index=entry.pass_index,
+            index=number if known else None,
         )
-        if index is None:
-            self._written.append(shown)
+        if known:
+            self._written[number] = entry
         else:
-            self._written[number] = shown
-
-    def _values(self, group, kept, wanted):
-        """The values that materials want of each placement."""
-        count = int(kept.sum())
-        every = lambda value: np.tile(np.asarray(value, dtype=np.float32), (count, 1))
-        source, values = group.source, {}
-        for name in sorted(wanted):
-            if name == RANDOM:
-                values[name] = np.ascontiguousarray(group.random[kept, None])
-            elif name == LOCATION:
-                values[name] = np.ascontiguousarray(group.matrices[kept, :3, 3])
-            elif name == COLOUR:
-                values[name] = every(tuple(source.color))
-            elif name == INDEX:
-                values[name] = every([group.pass_index])
-            elif name.startswith(OBJECT_PREFIX):
-                value = object_attribute(source, name.removeprefix(OBJECT_PREFIX))
-                if value is not None:
-                    values[name] = every(value)
-        return values
+            self._written.append(entry)
 
 
-def _same(a, b):
-    return (
-        a[0] == b[0]
-        and a[1].shape == b[1].shape
-        and a[1].tobytes() == b[1].tobytes()
-        and a[2].keys() == b[2].keys()
-        and all(a[2][name].tobytes() == b[2][name].tobytes() for name in a[2])
-    )
+def _values(group, wanted):
+    """The values that materials want of each placement."""
+    values = _of_object(group.source, group.pass_index, wanted, len(group.matrices))
+    if RANDOM in wanted:
+        values[RANDOM] = np.ascontiguousarray(group.random[:, None])
+    if LOCATION in wanted:
+        values[LOCATION] = _locations(group.matrices)
+    return values
+
+
+def _locations(transforms):
+    return np.ascontiguousarray(transforms[:, :3, 3])
+
+
+def _of_object(source, pass_index, wanted, count):
+    """The values that are the same for all placements of an object, `count` times."""
+    values = {}
+    for name in sorted(wanted):
+        value = None
+        if name == COLOUR:
+            value = tuple(source.color)
+        elif name == INDEX:
+            value = [pass_index]
+        elif name.startswith(OBJECT_PREFIX):
+            value = object_attribute(source, name.removeprefix(OBJECT_PREFIX))
+        if value is not None:
+            values[name] = np.tile(np.asarray(value, dtype=np.float32), (count, 1))
+    return values
 
 
 def object_attribute(source, name):

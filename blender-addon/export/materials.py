@@ -1,9 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scene's materials: translated once, written again only where the description differs."""
 
+from dataclasses import dataclass
+
 import gonio
 
 from .material import translate
+
+
+@dataclass(frozen=True, slots=True)
+class Slotted:
+    """The materials of an object's slots: their numbers, and the names that they want of meshes, and of placements."""
+
+    numbers: list
+    primvars: frozenset
+    placed: frozenset
 
 
 class Materials:
@@ -12,10 +23,12 @@ class Materials:
     def __init__(self, scene, slots, images, report):
         self._scene, self._slots, self._images, self._report = scene, slots, images, report
         self._translated, self.any_written = {}, False
+        # Within a pass: many objects have the same slots.
+        self._slotted = {}
 
     def begin(self):
         """Starts a pass."""
-        self.any_written = False
+        self.any_written, self._slotted = False, {}
 
     def forget_all(self):
         """Has every material translated again."""
@@ -25,9 +38,18 @@ class Materials:
         """Has one material translated again."""
         self._translated.pop(uid, None)
 
-    def number(self, material):
+    def of_slots(self, slots, materials, override):
+        """What the materials of slots come to: session_uids of some of `materials`, or `override` in place of all of them."""
+        if slots not in self._slotted:
+            shown = [override] * max(1, len(slots)) if override is not None else [materials[uid] for uid in slots] or [None]
+            numbers, translated = [self._number(material) for material in shown], [self._translated[_uid(material)] for material in shown]
+            primvars = frozenset().union(*(each.primvars for each in translated))
+            self._slotted[slots] = Slotted(numbers, primvars, frozenset().union(*(each.instance_primvars for each in translated)))
+        return self._slotted[slots]
+
+    def _number(self, material):
         """The number of a material (None: the default one), translated and written where that is still to be done."""
-        uid = 0 if material is None else material.original.session_uid
+        uid = _uid(material)
         number, _ = self._slots.take(uid)
         if uid not in self._translated:
             if material is not None:
@@ -36,21 +58,16 @@ class Materials:
         return number
 
     def _written(self, material, number):
-        """Translates and writes; a material that the scene refuses is the default one, with a report line."""
-        translated = translate(material, self._images, self._report)
+        """Translates and writes; a material that cannot be translated or that the scene refuses is the default one, with a report line."""
         try:
+            translated = translate(material, self._images, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
-        except (gonio.Error, ValueError, TypeError) as problem:
+        except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
             self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)
             translated = translate(None, self._images, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         return translated
 
-    def wants(self, materials):
-        """The names that these materials want of meshes, and of placements."""
-        primvars, placements = set(), set()
-        for material in materials:
-            translated = self._translated[0 if material is None else material.original.session_uid]
-            primvars |= translated.primvars
-            placements |= translated.instance_primvars
-        return primvars, placements
+
+def _uid(material):
+    return 0 if material is None else material.original.session_uid

@@ -14,12 +14,14 @@ class Meshes:
         self._scene, self._slots, self._report = scene, slots, report
         # (object, data) -> (content, values wanted) as of the last time it was read
         self._known, self._seen = {}, set()
+        # (place in memory, values wanted) -> content, within a pass: many objects may show one mesh
+        self._read_now = {}
         self.any_written = False
 
     def begin(self, keep_known):
         """Starts a pass; without `keep_known` every mesh is compared again."""
         self._slots.begin()
-        self.any_written, self._seen = False, set()
+        self.any_written, self._seen, self._read_now = False, set(), {}
         if not keep_known:
             self._known = {}
 
@@ -31,10 +33,9 @@ class Meshes:
         """The number of a group's mesh; None if it has no faces."""
         place = (group.object_uid, group.data_uid)
         self._seen.add(place)
-        wanted = frozenset(primvars)
         known = self._known.get(place)
-        if known is None or known[1] != wanted:
-            known = self._known[place] = (self._read(group, wanted), wanted)
+        if known is None or known[1] != primvars:
+            known = self._known[place] = (self._read(group, primvars), primvars)
         key = known[0]
         if key is None:
             return None
@@ -43,7 +44,10 @@ class Meshes:
     def _read(self, group, primvars):
         """Reads a mesh and writes it to the scene if nothing like it is there; gives its key."""
         if group.kind == "MESH":
-            return self._write(group, group.data, primvars)
+            here = (group.data.as_pointer(), primvars)
+            if here not in self._read_now:
+                self._read_now[here] = self._write(group, group.data, primvars)
+            return self._read_now[here]
         if group.kind not in AS_MESH:
             self._report.add("Object", group.name, f"objects of type {group.kind.capitalize()} are not supported; it is left out")
             return None

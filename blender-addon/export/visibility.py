@@ -4,14 +4,35 @@
 RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
 
 
-def ray_visibility(thing, view_layer):
-    """The switches of an object as the scene takes them."""
-    seen = {ray: bool(getattr(thing, f"visible_{ray}", True)) for ray in RAYS}
-    if thing.indirect_only_get(view_layer=view_layer):
-        seen["camera"] = False
-    if thing.is_holdout or thing.holdout_get(view_layer=view_layer):
-        seen["holdout"] = True
-    return seen
+class Visibility:
+    """The switches of a view layer's objects; asks the layer about each of them only if a collection has such a switch."""
+
+    def __init__(self, view_layer):
+        self._layer = view_layer
+        collections = list(_collections(view_layer.layer_collection))
+        self._any_indirect = any(each.indirect_only for each in collections)
+        self._any_holdout = any(each.holdout for each in collections)
+
+    def of(self, thing):
+        """The switches of an original object as the scene takes them."""
+        seen = {
+            "camera": thing.visible_camera,
+            "diffuse": thing.visible_diffuse,
+            "glossy": thing.visible_glossy,
+            "transmission": thing.visible_transmission,
+            "shadow": thing.visible_shadow,
+        }
+        if self._any_indirect and thing.indirect_only_get(view_layer=self._layer):
+            seen["camera"] = False
+        if thing.is_holdout or (self._any_holdout and thing.holdout_get(view_layer=self._layer)):
+            seen["holdout"] = True
+        return seen
+
+
+def _collections(collection):
+    yield collection
+    for child in collection.children:
+        yield from _collections(child)
 
 
 def combined(own, parent):

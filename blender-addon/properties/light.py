@@ -2,17 +2,12 @@
 """Settings of lights that Blender itself has no place for."""
 
 import bpy
-from bpy.props import BoolProperty
 
+from .switch import switch
 from .tag import tag_data
 
 
 class GonioLightSettings(bpy.types.PropertyGroup):
     """Settings of one light."""
 
-    is_portal: BoolProperty(
-        name="Portal",
-        description="The area light gives no light; it marks an opening through which the world's light is sampled",
-        default=False,
-        update=tag_data,
-    )
+    is_portal: switch("Portal", "The area light gives no light; it marks an opening through which the world's light is sampled", tag_data)

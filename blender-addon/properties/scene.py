@@ -2,8 +2,9 @@
 """Render settings of a scene, named as Cycles names them."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty
 
+from .switch import switch
 from .tag import tag_data
 
 MOST_SAMPLES = 1 << 24
@@ -16,6 +17,29 @@ PIXEL_FILTERS = (
     ("BLACKMAN_HARRIS", "Blackman-Harris", "Sharper than Gaussian, almost no ringing", 2),
     ("TENT", "Tent", "Linear fall to the edge of the filter", 3),
 )
+
+
+def _threshold(name, description, default):
+    """A relative error at which sampling stops."""
+    return FloatProperty(
+        name=name, description=description, min=0.0, soft_min=0.001, max=1.0, default=default, precision=4, update=tag_data
+    )
+
+
+def _least_samples(name, description):
+    """Samples that come before any estimate of the error."""
+    return IntProperty(name=name, description=description, min=0, max=4096, default=0, update=tag_data)
+
+
+def _bounces(name, description, default):
+    """How many bounces of a kind a path may have."""
+    return IntProperty(name=name, description=description, min=0, max=MOST_BOUNCES, default=default, update=tag_data)
+
+
+def _clamp(part, sample):
+    """The largest value that samples of direct or of indirect light keep."""
+    description = f"Largest value of {sample}, no limit if 0. Less noise, but light is lost"
+    return FloatProperty(name=f"Clamp {part}", description=description, min=0.0, max=1e8, default=0.0, update=tag_data)
 
 
 class GonioSceneSettings(bpy.types.PropertyGroup):
@@ -32,53 +56,19 @@ class GonioSceneSettings(bpy.types.PropertyGroup):
         default=256,
         update=tag_data,
     )
-    use_adaptive_sampling: BoolProperty(
-        name="Noise Threshold",
-        description="Stop sampling pixels whose estimated noise is below a threshold",
-        default=False,
-        update=tag_data,
+    use_adaptive_sampling: switch("Noise Threshold", "Stop sampling pixels whose estimated noise is below a threshold", tag_data)
+    adaptive_threshold: _threshold("Noise Threshold", "Estimated relative error at which a pixel is done", 0.01)
+    adaptive_min_samples: _least_samples(
+        "Min Samples", "Samples that a pixel has before its noise is estimated, chosen by the threshold if 0"
     )
-    adaptive_threshold: FloatProperty(
-        name="Noise Threshold",
-        description="Estimated relative error at which a pixel is done",
-        min=0.0,
-        soft_min=0.001,
-        max=1.0,
-        default=0.01,
-        precision=4,
-        update=tag_data,
+    use_preview_adaptive_sampling: switch(
+        "Viewport Noise Threshold", "Stop sampling pixels of the viewport whose estimated noise is below a threshold", tag_data
     )
-    adaptive_min_samples: IntProperty(
-        name="Min Samples",
-        description="Samples that a pixel has before its noise is estimated, chosen by the threshold if 0",
-        min=0,
-        max=4096,
-        default=0,
-        update=tag_data,
+    preview_adaptive_threshold: _threshold(
+        "Viewport Noise Threshold", "Estimated relative error at which a pixel of the viewport is done", 0.1
     )
-    use_preview_adaptive_sampling: BoolProperty(
-        name="Viewport Noise Threshold",
-        description="Stop sampling pixels of the viewport whose estimated noise is below a threshold",
-        default=False,
-        update=tag_data,
-    )
-    preview_adaptive_threshold: FloatProperty(
-        name="Viewport Noise Threshold",
-        description="Estimated relative error at which a pixel of the viewport is done",
-        min=0.0,
-        soft_min=0.001,
-        max=1.0,
-        default=0.1,
-        precision=4,
-        update=tag_data,
-    )
-    preview_adaptive_min_samples: IntProperty(
-        name="Viewport Min Samples",
-        description="Samples that a pixel of the viewport has before its noise is estimated, chosen by the threshold if 0",
-        min=0,
-        max=4096,
-        default=0,
-        update=tag_data,
+    preview_adaptive_min_samples: _least_samples(
+        "Viewport Min Samples", "Samples that a pixel of the viewport has before its noise is estimated, chosen by the threshold if 0"
     )
     time_limit: FloatProperty(
         name="Time Limit",
@@ -91,61 +81,15 @@ class GonioSceneSettings(bpy.types.PropertyGroup):
     seed: IntProperty(
         name="Seed", description="Another seed gives another pattern of noise", min=0, max=2**31 - 1, default=0, update=tag_data
     )
-    use_animated_seed: BoolProperty(
-        name="Use Animated Seed", description="Another pattern of noise for each frame", default=False, update=tag_data
-    )
+    use_animated_seed: switch("Use Animated Seed", "Another pattern of noise for each frame", tag_data)
 
-    max_bounces: IntProperty(
-        name="Max Bounces", description="Most bounces of a light path", min=0, max=MOST_BOUNCES, default=12, update=tag_data
-    )
-    diffuse_bounces: IntProperty(
-        name="Diffuse Bounces",
-        description="Most diffuse bounces of a light path, within the total",
-        min=0,
-        max=MOST_BOUNCES,
-        default=4,
-        update=tag_data,
-    )
-    glossy_bounces: IntProperty(
-        name="Glossy Bounces",
-        description="Most glossy bounces of a light path, within the total",
-        min=0,
-        max=MOST_BOUNCES,
-        default=4,
-        update=tag_data,
-    )
-    transmission_bounces: IntProperty(
-        name="Transmission Bounces",
-        description="Most passages through refractive surfaces, within the total",
-        min=0,
-        max=MOST_BOUNCES,
-        default=12,
-        update=tag_data,
-    )
-    transparent_max_bounces: IntProperty(
-        name="Transparent Max Bounces",
-        description="Most transparent surfaces that a ray passes; not part of the total",
-        min=0,
-        max=MOST_BOUNCES,
-        default=8,
-        update=tag_data,
-    )
-    clamp_direct: FloatProperty(
-        name="Clamp Direct",
-        description="Largest value of a direct sample, no limit if 0. Less noise, but light is lost",
-        min=0.0,
-        max=1e8,
-        default=0.0,
-        update=tag_data,
-    )
-    clamp_indirect: FloatProperty(
-        name="Clamp Indirect",
-        description="Largest value of an indirect sample, no limit if 0. Less noise, but light is lost",
-        min=0.0,
-        max=1e8,
-        default=0.0,
-        update=tag_data,
-    )
+    max_bounces: _bounces("Max Bounces", "Most bounces of a light path", 12)
+    diffuse_bounces: _bounces("Diffuse Bounces", "Most diffuse bounces of a light path, within the total", 4)
+    glossy_bounces: _bounces("Glossy Bounces", "Most glossy bounces of a light path, within the total", 4)
+    transmission_bounces: _bounces("Transmission Bounces", "Most passages through refractive surfaces, within the total", 12)
+    transparent_max_bounces: _bounces("Transparent Max Bounces", "Most transparent surfaces that a ray passes; not part of the total", 8)
+    clamp_direct: _clamp("Direct", "a direct sample")
+    clamp_indirect: _clamp("Indirect", "an indirect sample")
 
     film_exposure: FloatProperty(
         name="Exposure",

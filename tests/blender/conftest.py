@@ -43,11 +43,12 @@ def pytest_pyfunc_call(pyfuncitem):
         return None
     values = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
     arguments = {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}
-    run_child(
+    said = run_child(
         pyfuncitem.callspec.params["blender_python"],
         [str(CHILD), str(pyfuncitem.path), pyfuncitem.originalname, json.dumps(arguments)],
         seconds=marker.kwargs.get("seconds", SECONDS),
     )
+    print(said, end="")
     return True
 
 

@@ -196,3 +196,36 @@ def test_values_of_placements(tmp_path):
         assert np.allclose(value["blender colour"][0], (number / 4, 0.5, 1.0, 1.0)) and np.isclose(
             value["object wear"][0, 0], 0.25 * number
         )
+
+
+@pytest.mark.blender
+def test_what_moves_comes_out_as_after_a_whole_export(tmp_path):
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    empty()
+    shared, part = quad(), bpy.data.collections.new("Part")
+    part.objects.link(bpy.data.objects.new("Inside", shared))
+    one, two = (link(bpy.data.objects.new(name, shared)) for name in ("One", "Two"))
+    lamp = link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
+    axis, placed = link(bpy.data.objects.new("Axis", None)), link(bpy.data.objects.new("Placed", None))
+    placed.instance_type, placed.instance_collection = "COLLECTION", part
+    two.parent, lamp.parent = axis, two
+    carrier = generator("Generator", quad("Carrier"), None)
+    moved, _ = exporter()
+    moved.sync(depsgraph())
+    bpy.app.handlers.depsgraph_update_post.append(lambda _, graph: moved.update(graph))
+    things = (one, two, axis, placed, carrier, lamp, part.objects[0])
+    edits = [(thing, "location", (1.0 + number, 2.0, 3.0)) for number, thing in enumerate(things)]
+    edits += [(one, "scale", (0, 1, 1)), (one, "location", (9, 9, 9)), (one, "scale", (1, 1, 1)), (two, "visible_camera", False)]
+    for thing, name, value in edits:
+        setattr(thing, name, value)
+        graph = depsgraph()
+        whole, _ = exporter()
+        whole.sync(graph)
+        for a, b in zip(moved.scene.instances, whole.scene.instances, strict=True):
+            assert (a["name"], a["visibility"]) == (b["name"], b["visibility"]), (thing, name)
+            assert np.array_equal(a["transforms"], b["transforms"]), (thing, name)
+        assert moved.scene.lights == whole.scene.lights, (thing, name)
+    bpy.app.handlers.depsgraph_update_post.clear()

@@ -150,33 +150,19 @@ def thin_film(t, node, context):
     return {"thin_film_weight": 1.0, "thin_film_thickness": thickness, "thin_film_ior": t.input(node, "Thin Film IOR", context, 1.33)}
 
 
-@closure_node("ShaderNodeBsdfGlass")
-def glass(t, node, context):
+@closure_node("ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction")
+def refractive(t, node, context):
     return [
         closure(
             t.graph,
-            "Glass",
+            "Glass" if node.bl_idname == "ShaderNodeBsdfGlass" else "Refraction",
             base_color=t.input(node, "Color", context),
             specular_roughness=t.input(node, "Roughness", context),
-            specular_ior=t.input(node, "IOR", context, 1.5),
+            specular_ior=t.input(node, "IOR", context),
             distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
             normal=normal_node(t, node, context),
+            # A Refraction BSDF has no film.
             **thin_film(t, node, context),
-        )
-    ]
-
-
-@closure_node("ShaderNodeBsdfRefraction")
-def refraction(t, node, context):
-    return [
-        closure(
-            t.graph,
-            "Refraction",
-            base_color=t.input(node, "Color", context),
-            specular_roughness=t.input(node, "Roughness", context),
-            specular_ior=t.input(node, "IOR", context, 1.45),
-            distribution=DISTRIBUTIONS.get(node.distribution, "Ggx"),
-            normal=normal_node(t, node, context),
         )
     ]
 

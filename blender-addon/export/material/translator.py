@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From one Blender node tree to graph values; the handlers of single nodes register themselves here."""
 
+import sys
+from contextlib import contextmanager
+
 import bpy
 
 from .graph import Graph, Value
 from .sockets import KINDS, Context, follow, input_socket
+
+# More nodes than this in a row are not followed.
+DEEPEST = 1000
+# Calls that one node of a row takes.
+CALLS_A_NODE = 12
 
 # bl_idname of a node -> function(translator, node, context, output socket) -> Value
 VALUES = {}
@@ -30,6 +38,17 @@ def closure_node(*names):
         return function
 
     return register
+
+
+@contextmanager
+def _room_for_calls():
+    """Python's own limit would end at some 150 nodes in a row."""
+    usual = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(usual, DEEPEST * CALLS_A_NODE))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(usual)
 
 
 class Translator:
@@ -93,8 +112,12 @@ class Translator:
         if key not in self._values:
             if key in self._open:
                 return self.graph.scalar(0.0)
+            if len(self._open) >= DEEPEST:
+                self.say(node, context, f"more than {DEEPEST} nodes in a row; the value before them is taken as 0")
+                return self.graph.scalar(0.0)
             self._open.add(key)
-            self._values[key] = self._compute(node, output, context)
+            with _room_for_calls():
+                self._values[key] = self._compute(node, output, context)
             self._open.discard(key)
         return self._values[key]
 
