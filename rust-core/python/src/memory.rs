@@ -10,6 +10,10 @@ use std::{
 /// Blocks from this many bytes on are the kernel's business.
 const LARGE: usize = 1 << 17;
 
+/// Blocks from this many bytes on want large pages: a picture's first touch is a fault for each page.
+#[cfg(target_os = "linux")]
+const HUGE: usize = 1 << 22;
+
 /// No page of a kernel is smaller, so every block is aligned to it.
 const PAGE: usize = 4096;
 
@@ -27,7 +31,15 @@ fn map(size: usize) -> *mut u8 {
     let (protection, flags) = (libc::PROT_READ | libc::PROT_WRITE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
     // SAFETY: a new private mapping at an address of the kernel's choice touches no memory that is in use.
     let block = unsafe { libc::mmap(null_mut(), size, protection, flags, -1, 0) };
-    if block == libc::MAP_FAILED { null_mut() } else { block.cast() }
+    if block == libc::MAP_FAILED {
+        return null_mut();
+    }
+    #[cfg(target_os = "linux")]
+    if size >= HUGE {
+        // SAFETY: advice about a mapping of our own; a kernel that does not take it does nothing.
+        unsafe { libc::madvise(block, size, libc::MADV_HUGEPAGE) };
+    }
+    block.cast()
 }
 
 // SAFETY: blocks are the system's or whole mappings of their own, page-aligned and zeroed; which of the two follows from the layout alone, that

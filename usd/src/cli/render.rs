@@ -239,6 +239,10 @@ impl Job<'_> {
             let seconds = start.elapsed().as_secs_f64();
             say(&format!("{} samples a pixel in {}, {:.1} Mrays/s", image.samples, clock(start.elapsed()), rays / seconds.max(1e-3)));
         }
+        if result.is_err() {
+            // The process ends next, which gives everything back at once; somebody waits.
+            std::mem::forget((render, image));
+        }
         result
     }
 

@@ -19,30 +19,25 @@ pub struct Block {
 /// Sums over all blocks so far.
 #[derive(Clone, Debug)]
 pub struct TileFilm {
-    /// Channel after channel, `BATCH` values each, by the pixels' Morton numbers.
+    /// Channel after channel, `BATCH` values each, by the pixels' Morton numbers; empty before the first block.
     pub sums: Vec<f64>,
-    /// Sum of the squares of the blocks' mean luminances times their samples, by pixel.
-    pub second_moment: Vec<f64>,
     /// Samples a pixel has.
     pub samples: u32,
     /// Blocks added.
     pub blocks: u32,
     waiting: BTreeMap<u32, Block>,
     index_channels: Vec<usize>,
-    color_channel: Option<usize>,
 }
 
 impl TileFilm {
     /// An empty tile.
     pub fn new(layout: &ChannelLayout) -> Self {
         Self {
-            sums: vec![0.0; layout.channels * BATCH],
-            second_moment: vec![0.0; BATCH],
+            sums: Vec::new(),
             samples: 0,
             blocks: 0,
             waiting: BTreeMap::new(),
             index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
-            color_channel: layout.offset(Aov::Color),
         }
     }
 
@@ -56,6 +51,15 @@ impl TileFilm {
     }
 
     fn add_now(&mut self, block: &Block) {
+        if self.sums.is_empty() {
+            self.sums = block.sums.iter().map(|value| f64::from(*value)).collect();
+        } else {
+            self.add_sums(block);
+        }
+        self.samples += block.samples;
+    }
+
+    fn add_sums(&mut self, block: &Block) {
         for (channel, sums) in self.sums.chunks_exact_mut(BATCH).enumerate() {
             let values = &block.sums[channel * BATCH..(channel + 1) * BATCH];
             if self.index_channels.contains(&channel) {
@@ -65,16 +69,6 @@ impl TileFilm {
                 sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
             }
         }
-        if let Some(color) = self.color_channel {
-            let channel = |i: usize| &block.sums[(color + i) * BATCH..(color + i + 1) * BATCH];
-            let (r, g, b) = (channel(0), channel(1), channel(2));
-            let samples = f64::from(block.samples);
-            for (i, moment) in self.second_moment.iter_mut().enumerate() {
-                let y = 0.2126 * f64::from(r[i]) + 0.7152 * f64::from(g[i]) + 0.0722 * f64::from(b[i]);
-                *moment += y * y / samples;
-            }
-        }
-        self.samples += block.samples;
     }
 }
 

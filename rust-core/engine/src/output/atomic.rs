@@ -7,6 +7,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+/// Bytes that go to the system at once: pictures are long.
+const BUFFER: usize = 1 << 20;
+
 /// Writes through a temporary file in the same folder, which takes the name once it is complete, and on disk if it is to be `durable`.
 pub fn write_atomically(path: &Path, durable: bool, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<()> {
     let temporary = temporary_name(path);
@@ -25,7 +28,7 @@ fn temporary_name(path: &Path) -> PathBuf {
 }
 
 fn write_to(path: &Path, durable: bool, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> std::io::Result<()> {
-    let mut file = BufWriter::new(File::create(path)?);
+    let mut file = BufWriter::with_capacity(BUFFER, File::create(path)?);
     write(&mut file)?;
     file.flush()?;
     if durable { file.get_ref().sync_all() } else { Ok(()) }
