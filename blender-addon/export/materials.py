@@ -12,6 +12,8 @@ class Materials:
     def __init__(self, scene, slots, images, report):
         self._scene, self._slots, self._images, self._report = scene, slots, images, report
         self._translated, self.any_written = {}, False
+        # Names of the AOV Output nodes that passes show.
+        self.shader_aovs = frozenset()
 
     def begin(self):
         """Starts a pass."""
@@ -37,7 +39,7 @@ class Materials:
 
     def _written(self, material, number):
         """Translates and writes; a material that the scene refuses is the default one, with a report line."""
-        translated = translate(material, self._images, self._report)
+        translated = translate(material, self._images, self._report, shader_aovs=self.shader_aovs)
         try:
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         except (gonio.Error, ValueError, TypeError) as problem:

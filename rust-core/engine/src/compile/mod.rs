@@ -9,6 +9,7 @@ mod kept;
 mod lights;
 mod materials;
 mod primvars;
+mod shader_passes;
 mod textures;
 mod trees;
 mod view;

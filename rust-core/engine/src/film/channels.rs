@@ -1,6 +1,6 @@
 //! Which passes a film keeps, and where their channels lie.
 
-use crate::scene::{Aov, LightPart};
+use crate::scene::{Aov, LightPart, ShaderValue};
 
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -38,6 +38,17 @@ impl ChannelLayout {
         self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::Emission | Aov::Environment))
     }
 
+    /// Channels of all shader passes.
+    pub fn shader_columns(&self) -> usize {
+        self.aovs.iter().filter(|aov| matches!(aov, Aov::Shader(..))).map(|aov| channel_names(*aov).len()).sum()
+    }
+
+    /// Channels of the shader passes before this one.
+    pub fn shader_column(&self, aov: Aov) -> usize {
+        let before = self.aovs.iter().take_while(|known| **known != aov);
+        before.filter(|known| matches!(known, Aov::Shader(..))).map(|known| channel_names(*known).len()).sum()
+    }
+
     /// First channel of a pass.
     pub fn offset(&self, aov: Aov) -> Option<usize> {
         self.aovs.iter().position(|known| *known == aov).map(|i| self.offsets[i])
@@ -47,14 +58,14 @@ impl ChannelLayout {
 /// The channels of a pass.
 pub fn channel_names(aov: Aov) -> &'static [&'static str] {
     match aov {
-        Aov::Color => &["R", "G", "B", "A"],
+        Aov::Color | Aov::Shader(ShaderValue::Color, _) => &["R", "G", "B", "A"],
         Aov::Alpha => &["A"],
         Aov::Depth => &["Z"],
         Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
         Aov::Uv => &["U", "V", "A"],
         Aov::Albedo | Aov::DenoisingAlbedo | Aov::Emission | Aov::Environment | Aov::Light(..) => &["R", "G", "B"],
         Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
-        Aov::Mist | Aov::SampleCount => &["value"],
+        Aov::Mist | Aov::SampleCount | Aov::Shader(ShaderValue::Number, _) => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
     }
 }

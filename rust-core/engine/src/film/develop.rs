@@ -11,6 +11,8 @@ use crate::{
 pub struct Layer {
     /// The pass.
     pub aov: Aov,
+    /// Its name.
+    pub name: String,
     /// `channels` floats a pixel, rows from the top.
     pub values: Vec<f32>,
     /// Channels a pixel.
@@ -48,7 +50,8 @@ impl Film {
     /// Depth, normal and position are means over what was covered; alpha tells how much that was.
     pub fn develop(&self) -> Image {
         let [width, height] = [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize);
-        let mut layers: Vec<Layer> = self.layout.aovs.iter().map(|aov| empty_layer(*aov, width * height)).collect();
+        let mut layers: Vec<Layer> =
+            self.layout.aovs.iter().zip(&self.names).map(|(aov, name)| empty_layer(*aov, name, width * height)).collect();
         let mut least = u32::MAX;
         for tile in 0..self.tile_count() {
             let area = self.tile_area(tile);
@@ -64,9 +67,9 @@ impl Film {
     }
 }
 
-fn empty_layer(aov: Aov, pixels: usize) -> Layer {
+fn empty_layer(aov: Aov, name: &str, pixels: usize) -> Layer {
     let channels = channel_names(aov).len();
-    Layer { aov, values: vec![0.0; pixels * channels], channels }
+    Layer { aov, name: name.to_owned(), values: vec![0.0; pixels * channels], channels }
 }
 
 /// A sum of light over the sum of its colour; what has no colour shows none.

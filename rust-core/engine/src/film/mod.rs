@@ -12,7 +12,7 @@ pub use tile::{Block, TileFilm};
 
 use crate::{
     integrator::TILE,
-    scene::{Aov, Crop},
+    scene::{Crop, Settings},
 };
 use std::sync::{Mutex, PoisonError};
 
@@ -25,18 +25,21 @@ pub struct Film {
     pub window: Crop,
     /// Which passes are kept, and where.
     pub layout: ChannelLayout,
+    /// Names of the passes.
+    names: Vec<String>,
     tiles: Vec<Mutex<TileFilm>>,
     columns: u32,
 }
 
 impl Film {
-    /// An empty film; `window` lies inside the resolution.
-    pub fn new(resolution: [u32; 2], window: Crop, aovs: &[Aov]) -> Self {
+    /// An empty film of the passes asked for; `window` lies inside the resolution.
+    pub fn new(settings: &Settings, window: Crop) -> Self {
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
-        let layout = ChannelLayout::with_divisors(aovs);
+        let layout = ChannelLayout::with_divisors(&settings.aovs);
+        let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let count = (across(0) * across(1)) as usize;
         let tiles = (0..count).map(|_| Mutex::new(TileFilm::new(&layout))).collect();
-        Self { resolution, window, layout, tiles, columns: across(0) }
+        Self { resolution: settings.resolution, window, layout, names, tiles, columns: across(0) }
     }
 
     /// Tiles of the window.

@@ -85,13 +85,13 @@ impl Block {
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
             let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
-            fill(*aov, channels, gathered, exposure, origin);
+            fill(*aov, channels, layout, gathered, exposure, origin);
         }
         Self { sums, samples }
     }
 }
 
-fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
+fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
     let radiance = &gathered.radiance;
     let luminance = |i: usize| 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
     match aov {
@@ -106,6 +106,11 @@ fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, orig
         Aov::Normal | Aov::DenoisingNormal => copy3(channels, &gathered.normal),
         Aov::Albedo | Aov::DenoisingAlbedo => copy3(channels, &gathered.albedo),
         Aov::Uv => copy3(channels, &gathered.uv),
+        Aov::Shader(..) => {
+            for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.shader.columns[layout.shader_column(aov)..]) {
+                out.copy_from_slice(&column[..BATCH]);
+            }
+        }
         Aov::Mist => channels.copy_from_slice(&gathered.clearness[..BATCH]),
         Aov::Emission => copy3(channels, gathered.lights.part(code::EMISSION)),
         Aov::Environment => copy3(channels, gathered.lights.part(code::ENVIRONMENT)),

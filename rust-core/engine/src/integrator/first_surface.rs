@@ -5,6 +5,7 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::Mist,
     shade::{Point, Stage},
+    shader_passes,
     state::{MeasurePoints, Workspace, append3, flag},
 };
 use crate::bsdf::Lobes;
@@ -64,6 +65,9 @@ pub(super) fn record_first<L: Lanes>(
         kinds: lobes.albedo_kinds(),
     };
     ws.first_hit.record(l, &surface, seen);
+    if let Some(program) = stage.shader {
+        shader_passes::record(l, program, point, seen, at, ws);
+    }
 }
 
 /// The instance set, and the pass indices of the instance and of the material.

@@ -1,5 +1,6 @@
 //! What the kernels see of a scene: compiled tables.
 
+use super::shader_passes::ShaderOutputs;
 use crate::{
     accel::SceneBvh,
     bsdf::{Surface, parameter},
@@ -73,6 +74,8 @@ pub struct MaterialTable {
     pub mixes: Vec<Mix>,
     /// The scene's materials in their order, then the default one.
     pub numbers: Vec<Shading>,
+    /// Of the materials that have any, what they show in passes of their own.
+    pub shader_outputs: Vec<ShaderOutputs>,
 }
 
 impl MaterialTable {

@@ -7,7 +7,8 @@ use super::{
     kernels,
     material::Tables,
     measure::measure,
-    shade::shade_chunk,
+    shade::{Stage, shade_chunk},
+    shader_passes::ShaderPasses,
     shadow::trace_shadows,
     state::{Workspace, flag},
     subsurface::walk,
@@ -50,7 +51,7 @@ pub struct Transport {
 }
 
 /// What passes want to know of first surfaces beyond the usual.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct FirstPasses {
     /// Texture coordinates.
     pub uv: bool,
@@ -58,6 +59,8 @@ pub struct FirstPasses {
     pub mist: Option<Mist>,
     /// Numbers and pass indices of instances and materials.
     pub numbers: bool,
+    /// What materials compute for passes of their own.
+    pub shader: ShaderPasses,
 }
 
 /// The mist pass: metres at which it starts, metres until it is full, exponent.
@@ -150,6 +153,7 @@ impl Tracer<'_> {
 
     #[inline(always)]
     fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
+        let shader = ws.shader_program(&self.transport, material, first, count);
         let material = &self.tables.materials.surfaces[material];
         let start = Instant::now();
         let source = ChunkSource {
@@ -160,11 +164,15 @@ impl Tracer<'_> {
         };
         kernels::surface_points(l, self.tables, &material.program, &ws.hits, &source, &mut ws.surface);
         let mut start = ws.statistics.spent(2, start);
+        if let Some(program) = shader {
+            // Before the surface's own program bends the normals.
+            kernels::evaluate(l, self.tables, program, &mut ws.surface, count, &mut ws.scratch, &mut ws.shader_outputs);
+        }
         if !material.program.is_empty() {
             kernels::evaluate(l, self.tables, &material.program, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
         }
         start = ws.statistics.spent(3, start);
-        shade_chunk(l, self.tables, &self.transport, context, material, first, count, ws);
+        shade_chunk(&Stage { l, tables: self.tables, transport: &self.transport, context, shader }, material, first, count, ws);
         ws.statistics.spent(4, start);
     }
 }

@@ -1,6 +1,6 @@
 //! The state of a batch of paths, in columns.
 
-use super::{light_sums::LightSums, subsurface::Walks};
+use super::{light_sums::LightSums, shader_passes::ShaderSums, subsurface::Walks};
 use crate::{
     accel::{Hits, PassedHit},
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
@@ -306,6 +306,8 @@ pub struct FirstHit {
     pub clearness: Column,
     /// Light by where it comes from.
     pub lights: LightSums,
+    /// What materials show in passes of their own.
+    pub shader: ShaderSums,
 }
 
 impl Default for FirstHit {
@@ -323,6 +325,7 @@ impl Default for FirstHit {
             uv: columns3(BATCH),
             clearness: Column::new(BATCH),
             lights: LightSums::default(),
+            shader: ShaderSums::default(),
         }
     }
 }
@@ -332,7 +335,7 @@ impl FirstHit {
     pub fn clear(&mut self) {
         let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv];
         let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness];
-        threes.into_iter().flatten().chain(ones).for_each(|column| column.fill(0.0));
+        threes.into_iter().flatten().chain(ones).chain(&mut self.shader.columns).for_each(|column| column.fill(0.0));
         [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
         self.lights.clear();
     }
@@ -394,6 +397,8 @@ pub struct Workspace {
     pub(super) surface: SurfaceColumns,
     pub(super) scratch: GraphScratch,
     pub(super) outputs: OutputColumns,
+    /// What programs of shader passes computed.
+    pub(super) shader_outputs: OutputColumns,
     /// The block under way.
     pub first_hit: FirstHit,
     /// Rays traced and lanes alive, for benchmarks.
