@@ -1,5 +1,6 @@
 //! Which passes a film keeps, and where their channels lie.
 
+use super::catcher;
 use crate::scene::{Aov, LightPart, ShaderValue};
 
 /// The passes of a film and the first channel of each.
@@ -11,6 +12,8 @@ pub struct ChannelLayout {
     pub offsets: Vec<usize>,
     /// Channels in all.
     pub channels: usize,
+    /// First channel of what shadow catchers hide, where there are any; no pass shows it as it is.
+    pub catchers: Option<usize>,
 }
 
 impl ChannelLayout {
@@ -31,6 +34,12 @@ impl ChannelLayout {
     pub fn with_divisors(aovs: &[Aov]) -> Self {
         let divisors = aovs.iter().filter_map(|aov| divisor(*aov));
         Self::new(&aovs.iter().copied().chain(divisors).collect::<Vec<_>>())
+    }
+
+    /// Makes room for what shadow catchers hide.
+    pub fn with_catchers(self, wanted: bool) -> Self {
+        let room = if wanted { catcher::CHANNELS } else { 0 };
+        Self { catchers: wanted.then_some(self.channels), channels: self.channels + room, ..self }
     }
 
     /// Whether a pass shows light by where it comes from.

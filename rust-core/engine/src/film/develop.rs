@@ -1,6 +1,6 @@
 //! From sums to an image.
 
-use super::{Film, channel_names, divisor, is_index};
+use super::{Film, catcher, channel_names, divisor, is_index};
 use crate::{
     integrator::{BATCH, tile_place},
     scene::{Aov, Crop},
@@ -60,6 +60,9 @@ impl Film {
                 for layer in &mut layers {
                     let places = [Some(layer.aov), divisor(layer.aov)].map(|aov| aov.and_then(|aov| self.layout.offset(aov)));
                     develop_tile(layer, places, sums, area, self.window.min, width);
+                    if let Some(first) = self.layout.catchers {
+                        catcher::show(layer, sums, first, self.exposure, [area, self.window]);
+                    }
                 }
             });
         }
@@ -77,6 +80,16 @@ fn share(light: f64, colour: f64) -> f64 {
     if colour > 0.0 { light / colour } else { 0.0 }
 }
 
+/// Morton number in the tile and number in the window of each pixel of a tile.
+pub(super) fn pixels(area: Crop, corner: [u32; 2], width: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..BATCH).filter_map(move |code| {
+        let [x, y] = tile_place(code);
+        let place = [area.min[0] + x as u32, area.min[1] + y as u32];
+        let inside = place[0] < area.max[0] && place[1] < area.max[1];
+        inside.then(|| (code, (place[1] - corner[1]) as usize * width + (place[0] - corner[0]) as usize))
+    })
+}
+
 fn develop_tile(
     layer: &mut Layer,
     [offset, divisor]: [Option<usize>; 2],
@@ -88,13 +101,7 @@ fn develop_tile(
     let Some(offset) = offset.filter(|_| tile.samples > 0) else { return };
     let index = is_index(layer.aov);
     let scale = if index { 1.0 } else { 1.0 / f64::from(tile.samples) };
-    for code in 0..BATCH {
-        let [x, y] = tile_place(code);
-        let place = [area.min[0] + x as u32, area.min[1] + y as u32];
-        if place[0] >= area.max[0] || place[1] >= area.max[1] {
-            continue;
-        }
-        let pixel = (place[1] - corner[1]) as usize * width + (place[0] - corner[0]) as usize;
+    for (code, pixel) in pixels(area, corner, width) {
         for channel in 0..layer.channels {
             let sum = tile.sums[(offset + channel) * BATCH + code];
             let value = match (layer.aov, divisor) {

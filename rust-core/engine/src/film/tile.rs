@@ -1,6 +1,6 @@
 //! A tile's sums.
 
-use super::{ChannelLayout, is_index};
+use super::{ChannelLayout, catcher, is_index};
 use crate::{
     integrator::{BATCH, FirstHit, code},
     scene::{Aov, LightPart},
@@ -86,6 +86,9 @@ impl Block {
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
             let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
             fill(*aov, channels, layout, gathered, exposure, origin);
+        }
+        if let Some(first) = layout.catchers {
+            catcher::fill(&mut sums[first * BATCH..], gathered);
         }
         Self { sums, samples }
     }

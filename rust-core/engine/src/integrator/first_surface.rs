@@ -2,6 +2,7 @@
 
 use super::{
     accumulate::FirstSurface,
+    catcher,
     material::{SurfaceMaterial, Tables},
     path::Mist,
     shade::{Point, Stage},
@@ -44,13 +45,14 @@ pub(super) fn record_first<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, .. } = *stage;
-    let seen = present & (point.flags & flag::CAMERA).ne(0);
+    let seen = present & (point.flags & flag::CAMERA).ne(0) & catcher::shown(point.slot);
     if !seen.any() {
         return;
     }
     let eye = Vec3::splat(l, transport.eye);
     let surface = FirstSurface {
-        slot: point.slot,
+        slot: catcher::pixel(point.slot),
+        covers: catcher::covers(point.slot),
         depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,
         position: point.position,

@@ -134,6 +134,8 @@ pub struct Tables {
     pub instance_light: Vec<u32>,
     /// First light of each mesh instance whose triangles are lights, or [`crate::geometry::NONE`]; empty if there is none.
     pub triangle_lights: Vec<u32>,
+    /// 1 for lights that paths among catchers alone do not know; empty if there is none.
+    pub object_lights: Vec<u32>,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod bounce;
+mod catcher;
 mod closure;
 mod direct_light;
 mod exit;
@@ -21,6 +22,7 @@ mod state;
 mod subsurface;
 mod surface;
 
+pub use catcher::CatcherSums;
 pub(crate) use generate::tile_place;
 pub use light_sums::{LightSums, code};
 pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};

@@ -1,6 +1,7 @@
 //! The path tracer: a sample of every pixel of a tile, stage by stage.
 
 use super::{
+    catcher,
     closure::choose_closures,
     generate::{TileArea, generate},
     intersect::{intersect, sort_by_material},
@@ -134,7 +135,9 @@ impl Tracer<'_> {
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
             time = ws.statistics.spent(5, time);
             std::mem::swap(&mut ws.paths, &mut ws.next);
+            catcher::rejoin(self.tables, &mut ws.paths);
             ws.paths.set_masks();
+            catcher::narrow(self.tables, &mut ws.paths);
         }
     }
 

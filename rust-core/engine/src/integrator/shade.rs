@@ -3,6 +3,7 @@
 use super::{
     accumulate::clamped,
     bounce::{pass_straight, scatter, straight_left, within},
+    catcher,
     direct_light::light,
     first_surface::{append_measure, covered, record_first},
     kernels::{self, LightHit},
@@ -192,6 +193,9 @@ fn shade_lanes<L: Lanes>(
     // What is seen through a transparent closure comes first.
     if !material.surface.lobes.straight {
         record_first(stage, material, point, lobes, present, at, ws);
+        if !tables.geometry.set_catcher.is_empty() {
+            catcher::record(stage, point, present, ws);
+        }
     }
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;

@@ -1,6 +1,7 @@
 //! Shader passes: what materials compute for passes of their own, summed where the camera sees them first.
 
 use super::{
+    catcher,
     path::Transport,
     scatter::add,
     shade::Point,
@@ -67,15 +68,16 @@ impl Workspace {
 /// Adds what a program computed at the chosen hits.
 #[inline(always)]
 pub(super) fn record<L: Lanes>(l: L, program: &Program, point: &Point<L>, chosen: M<L>, at: usize, ws: &mut Workspace) {
+    let slot = catcher::pixel(point.slot);
     let mut place = 0;
     for output in &program.outputs {
         for channel in 0..output.width {
             let value = l.load(ws.shader_outputs.column(place), at);
-            add(&mut ws.first_hit.shader.columns[output.offset + channel], point.slot, value, chosen & value.is_finite());
+            add(&mut ws.first_hit.shader.columns[output.offset + channel], slot, value, chosen & value.is_finite());
             place += 1;
         }
         if output.width == 3 {
-            add(&mut ws.first_hit.shader.columns[output.offset + 3], point.slot, l.f(1.0), chosen);
+            add(&mut ws.first_hit.shader.columns[output.offset + 3], slot, l.f(1.0), chosen);
         }
     }
 }
