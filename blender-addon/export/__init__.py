@@ -31,9 +31,10 @@ class Exporter:
         self._lights = Lights(self.scene, self._images, report)
         self._camera, self._follows_view, self._synced = None, False, False
 
-    def sync(self, depsgraph, *, preview=False):
-        """Exports everything; what is as it was is found by comparing and is not written again."""
+    def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
+        """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
         self._textures.begin()
+        self._materials.shader_aovs = shader_aovs
         self._everything(depsgraph)
         self._textures.sweep()
         self._synced = True

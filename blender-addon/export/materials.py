@@ -25,6 +25,8 @@ class Materials:
         self._translated, self.any_written = {}, False
         # Within a pass: many objects have the same slots.
         self._slotted = {}
+        # Names of the AOV Output nodes that passes show.
+        self.shader_aovs = frozenset()
 
     def begin(self):
         """Starts a pass."""
@@ -60,7 +62,7 @@ class Materials:
     def _written(self, material, number):
         """Translates and writes; a material that cannot be translated or that the scene refuses is the default one, with a report line."""
         try:
-            translated = translate(material, self._images, self._report)
+            translated = translate(material, self._images, self._report, shader_aovs=self.shader_aovs)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
             self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)

@@ -2,6 +2,8 @@
 """Which rays see an object: its own switches and those of its collections in the view layer."""
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
+# What objects may be to the camera beside seen and unseen.
+ROLES = ("holdout", "shadow_catcher")
 
 
 class Visibility:
@@ -26,6 +28,9 @@ class Visibility:
             seen["camera"] = False
         if thing.is_holdout or (self._any_holdout and thing.holdout_get(view_layer=self._layer)):
             seen["holdout"] = True
+        # Lamps have that switch on as a rule, and mean something else by it.
+        if thing.is_shadow_catcher and thing.type != "LIGHT":
+            seen["shadow_catcher"] = True
         return seen
 
 
@@ -38,9 +43,9 @@ def _collections(collection):
 def combined(own, parent):
     """What is left when the instancer has switches of its own."""
     both = {ray: own[ray] and parent[ray] for ray in RAYS}
-    return {**both, "holdout": True} if own.get("holdout") or parent.get("holdout") else both
+    return both | {role: True for role in ROLES if own.get(role) or parent.get(role)}
 
 
 def is_ordinary(seen):
     """Whether nothing is switched off."""
-    return all(seen[ray] for ray in RAYS) and not seen.get("holdout")
+    return all(seen[ray] for ray in RAYS) and not any(role in seen for role in ROLES)

@@ -8,6 +8,7 @@ from ..units import LUMENS_PER_WATT
 from .bake import bake
 from .material.closures import flatten
 from .material.graph import Value
+from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket
 from .material.textures import equirectangular, mirror_ball
 from .material.translator import Translator
@@ -98,6 +99,8 @@ def _dome(world, tree, images, report, is_camera_ray):
     volume = input_socket(end, "Volume")
     if volume is not None and volume.is_linked:
         t.say(end, t.root, "volume is not supported; the air stays clear")
+    for node, context in outputs_of(t.root):
+        t.say(node, context, "shader AOVs of worlds are not supported; their passes show surfaces alone")
     flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
     total = t.graph.colour((0.0, 0.0, 0.0))
     for closure in t.closures:

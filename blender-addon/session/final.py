@@ -43,7 +43,8 @@ class FinalSession:
         # An export that fails half way is not gone on with.
         layer = self._layers.pop(name, None) or _Layer()
         layer.report.clear()
-        layer.exporter.sync(depsgraph, preview=preview)
+        aovs = frozenset() if preview else passes.shader_aov_names(depsgraph.view_layer)
+        layer.exporter.sync(depsgraph, preview=preview, shader_aovs=aovs)
         self._layers[name] = layer
 
     def render(self, engine, depsgraph, *, preview: bool = False) -> report.Report:
@@ -67,7 +68,7 @@ class FinalSession:
         frame, exposure = final_frame(depsgraph.scene.render), depsgraph.scene.gonio.film_exposure
         kinds = passes.add_passes(engine, depsgraph.view_layer)
         samples = self._settings(depsgraph, layer, frame, kinds, preview)
-        _tell_of_settings(layer.report, depsgraph, kinds)
+        _tell_of_settings(layer.report, depsgraph)
         with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
@@ -100,11 +101,8 @@ class FinalSession:
         return own or depsgraph.scene.gonio.samples
 
 
-def _tell_of_settings(told: report.Report, depsgraph, kinds: list[passes.Pass]) -> None:
+def _tell_of_settings(told: report.Report, depsgraph) -> None:
     """Settings of the session that have no effect are not passed over in silence."""
-    for kind in kinds:
-        if kind.source is None:
-            told.add("ViewLayer", depsgraph.view_layer.name, f"the pass '{kind.name}' stays empty: shader AOVs are not rendered")
     if depsgraph.scene.gonio.use_adaptive_sampling:
         message = "a noise threshold is not supported; each pixel gets all samples unless the time limit ends the render"
         told.add("Scene", depsgraph.scene.name, message, severity="INFO")

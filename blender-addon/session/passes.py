@@ -23,12 +23,12 @@ class Scale(Enum):
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass as Blender and as the renderer know it. `source` is None when the renderer has nothing to put there."""
+    """A pass as Blender and as the renderer know it."""
 
     name: str
     channels: str
     type: str
-    source: str | None
+    source: str
     scale: Scale = Scale.NONE
 
     def factor(self, exposure: float, samples: int) -> float:
@@ -81,9 +81,21 @@ def enabled_passes(layer) -> Iterator[Pass]:
     for switch, kinds in _OWN_PASSES.items():
         if getattr(layer.gonio, switch):
             yield from kinds
-    for aov in layer.aovs:
-        if aov.is_valid:
-            yield Pass(aov.name, "X", "VALUE", None) if aov.type == "VALUE" else Pass(aov.name, "RGBA", "COLOR", None)
+    for aov in _shader_aovs(layer):
+        if aov.type == "VALUE":
+            yield Pass(aov.name, "X", "VALUE", f"aov_value:{aov.name}")
+        else:
+            yield Pass(aov.name, "RGBA", "COLOR", f"aov:{aov.name}")
+
+
+def shader_aov_names(layer) -> frozenset[str]:
+    """Names of the shader AOVs that a view layer asks for."""
+    return frozenset(aov.name for aov in _shader_aovs(layer))
+
+
+def _shader_aovs(layer) -> list:
+    """The shader AOVs whose names no other pass has."""
+    return [aov for aov in layer.aovs if aov.is_valid]
 
 
 def register_passes(engine, scene, layer) -> None:
@@ -102,14 +114,14 @@ def add_passes(engine, layer) -> list[Pass]:
 
 def sources(kinds: list[Pass]) -> list[str]:
     """The renderer's names of passes, each once."""
-    return list(dict.fromkeys(kind.source for kind in kinds if kind.source is not None))
+    return list(dict.fromkeys(kind.source for kind in kinds))
 
 
 def write_passes(result, film, kinds: list[Pass], exposure: float, samples: int) -> None:
     """Copies a film into a render result of the same size, rows from the bottom."""
     targets = {target.name: target for target in result.layers[0].passes}
     for kind in kinds:
-        if kind.source is not None and kind.name in targets:
+        if kind.name in targets:
             targets[kind.name].rect.foreach_set(read_flat(film, kind.source, kind.factor(exposure, samples)))
 
 

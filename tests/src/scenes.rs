@@ -22,6 +22,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,
+        shadow_catcher: false,
         pass_index: 0,
     });
 }

@@ -160,6 +160,7 @@ impl<'py> Placer<'_, '_, 'py> {
             primvars: Vec::new(),
             visibility: Visibility::default(),
             holdout: false,
+            shadow_catcher: false,
             pass_index: 0,
         };
         self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });

@@ -8,6 +8,7 @@ import bpy
 from . import closures, colour, inputs, maths, principled, textures, vectors  # noqa: F401 (they register their nodes)
 from .closures import closure, flatten
 from .graph import Graph, renumber
+from .shader_outputs import shader_outputs
 from .sockets import active_output, follow, input_socket
 from .translator import Translator
 
@@ -21,8 +22,8 @@ class Translated:
     instance_primvars: set = field(default_factory=set)
 
 
-def translate(material, images, report, version=None):
-    """The description of a material; None stands for no material at all (Blender's default grey)."""
+def translate(material, images, report, version=None, shader_aovs=frozenset()):
+    """The description of a material with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
     if material is None:
         return Translated(_plain("default", (0.8, 0.8, 0.8)))
     tree = material.node_tree
@@ -36,7 +37,8 @@ def translate(material, images, report, version=None):
     else:
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         _report_rest(t, end)
-    return Translated(_described(t, material), t.primvars, t.instance_primvars)
+    outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
+    return Translated(_described(t, material, outputs), t.primvars, t.instance_primvars)
 
 
 def _report_rest(t, end):
@@ -47,9 +49,9 @@ def _report_rest(t, end):
             t.say(end, t.root, f"{name.lower()} is not supported; {consequence}")
 
 
-def _described(t, material):
-    """Closures and the graph without what nothing needs."""
-    wanted = []
+def _described(t, material, outputs):
+    """Closures, AOV outputs and the graph without what nothing needs."""
+    wanted = [output[key] for output in outputs for key in ("color", "value")]
     for made in t.closures:
         wanted += [made["weight"], *(source for _, source in made["parameters"])]
         wanted += [{"Node": [made[key], "Rgb"]} for key in ("normal", "coat_normal", "tangent") if made[key] is not None]
@@ -59,6 +61,7 @@ def _described(t, material):
         "graph": {"nodes": nodes},
         "closures": [_renumbered(made, order) for made in t.closures],
         "pass_index": material.pass_index,
+        "shader_outputs": [{**output, **{key: renumber(output[key], order) for key in ("color", "value")}} for output in outputs],
     }
 
 

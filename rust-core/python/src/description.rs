@@ -33,10 +33,10 @@ pub(crate) fn put<T>(list: &mut Vec<T>, kind: &str, element: T, index: Option<u3
     }
 }
 
-/// Which rays see an element, and whether it cuts a hole.
-pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, bool)> {
+/// Which rays see an element, and whether it cuts a hole and whether it catches shadows.
+pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, [bool; 2])> {
     let mut visibility = Visibility::default();
-    let mut holdout = false;
+    let (mut holdout, mut shadow_catcher) = (false, false);
     for (name, seen) in asked {
         let place = match name.as_str() {
             "camera" => &mut visibility.camera,
@@ -45,14 +45,15 @@ pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, 
             "transmission" => &mut visibility.transmission,
             "shadow" => &mut visibility.shadow,
             "holdout" => &mut holdout,
+            "shadow_catcher" => &mut shadow_catcher,
             other => {
-                let expected = "camera, diffuse, glossy, transmission, shadow or holdout";
+                let expected = "camera, diffuse, glossy, transmission, shadow, holdout or shadow_catcher";
                 return Err(wrong("visibility", format!("'{other}' was found, expected {expected}")));
             }
         };
         *place = seen;
     }
-    Ok((visibility, holdout))
+    Ok((visibility, [holdout, shadow_catcher]))
 }
 
 /// A texture whose source may be given beside the description.

@@ -21,7 +21,7 @@ impl Film {
         Self { image, exposure }
     }
     fn layer(&self, name: &str) -> PyResult<&Layer> {
-        let layer = self.image.layers.iter().find(|layer| layer.aov.name() == name);
+        let layer = self.image.layers.iter().find(|layer| layer.name == name);
         layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))
     }
 }
@@ -41,8 +41,8 @@ impl Film {
     }
     /// Names of the passes.
     #[getter]
-    fn passes(&self) -> Vec<&'static str> {
-        self.image.layers.iter().map(|layer| layer.aov.name()).collect()
+    fn passes(&self) -> Vec<&str> {
+        self.image.layers.iter().map(|layer| layer.name.as_str()).collect()
     }
     /// A pass by name.
     fn __getitem__(&self, name: &str) -> PyResult<Pass> {

@@ -78,7 +78,7 @@ impl Scene {
     /// Places a mesh many times, or replaces the placements `index`; gives their number.
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
-    /// shadow), all by default, and `holdout`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
+    /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
     #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
@@ -101,7 +101,7 @@ impl Scene {
             let (components, interpolation) = (values.width as u8, PrimvarInterpolation::Uniform);
             own.push(Primvar { name, interpolation, components, values: values.values.into(), indices: None });
         }
-        let (visibility, holdout) = description::visibility(visibility.unwrap_or_default())?;
+        let (visibility, [holdout, shadow_catcher]) = description::visibility(visibility.unwrap_or_default())?;
         let instances = Instances {
             origin: Origin::new(name),
             mesh: MeshId(mesh),
@@ -110,6 +110,7 @@ impl Scene {
             primvars: own,
             visibility,
             holdout,
+            shadow_catcher,
             pass_index,
         };
         description::put(&mut self.scene.instances, "instances", instances, index)
@@ -211,6 +212,7 @@ impl Scene {
             primvars: Vec::new(),
             visibility: Visibility::default(),
             holdout: false,
+            shadow_catcher: false,
             pass_index: 0,
         });
         Ok(())

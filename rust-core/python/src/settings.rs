@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Aov, Background, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Background, Crop, Filter, Integrator, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -57,8 +57,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         }
         "passes" => {
             let names: Vec<String> = value.extract()?;
-            let find = |name: &String| Aov::by_name(name).ok_or_else(|| wrong(key, format!("there is no pass '{name}'")));
-            s.aovs = names.iter().map(find).collect::<PyResult<_>>()?;
+            s.set_passes(&names).map_err(|name| wrong(key, format!("there is no pass '{name}'")))?;
         }
         _ => return Err(pyo3::exceptions::PyTypeError::new_err(format!("set() got an unexpected keyword argument '{key}'"))),
     }

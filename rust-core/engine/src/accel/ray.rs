@@ -62,6 +62,12 @@ pub struct Hits {
 }
 
 impl Hits {
+    /// Appends a copy of an entry.
+    pub fn repeat(&mut self, entry: usize) {
+        [&mut self.t, &mut self.u, &mut self.v].into_iter().for_each(|column| column.push(column[entry]));
+        [&mut self.primitive, &mut self.instance].into_iter().for_each(|column| column.push(column[entry]));
+    }
+
     /// Sets the number of entries; new entries are misses.
     pub fn resize(&mut self, n: usize) {
         self.t.resize(n, f32::INFINITY);

@@ -48,6 +48,9 @@ pub(super) fn tables(
     if scene.instances.iter().any(|group| group.holdout) {
         table.set_holdout = scene.instances.iter().map(|group| u32::from(group.holdout)).chain([0]).collect();
     }
+    if scene.instances.iter().any(|group| group.shadow_catcher) {
+        table.set_catcher = scene.instances.iter().map(|group| u32::from(group.shadow_catcher)).chain([0]).collect();
+    }
     pad(&mut table);
     let first_light = instances.len() as u32;
     Ok(CompiledGeometry { table, instances, first_light })

@@ -39,6 +39,8 @@ pub(super) fn append_instances(
         (group.visibility.diffuse, ray_mask::DIFFUSE),
         (group.visibility.glossy, ray_mask::GLOSSY),
         (group.visibility.transmission, ray_mask::TRANSMISSION),
+        (group.shadow_catcher && group.visibility.shadow, ray_mask::CATCHER_SHADOW),
+        (group.shadow_catcher && group.visibility.scattered(), ray_mask::CATCHER_SCATTERED),
     ];
     let mask = mask.iter().map(|(seen, bit)| if *seen { *bit } else { 0 }).sum();
     for (number, transform) in group.transforms.iter().enumerate() {

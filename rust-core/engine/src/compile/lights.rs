@@ -190,7 +190,8 @@ fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
     let mask = seen(visibility.camera, ray_mask::CAMERA)
         | seen(visibility.diffuse, ray_mask::DIFFUSE)
         | seen(visibility.glossy, ray_mask::GLOSSY)
-        | seen(visibility.transmission, ray_mask::TRANSMISSION);
+        | seen(visibility.transmission, ray_mask::TRANSMISSION)
+        | seen(visibility.scattered(), ray_mask::CATCHER_SCATTERED);
     Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })
 }
 

@@ -7,7 +7,7 @@ use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Output, Program, Source},
-    integrator::{MaterialTable, Mix, Shading, SurfaceMaterial},
+    integrator::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
     scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
 };
 use program::{source, steps};
@@ -27,12 +27,15 @@ pub(super) fn compile(
     for material in scene.materials.iter().chain([&default]) {
         let steps = steps(material, textures, names)?;
         let first = table.surfaces.len() as u32;
+        if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= steps.steps.len()) {
+            let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
+            return Err(Error::scene(&material.origin, problem));
+        }
         for closure in &material.closures {
-            if let Some(node) = nodes_of(closure).find(|node| usize::from(node.0) >= steps.steps.len()) {
-                let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
-                return Err(Error::scene(&material.origin, problem));
-            }
             table.surfaces.push(surface(material, closure, steps.clone(), diagnostics));
+        }
+        if !material.shader_outputs.is_empty() {
+            table.shader_outputs.push(shader_outputs(material, steps.clone(), first as usize));
         }
         table.numbers.push(match material.closures.as_slice() {
             [only] if only.weight == Input::Constant([1.0; 4]) => Shading::Surface(first),
@@ -45,14 +48,24 @@ pub(super) fn compile(
     Ok(table)
 }
 
-/// The nodes that a closure reads.
-fn nodes_of(closure: &Closure) -> impl Iterator<Item = NodeId> {
-    let inputs = closure.parameters.iter().map(|(_, input)| input).chain([&closure.weight]);
-    let parameters = inputs.filter_map(|input| match input {
+/// The nodes that closures and shader outputs read.
+fn nodes_of(material: &Material) -> impl Iterator<Item = NodeId> {
+    let closures = &material.closures;
+    let parameters = closures.iter().flat_map(|closure| closure.parameters.iter().map(|(_, input)| input).chain([&closure.weight]));
+    let outputs = material.shader_outputs.iter().flat_map(|output| [&output.color, &output.value]);
+    let inputs = parameters.chain(outputs).filter_map(|input| match input {
         Input::Node(node, _) => Some(*node),
         Input::Constant(_) => None,
     });
-    parameters.chain([closure.normal, closure.coat_normal, closure.tangent].into_iter().flatten())
+    inputs.chain(closures.iter().flat_map(|closure| [closure.normal, closure.coat_normal, closure.tangent]).flatten())
+}
+
+/// What a material shows in passes of its own.
+fn shader_outputs(material: &Material, program: Program, first: usize) -> ShaderOutputs {
+    let output =
+        |output: &scene::ShaderOutput| ShaderOutput { name: output.name.clone(), color: source(output.color), value: source(output.value) };
+    let surfaces = first..first + material.closures.len();
+    ShaderOutputs { surfaces, program, outputs: material.shader_outputs.iter().map(output).collect() }
 }
 
 /// A material of several closures, or of one with a weight.

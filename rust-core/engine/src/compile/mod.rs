@@ -3,12 +3,14 @@
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
 mod bounds;
+mod catchers;
 mod geometry;
 mod instances;
 mod kept;
 mod lights;
 mod materials;
 mod primvars;
+mod shader_passes;
 mod textures;
 mod trees;
 mod view;
@@ -103,6 +105,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let any_absorbing =
         scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
+    let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
         bvh,
         first_light_instance: geometry.first_light,
@@ -112,6 +115,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         lights: lights.table,
         instance_light: lights.instance_light,
         triangle_lights: lights.triangle_lights,
+        object_lights,
         any_transparent,
         any_absorbing,
         origin,

@@ -1,6 +1,6 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::CompiledScene;
+use super::{CompiledScene, shader_passes};
 use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
@@ -54,6 +54,7 @@ impl View {
             shows_surroundings: settings.background != Background::Transparent,
             surroundings_cover: settings.background == Background::Covering,
             passes: FirstPasses {
+                shader: shader_passes::programs(&scene.tables.materials, settings),
                 uv: settings.aovs.contains(&Aov::Uv),
                 mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
                     start: settings.mist.start,

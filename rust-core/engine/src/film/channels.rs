@@ -1,6 +1,7 @@
 //! Which passes a film keeps, and where their channels lie.
 
-use crate::scene::{Aov, LightPart};
+use super::catcher;
+use crate::scene::{Aov, LightPart, ShaderValue};
 
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -11,6 +12,8 @@ pub struct ChannelLayout {
     pub offsets: Vec<usize>,
     /// Channels in all.
     pub channels: usize,
+    /// First channel of what shadow catchers hide, where there are any; no pass shows it as it is.
+    pub catchers: Option<usize>,
 }
 
 impl ChannelLayout {
@@ -33,9 +36,26 @@ impl ChannelLayout {
         Self::new(&aovs.iter().copied().chain(divisors).collect::<Vec<_>>())
     }
 
+    /// Makes room for what shadow catchers hide.
+    pub fn with_catchers(self, wanted: bool) -> Self {
+        let room = if wanted { catcher::CHANNELS } else { 0 };
+        Self { catchers: wanted.then_some(self.channels), channels: self.channels + room, ..self }
+    }
+
     /// Whether a pass shows light by where it comes from.
     pub fn shows_lights(&self) -> bool {
         self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::Emission | Aov::Environment))
+    }
+
+    /// Channels of all shader passes.
+    pub fn shader_columns(&self) -> usize {
+        self.aovs.iter().filter(|aov| matches!(aov, Aov::Shader(..))).map(|aov| channel_names(*aov).len()).sum()
+    }
+
+    /// Channels of the shader passes before this one.
+    pub fn shader_column(&self, aov: Aov) -> usize {
+        let before = self.aovs.iter().take_while(|known| **known != aov);
+        before.filter(|known| matches!(known, Aov::Shader(..))).map(|known| channel_names(*known).len()).sum()
     }
 
     /// First channel of a pass.
@@ -47,14 +67,14 @@ impl ChannelLayout {
 /// The channels of a pass.
 pub fn channel_names(aov: Aov) -> &'static [&'static str] {
     match aov {
-        Aov::Color => &["R", "G", "B", "A"],
+        Aov::Color | Aov::Shader(ShaderValue::Color, _) => &["R", "G", "B", "A"],
         Aov::Alpha => &["A"],
         Aov::Depth => &["Z"],
         Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
         Aov::Uv => &["U", "V", "A"],
         Aov::Albedo | Aov::DenoisingAlbedo | Aov::Emission | Aov::Environment | Aov::Light(..) => &["R", "G", "B"],
         Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
-        Aov::Mist | Aov::SampleCount => &["value"],
+        Aov::Mist | Aov::SampleCount | Aov::Shader(ShaderValue::Number, _) => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
     }
 }

@@ -1,6 +1,6 @@
 //! From sums to an image.
 
-use super::{Film, TileFilm, channel_names, divisor, is_index};
+use super::{Film, TileFilm, catcher, channel_names, divisor, is_index};
 use crate::{
     integrator::{BATCH, TILE, tile_code},
     scene::{Aov, Crop},
@@ -13,6 +13,8 @@ use std::sync::{Mutex, PoisonError};
 pub struct Layer {
     /// The pass.
     pub aov: Aov,
+    /// Its name.
+    pub name: String,
     /// `channels` floats a pixel, rows from the top.
     pub values: Vec<f32>,
     /// Channels a pixel.
@@ -56,7 +58,8 @@ impl Film {
     /// Depth, normal and position are means over what was covered; alpha tells how much that was.
     pub fn develop(&self) -> Image {
         let [width, height] = [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize);
-        let mut layers: Vec<Layer> = self.layout.aovs.iter().map(|aov| empty_layer(*aov, width * height)).collect();
+        let mut layers: Vec<Layer> =
+            self.layout.aovs.iter().zip(&self.names).map(|(aov, name)| empty_layer(*aov, name, width * height)).collect();
         let aovs: Vec<Aov> = layers.iter().map(|layer| layer.aov).collect();
         let bands = Mutex::new(self.bands(&mut layers, width));
         let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -90,7 +93,11 @@ impl Film {
             self.read(tile, |sums| {
                 least = least.min(sums.samples);
                 for (aov, rows) in aovs.iter().zip(&mut band.layers) {
-                    self.develop_tile(*aov, sums, &mut Part { rows, left, width, size, channels: channel_names(*aov).len() });
+                    let mut part = Part { rows, left, width, size, channels: channel_names(*aov).len() };
+                    self.develop_tile(*aov, sums, &mut part);
+                    if let Some(first) = self.layout.catchers {
+                        catcher::show(*aov, sums, first, self.exposure, &mut part);
+                    }
                 }
             });
         }
@@ -115,7 +122,7 @@ impl Film {
 }
 
 /// A tile's place in the rows of a layer.
-struct Part<'a> {
+pub(super) struct Part<'a> {
     rows: &'a mut [f32],
     left: usize,
     /// Pixels a row of the layer.
@@ -126,22 +133,23 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Sets every pixel of the tile by channel and Morton number.
-    fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {
+    /// Does something to every pixel of the tile, given its Morton number.
+    pub(super) fn for_each(&mut self, mut change: impl FnMut(usize, &mut [f32])) {
         for y in 0..self.size[1] {
             let first = (y * self.width + self.left) * self.channels;
             let row = &mut self.rows[first..first + self.size[0] * self.channels];
-            for (x, pixel) in row.chunks_exact_mut(self.channels).enumerate() {
-                let code = tile_code([x, y]);
-                pixel.iter_mut().enumerate().for_each(|(channel, out)| *out = value(channel, code) as f32);
-            }
+            row.chunks_exact_mut(self.channels).enumerate().for_each(|(x, pixel)| change(tile_code([x, y]), pixel));
         }
+    }
+    /// Sets every pixel of the tile by channel and Morton number.
+    fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {
+        self.for_each(|code, pixel| pixel.iter_mut().enumerate().for_each(|(channel, out)| *out = value(channel, code) as f32));
     }
 }
 
-fn empty_layer(aov: Aov, pixels: usize) -> Layer {
+fn empty_layer(aov: Aov, name: &str, pixels: usize) -> Layer {
     let channels = channel_names(aov).len();
-    Layer { aov, values: vec![0.0; pixels * channels], channels }
+    Layer { aov, name: name.to_owned(), values: vec![0.0; pixels * channels], channels }
 }
 
 /// A sum of light over the sum of its colour; what has no colour shows none.

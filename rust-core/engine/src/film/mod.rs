@@ -1,5 +1,6 @@
 //! The film: sums of samples by pixel, in blocks added in order, so that the same samples always give the same bits.
 
+mod catcher;
 mod channels;
 mod develop;
 mod filter;
@@ -12,7 +13,7 @@ pub use tile::{Block, TileFilm};
 
 use crate::{
     integrator::TILE,
-    scene::{Aov, Crop},
+    scene::{Crop, Settings},
 };
 use std::sync::{Mutex, PoisonError};
 
@@ -25,18 +26,24 @@ pub struct Film {
     pub window: Crop,
     /// Which passes are kept, and where.
     pub layout: ChannelLayout,
+    /// Names of the passes.
+    names: Vec<String>,
+    /// Factor on the colour pass.
+    exposure: f32,
     tiles: Vec<Mutex<TileFilm>>,
     columns: u32,
 }
 
 impl Film {
-    /// An empty film; `window` lies inside the resolution.
-    pub fn new(resolution: [u32; 2], window: Crop, aovs: &[Aov]) -> Self {
+    /// An empty film of the passes asked for; `window` lies inside the resolution, `exposure` is the factor on the colour pass, and
+    /// `catchers` tells whether the scene has shadow catchers.
+    pub fn new(settings: &Settings, window: Crop, exposure: f32, catchers: bool) -> Self {
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
-        let layout = ChannelLayout::with_divisors(aovs);
+        let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
+        let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let count = (across(0) * across(1)) as usize;
         let tiles = (0..count).map(|_| Mutex::new(TileFilm::new(&layout))).collect();
-        Self { resolution, window, layout, tiles, columns: across(0) }
+        Self { resolution: settings.resolution, window, layout, names, exposure, tiles, columns: across(0) }
     }
 
     /// Tiles of the window.

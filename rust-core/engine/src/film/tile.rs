@@ -1,6 +1,6 @@
 //! A tile's sums.
 
-use super::{ChannelLayout, is_index};
+use super::{ChannelLayout, catcher, is_index};
 use crate::{
     integrator::{BATCH, FirstHit, code},
     scene::{Aov, LightPart},
@@ -79,13 +79,16 @@ impl Block {
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
             let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
-            fill(*aov, channels, gathered, exposure, origin);
+            fill(*aov, channels, layout, gathered, exposure, origin);
+        }
+        if let Some(first) = layout.catchers {
+            catcher::fill(&mut sums[first * BATCH..], gathered);
         }
         Self { sums, samples }
     }
 }
 
-fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
+fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
     let radiance = &gathered.radiance;
     let luminance = |i: usize| 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
     match aov {
@@ -100,6 +103,11 @@ fn fill(aov: Aov, channels: &mut [f32], gathered: &FirstHit, exposure: f32, orig
         Aov::Normal | Aov::DenoisingNormal => copy3(channels, &gathered.normal),
         Aov::Albedo | Aov::DenoisingAlbedo => copy3(channels, &gathered.albedo),
         Aov::Uv => copy3(channels, &gathered.uv),
+        Aov::Shader(..) => {
+            for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.shader.columns[layout.shader_column(aov)..]) {
+                out.copy_from_slice(&column[..BATCH]);
+            }
+        }
         Aov::Mist => channels.copy_from_slice(&gathered.clearness[..BATCH]),
         Aov::Emission => copy3(channels, gathered.lights.part(code::EMISSION)),
         Aov::Environment => copy3(channels, gathered.lights.part(code::ENVIRONMENT)),

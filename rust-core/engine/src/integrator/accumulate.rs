@@ -24,6 +24,8 @@ pub(super) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FirstSurface<L: Lanes> {
     pub(super) slot: U<L>,
+    /// Whether it hides what is behind it.
+    pub(super) covers: M<L>,
     pub(super) depth: F<L>,
     pub(super) normal: Vec3<L>,
     pub(super) position: Vec3<L>,
@@ -43,7 +45,7 @@ impl FirstHit {
             return;
         }
         let slot = surface.slot;
-        add(&mut self.alpha, slot, l.f(1.0), chosen);
+        add(&mut self.alpha, slot, l.f(1.0), chosen & surface.covers);
         add(&mut self.depth, slot, surface.depth, chosen);
         add_rgb(&mut self.normal, slot, surface.normal.into(), chosen);
         add_rgb(&mut self.position, slot, surface.position.into(), chosen);

@@ -2,7 +2,7 @@
 
 use super::{
     accumulate::clamped,
-    kernels,
+    catcher, kernels,
     scatter::{add_sampled, code_of_sampled},
     shade::{Point, Stage},
     state::{ShadowLanes, Workspace},
@@ -21,9 +21,9 @@ pub(super) fn light<L: Lanes>(
     present: M<L>,
     ws: &mut Workspace,
 ) {
-    let Stage { l, tables, transport, context } = *stage;
+    let Stage { l, tables, transport, context, .. } = *stage;
     let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u[0], [u[1], u[2]]);
-    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit();
+    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::knows(l, tables, point.slot, sample.light);
     if !usable.any() {
         return;
     }

@@ -2,9 +2,11 @@
 
 use super::{
     accumulate::FirstSurface,
+    catcher,
     material::{SurfaceMaterial, Tables},
     path::Mist,
     shade::{Point, Stage},
+    shader_passes,
     state::{MeasurePoints, Workspace, append3, flag},
 };
 use crate::bsdf::Lobes;
@@ -43,13 +45,14 @@ pub(super) fn record_first<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, .. } = *stage;
-    let seen = present & (point.flags & flag::CAMERA).ne(0);
+    let seen = present & (point.flags & flag::CAMERA).ne(0) & catcher::shown(point.slot);
     if !seen.any() {
         return;
     }
     let eye = Vec3::splat(l, transport.eye);
     let surface = FirstSurface {
-        slot: point.slot,
+        slot: catcher::pixel(point.slot),
+        covers: catcher::covers(point.slot),
         depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,
         position: point.position,
@@ -64,6 +67,9 @@ pub(super) fn record_first<L: Lanes>(
         kinds: lobes.albedo_kinds(),
     };
     ws.first_hit.record(l, &surface, seen);
+    if let Some(program) = stage.shader {
+        shader_passes::record(l, program, point, seen, at, ws);
+    }
 }
 
 /// The instance set, and the pass indices of the instance and of the material.

@@ -2,6 +2,7 @@
 
 use super::{
     accumulate::clamped,
+    catcher,
     kernels::{self, LightHit},
     light_sums::code,
     material::Tables,
@@ -26,6 +27,7 @@ pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
         pass_through_lights(tables, transport, ws);
     }
     dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
+    catcher::split(tables, ws);
     list_materials(tables, ws);
 }
 
@@ -138,15 +140,9 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
-        let radiance = tables.lights.escaped(
-            l,
-            gather3(l, &ws.paths.vertex, path),
-            gather3(l, &ws.paths.normal, path),
-            gather3(l, &ws.paths.direction, path),
-            l.gather(&ws.paths.pdf, path),
-            camera,
-            delta,
-        );
+        let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
+        let direction = gather3(l, &ws.paths.direction, path);
+        let radiance = kernels::surroundings(l, tables, from, direction, l.gather(&ws.paths.pdf, path), camera, delta);
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let value = clamped(radiance * throughput, transport.clamp(depth));
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, alive & value.is_lit());

@@ -76,6 +76,23 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mas
     )
 }
 
+/// [`crate::light::LightTable::escaped`].
+#[inline(never)]
+pub(super) fn surroundings<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    [from, normal]: [Vec3<L>; 2],
+    direction: Vec3<L>,
+    pdf: F<L>,
+    first: M<L>,
+    delta: M<L>,
+) -> Rgb<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.escaped(l, from, normal, direction, pdf, first, delta),
+    )
+}
+
 /// [`super::surface::surface_chunk`].
 #[inline(never)]
 pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(

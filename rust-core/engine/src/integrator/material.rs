@@ -1,5 +1,6 @@
 //! What the kernels see of a scene: compiled tables.
 
+use super::shader_passes::ShaderOutputs;
 use crate::{
     accel::SceneBvh,
     bsdf::{Surface, parameter},
@@ -73,6 +74,8 @@ pub struct MaterialTable {
     pub mixes: Vec<Mix>,
     /// The scene's materials in their order, then the default one.
     pub numbers: Vec<Shading>,
+    /// Of the materials that have any, what they show in passes of their own.
+    pub shader_outputs: Vec<ShaderOutputs>,
 }
 
 impl MaterialTable {
@@ -131,6 +134,8 @@ pub struct Tables {
     pub instance_light: Vec<u32>,
     /// First light of each mesh instance whose triangles are lights, or [`crate::geometry::NONE`]; empty if there is none.
     pub triangle_lights: Vec<u32>,
+    /// 1 for lights that paths among catchers alone do not know; empty if there is none.
+    pub object_lights: Vec<u32>,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod bounce;
+mod catcher;
 mod closure;
 mod direct_light;
 mod exit;
@@ -15,13 +16,16 @@ mod measure;
 mod path;
 mod scatter;
 mod shade;
+mod shader_passes;
 mod shadow;
 mod state;
 mod subsurface;
 mod surface;
 
+pub use catcher::CatcherSums;
 pub(crate) use generate::tile_code;
 pub use light_sums::{LightSums, code};
 pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};
 pub use path::{FirstPasses, Mist, Tracer, Transport};
+pub use shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses, ShaderSums};
 pub use state::{BATCH, FirstHit, STAGES, Statistics, TILE, Workspace, ray_mask};

@@ -1,13 +1,15 @@
 //! The path tracer: a sample of every pixel of a tile, stage by stage.
 
 use super::{
+    catcher,
     closure::choose_closures,
     generate::{TileArea, generate},
     intersect::{intersect, sort_by_material},
     kernels,
     material::Tables,
     measure::measure,
-    shade::shade_chunk,
+    shade::{Stage, shade_chunk},
+    shader_passes::ShaderPasses,
     shadow::trace_shadows,
     state::{Workspace, flag},
     subsurface::walk,
@@ -50,7 +52,7 @@ pub struct Transport {
 }
 
 /// What passes want to know of first surfaces beyond the usual.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct FirstPasses {
     /// Texture coordinates.
     pub uv: bool,
@@ -58,6 +60,8 @@ pub struct FirstPasses {
     pub mist: Option<Mist>,
     /// Numbers and pass indices of instances and materials.
     pub numbers: bool,
+    /// What materials compute for passes of their own.
+    pub shader: ShaderPasses,
 }
 
 /// The mist pass: metres at which it starts, metres until it is full, exponent.
@@ -131,7 +135,9 @@ impl Tracer<'_> {
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
             time = ws.statistics.spent(5, time);
             std::mem::swap(&mut ws.paths, &mut ws.next);
+            catcher::rejoin(self.tables, &mut ws.paths);
             ws.paths.set_masks();
+            catcher::narrow(self.tables, &mut ws.paths);
         }
     }
 
@@ -150,6 +156,7 @@ impl Tracer<'_> {
 
     #[inline(always)]
     fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
+        let shader = ws.shader_program(&self.transport, material, first, count);
         let material = &self.tables.materials.surfaces[material];
         let start = Instant::now();
         let source = ChunkSource {
@@ -160,11 +167,15 @@ impl Tracer<'_> {
         };
         kernels::surface_points(l, self.tables, &material.program, &ws.hits, &source, &mut ws.surface);
         let mut start = ws.statistics.spent(2, start);
+        if let Some(program) = shader {
+            // Before the surface's own program bends the normals.
+            kernels::evaluate(l, self.tables, program, &mut ws.surface, count, &mut ws.scratch, &mut ws.shader_outputs);
+        }
         if !material.program.is_empty() {
             kernels::evaluate(l, self.tables, &material.program, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
         }
         start = ws.statistics.spent(3, start);
-        shade_chunk(l, self.tables, &self.transport, context, material, first, count, ws);
+        shade_chunk(&Stage { l, tables: self.tables, transport: &self.transport, context, shader }, material, first, count, ws);
         ws.statistics.spent(4, start);
     }
 }

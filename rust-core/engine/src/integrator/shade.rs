@@ -3,6 +3,7 @@
 use super::{
     accumulate::clamped,
     bounce::{pass_straight, scatter, straight_left, within},
+    catcher,
     direct_light::light,
     first_surface::{append_measure, covered, record_first},
     kernels::{self, LightHit},
@@ -73,22 +74,14 @@ pub(super) struct Stage<'a, L> {
     pub(super) tables: &'a Tables,
     pub(super) transport: &'a Transport,
     pub(super) context: &'a SampleContext,
+    /// What computed the chunk's shader passes, where any are wanted.
+    pub(super) shader: Option<&'a Program>,
 }
 
 /// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
-#[expect(clippy::too_many_arguments, reason = "the whole state of a stage comes in here")]
 #[inline(always)]
-pub(super) fn shade_chunk<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    transport: &Transport,
-    context: &SampleContext,
-    material: &SurfaceMaterial,
-    first: usize,
-    count: usize,
-    ws: &mut Workspace,
-) {
-    let stage = Stage { l, tables, transport, context };
+pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, first: usize, count: usize, ws: &mut Workspace) {
+    let Stage { l, tables, .. } = *stage;
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     for at in (0..count).step_by(L::COUNT) {
@@ -103,7 +96,7 @@ pub(super) fn shade_chunk<L: Lanes>(
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
         let lobes = material.surface.resolve_about(l, &values, at, wo, entering, normals.as_ref());
-        shade_lanes(&stage, material, &mut point, wo, &lobes, at, ws);
+        shade_lanes(stage, material, &mut point, wo, &lobes, at, ws);
     }
     ws.outputs = outputs;
 }
@@ -177,7 +170,7 @@ fn shade_lanes<L: Lanes>(
     at: usize,
     ws: &mut Workspace,
 ) {
-    let Stage { l, tables, transport, context } = *stage;
+    let Stage { l, tables, transport, context, .. } = *stage;
     let pixel = point.slot & (super::state::BATCH as u32 - 1);
     let index = context.sampler.index(l, pixel, context.sample);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
@@ -197,7 +190,13 @@ fn shade_lanes<L: Lanes>(
     if material.surface.lobes.emission {
         add_emission(stage, point, lobes.emission(), present, at, ws);
     }
-    record_first(stage, material, point, lobes, present, at, ws);
+    // What is seen through a transparent closure comes first.
+    if !material.surface.lobes.straight {
+        record_first(stage, material, point, lobes, present, at, ws);
+        if !tables.geometry.set_catcher.is_empty() {
+            catcher::record(stage, point, present, ws);
+        }
+    }
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
@@ -225,7 +224,7 @@ pub(super) fn threshold<L: Lanes>(opacity: F<L>, threshold: f32) -> F<L> {
 /// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
 #[inline(always)]
 fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
-    let Stage { l, tables, transport, context } = *stage;
+    let Stage { l, tables, transport, context, .. } = *stage;
     let mut value = emission * point.throughput;
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, l.load_integers(&ws.surface.instance, at));

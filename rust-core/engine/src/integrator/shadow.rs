@@ -1,7 +1,7 @@
 //! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
 
 use super::{
-    kernels,
+    catcher, kernels,
     material::{Shading, Tables},
     path::Transport,
     scatter::add_sampled,
@@ -26,6 +26,7 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     ws.blocked.clear();
     ws.blocked.resize(n + gonio_simd::PADDING, 1);
     ws.passed.clear();
+    catcher::narrow_shadows(tables, &mut ws.shadows);
     let rays = rays_of(&ws.shadows);
     let blocked = &mut ws.blocked[..n];
     match (transport.execution, tables.any_transparent) {

@@ -1,6 +1,6 @@
 //! The state of a batch of paths, in columns.
 
-use super::{light_sums::LightSums, subsurface::Walks};
+use super::{catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, subsurface::Walks};
 use crate::{
     accel::{Hits, PassedHit},
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
@@ -11,8 +11,8 @@ use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
 pub const TILE: usize = 64;
 /// Pixels of a tile: the paths that start together.
 pub const BATCH: usize = TILE * TILE;
-/// Paths under way at once: each pixel's own, and the one that measures its illuminance.
-pub(super) const CAPACITY: usize = 2 * BATCH;
+/// Paths under way at once: each pixel's own, which a shadow catcher splits in two, and the one that measures its illuminance.
+pub(super) const CAPACITY: usize = 3 * BATCH;
 
 /// What a path has met so far.
 pub(super) mod flag {
@@ -52,6 +52,10 @@ pub mod ray_mask {
     pub const GLOSSY: u8 = 8;
     /// Rays of transmission.
     pub const TRANSMISSION: u8 = 16;
+    /// Rays to lights that see shadow catchers alone.
+    pub const CATCHER_SHADOW: u8 = 32;
+    /// Scattered rays that see shadow catchers alone.
+    pub const CATCHER_SCATTERED: u8 = 64;
     /// All scattered rays.
     pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;
 }
@@ -98,7 +102,7 @@ pub(super) struct Paths {
     /// Width of the path's cone at the ray's start, and its growth a metre.
     pub(super) width: Column,
     pub(super) spread: Column,
-    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance.
+    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance; see [`super::catcher`] for more.
     pub(super) slot: Column<u32>,
     pub(super) flags: Column<u32>,
     /// Scatterings so far, a byte each: diffuse, glossy, transmitted, straight through.
@@ -173,6 +177,14 @@ impl Paths {
         p.counts.append(chosen, &mut self.counts, n);
         append3(p.medium.into(), chosen, &mut self.medium, n);
         self.count += chosen.count();
+    }
+
+    /// Moves a path to another place of the columns, over what is there.
+    pub(super) fn copy(&mut self, from: usize, to: usize) {
+        let threes = [&mut self.origin, &mut self.direction, &mut self.vertex, &mut self.normal, &mut self.throughput, &mut self.medium];
+        let ones = [&mut self.t_min, &mut self.t_max, &mut self.pdf, &mut self.width, &mut self.spread];
+        threes.into_iter().flatten().chain(ones).for_each(|column| column[to] = column[from]);
+        [&mut self.slot, &mut self.flags, &mut self.counts].into_iter().for_each(|column| column[to] = column[from]);
     }
 
     /// Sets the visibility bits of all rays by their flags.
@@ -282,7 +294,7 @@ impl Default for MeasurePoints {
 /// What the camera sees first, by pixel slot; sums over the samples of a block.
 #[derive(Debug)]
 pub struct FirstHit {
-    /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second.
+    /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second, then that of shadow catchers.
     pub radiance: Columns3,
     /// Coverage.
     pub alpha: Column,
@@ -306,12 +318,16 @@ pub struct FirstHit {
     pub clearness: Column,
     /// Light by where it comes from.
     pub lights: LightSums,
+    /// What materials show in passes of their own.
+    pub shader: ShaderSums,
+    /// What shadow catchers hide; empty where there are none.
+    pub catchers: CatcherSums,
 }
 
 impl Default for FirstHit {
     fn default() -> Self {
         Self {
-            radiance: columns3(CAPACITY),
+            radiance: columns3(2 * BATCH),
             alpha: Column::new(BATCH),
             depth: Column::new(BATCH),
             normal: columns3(BATCH),
@@ -323,16 +339,31 @@ impl Default for FirstHit {
             uv: columns3(BATCH),
             clearness: Column::new(BATCH),
             lights: LightSums::default(),
+            shader: ShaderSums::default(),
+            catchers: CatcherSums::default(),
         }
     }
 }
 
 impl FirstHit {
+    /// Makes room for the sums of shadow catchers.
+    pub fn prepare_catchers(&mut self) {
+        if self.catchers.is_empty() {
+            self.radiance = columns3(4 * BATCH);
+            self.catchers.prepare();
+        }
+    }
     /// Empties all sums.
     pub fn clear(&mut self) {
         let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv];
         let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness];
-        threes.into_iter().flatten().chain(ones).for_each(|column| column.fill(0.0));
+        threes
+            .into_iter()
+            .flatten()
+            .chain(ones)
+            .chain(&mut self.shader.columns)
+            .chain(self.catchers.columns())
+            .for_each(|column| column.fill(0.0));
         [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
         self.lights.clear();
     }
@@ -394,6 +425,8 @@ pub struct Workspace {
     pub(super) surface: SurfaceColumns,
     pub(super) scratch: GraphScratch,
     pub(super) outputs: OutputColumns,
+    /// What programs of shader passes computed.
+    pub(super) shader_outputs: OutputColumns,
     /// The block under way.
     pub first_hit: FirstHit,
     /// Rays traced and lanes alive, for benchmarks.

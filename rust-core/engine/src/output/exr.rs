@@ -54,7 +54,7 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     note("gonio:samples", &image.samples.to_string());
     for layer in &image.layers {
         if let Some(unit) = unit(layer.aov) {
-            note(&format!("gonio:unit:{}", name(layer.aov)), unit);
+            note(&format!("gonio:unit:{}", name(layer)), unit);
         }
     }
     for (key, value) in &options.attributes {
@@ -73,11 +73,11 @@ fn signed(x: u32) -> i32 {
 }
 
 /// A pass's name in files.
-fn name(aov: Aov) -> &'static str {
-    match aov {
+fn name(layer: &Layer) -> &str {
+    match layer.aov {
         Aov::Luminance => "Luminance",
         Aov::Illuminance => "Illuminance",
-        other => other.name(),
+        _ => &layer.name,
     }
 }
 
@@ -96,8 +96,8 @@ fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
     let single = names.len() == 1;
     let full_name = |channel: &str| match layer.aov {
         Aov::Color => channel.to_owned(),
-        aov if single && aov != Aov::Depth => name(aov).to_owned(),
-        aov => format!("{}.{channel}", name(aov)),
+        aov if single && aov != Aov::Depth => name(layer).to_owned(),
+        _ => format!("{}.{channel}", name(layer)),
     };
     let values = |channel: usize| layer.values.iter().skip(channel).step_by(layer.channels);
     let samples = |channel: usize| {

@@ -87,7 +87,12 @@ mod tests {
         let values: Vec<f32> = values.iter().flat_map(|v| [*v, *v, *v, 1.0]).collect();
         let width = (values.len() / 4) as u32;
         let window = Crop { min: [0, 0], max: [width, 1] };
-        Image { resolution: [width, 1], window, layers: vec![Layer { aov: Aov::Color, values, channels: 4 }], samples: 1 }
+        Image {
+            resolution: [width, 1],
+            window,
+            layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
+            samples: 1,
+        }
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Render {
     /// Starts rendering; settings are those of the compiled view.
     pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
         let view = View::new(&scene, settings, execution)?;
-        let film = Film::new(settings.resolution, view.window, &settings.aovs);
+        let film = Film::new(settings, view.window, view.exposure, !scene.tables.geometry.set_catcher.is_empty());
         let schedule = Schedule::new(film.tile_count(), settings.samples, settings.time_limit_s);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let shared = Arc::new(Shared {

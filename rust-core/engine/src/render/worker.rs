@@ -38,6 +38,10 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     workspace.first_hit.lights.prepare(shared.film.layout.shows_lights());
+    workspace.first_hit.shader.prepare(&shared.view.transport.passes.shader);
+    if !shared.scene.tables.geometry.set_catcher.is_empty() {
+        workspace.first_hit.prepare_catchers();
+    }
     workspace.first_hit.clear();
     for sample in work.samples.clone() {
         tracer.trace(area.min, area.max, sample, workspace, &cancelled);

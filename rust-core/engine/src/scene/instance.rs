@@ -25,6 +25,13 @@ impl Default for Visibility {
     }
 }
 
+impl Visibility {
+    /// Whether scattered rays of any kind see it.
+    pub fn scattered(&self) -> bool {
+        self.diffuse || self.glossy || self.transmission
+    }
+}
+
 /// One mesh placed once or many times, with the same materials.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Instances {
@@ -43,6 +50,9 @@ pub struct Instances {
     /// Cuts a hole into the coverage where the camera sees it.
     #[serde(default)]
     pub holdout: bool,
+    /// Shows the camera nothing but how much darker the other objects make it.
+    #[serde(default)]
+    pub shadow_catcher: bool,
     /// What the object index pass shows.
     #[serde(default)]
     pub pass_index: u32,

@@ -380,6 +380,17 @@ impl Closure {
     }
 }
 
+/// What a material shows in the shader passes of a name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShaderOutput {
+    /// Name of the passes.
+    pub name: String,
+    /// What a pass of colours shows.
+    pub color: Input,
+    /// What a pass of numbers shows.
+    pub value: Input,
+}
+
 /// What a surface is made of: closures whose sum it is, over one graph. Without any it is black.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -392,12 +403,14 @@ pub struct Material {
     pub graph: Graph,
     /// What the material index pass shows.
     pub pass_index: u32,
+    /// What shader passes show; entries of one name add up.
+    pub shader_outputs: Vec<ShaderOutput>,
 }
 
 impl Default for Material {
     fn default() -> Self {
         let closures = vec![Closure::default()];
-        Self { origin: Origin::default(), closures, graph: Graph::default(), pass_index: 0 }
+        Self { origin: Origin::default(), closures, graph: Graph::default(), pass_index: 0, shader_outputs: Vec::new() }
     }
 }
 

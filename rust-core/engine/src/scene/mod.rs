@@ -20,11 +20,12 @@ pub use camera::{Camera, CameraExposure, Projection};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use material::{
-    Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, Space, SubsurfaceMethod,
+    Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, ShaderOutput, Space,
+    SubsurfaceMethod,
 };
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
-pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings};
+pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 

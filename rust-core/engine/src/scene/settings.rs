@@ -74,6 +74,22 @@ pub enum Aov {
     SampleCount,
     /// Light by the kind of the first scattering, divided by that kind's colour: of lights themselves, or of other surfaces; and the colour.
     Light(ScatteringKind, LightPart),
+    /// What the materials' shader outputs of a name show; the name is an entry of [`Settings::shader_passes`].
+    Shader(ShaderValue, u16),
+}
+
+/// Kinds of values that shader passes hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum ShaderValue {
+    /// Colours, with alpha 1 where there is one.
+    Color,
+    /// Numbers.
+    Number,
+}
+
+impl ShaderValue {
+    /// What stands before the name of a shader output in the name of its pass.
+    pub const PREFIXES: [(Self, &'static str); 2] = [(Self::Color, "aov:"), (Self::Number, "aov_value:")];
 }
 
 /// Kinds of scattering.
@@ -99,7 +115,7 @@ pub enum LightPart {
 }
 
 impl Aov {
-    /// All passes with their names.
+    /// All passes with their names, but for shader passes.
     pub const NAMES: [(Self, &'static str); 27] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
@@ -134,7 +150,7 @@ impl Aov {
         ]
     };
 
-    /// The pass's name.
+    /// The pass's name; empty for shader passes, whose names [`Settings::pass_name`] knows.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
     }
@@ -213,6 +229,9 @@ pub struct Settings {
     pub threads: u32,
     /// Passes wanted.
     pub aovs: Vec<Aov>,
+    /// Names of the shader outputs that passes show.
+    #[serde(default)]
+    pub shader_passes: Vec<String>,
     /// Stop after this many seconds; 0 is off.
     pub time_limit_s: f64,
 }
@@ -242,7 +261,43 @@ impl Default for Settings {
             clamp_indirect: 0.0,
             threads: 0,
             aovs: vec![Aov::Color],
+            shader_passes: Vec::new(),
             time_limit_s: 0.0,
+        }
+    }
+}
+
+impl Settings {
+    /// Sets the passes by their names, in any case of letters but for shader passes, which are called `aov:` (colours) or `aov_value:`
+    /// (numbers) and the name of the output; gives the first name that no pass has.
+    pub fn set_passes(&mut self, names: &[String]) -> Result<(), String> {
+        let mut shader_passes: Vec<String> = Vec::new();
+        let mut aovs = Vec::new();
+        for name in names {
+            let shader = ShaderValue::PREFIXES.iter().find_map(|(kind, prefix)| Some((*kind, name.strip_prefix(prefix)?)));
+            aovs.push(match shader {
+                Some((kind, output)) => {
+                    let known = shader_passes.iter().position(|known| known == output);
+                    let number = known.unwrap_or(shader_passes.len());
+                    if known.is_none() {
+                        shader_passes.push(output.to_owned());
+                    }
+                    Aov::Shader(kind, u16::try_from(number).map_err(|_| name.clone())?)
+                }
+                None => Aov::by_name(name).ok_or_else(|| name.clone())?,
+            });
+        }
+        (self.aovs, self.shader_passes) = (aovs, shader_passes);
+        Ok(())
+    }
+    /// A pass's name, shader passes among them.
+    pub fn pass_name(&self, aov: Aov) -> String {
+        match aov {
+            Aov::Shader(kind, number) => {
+                let prefix = ShaderValue::PREFIXES.iter().find(|(known, _)| *known == kind).map_or("", |(_, prefix)| prefix);
+                format!("{prefix}{}", self.shader_passes.get(usize::from(number)).map_or("", String::as_str))
+            }
+            other => other.name().to_owned(),
         }
     }
 }

@@ -81,6 +81,7 @@ fn scene(nodes: &Value) -> Scene {
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,
+        shadow_catcher: false,
         pass_index: 0,
     });
     scene

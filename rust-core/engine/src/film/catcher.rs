@@ -1,0 +1,48 @@
+//! Shadow catchers: what is behind them, dimmed by how much less light they send than they would without the objects.
+
+use super::{TileFilm, develop::Part};
+use crate::{
+    integrator::{BATCH, FirstHit},
+    scene::Aov,
+};
+
+/// Radiance of catchers with all objects, and without them; what is behind; coverage.
+pub(super) const CHANNELS: usize = 10;
+
+/// Copies what a worker gathered to a block's channels.
+pub(super) fn fill(channels: &mut [f32], gathered: &FirstHit) {
+    let Some((coverage, behind)) = gathered.catchers.sums() else { return };
+    let halves = (2..4).flat_map(|half| gathered.radiance.iter().map(move |column| &column[half * BATCH..(half + 1) * BATCH]));
+    let rest = behind.iter().chain([coverage]).map(|column| &column[..BATCH]);
+    channels.chunks_exact_mut(BATCH).zip(halves.chain(rest)).for_each(|(out, values)| out.copy_from_slice(values));
+}
+
+/// Adds to the pixels of a tile what catchers show there; `first` is the first of their channels.
+pub(super) fn show(aov: Aov, tile: &TileFilm, first: usize, exposure: f32, part: &mut Part<'_>) {
+    if tile.samples == 0 || !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance) {
+        return;
+    }
+    let scale = 1.0 / f64::from(tile.samples);
+    part.for_each(|code, values| {
+        let sum = |channel: usize| tile.sums[(first + channel) * BATCH + code];
+        let three = |channel: usize| [0, 1, 2].map(|c| sum(channel + c));
+        let lit = lit_share(three(0), three(3));
+        let behind = three(6).map(|x| x * scale * lit);
+        let alpha = sum(9) * scale * (1.0 - lit);
+        match aov {
+            Aov::Color => {
+                let shown = behind.map(|x| x * f64::from(exposure)).into_iter().chain([alpha]);
+                values.iter_mut().zip(shown).for_each(|(value, shown)| *value += shown as f32);
+            }
+            Aov::Alpha => values[0] += alpha as f32,
+            _ => values[0] += (0.2126 * behind[0] + 0.7152 * behind[1] + 0.0722 * behind[2]) as f32,
+        }
+    });
+}
+
+/// How much of the light that a catcher would send is there in spite of the objects, 0 to 1: the mean over the channels that have any, as
+/// Cycles takes it; 0 where there is no light at all.
+fn lit_share(with: [f64; 3], without: [f64; 3]) -> f64 {
+    let shares: Vec<f64> = with.iter().zip(without).filter(|(_, all)| *all > 0.0).map(|(part, all)| part / all).collect();
+    (shares.iter().sum::<f64>() / shares.len().max(1) as f64).min(1.0)
+}
