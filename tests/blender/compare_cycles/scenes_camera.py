@@ -1,0 +1,97 @@
+"""Cameras, and instances from geometry nodes, in the same garden of balls and boxes."""
+
+from math import pi, radians
+
+import bpy
+from stage import ball, blank, box, camera, diffuse, empty, image, lamp, node, plane, principled, soft_sky, surface
+import numpy
+
+
+def garden(width: int = 128, height: int = 128) -> None:
+    """Things in a ring at several distances, coloured, under a soft sky and a sun."""
+    empty(width, height)
+    plane(diffuse((0.45, 0.45, 0.4)), size=30.0)
+    soft_sky()
+    lamp("SUN", 2.0, (0.0, 0.0, 5.0), (0.6, -0.4, 0.2), angle=radians(10))
+    for number in range(8):
+        angle = 2.0 * pi * number / 8.0
+        colour = tuple(0.4 + 0.35 * numpy.cos(angle + shift) for shift in (0.0, 2.1, 4.2))
+        place = ((1.6 + 0.3 * number) * numpy.cos(angle), (1.6 + 0.3 * number) * numpy.sin(angle), 0.5)
+        (ball if number % 2 else box)(principled(Base_Color=colour, Roughness=0.5), location=place)
+
+
+def perspective_shifted() -> None:
+    garden(192, 128)
+    camera((0.5, -7.0, 3.0), (0.0, 0.0, 0.4), lens=35.0, shift_x=0.1, shift_y=-0.08)
+
+
+def orthographic() -> None:
+    garden(192, 128)
+    camera((3.0, -7.0, 5.0), (0.2, 0.0, 0.4), type="ORTHO", ortho_scale=7.0)
+
+
+def depth_of_field() -> None:
+    """A wide, six-bladed, stretched aperture that is sharp at the near things."""
+    garden(192, 128)
+    lens = camera((0.5, -6.5, 2.2), (0.0, 0.0, 0.4), lens=50.0).data.dof
+    lens.use_dof, lens.focus_distance, lens.aperture_fstop = True, 5.0, 0.15
+    lens.aperture_blades, lens.aperture_rotation, lens.aperture_ratio = 6, 0.3, 1.5
+
+
+def panoramic() -> None:
+    garden(192, 96)
+    camera((0.0, 0.0, 1.0), (1.0, -3.0, 0.9), type="PANO", panorama_type="EQUIRECTANGULAR")
+
+
+def fisheye() -> None:
+    garden()
+    camera((0.0, 0.0, 1.2), (1.0, -3.0, 0.6), type="PANO", panorama_type="FISHEYE_EQUISOLID", fisheye_lens=10.5, fisheye_fov=pi)
+
+
+def instances() -> None:
+    """A mesh on the points of a grid, turned and scaled at random, coloured by each instance's random number and by its attribute."""
+    empty(192, 128)
+    plane(diffuse((0.5, 0.5, 0.5)), size=20.0)
+    soft_sky()
+    lamp("AREA", 150.0, (-2.5, -3.0, 4.0), (0.65, -0.45, 0.0), shape="SQUARE", size=1.5)
+    camera((0.0, -7.0, 5.0), (0.0, 0.0, 0.2), lens=45.0)
+    seed = ball(by_random(), 0.18)
+    seed.scale = (1.0, 1.0, 1.6)
+    seed.hide_render = True
+    carrier = plane(None, size=5.0, location=(0.0, 0.0, 0.3))
+    carrier.modifiers.new("Scatter", "NODES").node_group = scatter(seed)
+
+
+def by_random() -> bpy.types.Material:
+    """Red by the object's random number, green by an attribute of the instances."""
+    made, tree = blank("By random")
+    each = node(tree, "ShaderNodeObjectInfo")
+    tint = node(tree, "ShaderNodeAttribute", attribute_name="tint", attribute_type="INSTANCER")
+    mixed = node(tree, "ShaderNodeCombineColor", Red=each.outputs["Random"], Green=tint.outputs["Fac"], Blue=0.2)
+    surface(tree, node(tree, "ShaderNodeBsdfPrincipled", Base_Color=mixed.outputs[0], Roughness=0.5))
+    return made
+
+
+def scatter(seed: bpy.types.Object) -> bpy.types.GeometryNodeTree:
+    """Geometry nodes: a grid of 7 by 5 points with an instance on each."""
+    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    grid = node(tree, "GeometryNodeMeshGrid", Size_X=4.4, Size_Y=3.2, Vertices_X=7, Vertices_Y=5)
+    thing = node(tree, "GeometryNodeObjectInfo", Object=seed)
+    chance = lambda kind, **values: node(tree, "FunctionNodeRandomValue", data_type=kind, **values)  # noqa: E731
+    turned = chance("FLOAT_VECTOR", Min=(-0.6, -0.6, 0.0), Max=(0.6, 0.6, 6.0), Seed=3)
+    size = chance("FLOAT", Min=0.6, Max=1.4, Seed=5)
+    placed = node(
+        tree,
+        "GeometryNodeInstanceOnPoints",
+        Points=grid.outputs["Mesh"],
+        Instance=thing.outputs["Geometry"],
+        Rotation=next(each for each in turned.outputs if each.enabled),
+        Scale=next(each for each in size.outputs if each.enabled),
+    )
+    shade = chance("FLOAT", Min=0.1, Max=0.9, Seed=7)
+    store = node(tree, "GeometryNodeStoreNamedAttribute", data_type="FLOAT", domain="INSTANCE", Geometry=placed.outputs[0], Name="tint")
+    fill_value = next(each for each in store.inputs if each.name == "Value" and each.enabled)
+    tree.links.new(next(each for each in shade.outputs if each.enabled), fill_value)
+    node(tree, "NodeGroupOutput", Geometry=store.outputs[0])
+    return tree
