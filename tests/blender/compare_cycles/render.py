@@ -6,12 +6,14 @@ from pathlib import Path
 
 import bpy
 import numpy
+import stage
 
 SEEDS = (1, 2)
 
 
 def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) -> None:
     """Writes SCENE-ENGINE.npz: `first` and `second`, radiance (height, width, 3) in W/(m² sr) with the top row first, and `seconds`."""
+    stage.empty()
     getattr(importlib.import_module(f"scenes_{theme}"), scene)()
     cycles = bpy.context.scene.cycles
     cycles.samples = samples

@@ -3,13 +3,13 @@
 from math import pi, radians
 
 import bpy
-from stage import ball, blank, box, camera, diffuse, empty, image, lamp, node, plane, principled, soft_sky, surface
+from stage import ball, blank, box, camera, diffuse, image, lamp, node, plane, principled, resolution, soft_sky, surface
 import numpy
 
 
-def garden(width: int = 128, height: int = 128) -> None:
+def garden(width: int, height: int) -> None:
     """Things in a ring at several distances, coloured, under a soft sky and a sun."""
-    empty(width, height)
+    resolution(width, height)
     plane(diffuse((0.45, 0.45, 0.4)), size=30.0)
     soft_sky()
     lamp("SUN", 2.0, (0.0, 0.0, 5.0), (0.6, -0.4, 0.2), angle=radians(10))
@@ -44,13 +44,13 @@ def panoramic() -> None:
 
 
 def fisheye() -> None:
-    garden()
+    garden(128, 128)
     camera((0.0, 0.0, 1.2), (1.0, -3.0, 0.6), type="PANO", panorama_type="FISHEYE_EQUISOLID", fisheye_lens=10.5, fisheye_fov=pi)
 
 
 def instances() -> None:
     """A mesh on the points of a grid, turned and scaled at random, coloured by each instance's random number and by its attribute."""
-    empty(192, 128)
+    resolution(192, 128)
     plane(diffuse((0.5, 0.5, 0.5)), size=20.0)
     soft_sky()
     lamp("AREA", 150.0, (-2.5, -3.0, 4.0), (0.65, -0.45, 0.0), shape="SQUARE", size=1.5)

@@ -3,13 +3,12 @@
 from math import radians
 
 import bpy
-from stage import ball, box, camera, diffuse, empty, image_world, image, lamp, material, plane, principled
+from stage import ball, box, camera, diffuse, image_world, image, lamp, material, plane, principled
 import numpy
 
 
 def corner() -> None:
     """A floor, a wall, a plastic ball and a box."""
-    empty()
     plane(diffuse((0.6, 0.6, 0.6)))
     plane(diffuse((0.7, 0.5, 0.35)), location=(0.0, 2.0, 0.0), rotation=(radians(90), 0.0, 0.0))
     ball(principled(Base_Color=(0.15, 0.4, 0.7), Roughness=0.4), 0.6, location=(-0.7, 0.2, 0.6))

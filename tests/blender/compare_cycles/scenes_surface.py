@@ -1,14 +1,14 @@
 """Surfaces: the Principled BSDF lobe by lobe, each closure by itself, and their mixtures."""
 
 import bpy
-from stage import blank, diffuse, empty, lit_floor, material, node, principled, rows_of_balls, surface
+from stage import blank, diffuse, lit_floor, material, node, principled, resolution, rows_of_balls, surface
 
 RED, BLUE, GOLD, SKIN = (0.7, 0.15, 0.1), (0.1, 0.25, 0.7), (0.95, 0.72, 0.35), (0.85, 0.5, 0.4)
 
 
 def shown(covers: list[bpy.types.Material], columns: int) -> None:
     """Balls on a lit floor."""
-    empty(64 * columns, 64 * -(-len(covers) // columns))
+    resolution(64 * columns, 64 * -(-len(covers) // columns))
     lit_floor()
     rows_of_balls(covers, columns)
 

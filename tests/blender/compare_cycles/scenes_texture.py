@@ -2,7 +2,7 @@
 
 import bpy
 import numpy
-from stage import ball, blank, box, camera, empty, image, lamp, node, plane, soft_sky, surface
+from stage import ball, blank, box, camera, image, lamp, node, plane, resolution, soft_sky, surface
 
 SIZE = 64
 
@@ -90,7 +90,7 @@ def stage() -> None:
 
 def textures() -> None:
     """By UV, Generated and Object coordinates, smooth and in steps, driving colour, roughness and alpha."""
-    empty(192, 128)
+    resolution(192, 128)
     plane(coloured(colours(), scale=(5.0, 5.0, 1.0), interpolation="Closest"), size=8.0)
     ball(coloured(colours()), 0.6, location=(-1.5, 0.5, 0.6))
     ball(coloured(colours(), "Generated", (2.0, 2.0, 2.0)), 0.6, location=(0.0, 0.6, 0.6))
@@ -102,7 +102,7 @@ def textures() -> None:
 
 def relief() -> None:
     """Normal maps and bumps on a ball and on a plane."""
-    empty(192, 128)
+    resolution(192, 128)
     plane(dented(), size=5.0)
     ball(bumpy(), 0.7, location=(-0.9, 0.0, 0.7))
     ball(dented(), 0.7, location=(0.9, 0.0, 0.7))

@@ -7,12 +7,13 @@ from mathutils import Vector
 GREY = (0.5, 0.5, 0.5)
 
 
-def empty(width: int = 128, height: int = 128) -> bpy.types.Scene:
-    """An empty scene with a black world, and Cycles set to leave nothing out."""
+def empty() -> None:
+    """Begins an empty scene of 128 by 128 pixels with a black world, and Cycles set to leave nothing out."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, height, 100
+    scene.render.resolution_percentage = 100
+    resolution(128, 128)
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
@@ -20,7 +21,12 @@ def empty(width: int = 128, height: int = 128) -> bpy.types.Scene:
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
     even_world(0.0)
-    return scene
+
+
+def resolution(width: int, height: int) -> None:
+    """The picture's size, multiples of the compared blocks'."""
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = width, height
 
 
 def link(name: str, data: bpy.types.ID, location=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0), scale=(1.0, 1.0, 1.0)) -> bpy.types.Object:
