@@ -1,4 +1,4 @@
-"""One scene in one engine, inside Blender: two renderings with different seeds. A function for `child.py`."""
+"""Scenes rendered inside Blender. Functions for `child.py`."""
 
 import importlib
 import time
@@ -12,16 +12,29 @@ SEEDS = (1, 2)
 
 
 def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) -> None:
-    """Writes SCENE-ENGINE.npz: `first` and `second`, radiance (height, width, 3) in W/(m² sr) with the top row first, and `seconds`."""
-    stage.empty()
-    getattr(importlib.import_module(f"scenes_{theme}"), scene)()
+    """Writes SCENE-ENGINE.npz: `first` and `second`, renderings with different seeds as radiance (height, width, 3) in W/(m² sr) with the top row
+    first, and `seconds` that both took together."""
+    build(theme, scene, samples)
     cycles = bpy.context.scene.cycles
-    cycles.samples = samples
     start, images = time.monotonic(), []
     for seed in SEEDS:
         cycles.seed = seed
         images.append(rendered(engine, tmp_path / f"{scene}-{engine}.exr"))
     numpy.savez(tmp_path / f"{scene}-{engine}.npz", first=images[0], second=images[1], seconds=time.monotonic() - start)
+
+
+def export_usd(scene: str, samples: int, tmp_path: Path) -> None:
+    """Writes SCENE.usdc with its images, and Gonio's picture of the file as SCENE.npy."""
+    build("usd", scene, samples)
+    bpy.ops.wm.usd_export(filepath=str(tmp_path / f"{scene}.usdc"), export_textures_mode="NEW")
+    numpy.save(tmp_path / f"{scene}.npy", rendered("GONIO", tmp_path / f"{scene}-addon.exr"))
+
+
+def build(theme: str, scene: str, samples: int) -> None:
+    """Makes a scene the open one."""
+    stage.empty()
+    getattr(importlib.import_module(f"scenes_{theme}"), scene)()
+    bpy.context.scene.cycles.samples = samples
 
 
 def rendered(engine: str, path: Path) -> numpy.ndarray:

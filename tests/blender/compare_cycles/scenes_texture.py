@@ -69,7 +69,7 @@ def dented() -> bpy.types.Material:
 
 def bumpy() -> bpy.types.Material:
     """Values as heights."""
-    made, tree, picture = textured(values(), scale=(2.0, 2.0, 1.0), interpolation="Cubic")
+    made, tree, picture = textured(values(), scale=(2.0, 2.0, 1.0))
     bent = node(tree, "ShaderNodeBump", Strength=0.7, Distance=0.15, Height=picture.outputs["Color"])
     return principled(made, tree, Base_Color=(0.7, 0.3, 0.2), Roughness=0.5, Normal=bent.outputs[0])
 
@@ -94,7 +94,7 @@ def textures() -> None:
     plane(coloured(colours(), scale=(5.0, 5.0, 1.0), interpolation="Closest"), size=8.0)
     ball(coloured(colours()), 0.6, location=(-1.5, 0.5, 0.6))
     ball(coloured(colours(), "Generated", (2.0, 2.0, 2.0)), 0.6, location=(0.0, 0.6, 0.6))
-    box(coloured(colours(), "Object", (0.7, 0.7, 0.7), extension="MIRROR", projection="BOX", projection_blend=0.3), location=(1.5, 0.5, 0.5))
+    box(coloured(colours(), "Object", (0.7, 0.7, 0.7), extension="MIRROR"), location=(1.5, 0.5, 0.5))
     ball(rough(), 0.5, location=(-0.8, -0.9, 0.5))
     box(cut_out(), 0.9, location=(0.8, -0.9, 0.46), rotation=(0.0, 0.0, 0.5))
     stage()
