@@ -3,8 +3,8 @@
 from math import pi, radians
 
 import bpy
-from stage import ball, blank, box, camera, diffuse, image, lamp, node, plane, principled, resolution, soft_sky, surface
 import numpy
+from stage import ball, blank, box, camera, diffuse, lamp, node, plane, principled, resolution, soft_sky, surface
 
 
 def garden(width: int, height: int) -> None:

@@ -2,13 +2,13 @@
 
 from math import radians
 
-import bpy
-from stage import ball, box, camera, diffuse, image_world, image, lamp, material, plane, principled
 import numpy
+from stage import ball, box, camera, diffuse, even_world, image, image_world, lamp, material, plane, principled
 
 
 def corner() -> None:
-    """A floor, a wall, a plastic ball and a box."""
+    """A floor, a wall, a plastic ball and a box, and so little light from everywhere that no part is without."""
+    even_world(0.1)
     plane(diffuse((0.6, 0.6, 0.6)))
     plane(diffuse((0.7, 0.5, 0.35)), location=(0.0, 2.0, 0.0), rotation=(radians(90), 0.0, 0.0))
     ball(principled(Base_Color=(0.15, 0.4, 0.7), Roughness=0.4), 0.6, location=(-0.7, 0.2, 0.6))
@@ -32,7 +32,8 @@ def sun() -> None:
 def spot() -> None:
     corner()
     lamp("SPOT", 500.0, (-1.8, -2.2, 3.2), (0.65, -0.45, 0.0), spot_size=radians(70), spot_blend=0.4, shadow_soft_size=0.1)
-    lamp("SPOT", 300.0, (2.2, -2.0, 2.6), (0.7, 0.55, 0.0), spot_size=radians(50), spot_blend=0.0, shadow_soft_size=0.25, color=(0.4, 0.6, 1.0))
+    blue = {"color": (0.4, 0.6, 1.0), "shadow_soft_size": 0.25}
+    lamp("SPOT", 300.0, (2.2, -2.0, 2.6), (0.7, 0.55, 0.0), spot_size=radians(50), spot_blend=0.0, **blue)
 
 
 def area(**fields) -> None:
@@ -58,11 +59,10 @@ def area_ellipse() -> None:
 
 
 def mesh_emitter() -> None:
-    """A tube on the wall and a glowing ball."""
+    """A slab that glows close above the floor, and a glowing ball."""
     corner()
-    bpy.data.objects["Cube"].location.x = 1.1
-    box(material("Emission", Color=(1.0, 0.7, 0.4), Strength=6.0), location=(0.0, 1.8, 2.2), scale=(2.4, 0.08, 0.08))
-    ball(material("Emission", Color=(0.3, 0.6, 1.0), Strength=4.0), 0.25, location=(0.25, -0.9, 0.3))
+    box(material("Emission", Color=(1.0, 0.7, 0.4), Strength=2.0), location=(-0.5, -1.1, 0.2), scale=(1.2, 0.5, 0.1))
+    ball(material("Emission", Color=(0.3, 0.6, 1.0), Strength=3.0), 0.3, location=(0.9, -0.9, 0.6))
 
 
 def hdri() -> None:

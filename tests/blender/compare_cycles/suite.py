@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-USUAL_SAMPLES = 512
+USUAL_SAMPLES = 128
 
 
 @dataclass(frozen=True)
