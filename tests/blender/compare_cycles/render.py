@@ -12,8 +12,10 @@ SEEDS = (1, 2)
 
 
 def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) -> None:
-    """Writes SCENE-ENGINE.npz: `first` and `second`, renderings with different seeds as radiance (height, width, 3) in W/(m² sr) with the top row
-    first, and `seconds` that both took together."""
+    """Writes SCENE-ENGINE.npz: `first` and `second`, renderings with different seeds, and the `seconds` that both took together.
+
+    They are radiance (height, width, 3) in W/(m² sr), the top row first.
+    """
     build(theme, scene, samples)
     cycles = bpy.context.scene.cycles
     start, images = time.monotonic(), []

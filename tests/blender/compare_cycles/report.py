@@ -15,7 +15,11 @@ MOST_PERCENTILE95 = 0.04
 PAGE = """<!doctype html>
 <meta charset="utf-8">
 <title>Cycles and Gonio</title>
-<style>body {{ font: 15px sans-serif; max-width: 70em; margin: auto }} img {{ image-rendering: pixelated; width: 100% }} .over {{ color: #b00 }}</style>
+<style>
+body {{ font: 15px sans-serif; max-width: 70em; margin: auto }}
+img {{ image-rendering: pixelated; width: 100% }}
+.over {{ color: #b00 }}
+</style>
 <h1>The same file in Cycles and in Gonio</h1>
 <p>No clamping, no filter glossy, no adaptive sampling, caustics on; settings and file are the same for both. Differences are per channel over
 blocks of {block} × {block} pixels, |Δ| / (reference + {floor:.0%} of the image's mean). Each rendering is the mean of two with different seeds;
@@ -61,8 +65,12 @@ def write() -> None:
 def section(name: str, figures: dict[str, float]) -> str:
     """A scene's part of the page; what is over its limit stands out."""
     limits = {"median": MOST_MEDIAN, "percentile95": MOST_PERCENTILE95, "noise_gonio": MOST_NOISE, "noise_cycles": MOST_NOISE}
-    judged = {key: f"{figures[key]:.2%}" if figures[key] < limit else f'<b class="over">{figures[key]:.2%}</b>' for key, limit in limits.items()}
-    return SECTION.format(name=name, **(figures | judged))
+    return SECTION.format(name=name, **(figures | {key: judged(figures[key], limit) for key, limit in limits.items()}))
+
+
+def judged(value: float, limit: float) -> str:
+    """A share in per cent, marked where it is over its limit."""
+    return f"{value:.2%}" if value < limit else f'<b class="over">{value:.2%}</b>'
 
 
 if __name__ == "__main__":

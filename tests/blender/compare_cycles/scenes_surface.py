@@ -77,7 +77,8 @@ def principled_together() -> None:
 
 def closures() -> None:
     """Nodes that reflect: Diffuse, Glossy in four distributions, Metallic of both kinds, Sheen of both kinds, Emission."""
-    glossy = [material("BsdfAnisotropic", distribution=kind, Color=(0.8, 0.8, 0.7), Roughness=0.4) for kind in ("GGX", "MULTI_GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY")]
+    kinds = ("GGX", "MULTI_GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY")
+    glossy = [material("BsdfAnisotropic", distribution=kind, Color=(0.8, 0.8, 0.7), Roughness=0.4) for kind in kinds]
     shown(
         [
             material("BsdfDiffuse", Color=RED, Roughness=0.7),
@@ -147,15 +148,16 @@ def by_angle(kind: str, output: str, first: tuple[str, dict], second: tuple[str,
 
 def subsurface() -> None:
     """Each method, of the node and in the Principled BSDF, with radii that differ by channel, isotropic and not."""
-    radius = (1.0, 0.4, 0.2)
+    thick = {"Color": SKIN, "Scale": 0.15, "Radius": (1.0, 0.4, 0.2)}
+    whole = {"Base_Color": SKIN, "Subsurface_Scale": 0.1, "Subsurface_Radius": (1.0, 0.4, 0.2)}
     shown(
         [
-            material("SubsurfaceScattering", falloff="BURLEY", Color=SKIN, Scale=0.15, Radius=radius),
-            material("SubsurfaceScattering", falloff="RANDOM_WALK", Color=SKIN, Scale=0.15, Radius=radius, Anisotropy=0.5),
-            material("SubsurfaceScattering", falloff="RANDOM_WALK_SKIN", Color=SKIN, Scale=0.15, Radius=radius),
-            principled(subsurface_method="BURLEY", Base_Color=SKIN, Subsurface_Weight=1.0, Subsurface_Scale=0.1, Subsurface_Radius=radius),
-            principled(subsurface_method="RANDOM_WALK", Base_Color=SKIN, Subsurface_Weight=0.7, Subsurface_Scale=0.1, Subsurface_Radius=radius),
-            principled(subsurface_method="RANDOM_WALK_SKIN", Base_Color=SKIN, Subsurface_Weight=1.0, Subsurface_Scale=0.1, Subsurface_Radius=radius),
+            material("SubsurfaceScattering", falloff="BURLEY", **thick),
+            material("SubsurfaceScattering", falloff="RANDOM_WALK", Anisotropy=0.5, **thick),
+            material("SubsurfaceScattering", falloff="RANDOM_WALK_SKIN", **thick),
+            principled(subsurface_method="BURLEY", Subsurface_Weight=1.0, **whole),
+            principled(subsurface_method="RANDOM_WALK", Subsurface_Weight=0.7, **whole),
+            principled(subsurface_method="RANDOM_WALK_SKIN", Subsurface_Weight=1.0, **whole),
         ],
         3,
     )
