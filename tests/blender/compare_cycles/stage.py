@@ -185,7 +185,7 @@ def lit_floor(colour=(0.4, 0.4, 0.4)) -> None:
     """A floor under a soft sky and a wide area light."""
     plane(diffuse(colour), size=14.0)
     soft_sky()
-    lamp("AREA", 150.0, (-2.5, -3.0, 4.0), (0.65, -0.45, 0.0), shape="DISK", size=2.0, color=(1.0, 0.9, 0.75))
+    lamp("AREA", 150.0, (-2.5, -3.0, 4.0), (0.65, -0.45, 0.0), shape="DISK", size=4.0, color=(1.0, 0.9, 0.75))
 
 
 def rows_of_balls(covers: list[bpy.types.Material], columns: int) -> None:

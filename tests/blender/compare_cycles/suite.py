@@ -26,7 +26,7 @@ SCENES = [
     Scene("light", "mesh_emitter"),
     Scene("light", "hdri"),
     Scene("surface", "principled_lobes"),
-    Scene("surface", "principled_transmission"),
+    Scene("surface", "principled_transmission", 512, 512),
     Scene("surface", "principled_together"),
     Scene("surface", "closures"),
     Scene("surface", "closures_through"),
