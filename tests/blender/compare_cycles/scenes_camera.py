@@ -4,7 +4,7 @@ from math import pi, radians
 
 import bpy
 import numpy
-from stage import ball, blank, box, camera, diffuse, lamp, node, plane, principled, resolution, soft_sky, surface
+from stage import ball, blank, box, camera, diffuse, lamp, node, plane, principled, resolution, socket, soft_sky, surface
 
 
 def garden(width: int, height: int) -> None:
@@ -49,7 +49,7 @@ def fisheye() -> None:
 
 
 def instances() -> None:
-    """A mesh on the points of a grid, turned and scaled at random, coloured by each instance's random number and by its attribute."""
+    """A mesh on the points of a grid, turned and scaled at random, coloured by each instance's random number."""
     resolution(192, 128)
     plane(diffuse((0.5, 0.5, 0.5)), size=20.0)
     soft_sky()
@@ -63,11 +63,10 @@ def instances() -> None:
 
 
 def by_random() -> bpy.types.Material:
-    """Red by the object's random number, green by an attribute of the instances."""
+    """Coloured by the object's random number."""
     made, tree = blank("By random")
-    each = node(tree, "ShaderNodeObjectInfo")
-    tint = node(tree, "ShaderNodeAttribute", attribute_name="tint", attribute_type="INSTANCER")
-    mixed = node(tree, "ShaderNodeCombineColor", Red=each.outputs["Random"], Green=tint.outputs["Fac"], Blue=0.2)
+    chance = node(tree, "ShaderNodeObjectInfo").outputs["Random"]
+    mixed = node(tree, "ShaderNodeCombineColor", Red=chance, Green=0.4, Blue=0.2)
     surface(tree, node(tree, "ShaderNodeBsdfPrincipled", Base_Color=mixed.outputs[0], Roughness=0.5))
     return made
 
@@ -78,20 +77,15 @@ def scatter(seed: bpy.types.Object) -> bpy.types.GeometryNodeTree:
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     grid = node(tree, "GeometryNodeMeshGrid", Size_X=4.4, Size_Y=3.2, Vertices_X=7, Vertices_Y=5)
     thing = node(tree, "GeometryNodeObjectInfo", Object=seed)
-    chance = lambda kind, **values: node(tree, "FunctionNodeRandomValue", data_type=kind, **values)  # noqa: E731
-    turned = chance("FLOAT_VECTOR", Min=(-0.6, -0.6, 0.0), Max=(0.6, 0.6, 6.0), Seed=3)
-    size = chance("FLOAT", Min=0.6, Max=1.4, Seed=5)
+    turned = node(tree, "FunctionNodeRandomValue", data_type="FLOAT_VECTOR", Min=(-0.6, -0.6, 0.0), Max=(0.6, 0.6, 6.0), Seed=3)
+    size = node(tree, "FunctionNodeRandomValue", data_type="FLOAT", Min=0.6, Max=1.4, Seed=5)
     placed = node(
         tree,
         "GeometryNodeInstanceOnPoints",
         Points=grid.outputs["Mesh"],
         Instance=thing.outputs["Geometry"],
-        Rotation=next(each for each in turned.outputs if each.enabled),
-        Scale=next(each for each in size.outputs if each.enabled),
+        Rotation=socket(turned.outputs, "Value"),
+        Scale=socket(size.outputs, "Value"),
     )
-    shade = chance("FLOAT", Min=0.1, Max=0.9, Seed=7)
-    store = node(tree, "GeometryNodeStoreNamedAttribute", data_type="FLOAT", domain="INSTANCE", Geometry=placed.outputs[0], Name="tint")
-    fill_value = next(each for each in store.inputs if each.name == "Value" and each.enabled)
-    tree.links.new(next(each for each in shade.outputs if each.enabled), fill_value)
-    node(tree, "NodeGroupOutput", Geometry=store.outputs[0])
+    node(tree, "NodeGroupOutput", Geometry=placed.outputs[0])
     return tree

@@ -1,7 +1,7 @@
 """Surfaces: the Principled BSDF lobe by lobe, each closure by itself, and their mixtures."""
 
 import bpy
-from stage import blank, diffuse, lit_floor, material, node, principled, resolution, rows_of_balls, surface
+from stage import blank, diffuse, lit_floor, material, node, principled, resolution, rows_of_balls, socket, surface
 
 RED, BLUE, GOLD, SKIN = (0.7, 0.15, 0.1), (0.1, 0.25, 0.7), (0.95, 0.72, 0.35), (0.85, 0.5, 0.4)
 
@@ -114,8 +114,8 @@ def mixed(kind: str, first: tuple[str, dict], second: tuple[str, dict], **share)
     """Two shaders in a Mix or an Add Shader."""
     made, tree = blank(kind)
     both = node(tree, f"ShaderNode{kind}Shader", **share)
-    for socket, (shader, values) in zip(list(both.inputs)[-2:], (first, second), strict=True):
-        tree.links.new(node(tree, f"ShaderNode{shader}", **values).outputs[0], socket)
+    for end, (shader, values) in zip(list(both.inputs)[-2:], (first, second), strict=True):
+        tree.links.new(node(tree, f"ShaderNode{shader}", **values).outputs[0], end)
     surface(tree, both)
     return made
 
@@ -129,7 +129,7 @@ def mixtures() -> None:
             mixed("Add", ("BsdfDiffuse", {"Color": BLUE}), ("BsdfAnisotropic", {"Color": (0.2, 0.2, 0.2), "Roughness": 0.4})),
             mixed("Mix", ("BsdfTransparent", {}), ("BsdfDiffuse", {"Color": BLUE}), Fac=0.6),
             mixed("Add", ("BsdfTranslucent", {"Color": (0.3, 0.4, 0.1)}), ("Emission", {"Color": (1.0, 0.5, 0.2), "Strength": 0.2})),
-            by_angle("ShaderNodeFresnel", "Factor", red, gloss, IOR=1.6),
+            by_angle("ShaderNodeFresnel", "Fac", red, gloss, IOR=1.6),
             by_angle("ShaderNodeLayerWeight", "Facing", red, ("BsdfDiffuse", {"Color": BLUE}), Blend=0.4),
         ],
         3,
@@ -141,8 +141,7 @@ def by_angle(kind: str, output: str, first: tuple[str, dict], second: tuple[str,
     made = mixed("Mix", first, second)
     tree = made.node_tree
     mix = next(each for each in tree.nodes if each.bl_idname == "ShaderNodeMixShader")
-    factor = node(tree, kind, **values)
-    tree.links.new(factor.outputs[output] if output in factor.outputs else factor.outputs[0], mix.inputs[0])
+    tree.links.new(socket(node(tree, kind, **values).outputs, output), mix.inputs[0])
     return made
 
 

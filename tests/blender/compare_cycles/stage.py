@@ -45,16 +45,21 @@ def node(tree: bpy.types.NodeTree, kind: str, **values) -> bpy.types.Node:
             setattr(made, name, value)
     for name, value in values.items():
         if name[0].isupper():
-            fill(tree, next(each for each in made.inputs if each.name == name.replace("_", " ") and each.enabled), value)
+            fill(tree, socket(made.inputs, name.replace("_", " ")), value)
     return made
 
 
-def fill(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value) -> None:
+def socket(sockets, name: str) -> bpy.types.NodeSocket:
+    """The socket of a name, or of an identifier: "Fac" is called otherwise since 5.0."""
+    return next(each for each in sockets if name in (each.name, each.identifier) and each.enabled)
+
+
+def fill(tree: bpy.types.NodeTree, end: bpy.types.NodeSocket, value) -> None:
     """Links an output to an input, or sets the input."""
     if isinstance(value, bpy.types.NodeSocket):
-        tree.links.new(value, socket)
+        tree.links.new(value, end)
     else:
-        socket.default_value = (*value, 1.0) if socket.type == "RGBA" and len(value) == 3 else value
+        end.default_value = (*value, 1.0) if end.type == "RGBA" and len(value) == 3 else value
 
 
 def blank(name: str) -> tuple[bpy.types.Material, bpy.types.NodeTree]:
