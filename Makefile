@@ -1,4 +1,4 @@
-# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make bench`, `make bench-peers`.
+# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make compare-cycles`, `make bench`, `make bench-peers`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -9,7 +9,7 @@ export PYO3_PYTHON := $(BIN)/python
 # Blender as a Python package, in the versions that Python 3.11 can load.
 BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
-.PHONY: build render extension test test-rust test-python test-blender lint validate bench bench-peers clean
+.PHONY: build render extension test test-rust test-python test-blender lint compare-cycles validate bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -56,9 +56,14 @@ test-blender: extension $(addsuffix /ready,$(BPY))
 	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl || exit 1; done
 	$(BIN)/python -m pytest tests/blender -m "not validate"
 
+# The same files in Cycles and in gonio, block by block; pictures and figures in out/compare-cycles/index.html.
+compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
+	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
+	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/blender/compare_cycles -m validate
+
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
-validate: test-blender
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800
+validate: test-blender compare-cycles
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 bench:

@@ -225,3 +225,25 @@ def test_every_shader_node_translates(tmp_path):
                 tree.links.new(output, end.inputs["Surface"] if output.type == "SHADER" else light.inputs["Color"])
                 description, _ = translated(made)
                 assert len(description["closures"]) <= 2, name
+
+
+@pytest.mark.blender
+def test_single_closures_have_their_colour_where_the_core_reads_it(tmp_path):
+    from recorder import constant, empty, material, translated
+
+    empty()
+    for name in ("Diffuse", "Anisotropic", "Glass", "Refraction", "Transparent", "Translucent", "Sheen"):
+        made, tree, end = material(name)
+        shader = tree.nodes.new(f"ShaderNodeBsdf{name}")
+        shader.inputs["Color"].default_value = (0.1, 0.2, 0.3, 1.0)
+        tree.links.new(shader.outputs[0], end.inputs["Surface"])
+        description, _ = translated(made)
+        assert constant(description["closures"][0], "base_color")[:3] == pytest.approx([0.1, 0.2, 0.3]), name
+    made, tree, end = material("Skin")
+    shader = tree.nodes.new("ShaderNodeSubsurfaceScattering")
+    shader.falloff = "RANDOM_WALK_SKIN"
+    shader.inputs["Color"].default_value, shader.inputs["IOR"].default_value = (0.1, 0.2, 0.3, 1.0), 1.7
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    [closure] = translated(made)[0]["closures"]
+    assert constant(closure, "base_color")[:3] == pytest.approx([0.1, 0.2, 0.3])
+    assert constant(closure, "subsurface_ior")[0] == pytest.approx(1.7)

@@ -202,7 +202,7 @@ def translucent(t, node, context):
 def sheen(t, node, context):
     model = "Sheen" if node.distribution == "MICROFIBER" else "Velvet"
     colour, roughness = t.input(node, "Color", context), t.input(node, "Roughness", context, 0.5)
-    return [closure(t.graph, model, fuzz_color=colour, fuzz_roughness=roughness, normal=normal_node(t, node, context))]
+    return [closure(t.graph, model, base_color=colour, fuzz_roughness=roughness, normal=normal_node(t, node, context))]
 
 
 @closure_node("ShaderNodeSubsurfaceScattering")
@@ -211,10 +211,10 @@ def subsurface(t, node, context):
         closure(
             t.graph,
             "Subsurface",
-            subsurface_color=t.input(node, "Color", context),
+            base_color=t.input(node, "Color", context),
             subsurface_radius=t.input(node, "Radius", context) * t.input(node, "Scale", context, 0.05),
             subsurface_scatter_anisotropy=t.input(node, "Anisotropy", context),
-            specular_ior=t.input(node, "IOR", context, 1.4),
+            subsurface_ior=t.input(node, "IOR", context, 1.4),
             specular_roughness=t.input(node, "Roughness", context, 1.0),
             subsurface=subsurface_method(node.falloff, t.version),
             normal=normal_node(t, node, context),

@@ -1,0 +1,67 @@
+"""Scenes rendered inside Blender. Functions for `child.py`."""
+
+import importlib
+import time
+from pathlib import Path
+
+import bpy
+import numpy
+import stage
+
+SEEDS = (1, 2)
+
+
+def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) -> None:
+    """Writes SCENE-ENGINE.npz: `first` and `second`, renderings with different seeds, and the `seconds` that both took together.
+
+    They are radiance (height, width, 3) in W/(m² sr), the top row first.
+    """
+    build(theme, scene, samples)
+    cycles = bpy.context.scene.cycles
+    start, images = time.monotonic(), []
+    for seed in SEEDS:
+        cycles.seed = seed
+        images.append(rendered(engine, tmp_path / f"{scene}-{engine}.exr"))
+    numpy.savez(tmp_path / f"{scene}-{engine}.npz", first=images[0], second=images[1], seconds=time.monotonic() - start)
+
+
+def export_usd(scene: str, samples: int, tmp_path: Path) -> None:
+    """Writes SCENE.usdc with its images, and Gonio's picture of the file as SCENE.npy."""
+    build("usd", scene, samples)
+    bpy.ops.wm.usd_export(filepath=str(tmp_path / f"{scene}.usdc"), export_textures_mode="NEW")
+    numpy.save(tmp_path / f"{scene}.npy", rendered("GONIO", tmp_path / f"{scene}-addon.exr"))
+
+
+def build(theme: str, scene: str, samples: int) -> None:
+    """Makes a scene the open one."""
+    stage.empty()
+    getattr(importlib.import_module(f"scenes_{theme}"), scene)()
+    bpy.context.scene.cycles.samples = samples
+
+
+def rendered(engine: str, path: Path) -> numpy.ndarray:
+    """The open scene; Gonio takes its settings from those of Cycles, and may not have to leave anything out."""
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    if engine == "GONIO":
+        bpy.ops.gonio.settings_from_cycles()
+        # Nothing of the comparison's is left to what the engine would choose.
+        scene.gonio.use_adaptive_sampling = False
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+    if engine == "GONIO":
+        lines = importlib.import_module("gonio_extension.report").latest().diagnostics
+        assert not lines, [line.text for line in lines]
+    return pixels(path)
+
+
+def pixels(path: Path) -> numpy.ndarray:
+    """A rendered EXR file as an array, top row first."""
+    picture = bpy.data.images.load(str(path))
+    picture.colorspace_settings.name = "Non-Color"
+    width, height = picture.size
+    values = numpy.empty(width * height * picture.channels, "f4")
+    picture.pixels.foreach_get(values)
+    bpy.data.images.remove(picture)
+    return values.reshape(height, width, -1)[::-1, :, :3].astype("f8")

@@ -1,0 +1,77 @@
+"""Each type of light over the same corner of a room."""
+
+from math import radians
+
+import numpy
+from stage import ball, box, camera, diffuse, even_world, image, image_world, lamp, material, plane, principled
+
+
+def corner() -> None:
+    """A floor, a wall, a plastic ball and a box, and so little light from everywhere that no part is without."""
+    even_world(0.1)
+    plane(diffuse((0.6, 0.6, 0.6)))
+    plane(diffuse((0.7, 0.5, 0.35)), location=(0.0, 2.0, 0.0), rotation=(radians(90), 0.0, 0.0))
+    ball(principled(Base_Color=(0.15, 0.4, 0.7), Roughness=0.4), 0.6, location=(-0.7, 0.2, 0.6))
+    box(diffuse((0.4, 0.6, 0.3)), location=(0.9, 0.4, 0.5), rotation=(0.0, 0.0, 0.4))
+    camera((0.0, -6.5, 2.4), (0.0, 0.3, 0.8), lens=50.0)
+
+
+def point() -> None:
+    """A point without size, and two balls, one of them with soft falloff."""
+    corner()
+    lamp("POINT", 90.0, (-1.6, -1.2, 2.6), color=(1.0, 0.6, 0.4), shadow_soft_size=0.0)
+    lamp("POINT", 90.0, (1.8, -0.9, 2.2), color=(0.3, 0.6, 1.0), shadow_soft_size=0.3, use_soft_falloff=False)
+    lamp("POINT", 30.0, (0.1, -1.8, 0.7), color=(0.4, 1.0, 0.5), shadow_soft_size=0.2, use_soft_falloff=True)
+
+
+def sun() -> None:
+    corner()
+    lamp("SUN", 3.0, (0.0, 0.0, 5.0), (0.7, -0.3, 0.4), angle=radians(8))
+
+
+def spot() -> None:
+    corner()
+    lamp("SPOT", 500.0, (-1.8, -2.2, 3.2), (0.65, -0.45, 0.0), spot_size=radians(70), spot_blend=0.4, shadow_soft_size=0.1)
+    blue = {"color": (0.4, 0.6, 1.0), "shadow_soft_size": 0.25}
+    lamp("SPOT", 300.0, (2.2, -2.0, 2.6), (0.7, 0.55, 0.0), spot_size=radians(50), spot_blend=0.0, **blue)
+
+
+def area(**fields) -> None:
+    """An area light in the corner."""
+    corner()
+    lamp("AREA", 120.0, (-1.2, -1.6, 3.0), (0.5, -0.3, 0.5), **fields)
+
+
+def area_square() -> None:
+    area(shape="SQUARE", size=1.0)
+
+
+def area_rectangle() -> None:
+    area(shape="RECTANGLE", size=2.0, size_y=0.4, spread=radians(120))
+
+
+def area_disk() -> None:
+    area(shape="DISK", size=1.2, spread=radians(70))
+
+
+def area_ellipse() -> None:
+    area(shape="ELLIPSE", size=1.8, size_y=0.6, spread=radians(140))
+
+
+def mesh_emitter() -> None:
+    """A slab that glows close above the floor, and a glowing ball."""
+    corner()
+    box(material("Emission", Color=(1.0, 0.7, 0.4), Strength=2.0), location=(-0.5, -1.1, 0.2), scale=(1.2, 0.5, 0.1))
+    ball(material("Emission", Color=(0.3, 0.6, 1.0), Strength=3.0), 0.3, location=(0.9, -0.9, 0.6))
+
+
+def hdri() -> None:
+    """A latitude-longitude image with a low sun, turned about two axes."""
+    corner()
+    height, width = 128, 256
+    latitude = numpy.pi * ((numpy.arange(height) + 0.5) / height - 0.5)[:, None]
+    longitude = 2.0 * numpy.pi * ((numpy.arange(width) + 0.5) / width - 0.5)[None, :]
+    toward = numpy.cos(latitude) * numpy.cos(0.6) * numpy.cos(longitude - 1.9) + numpy.sin(latitude) * numpy.sin(0.6)
+    glow = numpy.exp((toward - 1.0) / 0.006)[..., None] * numpy.array([120.0, 100.0, 70.0])
+    sky = (0.25 + 0.2 * numpy.sin(latitude) + 0.0 * longitude)[..., None] * numpy.array([0.6, 0.9, 1.4])
+    image_world(image("Sky", glow + sky, is_float=True), 0.8, (0.15, -0.1, 0.7))

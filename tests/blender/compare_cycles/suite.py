@@ -1,0 +1,43 @@
+"""The scenes that are compared, fixed beforehand, and how many samples each engine needs for them."""
+
+from dataclasses import dataclass
+
+USUAL_SAMPLES = 128
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A function of `scenes_<theme>.py`, and samples a pixel in each of two renderings."""
+
+    theme: str
+    name: str
+    cycles: int = USUAL_SAMPLES
+    gonio: int = USUAL_SAMPLES
+
+
+SCENES = [
+    Scene("light", "point"),
+    Scene("light", "sun"),
+    Scene("light", "spot"),
+    Scene("light", "area_square"),
+    Scene("light", "area_rectangle"),
+    Scene("light", "area_disk", 512, 512),
+    Scene("light", "area_ellipse"),
+    Scene("light", "mesh_emitter", 256, 256),
+    Scene("light", "hdri"),
+    Scene("surface", "principled_lobes"),
+    Scene("surface", "principled_transmission", 384, 384),
+    Scene("surface", "principled_together"),
+    Scene("surface", "closures"),
+    Scene("surface", "closures_through", 384, 384),
+    Scene("surface", "mixtures"),
+    Scene("surface", "subsurface", 256, 256),
+    Scene("texture", "textures"),
+    Scene("texture", "relief"),
+    Scene("camera", "perspective_shifted"),
+    Scene("camera", "orthographic"),
+    Scene("camera", "depth_of_field"),
+    Scene("camera", "panoramic"),
+    Scene("camera", "fisheye"),
+    Scene("camera", "instances"),
+]
