@@ -234,6 +234,19 @@ def test_a_film_outlives_its_render_and_a_partial_film_can_be_taken(floor):
     assert np.isfinite(np.asarray(late["color"])).all()
 
 
+def test_stacks_of_panes_are_measured_once(floor, render):
+    def lux(panes):
+        scene = floor(samples=64, passes=["illuminance"])
+        pane = scene.add_material(base_color=(1.0, 1.0, 1.0), transmission_weight=0.95, thin_walled=True, specular_roughness=0.0)
+        for number in range(panes):
+            scene.add_instance(0, [pane], transform=[[1, 0, 0, 0], [0, 1, 0, 3 + 0.1 * number], [0, 0, 1, 0], [0, 0, 0, 1]])
+        scene.add_light("dome", (1.0, 1.0, 1.0))
+        return np.asarray(render(scene)["illuminance"]).mean()
+
+    # The uppermost pane is what is measured, and an even sky is all that it sees from above; what lies under it makes no difference.
+    assert lux(8) == pytest.approx(math.pi, rel=0.02)
+
+
 # Determinism.
 
 
