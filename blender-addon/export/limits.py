@@ -15,7 +15,7 @@ def of_object(source, report):
     if linking is not None and (linking.receiver_collection or linking.blocker_collection):
         report.add("Object", source.name, "light linking is not supported; it lights everything and everything blocks it")
     if source.type == "LIGHT" and not source.is_shadow_catcher:
-        report.add("Object", source.name, "lights that shadow catchers do not take for real are not supported; they count as all others", severity="INFO")
+        report.add("Object", source.name, "shadow catchers cannot leave its light out of account; it counts as all others", severity="INFO")
     for system in source.particle_systems:
         if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
             report.add("Object", source.name, f"hair strands ({system.name}) are not supported; they are left out")

@@ -234,6 +234,43 @@ def test_a_film_outlives_its_render_and_a_partial_film_can_be_taken(floor):
     assert np.isfinite(np.asarray(late["color"])).all()
 
 
+def test_a_glowing_mesh_lights_a_large_floor_as_a_lamp_of_its_shape_does(floor, render):
+    def lux(add):
+        scene = floor(samples=256, passes=["illuminance"], max_bounces=0)
+        scene.truncate(lights=0)
+        add(scene)
+        values = np.asarray(render(scene)["illuminance"])[..., 0].copy()
+        # What the panel hides, and its edges.
+        values[12:20, 12:20] = 0.0
+        return values
+
+    def panel(scene):
+        glow = scene.add_material(base_color=(0, 0, 0), specular_weight=0.0, emission_color=(10.0, 10.0, 10.0))
+        corners = np.array([[-0.5, 0.1, 0.5], [0.5, 0.1, 0.5], [0.5, 0.1, -0.5], [-0.5, 0.1, -0.5]], "f4")
+        scene.add_instance(scene.add_mesh(corners, [[0, 1, 2], [0, 2, 3]]), [glow])
+
+    def lamp(scene):
+        scene.add_light("rectangle", (10.0, 10.0, 10.0), transform=[[1, 0, 0, 0], [0, 0, 1, 0.1], [0, -1, 0, 0], [0, 0, 0, 1]], visible=False)
+
+    mesh, rectangle = lux(panel), lux(lamp)
+    assert mesh.sum() == pytest.approx(rectangle.sum(), rel=0.01)
+    # Rows from the panel outwards, where light comes in ever lower.
+    assert np.allclose(mesh.sum(axis=1), rectangle.sum(axis=1), rtol=0.04)
+
+
+def test_stacks_of_panes_are_measured_once(floor, render):
+    def lux(panes):
+        scene = floor(samples=64, passes=["illuminance"])
+        pane = scene.add_material(base_color=(1.0, 1.0, 1.0), transmission_weight=0.95, thin_walled=True, specular_roughness=0.0)
+        for number in range(panes):
+            scene.add_instance(0, [pane], transform=[[1, 0, 0, 0], [0, 1, 0, 3 + 0.1 * number], [0, 0, 1, 0], [0, 0, 0, 1]])
+        scene.add_light("dome", (1.0, 1.0, 1.0))
+        return np.asarray(render(scene)["illuminance"]).mean()
+
+    # The uppermost pane is what is measured, and an even sky is all that it sees from above; what lies under it makes no difference.
+    assert lux(8) == pytest.approx(math.pi, rel=0.02)
+
+
 # Determinism.
 
 

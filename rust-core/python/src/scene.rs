@@ -266,6 +266,9 @@ impl Scene {
     }
 
     /// Changes settings; what is not named stays. See the stub for all of them.
+    ///
+    /// Passes that show what materials compute are called `aov:` (colours, four channels) or `aov_value:` (numbers) and the name of the materials'
+    /// shader outputs.
     #[pyo3(signature = (**changes))]
     fn set(&mut self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let Some(changes) = changes else { return Ok(()) };

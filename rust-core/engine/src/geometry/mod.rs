@@ -6,7 +6,7 @@ mod surface_point;
 
 pub use derivatives::UvDerivatives;
 pub use primvar::{PrimvarKind, PrimvarRef};
-pub use surface_point::{HitLanes, SurfacePoint, spawn};
+pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, spawn, spawn_to};
 
 /// No entry.
 pub const NONE: u32 = u32::MAX;

@@ -143,3 +143,30 @@ pub fn spawn<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, directio
     let side = (error * 2.0).copysign(normal.dot(direction));
     normal.mul_add(side, position)
 }
+
+/// Beyond this many metres a point is as good as a direction.
+const FAR: f32 = 1e9;
+/// A ray to a point ends this part of its length before it, so that what the point lies on is not in its way.
+const BEFORE_END: f32 = 1e-4;
+
+/// A ray from a surface to a point: start, direction and end.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowSegment<L: Lanes> {
+    /// Where it may start without meeting the surface it leaves.
+    pub origin: Vec3<L>,
+    /// Unit direction to the point.
+    pub direction: Vec3<L>,
+    /// Distance short of the point.
+    pub t_max: F<L>,
+}
+
+/// The ray from `position` to the point `distance` away in `direction`. It leads there from where it starts: if it were moved off the surface
+/// and no more, it would meet what the point lies on before its end, at grazing angles by far.
+#[inline(always)]
+pub fn spawn_to<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>, distance: F<L>) -> ShadowSegment<L> {
+    let origin = spawn(position, normal, error, direction);
+    let way = direction.mul_add(distance, position - origin);
+    let near = distance.lt(FAR);
+    let length = near.select(way.length(), distance);
+    ShadowSegment { origin, direction: near.select(way * length.max(f32::MIN_POSITIVE).recip(), direction), t_max: (length * (1.0 - BEFORE_END)).min(f32::MAX) }
+}

@@ -137,7 +137,7 @@ pub(super) fn scatter<L: Lanes>(
         width: point.width,
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,
-        flags: straight.select(point.flags, scattered),
+        flags: straight.select(point.flags | measured, scattered),
         counts: point.counts + straight.select(l.u(1 << 24), counted),
         medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
     };

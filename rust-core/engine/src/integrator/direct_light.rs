@@ -7,7 +7,7 @@ use super::{
     shade::{Point, Stage},
     state::{ShadowLanes, Workspace},
 };
-use crate::{bsdf::Lobes, geometry::spawn, light::power_heuristic};
+use crate::{bsdf::Lobes, geometry::spawn_to, light::power_heuristic};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
@@ -36,10 +36,8 @@ pub(super) fn light<L: Lanes>(
     let code = code_of_sampled(point.flags);
     let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
     add_sampled(&mut ws.first_hit, code, point.slot, contribution, shares, free);
-    let origin = spawn(point.position, point.geometric, point.error, sample.wi);
-    // Lights that are meshes must not shadow themselves.
-    let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
-    let ray = ShadowLanes { origin, direction: sample.wi, t_max, contribution, slot: point.slot, code, shares };
+    let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
+    let ray = ShadowLanes { segment, contribution, slot: point.slot, code, shares };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
 

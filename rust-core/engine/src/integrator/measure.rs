@@ -9,7 +9,11 @@ use super::{
     scatter::add_rgb,
     state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
 };
-use crate::{geometry::spawn, light::power_heuristic, sampler::dimension};
+use crate::{
+    geometry::{spawn, spawn_to},
+    light::power_heuristic,
+    sampler::dimension,
+};
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -71,10 +75,8 @@ fn light<L: Lanes>(l: L, tables: &Tables, point: &Point<L>, u_choice: F<L>, u: [
     let contribution = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
-    let origin = spawn(point.position, point.geometric, point.error, sample.wi);
-    let t_max = (sample.distance * (1.0 - 1e-4)).min(f32::MAX);
-    let (slot, code) = (point.slot, l.u(0));
-    let ray = ShadowLanes { origin, direction: sample.wi, t_max, contribution, slot, code, shares: None };
+    let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
+    let ray = ShadowLanes { segment, contribution, slot: point.slot, code: l.u(0), shares: None };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
 

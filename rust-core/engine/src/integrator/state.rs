@@ -3,6 +3,7 @@
 use super::{catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, subsurface::Walks};
 use crate::{
     accel::{Hits, PassedHit},
+    geometry::ShadowSegment,
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
 };
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
@@ -198,9 +199,7 @@ impl Paths {
 /// One register of shadow rays, to be appended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadowLanes<L: Lanes> {
-    pub(super) origin: Vec3<L>,
-    pub(super) direction: Vec3<L>,
-    pub(super) t_max: F<L>,
+    pub(super) segment: ShadowSegment<L>,
     pub(super) contribution: Rgb<L>,
     pub(super) slot: U<L>,
     pub(super) code: U<L>,
@@ -248,9 +247,9 @@ impl ShadowRays {
     #[inline(always)]
     pub(super) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        append3(ray.origin, chosen, &mut self.origin, n);
-        append3(ray.direction, chosen, &mut self.direction, n);
-        ray.t_max.append(chosen, &mut self.t_max, n);
+        append3(ray.segment.origin, chosen, &mut self.origin, n);
+        append3(ray.segment.direction, chosen, &mut self.direction, n);
+        ray.segment.t_max.append(chosen, &mut self.t_max, n);
         append3(ray.contribution.into(), chosen, &mut self.contribution, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);
