@@ -247,7 +247,7 @@ def test_a_glowing_mesh_lights_a_large_floor_as_a_lamp_of_its_shape_does(floor, 
     def panel(scene):
         glow = scene.add_material(base_color=(0, 0, 0), specular_weight=0.0, emission_color=(10.0, 10.0, 10.0))
         corners = np.array([[-0.5, 0.1, 0.5], [0.5, 0.1, 0.5], [0.5, 0.1, -0.5], [-0.5, 0.1, -0.5]], "f4")
-        scene.add_instance(scene.add_mesh(corners, [[0, 1, 2], [0, 2, 3]]), [glow])
+        scene.add_instance(scene.add_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], "i4")), [glow])
 
     def lamp(scene):
         scene.add_light("rectangle", (10.0, 10.0, 10.0), transform=[[1, 0, 0, 0], [0, 0, 1, 0.1], [0, -1, 0, 0], [0, 0, 0, 1]], visible=False)
