@@ -168,5 +168,9 @@ pub fn spawn_to<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direc
     let way = direction.mul_add(distance, position - origin);
     let near = distance.lt(FAR);
     let length = near.select(way.length(), distance);
-    ShadowSegment { origin, direction: near.select(way * length.max(f32::MIN_POSITIVE).recip(), direction), t_max: (length * (1.0 - BEFORE_END)).min(f32::MAX) }
+    ShadowSegment {
+        origin,
+        direction: near.select(way * length.max(f32::MIN_POSITIVE).recip(), direction),
+        t_max: (length * (1.0 - BEFORE_END)).min(f32::MAX),
+    }
 }
