@@ -1,42 +1,7 @@
-"""Small scenes that the tests of the Python module share."""
+"""Fixtures of the tests of the Python module."""
 
-import numpy as np
 import pytest
-
-gonio = pytest.importorskip("gonio")
-
-
-def at(x, y, z):
-    """A matrix that moves."""
-    return [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
-
-
-def above(height):
-    """A camera's matrix that looks straight down from a height."""
-    return [[1, 0, 0, 0], [0, 0, 1, height], [0, -1, 0, 0], [0, 0, 0, 1]]
-
-
-FLOOR = np.array([[-5, 0, 5], [5, 0, 5], [5, 0, -5], [-5, 0, -5]], "f4")
-QUAD = np.array([[0, 1, 2], [0, 2, 3]], "i4")
-
-
-def floor_scene(**settings):
-    """A grey floor of 10 m by 10 m, a small sphere light 2 m over its middle, and a camera that looks down."""
-    scene = gonio.Scene()
-    scene.set(**{"width": 32, "height": 32, "samples": 4, "passes": ["color", "illuminance"], **settings})
-    floor = scene.add_mesh(FLOOR, QUAD, name="floor")
-    grey = scene.add_material("grey", base_color=(0.5, 0.5, 0.5), specular_weight=0.0)
-    scene.add_instance(floor, [grey], name="floor")
-    scene.add_light("sphere", (1000.0, 1000.0, 1000.0), radius=0.1, transform=at(0, 2, 0), name="lamp")
-    scene.add_camera(above(8), fov=40)
-    return scene
-
-
-def finished(scene):
-    """The film of the whole render."""
-    with gonio.Render(scene) as render:
-        assert render.wait()
-        return render.film()
+from small_scenes import finished, floor_scene
 
 
 @pytest.fixture

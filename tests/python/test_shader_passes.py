@@ -3,7 +3,7 @@
 import gonio
 import numpy as np
 import pytest
-from conftest import above, at, finished
+from small_scenes import above, at, finished
 
 WHITE = {"weight": {"Constant": [1.0] * 4}, "model": "Diffuse", "parameters": [["base_color", {"Constant": [1.0] * 4}]]}
 # Two squares of 1 m side by side in the plane y = 0, two triangles each.

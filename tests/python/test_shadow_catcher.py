@@ -3,7 +3,7 @@
 import gonio
 import numpy as np
 import pytest
-from conftest import FLOOR, QUAD, above, at, finished
+from small_scenes import FLOOR, QUAD, above, at, finished
 
 DISK = 200
 
