@@ -331,7 +331,7 @@ def test_materialx_normal_map_is_made_signed_in_the_image(tmp_path):
     """
     m = bound_material(load(tmp_path, mtlx("ND_standard_surface_surfaceshader", "float3 inputs:normal.connect = </M/Map.outputs:out>", extra)))
     normal = m["graph"]["nodes"][m["normal"]]
-    assert normal["operation"] == {"NormalMap": {"scale": 0.5}}
+    assert normal["operation"] == {"NormalMap": {"scale": 0.5, "uv": None}}
     image = m["graph"]["nodes"][normal["inputs"][0]["Node"][0]]["operation"]["Image"]
     assert image["scale"] == [2] * 4
     assert image["bias"] == [-1] * 4

@@ -485,15 +485,15 @@ def start_slow(command, stage, path, *options):
 
 def interrupt_while_rendering(command, room, path, wait, *options):
     """Seconds from Ctrl-C to the end of the process, `wait` seconds after its workers started."""
-    process = start_slow(command, room, path, "--verbose", *options)
-    while "compiled in" not in process.stderr.readline():
-        assert process.poll() is None
-    time.sleep(wait)
-    start = time.monotonic()
-    process.send_signal(signal.SIGINT)
-    said = process.stderr.read()
-    code = process.wait(30)
-    took = time.monotonic() - start
+    with start_slow(command, room, path, "--verbose", *options) as process:
+        while "compiled in" not in process.stderr.readline():
+            assert process.poll() is None
+        time.sleep(wait)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        said = process.stderr.read()
+        code = process.wait(30)
+        took = time.monotonic() - start
     assert code == 130 and "interrupted" in said and "Traceback" not in said, said
     image = pictures.read(path)
     assert np.isfinite(image.rgb).all() and image.rgb.max() > 0
