@@ -11,6 +11,7 @@ import bpy
 import cornell
 import mathutils
 import numpy
+from blender_pixels import pixels
 
 
 def main(variant: str, samples: int, seed: int, out: Path) -> None:
@@ -135,16 +136,6 @@ def camera() -> bpy.types.Camera:
     made.angle = math.radians(cornell.CAMERA_FOV)
     made.clip_start = 0.01
     return made
-
-
-def pixels(path: Path) -> numpy.ndarray:
-    """A rendered EXR file as an array, top row first."""
-    picture = bpy.data.images.load(str(path))
-    picture.colorspace_settings.name = "Non-Color"
-    width, height = picture.size
-    values = numpy.empty(width * height * picture.channels, "f4")
-    picture.pixels.foreach_get(values)
-    return values.reshape(height, width, picture.channels)[::-1, :, :3].astype("f8")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,18 @@
 """Scenes rendered inside Blender. Functions for `child.py`."""
 
 import importlib
+import sys
 import time
 from pathlib import Path
 
 import bpy
 import numpy
 import stage
+
+# What the suites that compare pictures share.
+sys.path.append(str(Path(__file__).resolve().parents[2] / "validate"))
+
+from blender_pixels import pixels  # noqa: E402
 
 SEEDS = (1, 2)
 
@@ -54,14 +60,3 @@ def rendered(engine: str, path: Path) -> numpy.ndarray:
         lines = importlib.import_module("gonio_extension.report").latest().diagnostics
         assert not lines, [line.text for line in lines]
     return pixels(path)
-
-
-def pixels(path: Path) -> numpy.ndarray:
-    """A rendered EXR file as an array, top row first."""
-    picture = bpy.data.images.load(str(path))
-    picture.colorspace_settings.name = "Non-Color"
-    width, height = picture.size
-    values = numpy.empty(width * height * picture.channels, "f4")
-    picture.pixels.foreach_get(values)
-    bpy.data.images.remove(picture)
-    return values.reshape(height, width, -1)[::-1, :, :3].astype("f8")

@@ -3,36 +3,29 @@
 The factor is 1 for lamps. Blender writes suns with a quarter of their strength ("approximately matches Karma", says its source).
 """
 
-import json
 from pathlib import Path
 
+import blender
 import compare
 import numpy
 import OpenEXR
 import pytest
 import report
-from conftest import CHILD, pythons, run_child
 
-RENDER = Path(__file__).with_name("render.py")
 SAMPLES = 512
-SECONDS = 1500
 MOST_MEDIAN = 0.01
 FACTORS = {"usd_lamps": 1.0, "usd_sun": 0.25}
 
-pytestmark = [pytest.mark.validate, pytest.mark.timeout(2 * SECONDS)]
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(2 * blender.SECONDS)]
 
 
 @pytest.mark.parametrize("scene", FACTORS)
 def test_the_export_looks_the_same(scene: str, tmp_path: Path, run) -> None:
-    found = pythons()
-    if not found:
-        pytest.skip("no Python with bpy: pip install bpy in .venv-bpy50, or set GONIO_BPY")
-    arguments = {"scene": scene, "samples": SAMPLES, "tmp_path": str(tmp_path)}
-    run_child(found[-1], [str(CHILD), str(RENDER), "export_usd", json.dumps(arguments)], seconds=SECONDS)
+    blender.call("export_usd", tmp_path, scene=scene, samples=SAMPLES)
     reference = numpy.load(tmp_path / f"{scene}.npy")
     height, width, _ = reference.shape
     picture = tmp_path / f"{scene}.exr"
-    done = run("render", tmp_path / f"{scene}.usdc", "-o", picture, "--spp", SAMPLES, "--res", width, height, timeout=SECONDS)
+    done = run("render", tmp_path / f"{scene}.usdc", "-o", picture, "--spp", SAMPLES, "--res", width, height, timeout=blender.SECONDS)
     assert done.returncode == 0, done.stderr
     image = OpenEXR.File(str(picture)).channels()["RGBA"].pixels[..., :3].astype("f8")
     factor = image.sum() / reference.sum()

@@ -84,7 +84,7 @@ fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnos
 }
 
 /// Material slots of a mesh.
-fn slots_of(mesh: &Mesh) -> usize {
+pub(super) fn slots_of(mesh: &Mesh) -> usize {
     mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1))
 }
 

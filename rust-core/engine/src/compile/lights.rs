@@ -1,6 +1,7 @@
 //! Lights as records, and the shapes of those that rays can meet.
 
 use super::{
+    geometry::slots_of,
     instances::{rebased, rows},
     textures::CompiledTextures,
 };
@@ -209,12 +210,12 @@ fn emissive_triangles(
     let mut first_light = Vec::with_capacity(geometry.instance_mesh.len() + 1);
     let mut number = 0;
     for group in &scene.instances {
-        let Some(mesh) = scene.meshes.get(group.mesh.index()) else { continue };
+        let Some(mesh) = scene.meshes.get(group.mesh.index()).filter(|_| !group.transforms.is_empty()) else { continue };
+        // Placements of a set have the same materials.
+        let first = geometry.instance_material[number as usize] as usize;
+        let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());
         for transform in &group.transforms {
             let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
-            let slots = mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1));
-            let first = geometry.instance_material[number as usize] as usize;
-            let emits = geometry.materials[first..first + slots].iter().any(|m| materials.even_emission(*m).is_some());
             let fits = records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
             if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);

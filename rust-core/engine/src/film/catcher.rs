@@ -43,6 +43,7 @@ pub(super) fn show(aov: Aov, tile: &TileFilm, first: usize, exposure: f32, part:
 /// How much of the light that a catcher would send is there in spite of the objects, 0 to 1: the mean over the channels that have any, as
 /// Cycles takes it; 0 where there is no light at all.
 fn lit_share(with: [f64; 3], without: [f64; 3]) -> f64 {
-    let shares: Vec<f64> = with.iter().zip(without).filter(|(_, all)| *all > 0.0).map(|(part, all)| part / all).collect();
-    (shares.iter().sum::<f64>() / shares.len().max(1) as f64).min(1.0)
+    let shares = with.iter().zip(without).filter(|(_, all)| *all > 0.0).map(|(part, all)| part / all);
+    let (sum, channels) = shares.fold((0.0, 0_u8), |(sum, channels), share| (sum + share, channels + 1));
+    (sum / f64::from(channels.max(1))).min(1.0)
 }

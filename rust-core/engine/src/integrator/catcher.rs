@@ -9,7 +9,7 @@ use super::{
     material::Tables,
     scatter::{add, add_rgb},
     shade::{Point, Stage},
-    state::{BATCH, Columns3, Paths, ShadowRays, Workspace, columns3, flag, gather3, ray_mask},
+    state::{BATCH, Columns3, Paths, ShadowRays, Workspace, columns3, flag, gather3, pixel, ray_mask},
 };
 use crate::accel::NONE;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
@@ -135,12 +135,6 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }
-}
-
-/// The pixel of a slot.
-#[inline(always)]
-pub(super) fn pixel<L: Lanes>(slot: U<L>) -> U<L> {
-    slot & (BATCH as u32 - 1)
 }
 
 /// Of hits that the camera sees, those that passes show: halves among catchers alone are there for comparison only.

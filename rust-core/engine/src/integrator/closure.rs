@@ -7,7 +7,7 @@ use super::{
     kernels,
     material::{Mix, Shading, Tables},
     path::{SampleContext, Transport},
-    state::{BATCH, Workspace},
+    state::{Workspace, pixel},
     surface::ChunkSource,
 };
 use crate::{
@@ -59,7 +59,7 @@ fn choose_chunk<L: Lanes>(
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
-        let pixel = l.gather_integers(&ws.paths.slot, path) & (BATCH as u32 - 1);
+        let pixel = pixel(l.gather_integers(&ws.paths.slot, path));
         let [u, _] = context.sampler.pair(l, context.sampler.index(l, pixel, context.sample), dimension);
         let mut total = l.f(0.0);
         for closure in 0..mix.count {

@@ -7,7 +7,7 @@ use super::{
     path::Mist,
     shade::{Point, Stage},
     shader_passes,
-    state::{MeasurePoints, Workspace, append3, flag},
+    state::{MeasurePoints, Workspace, append3, flag, pixel},
 };
 use crate::bsdf::Lobes;
 use gonio_simd::{F, Lanes, M, U, Vec3};
@@ -51,7 +51,7 @@ pub(super) fn record_first<L: Lanes>(
     }
     let eye = Vec3::splat(l, transport.eye);
     let surface = FirstSurface {
-        slot: catcher::pixel(point.slot),
+        slot: pixel(point.slot),
         covers: catcher::covers(point.slot),
         depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,

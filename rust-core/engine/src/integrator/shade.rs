@@ -11,7 +11,7 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::{SampleContext, Transport},
     scatter::{add_light, code_of},
-    state::{Workspace, flag, gather3, load3},
+    state::{Workspace, flag, gather3, load3, pixel},
 };
 use crate::{
     bsdf::{Lobes, ParameterValues, normals::Normals, parameter::COUNT},
@@ -171,8 +171,7 @@ fn shade_lanes<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, context, .. } = *stage;
-    let pixel = point.slot & (super::state::BATCH as u32 - 1);
-    let index = context.sampler.index(l, pixel, context.sample);
+    let index = context.sampler.index(l, pixel(point.slot), context.sample);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
     let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
     let present = if material.surface.lobes.cut_out {

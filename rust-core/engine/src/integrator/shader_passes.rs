@@ -1,11 +1,10 @@
 //! Shader passes: what materials compute for passes of their own, summed where the camera sees them first.
 
 use super::{
-    catcher,
     path::Transport,
     scatter::add,
     shade::Point,
-    state::{BATCH, Workspace, flag},
+    state::{BATCH, Workspace, flag, pixel},
 };
 use crate::graph::{Program, Source};
 use gonio_simd::{Column, Lanes, M};
@@ -68,7 +67,7 @@ impl Workspace {
 /// Adds what a program computed at the chosen hits.
 #[inline(always)]
 pub(super) fn record<L: Lanes>(l: L, program: &Program, point: &Point<L>, chosen: M<L>, at: usize, ws: &mut Workspace) {
-    let slot = catcher::pixel(point.slot);
+    let slot = pixel(point.slot);
     let mut place = 0;
     for output in &program.outputs {
         for channel in 0..output.width {

@@ -61,6 +61,12 @@ pub mod ray_mask {
     pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;
 }
 
+/// The pixel's Morton number in a slot of any kind of path.
+#[inline(always)]
+pub(super) fn pixel<L: Lanes>(slot: U<L>) -> U<L> {
+    slot & (BATCH as u32 - 1)
+}
+
 pub(super) type Columns3 = [Column; 3];
 
 pub(super) fn columns3(len: usize) -> Columns3 {

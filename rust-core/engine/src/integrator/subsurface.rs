@@ -9,7 +9,7 @@ use super::{
     material::Tables,
     path::{SampleContext, Transport},
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{BATCH, Columns3, Workspace, append3, columns3, flag, gather3, load3},
+    state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3, pixel},
     surface::{ChunkSource, store3},
 };
 use crate::{
@@ -44,7 +44,7 @@ pub(super) struct Walks {
 
 impl Default for Walks {
     fn default() -> Self {
-        let room = padded(2 * BATCH) + PADDING;
+        let room = padded(CAPACITY) + PADDING;
         let three = || columns3(room);
         Self {
             count: 0,
@@ -161,7 +161,7 @@ fn step_dimension(context: &SampleContext, step: u32) -> u32 {
 
 #[inline(always)]
 fn random<L: Lanes>(l: L, context: &SampleContext, slot: U<L>, dimension: u32) -> [F<L>; 2] {
-    let index = context.sampler.index(l, slot & (BATCH as u32 - 1), context.sample);
+    let index = context.sampler.index(l, pixel(slot), context.sample);
     context.sampler.pair(l, index, dimension)
 }
 
