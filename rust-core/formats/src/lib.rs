@@ -1,0 +1,13 @@
+//! Readers and writers of files that nobody vouches for: goniograms of luminaires and measured scattering of materials.
+//!
+//! A reader takes the bytes of a whole file and gives plain data or one [`FormatError`]. Counts that a file states are checked against its
+//! size before anything is allocated; nothing panics and nothing loops without end, whatever the bytes.
+
+#![forbid(unsafe_code)]
+
+pub mod bsdf;
+pub mod photometry;
+
+mod error;
+
+pub use error::{FormatError, Place};

@@ -1,0 +1,1 @@
+//! Goniograms of luminaires.
