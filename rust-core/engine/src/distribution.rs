@@ -1,4 +1,4 @@
-//! Piecewise-constant distributions in one and two dimensions, and alias tables.
+//! Piecewise-constant distributions in one and two dimensions.
 //!
 //! Inversion keeps the order of the random numbers, so stratified points stay stratified. The search starts at a guide table (Chen and Asau,
 //! On Generating Random Variates from an Empirical Distribution, AIIE Transactions 6(2), 1974) and takes two steps on average whatever the data.
@@ -160,61 +160,5 @@ impl Distribution2D {
         let entry = row * (self.width + 1) + interval(place[0], self.width);
         let [low, high] = l.gather_pairs(&self.cumulative, entry);
         (high - low) * self.width as f32 * self.rows.pdf(l, place[1])
-    }
-}
-
-/// Draws an index in constant time (Walker; Vose, A Linear Algorithm for Generating Random Numbers with a Given Distribution, 1991). Does not keep
-/// the order of the random numbers.
-#[derive(Clone, Debug)]
-pub struct AliasTable {
-    threshold: Vec<f32>,
-    alias: Vec<u32>,
-    mass: Vec<f32>,
-}
-
-impl AliasTable {
-    /// In proportion to `weights`; cleaned as for [`Distribution1D::new`].
-    pub fn new(weights: &[f32]) -> Self {
-        let count = weights.len().max(1);
-        let clean = |i: usize| weights.get(i).copied().filter(|w| *w > 0.0 && w.is_finite()).map_or(0.0, f64::from);
-        let total: f64 = (0..count).map(clean).sum();
-        let mass: Vec<f64> = (0..count).map(|i| if total > 0.0 { clean(i) / total } else { 1.0 / count as f64 }).collect();
-        let mut scaled: Vec<f64> = mass.iter().map(|m| m * count as f64).collect();
-        let (mut threshold, mut alias) = (vec![1.0; count], (0..count as u32).collect::<Vec<u32>>());
-        let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..count).partition(|&i| scaled[i] < 1.0);
-        while let (Some(&less), Some(&more)) = (small.last(), large.last()) {
-            small.pop();
-            threshold[less] = scaled[less] as f32;
-            alias[less] = more as u32;
-            scaled[more] -= 1.0 - scaled[less];
-            if scaled[more] < 1.0 {
-                large.pop();
-                small.push(more);
-            }
-        }
-        Self { threshold, alias, mass: mass.into_iter().map(|m| m as f32).collect() }
-    }
-    /// Indices to draw from.
-    pub fn len(&self) -> usize {
-        self.mass.len()
-    }
-    /// Never: a table has one index at least.
-    pub fn is_empty(&self) -> bool {
-        self.mass.is_empty()
-    }
-    /// Takes `u` in `[0, 1)` to an index and its probability.
-    #[inline(always)]
-    pub fn sample<L: Lanes>(&self, l: L, u: F<L>) -> (U<L>, F<L>) {
-        let count = self.mass.len();
-        let scaled = u * count as f32;
-        let slot = scaled.to_i32().min(count as u32 - 1);
-        let kept = (scaled - slot.to_float()).lt(l.gather(&self.threshold, slot));
-        let index = kept.select(slot, l.gather_integers(&self.alias, slot));
-        (index, l.gather(&self.mass, index))
-    }
-    /// Probability of an index.
-    #[inline(always)]
-    pub fn probability<L: Lanes>(&self, l: L, index: U<L>) -> F<L> {
-        l.gather(&self.mass, index)
     }
 }

@@ -1,9 +1,9 @@
-//! Choosing one light: by its power and distance from each point where lights are few, by power alone where they are many.
+//! Choosing one light: by its power and distance from each point, all of them weighed where lights are few, by a tree where they are many.
 
 use super::record::LightKind;
 use super::row::{ROW, Reader, field, flag};
 use super::table::LightTable;
-use crate::distribution::AliasTable;
+use super::tree::LightTree;
 use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// Up to this many lights each point weighs all of them.
@@ -11,13 +11,13 @@ pub(crate) const WEIGHED: usize = 64;
 /// A light is never thought weaker than this share by the receiver's orientation, because surfaces may let light through.
 const RECEIVER_FLOOR: f32 = 0.05;
 /// The same for the emitter's obliqueness, because the far end of a light may face the point more squarely.
-const EMITTER_FLOOR: f32 = 0.1;
+pub(super) const EMITTER_FLOOR: f32 = 0.1;
 
 /// Cosines bound a beam less this.
 const BEAM_SLACK: f32 = 1e-4;
 
 /// What the estimate of a light's illuminance takes, one light in all lanes or a light in each.
-struct Estimate<L: Lanes> {
+pub(super) struct Estimate<L: Lanes> {
     centre: Vec3<L>,
     radius: F<L>,
     strength: F<L>,
@@ -33,7 +33,7 @@ struct Estimate<L: Lanes> {
 
 impl<L: Lanes> Estimate<L> {
     #[inline(always)]
-    fn gather(light: &Reader<'_, L>) -> Self {
+    pub(super) fn gather(light: &Reader<'_, L>) -> Self {
         Self {
             centre: light.vector(field::BOUND_CENTRE),
             radius: light.value(field::BOUND_RADIUS),
@@ -48,7 +48,7 @@ impl<L: Lanes> Estimate<L> {
         }
     }
     #[inline(always)]
-    fn splat(l: L, row: &[f32]) -> Self {
+    pub(super) fn splat(l: L, row: &[f32]) -> Self {
         let vector = |at: usize| Vec3::new(l.f(row[at]), l.f(row[at + 1]), l.f(row[at + 2]));
         Self {
             centre: vector(field::BOUND_CENTRE),
@@ -69,13 +69,11 @@ impl<L: Lanes> Estimate<L> {
     }
     /// About the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
     #[inline(always)]
-    fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
+    pub(super) fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
         let far = self.is(flag::INFINITE);
-        let nowhere = n.length_squared().lt(0.5);
-        let lifted = |x: F<L>| nowhere.select(l.f(1.0), x.clamp(RECEIVER_FLOOR, 1.0));
         // A distant light's lowest point stands higher by the sine of its half angle; domes are on every side.
         let dome = (self.flags & flag::KIND).eq(LightKind::Dome as u32);
-        let from_far = lifted(dome.select(l.f(1.0), self.sine - self.axis.dot(n)));
+        let from_far = lifted(l, n, dome.select(l.f(1.0), self.sine - self.axis.dot(n)));
 
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
@@ -94,14 +92,20 @@ impl<L: Lanes> Estimate<L> {
         let in_cone = inside | widened(l, -self.axis.dot(direction), sine, cosine).ge(self.cone_cosine);
         // However the beam is gathered, no more arrives than from an endless plane of the light's radiance.
         let widening = squared.max(self.gain * self.radius * self.radius).max(f32::MIN_POSITIVE);
-        let from_near = (lifted(receiver) * emitter * self.gain / widening).keep_if(in_cone & in_beam);
+        let from_near = (lifted(l, n, receiver) * emitter * self.gain / widening).keep_if(in_cone & in_beam);
         (self.strength * far.select(from_far, from_near)).min(1e30)
     }
 }
 
+/// A cosine at the receiver of normal `n` as far as it is trusted, 1 where there is no surface.
+#[inline(always)]
+pub(super) fn lifted<L: Lanes>(l: L, n: Vec3<L>, cosine: F<L>) -> F<L> {
+    n.length_squared().lt(0.5).select(l.f(1.0), cosine.clamp(RECEIVER_FLOOR, 1.0))
+}
+
 /// Cosine of an angle less another one, 1 where that would be negative.
 #[inline(always)]
-fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
+pub(super) fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
     let sine = (1.0 - cosine * cosine).safe_sqrt();
     cosine.gt(by_cosine).select(l.f(1.0), cosine.mul_add(by_cosine, sine * by_sine))
 }
@@ -109,27 +113,10 @@ fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L>
 /// How lights are chosen.
 #[derive(Clone, Debug)]
 pub(crate) enum Choice {
-    /// By an estimate at each point.
+    /// All of them weighed at each point.
     Weighed,
-    /// By power, the same everywhere.
-    Power(AliasTable),
-}
-
-/// Probabilities by power: infinite lights share one half, the others the other half.
-pub(crate) fn power_table(rows: &[f32], count: usize) -> AliasTable {
-    let read = |i: usize| {
-        let row = &rows[i * ROW..(i + 1) * ROW];
-        (f64::from(row[field::STRENGTH]), row[field::FLAGS].to_bits() & flag::INFINITE != 0)
-    };
-    let mut sums = [0.0; 2];
-    for (strength, infinite) in (0..count).map(read) {
-        sums[usize::from(infinite)] += strength;
-    }
-    let weights: Vec<f32> = (0..count)
-        .map(read)
-        .map(|(strength, infinite)| if strength > 0.0 { (strength / sums[usize::from(infinite)]) as f32 } else { 0.0 })
-        .collect();
-    AliasTable::new(&weights)
+    /// Sets of them weighed at each point, then the parts of one.
+    Tree(LightTree),
 }
 
 impl LightTable {
@@ -147,7 +134,7 @@ impl LightTable {
     #[inline(always)]
     pub fn choose<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
         match &self.choice {
-            Choice::Power(table) => table.sample(l, u),
+            Choice::Tree(tree) => tree.choose(l, &self.rows, p, n, u),
             Choice::Weighed if self.count <= 1 => (l.u(0), l.f(1.0)),
             Choice::Weighed => {
                 let mut sums = [l.f(0.0); WEIGHED];
@@ -172,7 +159,7 @@ impl LightTable {
     #[inline(always)]
     pub fn choice_probability<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         match &self.choice {
-            Choice::Power(table) => table.probability(l, light),
+            Choice::Tree(tree) => tree.probability(l, &self.rows, p, n, light),
             Choice::Weighed if self.count <= 1 => l.f(1.0),
             Choice::Weighed => {
                 let total = self.total_estimate(l, p, n);

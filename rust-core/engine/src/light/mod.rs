@@ -23,6 +23,7 @@ mod size;
 mod sphere;
 mod table;
 mod texture;
+mod tree;
 mod triangle;
 mod vector;
 

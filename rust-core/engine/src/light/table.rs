@@ -1,11 +1,12 @@
 //! The light table: all lights in the form that kernels read.
 
 use super::build::fill_row;
-use super::choice::{Choice, WEIGHED, power_table};
+use super::choice::{Choice, WEIGHED};
 use super::dome::DomeDistribution;
 use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
+use super::tree::LightTree;
 use gonio_simd::{F, Lanes, M, U};
 use std::borrow::Borrow;
 
@@ -70,7 +71,7 @@ impl LightTable {
                 infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered });
             }
         }
-        let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Power(power_table(&rows, records.len())) };
+        let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Tree(LightTree::new(&rows)) };
         Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, portals }
     }
     /// Lights in the table.

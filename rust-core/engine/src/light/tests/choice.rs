@@ -60,8 +60,9 @@ fn probabilities_add_up_to_one() {
         for execution in Execution::all() {
             dispatch!(execution, l => probabilities(l, &table, &points, &mut sums));
             for sum in sums.iter() {
-                // A few lights may all look away from a point.
-                assert!((sum - 1.0).abs() < 2e-5 || (*sum == 0.0 && count < 7), "{count} lights: {sum}");
+                // A few lights may all look away from a point, and so may the parts of a set that as a whole does not.
+                let lost = if count > 64 { 0.1 } else { 0.0 };
+                assert!((1.0 - lost - 2e-5..1.0 + 2e-5).contains(sum) || (*sum == 0.0 && count < 7), "{count} lights: {sum}");
             }
         }
     }
@@ -87,6 +88,10 @@ fn lights_are_drawn_as_often_as_their_probability_says() {
         for (light, seen) in observed.iter().enumerate() {
             let p = probability(light);
             let deviation = (count as f64 * p * (1.0 - p)).sqrt();
+            // A draw that found no light names any light, with probability 0.
+            if p == 0.0 {
+                continue;
+            }
             assert!(
                 (seen - count as f64 * p).abs() < 5.0 * deviation + 3.0,
                 "light {light} of {lights}: {seen} drawn, {} expected",
@@ -111,5 +116,34 @@ fn many_lights_give_the_sum_of_their_illuminances() {
         let drawn = draw(Execution::best(), &table, p, n, &numbers(31, samples));
         let (mean, error) = super::harness::estimate(&drawn, n.map(f64::from), samples);
         assert!((mean[1] - expected).abs() < 4.9 * error[1] + 2e-3 * expected, "{count}: {} ± {} for {expected}", mean[1], error[1]);
+    }
+}
+
+/// Small lamps in rows under a ceiling.
+fn hall(rows: usize) -> Vec<LightRecord> {
+    let lamp = |i: usize| {
+        light(
+            LightKind::Rectangle,
+            [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 1.0]],
+            [2.0 * (i % rows) as f32, 2.0 * (i / rows) as f32, 3.0],
+        )
+    };
+    (0..rows * rows).map(lamp).collect()
+}
+
+/// Relative variance of the illuminance that one sample gives, with nothing in the way.
+fn relative_variance(records: &[LightRecord], p: [f32; 3]) -> f64 {
+    let samples = 1 << 16;
+    let drawn = draw(Execution::best(), &LightTable::build(records, NO_IMAGES), p, [0.0, 0.0, 1.0], &numbers(37, samples));
+    let (mean, error) = super::harness::estimate(&drawn, [0.0, 0.0, 1.0], samples);
+    (error[1] / mean[1]).powi(2) * samples as f64
+}
+
+#[test]
+fn a_tree_of_many_lamps_leaves_little_noise() {
+    let lamps = hall(60);
+    for p in [[59.3, 59.1, 0.0], [58.2, 60.9, 1.0], [75.0, 51.0, 0.7]] {
+        // Each lamp as likely as the next would give more than a hundred.
+        assert!(relative_variance(&lamps, p) < 1.0, "{p:?}: {}", relative_variance(&lamps, p));
     }
 }

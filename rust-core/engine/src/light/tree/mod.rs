@@ -1,0 +1,203 @@
+//! Choosing one of many lights: sets of lights weighed by what they may bring to a point, and one of the chosen set's parts again, down to a light.
+//!
+//! Dozens of sets at the top are weighed for all lanes alike, without gathers; below, nodes have up to eight children. Lights at infinity have no
+//! place in the tree: their estimates stand beside the top's.
+
+mod bound;
+mod build;
+mod node;
+
+use super::choice::Estimate;
+use super::row::{ROW, Reader, field, flag};
+use bound::Bound;
+use build::{NONE, Nodes, TOP, WIDTH};
+use gonio_simd::{F, Lanes, M, U, Vec3};
+use node::{Node, WORDS};
+
+/// A light tree.
+#[derive(Clone, Debug)]
+pub(crate) struct LightTree {
+    nodes: Nodes,
+    /// The leaf of each light, none for lights at infinity and dark ones.
+    leaves: Vec<u32>,
+    /// Lights at infinity.
+    infinite: Vec<u32>,
+}
+
+/// A surface point with its normal.
+#[derive(Clone, Copy, Debug)]
+struct Receiver<L: Lanes> {
+    l: L,
+    p: Vec3<L>,
+    n: Vec3<L>,
+}
+
+/// One of several weights, drawn.
+#[derive(Clone, Copy, Debug)]
+struct Drawn<L: Lanes> {
+    index: U<L>,
+    probability: F<L>,
+    /// The number that drew it, spread over `[0, 1)` again.
+    rest: F<L>,
+}
+
+/// Draws one of the weights that add up to `total`.
+#[inline(always)]
+fn draw<L: Lanes>(l: L, weights: impl Iterator<Item = F<L>>, total: F<L>, u: F<L>) -> Drawn<L> {
+    let target = u * total;
+    let (mut index, mut own, mut before, mut sum) = (l.u(0), l.f(0.0), l.f(0.0), l.f(0.0));
+    for (number, weight) in weights.enumerate() {
+        let reached = sum.le(target) & weight.gt(0.0);
+        index = reached.select(l.u(number as u32), index);
+        own = reached.select(weight, own);
+        before = reached.select(sum, before);
+        sum += weight;
+    }
+    let rest = ((target - before) / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0 - f32::EPSILON);
+    Drawn { index, probability: (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)), rest }
+}
+
+impl LightTree {
+    /// A tree over the lights of these rows.
+    pub(crate) fn new(rows: &[f32]) -> Self {
+        let rows = rows.as_chunks::<ROW>().0;
+        let of = |infinite: bool| {
+            let lights = rows.iter().enumerate().filter(|(_, row)| row[field::STRENGTH] > 0.0);
+            lights.filter(move |(_, row)| (row[field::FLAGS].to_bits() & flag::INFINITE != 0) == infinite)
+        };
+        let mut near: Vec<_> = of(false).map(|(light, row)| (light as u32, Bound::of_row(row))).collect();
+        let nodes = build::build(&mut near);
+        let mut leaves = vec![NONE; rows.len()];
+        for (number, words) in nodes.words.as_chunks::<WORDS>().0.iter().enumerate() {
+            if let Some(light) = node::light(words) {
+                leaves[light as usize] = number as u32;
+            }
+        }
+        Self { nodes, leaves, infinite: of(true).map(|(light, _)| light as u32).collect() }
+    }
+
+    /// Draws a light for each point and gives its probability: 0 where no light can arrive.
+    #[inline(always)]
+    pub(crate) fn choose<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+        let receiver = Receiver { l, p, n };
+        let mut weights = [l.f(0.0); TOP + 1];
+        weights[0] = self.infinity(rows, receiver);
+        let mut total = weights[0];
+        for (words, weight) in self.top().iter().zip(&mut weights[1..]) {
+            *weight = Node::splat(l, words).illuminance(l, p, n);
+            total += *weight;
+        }
+        let drawn = draw(l, weights[..=self.nodes.top].iter().copied(), total, u);
+        let far = drawn.index.eq(0);
+        let (near, probability) = self.descend(receiver, drawn, !far);
+        if !far.any() {
+            return (near, probability);
+        }
+        let (light, share) = self.draw_far(rows, receiver, drawn.rest);
+        (far.select(light, near), far.select(drawn.probability * share, probability))
+    }
+
+    /// Probability that [`Self::choose`] draws `light` at a point.
+    #[inline(always)]
+    pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
+        let receiver = Receiver { l, p, n };
+        let mut total = self.infinity(rows, receiver);
+        for words in self.top() {
+            total += Node::splat(l, words).illuminance(l, p, n);
+        }
+        let leaf = l.gather_integers(&self.leaves, light);
+        let near = leaf.ne(NONE);
+        let (node, share) = self.climb(receiver, leaf, near);
+        let weight = if near.any() { Node::gather(l, &self.nodes.words, node).illuminance(l, p, n) * share } else { l.f(0.0) };
+        let weight = near.select(weight, Estimate::gather(&Reader::new(l, rows, light)).illuminance(l, p, n));
+        (weight / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0))
+    }
+
+    #[inline(always)]
+    fn top(&self) -> &[[f32; WORDS]] {
+        &self.nodes.words.as_chunks::<WORDS>().0[..self.nodes.top]
+    }
+
+    /// Estimates of the children of each lane's node, zero beyond the last, and their sum.
+    #[inline(always)]
+    fn children<L: Lanes>(&self, receiver: Receiver<L>, parent: &Node<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
+        let Receiver { l, p, n } = receiver;
+        let (first, count) = (parent.index(), parent.count().keep_if(inner));
+        let (mut weights, mut total) = ([l.f(0.0); WIDTH], l.f(0.0));
+        for (child, weight) in weights.iter_mut().enumerate() {
+            let present = l.u(child as u32).lt(count);
+            if !present.any() {
+                break;
+            }
+            *weight = Node::gather(l, &self.nodes.words, first + child as u32).illuminance(l, p, n).keep_if(present);
+            total += *weight;
+        }
+        (weights, total)
+    }
+
+    /// From a node at the top down to a light, and the probability of all draws.
+    #[inline(always)]
+    fn descend<L: Lanes>(&self, receiver: Receiver<L>, top: Drawn<L>, near: M<L>) -> (U<L>, F<L>) {
+        let l = receiver.l;
+        let mut probability = top.probability;
+        if !near.any() {
+            return (l.u(0), probability);
+        }
+        let mut rest = top.rest;
+        let mut node = Node::gather(l, &self.nodes.words, top.index - 1);
+        loop {
+            let inner = near.and_not(node.is_leaf());
+            if !inner.any() {
+                return (node.index(), probability);
+            }
+            let (weights, total) = self.children(receiver, &node, inner);
+            let drawn = draw(l, weights.into_iter(), total, rest);
+            let chosen = Node::gather(l, &self.nodes.words, node.index() + drawn.index);
+            node = node.replaced_by(&chosen, inner);
+            probability = inner.select(probability * drawn.probability, probability);
+            rest = inner.select(drawn.rest, rest);
+        }
+    }
+
+    /// From a leaf up to the top, and the probability of its being drawn from there.
+    #[inline(always)]
+    fn climb<L: Lanes>(&self, receiver: Receiver<L>, leaf: U<L>, near: M<L>) -> (U<L>, F<L>) {
+        let Receiver { l, p, n } = receiver;
+        let (mut node, mut probability) = (leaf, l.f(1.0));
+        while near.any() {
+            let parent = l.gather_integers(&self.nodes.parents, node);
+            let below = near & parent.ne(NONE);
+            if !below.any() {
+                break;
+            }
+            let (_, total) = self.children(receiver, &Node::gather(l, &self.nodes.words, parent), below);
+            let own = Node::gather(l, &self.nodes.words, node).illuminance(l, p, n);
+            let share = (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0));
+            probability = below.select(probability * share, probability);
+            node = below.select(parent, node);
+        }
+        (node, probability)
+    }
+
+    /// Estimates of the lights at infinity, added up.
+    #[inline(always)]
+    fn infinity<L: Lanes>(&self, rows: &[f32], Receiver { l, p, n }: Receiver<L>) -> F<L> {
+        let mut total = l.f(0.0);
+        for light in &self.infinite {
+            total += Estimate::splat(l, &rows[*light as usize * ROW..]).illuminance(l, p, n);
+        }
+        total
+    }
+
+    /// Draws one of the lights at infinity.
+    #[inline(always)]
+    fn draw_far<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
+        let Receiver { l, p, n } = receiver;
+        let estimates = self.infinite.iter().map(
+            #[inline(always)]
+            |light| Estimate::splat(l, &rows[*light as usize * ROW..]).illuminance(l, p, n),
+        );
+        let drawn = draw(l, estimates, self.infinity(rows, receiver), u);
+        (l.gather_integers(&self.infinite, drawn.index), drawn.probability)
+    }
+}
