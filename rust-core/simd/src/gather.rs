@@ -14,6 +14,8 @@ pub(crate) trait Lookup: Simd {
     fn gather(self, table: &[f32], index: Self::u32s) -> Self::f32s;
     /// `table[i]` and `table[i + 1]` with `i = min(index, len - 2)`, in one 64-bit load a lane.
     fn gather_pairs(self, table: &[f32], index: Self::u32s) -> [Self::f32s; 2];
+    /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`, in one 128-bit load a lane and a transposition.
+    fn gather_quads(self, table: &[f32], index: Self::u32s) -> [Self::f32s; 4];
     /// `table[index % 32]`.
     fn lookup32(self, table: &[f32; 32], index: Self::u32s) -> Self::f32s;
 }
@@ -68,6 +70,48 @@ kernel!(
         let pairs = |i: __m128i| -> __m256 { _mm256_castpd_ps(unsafe { _mm256_i32gather_pd::<4>(table.as_ptr().cast(), i) }) };
         let (low, high) = (pairs(_mm256_castsi256_si128(i)), pairs(_mm256_extracti128_si256::<1>(i)));
         [_mm256_shuffle_ps::<0b10_00_10_00>(low, high).simd_into(simd), _mm256_shuffle_ps::<0b11_01_11_01>(low, high).simd_into(simd)]
+    }
+);
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn gather_quads_avx512(simd: Avx512, table: &[f32], index: u32x16<Avx512>) -> [f32x16<Avx512>; 4] {
+        let i: u32x16<Avx512> = _mm512_min_epu32(index.into(), _mm512_set1_epi32(last_index(table, 4))).simd_into(simd);
+        // SAFETY: every index was clamped so that the four lie in the table.
+        let quad = |lane: usize| -> __m128 { unsafe { _mm_loadu_ps(table.as_ptr().add(i[lane] as usize)) } };
+        // Four lanes stand in each register, four apart, so that transposing within blocks puts all in order.
+        let four = |lane: usize| -> __m512 {
+            let blocks = _mm512_insertf32x4::<1>(_mm512_castps128_ps512(quad(lane)), quad(lane + 4));
+            _mm512_insertf32x4::<3>(_mm512_insertf32x4::<2>(blocks, quad(lane + 8)), quad(lane + 12))
+        };
+        let (a, b, c, d) = (four(0), four(1), four(2), four(3));
+        let (low, high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+        let (low_too, high_too) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+        [
+            _mm512_shuffle_ps::<0b01_00_01_00>(low, low_too).simd_into(simd),
+            _mm512_shuffle_ps::<0b11_10_11_10>(low, low_too).simd_into(simd),
+            _mm512_shuffle_ps::<0b01_00_01_00>(high, high_too).simd_into(simd),
+            _mm512_shuffle_ps::<0b11_10_11_10>(high, high_too).simd_into(simd),
+        ]
+    }
+);
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn gather_quads_avx2(simd: Avx2, table: &[f32], index: u32x8<Avx2>) -> [f32x8<Avx2>; 4] {
+        let i: u32x8<Avx2> = _mm256_min_epu32(index.into(), _mm256_set1_epi32(last_index(table, 4))).simd_into(simd);
+        // SAFETY: every index was clamped so that the four lie in the table.
+        let quad = |lane: usize| -> __m128 { unsafe { _mm_loadu_ps(table.as_ptr().add(i[lane] as usize)) } };
+        let two = |lane: usize| -> __m256 { _mm256_set_m128(quad(lane + 4), quad(lane)) };
+        let (a, b, c, d) = (two(0), two(1), two(2), two(3));
+        let (low, high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (low_too, high_too) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0b01_00_01_00>(low, low_too).simd_into(simd),
+            _mm256_shuffle_ps::<0b11_10_11_10>(low, low_too).simd_into(simd),
+            _mm256_shuffle_ps::<0b01_00_01_00>(high, high_too).simd_into(simd),
+            _mm256_shuffle_ps::<0b11_10_11_10>(high, high_too).simd_into(simd),
+        ]
     }
 );
 #[cfg(target_arch = "x86_64")]
@@ -129,6 +173,28 @@ impl<S: Simd> Lookup for S {
                 let last = u32::try_from(table.len() - 2).unwrap_or(u32::MAX);
                 let index = index.min(last);
                 [self.gather(table, index), self.gather(table, index + 1)]
+            }
+        }
+    }
+    #[inline(always)]
+    fn gather_quads(self, table: &[f32], index: S::u32s) -> [S::f32s; 4] {
+        match self.level() {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512(t) => {
+                let [a, b, c, d] = gather_quads_avx512(t, table, u32x16::from_slice(t, index.as_slice()));
+                let (a, b) = (S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice()));
+                [a, b, S::f32s::from_slice(self, c.as_slice()), S::f32s::from_slice(self, d.as_slice())]
+            }
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(t) => {
+                let [a, b, c, d] = gather_quads_avx2(t, table, u32x8::from_slice(t, index.as_slice()));
+                let (a, b) = (S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice()));
+                [a, b, S::f32s::from_slice(self, c.as_slice()), S::f32s::from_slice(self, d.as_slice())]
+            }
+            _ => {
+                let last = u32::try_from(table.len() - 4).unwrap_or(u32::MAX);
+                let index = index.min(last);
+                [self.gather(table, index), self.gather(table, index + 1), self.gather(table, index + 2), self.gather(table, index + 3)]
             }
         }
     }

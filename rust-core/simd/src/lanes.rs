@@ -138,6 +138,8 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_u(self, table: &[u32], index: Self::U32) -> Self::U32;
     /// `table[i]` and `table[i + 1]` with `i = min(index, len - 2)`: one 64-bit load a lane. The table has two values at least.
     fn gather_pairs_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 2];
+    /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`: one 128-bit load a lane. The table has four values at least.
+    fn gather_quads_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 4];
     /// `table[index % 32]` by register permutes where the machine has them.
     fn lookup32_f(self, table: &[f32; 32], index: Self::U32) -> Self::F32;
 
@@ -192,6 +194,12 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_pairs(self, table: &[f32], index: U<Self>) -> [F<Self>; 2] {
         let [low, high] = self.gather_pairs_f(table, index.0);
         [F(low), F(high)]
+    }
+    /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`.
+    #[inline(always)]
+    fn gather_quads(self, table: &[f32], index: U<Self>) -> [F<Self>; 4] {
+        let [a, b, c, d] = self.gather_quads_f(table, index.0);
+        [F(a), F(b), F(c), F(d)]
     }
     /// `table[index % 32]`.
     #[inline(always)]

@@ -251,6 +251,11 @@ impl Lanes for One {
         [table[i], table[i + 1]]
     }
     #[inline(always)]
+    fn gather_quads_f(self, table: &[f32], index: u32) -> [f32; 4] {
+        let i = (index as usize).min(table.len() - 4);
+        [table[i], table[i + 1], table[i + 2], table[i + 3]]
+    }
+    #[inline(always)]
     fn lookup32_f(self, table: &[f32; 32], index: u32) -> f32 {
         table[index as usize % 32]
     }

@@ -247,6 +247,10 @@ impl<S: Simd> Lanes for Wide<S> {
         self.0.gather_pairs(table, index)
     }
     #[inline(always)]
+    fn gather_quads_f(self, table: &[f32], index: S::u32s) -> [S::f32s; 4] {
+        self.0.gather_quads(table, index)
+    }
+    #[inline(always)]
     fn lookup32_f(self, table: &[f32; 32], index: S::u32s) -> S::f32s {
         self.0.lookup32(table, index)
     }

@@ -257,6 +257,11 @@ fn check_table_reads<L: Lanes>(l: L) {
                 floats_are("gather_pairs, low", low, |i| table[(list[i] as usize).min(last - 1)]);
                 floats_are("gather_pairs, high", high, |i| table[(list[i] as usize).min(last - 1) + 1]);
             }
+            if len > 3 {
+                for (k, value) in l.gather_quads(&table, index).into_iter().enumerate() {
+                    floats_are("gather_quads", value, |i| table[(list[i] as usize).min(last - 3) + k]);
+                }
+            }
         }
     }
     let table: [f32; 32] = core::array::from_fn(|i| i as f32 * 0.25);

@@ -105,7 +105,7 @@ pub(super) fn lifted<L: Lanes>(l: L, n: Vec3<L>, cosine: F<L>) -> F<L> {
 
 /// Cosine of an angle less another one, 1 where that would be negative.
 #[inline(always)]
-pub(super) fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
+fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
     let sine = (1.0 - cosine * cosine).safe_sqrt();
     cosine.gt(by_cosine).select(l.f(1.0), cosine.mul_add(by_cosine, sine * by_sine))
 }

@@ -111,13 +111,26 @@ impl<'a, L: Lanes> Reader<'a, L> {
             None => self.l.gather(self.rows, self.base + field as u32),
         }
     }
+    /// Three values; no row ends with them.
+    #[inline(always)]
+    fn triple(&self, field: usize) -> [F<L>; 3] {
+        match self.common {
+            Some(row) => [self.l.f(row[field]), self.l.f(row[field + 1]), self.l.f(row[field + 2])],
+            None => {
+                let [x, y, z, _] = self.l.gather_quads(self.rows, self.base + field as u32);
+                [x, y, z]
+            }
+        }
+    }
     #[inline(always)]
     pub(crate) fn vector(&self, field: usize) -> Vec3<L> {
-        Vec3::new(self.value(field), self.value(field + 1), self.value(field + 2))
+        let [x, y, z] = self.triple(field);
+        Vec3::new(x, y, z)
     }
     #[inline(always)]
     pub(crate) fn colour(&self, field: usize) -> Rgb<L> {
-        Rgb::new(self.value(field), self.value(field + 1), self.value(field + 2))
+        let [r, g, b] = self.triple(field);
+        Rgb::new(r, g, b)
     }
     #[inline(always)]
     pub(crate) fn integer(&self, field: usize) -> U<L> {

@@ -11,13 +11,15 @@ use super::choice::Estimate;
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
-use gonio_simd::{F, Lanes, M, U, Vec3};
-use node::{Node, WORDS};
+use gonio_simd::{F, Lanes, M, One, U, Vec3};
+use node::{Below, Node, WORDS};
 
 /// A light tree.
 #[derive(Clone, Debug)]
 pub(crate) struct LightTree {
     nodes: Nodes,
+    /// The nodes at the top, unpacked.
+    top: Vec<Node<One>>,
     /// The leaf of each light, none for lights at infinity and dark ones.
     leaves: Vec<u32>,
     /// Lights at infinity.
@@ -43,15 +45,15 @@ struct Drawn<L: Lanes> {
 
 /// Draws one of the weights that add up to `total`.
 #[inline(always)]
-fn draw<L: Lanes>(l: L, weights: impl Iterator<Item = F<L>>, total: F<L>, u: F<L>) -> Drawn<L> {
+fn draw<L: Lanes>(l: L, weights: &[F<L>], total: F<L>, u: F<L>) -> Drawn<L> {
     let target = u * total;
     let (mut index, mut own, mut before, mut sum) = (l.u(0), l.f(0.0), l.f(0.0), l.f(0.0));
-    for (number, weight) in weights.enumerate() {
+    for (number, weight) in weights.iter().enumerate() {
         let reached = sum.le(target) & weight.gt(0.0);
         index = reached.select(l.u(number as u32), index);
-        own = reached.select(weight, own);
+        own = reached.select(*weight, own);
         before = reached.select(sum, before);
-        sum += weight;
+        sum += *weight;
     }
     let rest = ((target - before) / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0 - f32::EPSILON);
     Drawn { index, probability: (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)), rest }
@@ -73,7 +75,8 @@ impl LightTree {
                 leaves[light as usize] = number as u32;
             }
         }
-        Self { nodes, leaves, infinite: of(true).map(|(light, _)| light as u32).collect() }
+        let top = (0..nodes.top as u32).map(|node| Node::gather(One, &nodes.words, U(node))).collect();
+        Self { nodes, top, leaves, infinite: of(true).map(|(light, _)| light as u32).collect() }
     }
 
     /// Draws a light for each point and gives its probability: 0 where no light can arrive.
@@ -83,11 +86,11 @@ impl LightTree {
         let mut weights = [l.f(0.0); TOP + 1];
         weights[0] = self.infinity(rows, receiver);
         let mut total = weights[0];
-        for (words, weight) in self.top().iter().zip(&mut weights[1..]) {
-            *weight = Node::splat(l, words).illuminance(l, p, n);
+        for (node, weight) in self.top.iter().zip(&mut weights[1..]) {
+            *weight = Node::splat(l, node).illuminance(l, p, n);
             total += *weight;
         }
-        let drawn = draw(l, weights[..=self.nodes.top].iter().copied(), total, u);
+        let drawn = draw(l, &weights[..=self.top.len()], total, u);
         let far = drawn.index.eq(0);
         let (near, probability) = self.descend(receiver, drawn, !far);
         if !far.any() {
@@ -102,8 +105,8 @@ impl LightTree {
     pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         let receiver = Receiver { l, p, n };
         let mut total = self.infinity(rows, receiver);
-        for words in self.top() {
-            total += Node::splat(l, words).illuminance(l, p, n);
+        for node in &self.top {
+            total += Node::splat(l, node).illuminance(l, p, n);
         }
         let leaf = l.gather_integers(&self.leaves, light);
         let near = leaf.ne(NONE);
@@ -113,14 +116,9 @@ impl LightTree {
         (weight / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0))
     }
 
-    #[inline(always)]
-    fn top(&self) -> &[[f32; WORDS]] {
-        &self.nodes.words.as_chunks::<WORDS>().0[..self.nodes.top]
-    }
-
     /// Estimates of the children of each lane's node, zero beyond the last, and their sum.
     #[inline(always)]
-    fn children<L: Lanes>(&self, receiver: Receiver<L>, parent: &Node<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
+    fn children<L: Lanes>(&self, receiver: Receiver<L>, parent: Below<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
         let Receiver { l, p, n } = receiver;
         let (first, count) = (parent.index(), parent.count().keep_if(inner));
         let (mut weights, mut total) = ([l.f(0.0); WIDTH], l.f(0.0));
@@ -144,16 +142,16 @@ impl LightTree {
             return (l.u(0), probability);
         }
         let mut rest = top.rest;
-        let mut node = Node::gather(l, &self.nodes.words, top.index - 1);
+        let mut node = Below::gather(l, &self.nodes.words, top.index - 1);
         loop {
             let inner = near.and_not(node.is_leaf());
             if !inner.any() {
                 return (node.index(), probability);
             }
-            let (weights, total) = self.children(receiver, &node, inner);
-            let drawn = draw(l, weights.into_iter(), total, rest);
-            let chosen = Node::gather(l, &self.nodes.words, node.index() + drawn.index);
-            node = node.replaced_by(&chosen, inner);
+            let (weights, total) = self.children(receiver, node, inner);
+            let drawn = draw(l, &weights, total, rest);
+            let chosen = Below::gather(l, &self.nodes.words, node.index() + drawn.index);
+            node = node.replaced_by(chosen, inner);
             probability = inner.select(probability * drawn.probability, probability);
             rest = inner.select(drawn.rest, rest);
         }
@@ -170,7 +168,7 @@ impl LightTree {
             if !below.any() {
                 break;
             }
-            let (_, total) = self.children(receiver, &Node::gather(l, &self.nodes.words, parent), below);
+            let (_, total) = self.children(receiver, Below::gather(l, &self.nodes.words, parent), below);
             let own = Node::gather(l, &self.nodes.words, node).illuminance(l, p, n);
             let share = (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0));
             probability = below.select(probability * share, probability);
@@ -193,11 +191,16 @@ impl LightTree {
     #[inline(always)]
     fn draw_far<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
         let Receiver { l, p, n } = receiver;
-        let estimates = self.infinite.iter().map(
-            #[inline(always)]
-            |light| Estimate::splat(l, &rows[*light as usize * ROW..]).illuminance(l, p, n),
-        );
-        let drawn = draw(l, estimates, self.infinity(rows, receiver), u);
-        (l.gather_integers(&self.infinite, drawn.index), drawn.probability)
+        let total = self.infinity(rows, receiver);
+        let target = u * total;
+        let (mut light, mut own, mut sum) = (l.u(0), l.f(0.0), l.f(0.0));
+        for candidate in &self.infinite {
+            let weight = Estimate::splat(l, &rows[*candidate as usize * ROW..]).illuminance(l, p, n);
+            let reached = sum.le(target) & weight.gt(0.0);
+            light = reached.select(l.u(*candidate), light);
+            own = reached.select(weight, own);
+            sum += weight;
+        }
+        (light, (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)))
     }
 }

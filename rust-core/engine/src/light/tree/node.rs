@@ -1,9 +1,9 @@
 //! A node in eight words, and the estimate of what its lights bring to a point, on lanes.
 
-use super::bound::Bound;
-use crate::light::choice::{EMITTER_FLOOR, lifted, widened};
-use crate::light::vector::{Vector, narrow};
-use gonio_simd::{F, Lanes, M, U, Vec3};
+use super::bound::{Bound, Cone};
+use crate::light::choice::{EMITTER_FLOOR, lifted};
+use crate::light::vector::narrow;
+use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Values of a node: centre (3), radius, strength, axis, cosines, and what is below.
 pub(super) const WORDS: usize = 8;
@@ -15,10 +15,12 @@ const TWO_SIDED: u32 = 1 << 29;
 const COUNT_SHIFT: u32 = 25;
 /// The first child or the light, in the last word.
 const INDEX: u32 = (1 << COUNT_SHIFT) - 1;
-/// Steps of coordinates and cosines in sixteen bits.
+/// Steps of a sine or cosine in sixteen bits.
 const STEPS: f32 = 32767.0;
-/// What an axis in sixteen bits a coordinate and a cosine in as many may be wrong by, in cosine.
-const SLACK: f64 = 2e-4;
+/// Steps of an axis' coordinate in ten bits.
+const AXIS_STEPS: f32 = 511.0;
+/// What rounding the axis takes from a cosine at most.
+const SLACK: f64 = 3e-3;
 
 /// A leaf's words.
 pub(super) fn leaf(bound: &Bound, light: u32) -> [f32; WORDS] {
@@ -44,33 +46,53 @@ pub(super) fn light(words: &[f32; WORDS]) -> Option<u32> {
 
 fn words(bound: &Bound, below: u32) -> [f32; WORDS] {
     let [x, y, z] = narrow(bound.centre);
-    let spread = bound.normals.spread.cos() - SLACK;
-    let edge = (bound.normals.spread + bound.edge).min(std::f64::consts::PI).cos() - SLACK;
+    let Cone { axis, spread } = bound.normals;
+    let sine = if spread < std::f64::consts::FRAC_PI_2 { spread.sin() } else { 1.0 };
+    let edge = (spread + bound.edge).min(std::f64::consts::PI).cos();
     let switches = if bound.cosine { COSINE } else { 0 } | if bound.two_sided { TWO_SIDED } else { 0 };
-    // A hair larger than told: its corners were rounded to single precision.
+    // A hair larger than told: its centre was rounded to single precision.
     let radius = (bound.radius * 1.0001) as f32;
-    let axis = octahedral(bound.normals.axis);
-    let packed = [pair(axis[0].round(), axis[1].round()), pair(step_down(spread), step_down(edge)), below | switches];
-    let [axis, cosines, last] = packed.map(f32::from_bits);
-    [x, y, z, radius, bound.strength as f32, axis, cosines, last]
+    let [x_axis, y_axis, z_axis] = narrow(axis).map(|x| (x * AXIS_STEPS).round() as i32 as u32 & 1023);
+    let packed = [x_axis | y_axis << 10 | z_axis << 20, pair((sine + SLACK).min(1.0), (edge - SLACK).max(-1.0)), below | switches];
+    let [axis, angles, last] = packed.map(f32::from_bits);
+    [x, y, z, radius, bound.strength as f32, axis, angles, last]
 }
 
-/// The largest sixteen-bit cosine not above.
-fn step_down(cosine: f64) -> f32 {
-    (cosine.max(-1.0) * f64::from(STEPS)).floor() as f32
+/// Two numbers of −1 to 1 in sixteen bits each, the first rounded up and the second down.
+fn pair(first: f64, second: f64) -> u32 {
+    let steps = f64::from(STEPS);
+    u32::from((first * steps).ceil() as i16 as u16) | u32::from((second * steps).floor() as i16 as u16) << 16
 }
 
-fn pair(low: f32, high: f32) -> u32 {
-    u32::from(low as i16 as u16) | u32::from(high as i16 as u16) << 16
-}
+/// What is below the node of each lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Below<L: Lanes>(U<L>);
 
-/// A unit vector on the octahedron, in steps (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014).
-fn octahedral(v: Vector) -> [f32; 2] {
-    let [x, y, z] = narrow(v);
-    let scale = 1.0 / (x.abs() + y.abs() + z.abs()).max(f32::MIN_POSITIVE);
-    let (x, y) = (x * scale, y * scale);
-    let folded = if z < 0.0 { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] } else { [x, y] };
-    folded.map(|x| x * STEPS)
+impl<L: Lanes> Below<L> {
+    /// The node of each lane.
+    #[inline(always)]
+    pub(super) fn gather(l: L, words: &[f32], node: U<L>) -> Self {
+        Self(l.gather(words, node * WORDS as u32 + (WORDS as u32 - 1)).to_bits())
+    }
+    /// Another node's where `mask` is set.
+    #[inline(always)]
+    pub(super) fn replaced_by(self, other: Self, mask: M<L>) -> Self {
+        Self(mask.select(other.0, self.0))
+    }
+    #[inline(always)]
+    pub(super) fn is_leaf(self) -> M<L> {
+        (self.0 & LEAF).ne(0)
+    }
+    /// The light of a leaf, the first child of another node.
+    #[inline(always)]
+    pub(super) fn index(self) -> U<L> {
+        self.0 & INDEX
+    }
+    /// Children.
+    #[inline(always)]
+    pub(super) fn count(self) -> U<L> {
+        (self.0 >> COUNT_SHIFT) & 15
+    }
 }
 
 /// A node in each lane.
@@ -79,9 +101,13 @@ pub(super) struct Node<L: Lanes> {
     centre: Vec3<L>,
     radius: F<L>,
     strength: F<L>,
-    axis: U<L>,
-    cosines: U<L>,
-    last: U<L>,
+    /// About unit.
+    axis: Vec3<L>,
+    /// Sine of the normals' spread.
+    spread: F<L>,
+    /// Cosine of the angle beyond which nothing is sent.
+    edge: F<L>,
+    below: Below<L>,
 }
 
 impl<L: Lanes> Node<L> {
@@ -89,102 +115,80 @@ impl<L: Lanes> Node<L> {
     #[inline(always)]
     pub(super) fn gather(l: L, words: &[f32], node: U<L>) -> Self {
         let base = node * WORDS as u32;
-        let [x, y] = l.gather_pairs(words, base);
-        let [z, radius] = l.gather_pairs(words, base + 2);
-        let [strength, axis] = l.gather_pairs(words, base + 4);
-        let [cosines, last] = l.gather_pairs(words, base + 6);
-        Self { centre: Vec3::new(x, y, z), radius, strength, axis: axis.to_bits(), cosines: cosines.to_bits(), last: last.to_bits() }
+        let [x, y, z, radius] = l.gather_quads(words, base);
+        let [strength, axis, angles, last] = l.gather_quads(words, base + 4);
+        let (axis, angles) = (axis.to_bits(), angles.to_bits());
+        Self {
+            centre: Vec3::new(x, y, z),
+            radius,
+            strength,
+            axis: Vec3::new(coordinate(axis << 22), coordinate(axis << 12), coordinate(axis << 2)),
+            spread: angle(angles << 16),
+            edge: angle(angles),
+            below: Below(last.to_bits()),
+        }
     }
     /// One node for all lanes.
     #[inline(always)]
-    pub(super) fn splat(l: L, words: &[f32; WORDS]) -> Self {
-        let [x, y, z, radius, strength, axis, cosines, last] = *words;
-        let centre = Vec3::splat(l, [x, y, z]);
-        let bits = |x: f32| l.u(x.to_bits());
-        Self { centre, radius: l.f(radius), strength: l.f(strength), axis: bits(axis), cosines: bits(cosines), last: bits(last) }
-    }
-    /// Another node where `mask` is set.
-    #[inline(always)]
-    pub(super) fn replaced_by(&self, other: &Self, mask: M<L>) -> Self {
+    pub(super) fn splat(l: L, node: &Node<One>) -> Self {
+        let vector = |v: Vec3<One>| Vec3::new(l.f(v.x.0), l.f(v.y.0), l.f(v.z.0));
+        let Node { centre, radius, strength, axis, spread, edge, below } = *node;
+        let (centre, axis) = (vector(centre), vector(axis));
         Self {
-            centre: mask.select(other.centre, self.centre),
-            radius: mask.select(other.radius, self.radius),
-            strength: mask.select(other.strength, self.strength),
-            axis: mask.select(other.axis, self.axis),
-            cosines: mask.select(other.cosines, self.cosines),
-            last: mask.select(other.last, self.last),
+            centre,
+            radius: l.f(radius.0),
+            strength: l.f(strength.0),
+            axis,
+            spread: l.f(spread.0),
+            edge: l.f(edge.0),
+            below: Below(l.u(below.0.0)),
         }
-    }
-    #[inline(always)]
-    pub(super) fn is_leaf(&self) -> M<L> {
-        (self.last & LEAF).ne(0)
-    }
-    /// The light of a leaf, the first child of another node.
-    #[inline(always)]
-    pub(super) fn index(&self) -> U<L> {
-        self.last & INDEX
-    }
-    /// Children.
-    #[inline(always)]
-    pub(super) fn count(&self) -> U<L> {
-        (self.last >> COUNT_SHIFT) & 15
     }
     /// About the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
     #[inline(always)]
     pub(super) fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
-        let distance = squared.sqrt();
-        let direction = towards * distance.recip();
-        let sine = (self.radius / distance).min(1.0);
-        let cosine = (1.0 - sine * sine).safe_sqrt();
+        let nearness = squared.sqrt().recip();
+        // The cosine of an angle less another one is at most the cosine of the one plus the sine of the other.
+        let sine = (self.radius * nearness).min(1.0);
         let inside = squared.le(self.radius * self.radius);
-        let facing = n.dot(direction);
-        let receiver = self.typical(l, widened(l, facing, sine, cosine), facing, inside);
 
-        let [spread, edge] = self.cosines();
-        let leaving = -self.axis().dot(direction);
-        let leaving = (self.last & TWO_SIDED).ne(0).select(leaving.abs(), leaving);
-        let nearest = widened(l, leaving, sine, cosine);
-        let fading = widened(l, nearest, (1.0 - spread * spread).safe_sqrt(), spread);
-        let fading = self.typical(l, fading, leaving, inside).max(EMITTER_FLOOR);
-        let emitter = (self.last & COSINE).ne(0).select(fading, l.f(1.0)).keep_if(inside | nearest.ge(edge));
-        let widening = inside.select(self.mean_square(squared), squared).max(f32::MIN_POSITIVE);
+        let facing = n.dot(towards) * nearness;
+        let receiver = self.typical(l, facing + sine, facing, inside);
+        let leaving = -self.axis.dot(towards) * nearness;
+        let leaving = (self.below.0 & TWO_SIDED).ne(0).select(leaving.abs(), leaving);
+        let nearest = (leaving + sine).max(-1.0);
+        let fading = self.typical(l, nearest + self.spread, leaving, inside).max(EMITTER_FLOOR);
+        let emitter = (self.below.0 & COSINE).ne(0).select(fading, l.f(1.0)).keep_if(inside | nearest.ge(self.edge));
+        let widening = inside.select(self.mean_square(squared), squared);
         (self.strength * lifted(l, n, receiver) * emitter / widening).min(1e30)
     }
     /// A cosine between the best that any light of the node may have and that of its middle; all directions occur from inside.
     #[inline(always)]
     fn typical(&self, l: L, best: F<L>, middle: F<L>, inside: M<L>) -> F<L> {
+        let best = best.min(1.0);
         let single = inside.select(l.f(1.0), best);
         let several = inside.select(l.f(0.6), 0.5 * (best + middle.max(0.0)));
-        self.is_leaf().select(single, several)
+        self.below.is_leaf().select(single, several)
     }
     /// Squared distance that stands for the lights around a point inside the node's sphere: about the harmonic mean over a full ball; no light comes
     /// nearer than its own size.
     #[inline(always)]
     fn mean_square(&self, squared: F<L>) -> F<L> {
         let own = self.radius * self.radius;
-        self.is_leaf().select(own, (own + squared) * (1.0 / 3.0))
-    }
-    /// Cosines of the normals' spread and of the angle beyond which nothing is sent.
-    #[inline(always)]
-    fn cosines(&self) -> [F<L>; 2] {
-        unpack(self.cosines)
-    }
-    #[inline(always)]
-    fn axis(&self) -> Vec3<L> {
-        let [x, y] = unpack(self.axis);
-        let z = 1.0 - x.abs() - y.abs();
-        let fold = (-z).max(0.0);
-        Vec3::new(x - fold.copysign(x), y - fold.copysign(y), z).normalize()
+        self.below.is_leaf().select(own, (own + squared) * (1.0 / 3.0)).max(f32::MIN_POSITIVE)
     }
 }
 
-/// Two numbers of sixteen bits.
+/// A sine or cosine in the upper sixteen bits.
 #[inline(always)]
-fn unpack<L: Lanes>(packed: U<L>) -> [F<L>; 2] {
-    [(packed << 16).sar(16), packed.sar(16)].map(
-        #[inline(always)]
-        |x| x.i32_to_float() * (1.0 / STEPS),
-    )
+fn angle<L: Lanes>(bits: U<L>) -> F<L> {
+    bits.sar(16).i32_to_float() * (1.0 / STEPS)
+}
+
+/// An axis' coordinate in the upper ten bits.
+#[inline(always)]
+fn coordinate<L: Lanes>(bits: U<L>) -> F<L> {
+    bits.sar(22).i32_to_float() * (1.0 / AXIS_STEPS)
 }
