@@ -95,6 +95,17 @@ pub struct BsdfSample<L: Lanes> {
     pub roughness: F<L>,
 }
 
+/// What an evaluation is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asked {
+    /// A direction that a light gave.
+    All,
+    /// A direction that the lobes gave: bump rules leave more open.
+    Sampled,
+    /// The part of a light's direction that is not of facets and interfaces.
+    Diffuse,
+}
+
 /// The lobes of a batch of hits.
 #[derive(Clone, Copy, Debug)]
 pub struct Lobes<L: Lanes> {
@@ -257,6 +268,13 @@ impl<L: Lanes> Lobes<L> {
             medium: None,
         }
     }
+    /// Makes it [`Self::empty`] again; what stands in the slots is not looked at.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self, l: L) {
+        (self.count, self.total, self.albedo, self.kinds) = (0, l.f(0.0), Rgb::zero(l), [Rgb::zero(l); 3]);
+        (self.coat, self.emission, self.opacity) = (None, Rgb::zero(l), l.f(1.0));
+        (self.tilts, self.medium) = (Tilts::NONE, None);
+    }
     /// A Lambert lobe alone.
     #[inline(always)]
     pub(crate) fn lambert(l: L, colour: Rgb<L>) -> Self {
@@ -287,11 +305,11 @@ impl<L: Lanes> Lobes<L> {
     /// BSDF × |cos θi| of all lobes but delta ones, and the density with which [`Self::sample`] finds `wi`.
     #[inline(always)]
     pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
-        evaluate(l, self, wo, wi, false)
+        evaluate(l, self, wo, wi, Asked::All)
     }
-    /// The same; bump rules leave more open where `sampled`.
+    /// The same for what is asked for.
     #[inline(always)]
-    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, sampled: bool) -> (Rgb<L>, F<L>) {
+    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
         let mut sum = Rgb::zero(l);
         let mut density = l.f(0.0);
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
@@ -300,8 +318,11 @@ impl<L: Lanes> Lobes<L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
+            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_)) {
+                continue;
+            }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
-            let open = sampled && (!slot.is_diffuse() || slot.side != Side::Reflected);
+            let open = asked == Asked::Sampled && (!slot.is_diffuse() || slot.side != Side::Reflected);
             if let Some(factor) = self.tilts.shadow(slot.normal, wi, slot.is_diffuse(), open) {
                 value = value * factor;
             }
@@ -339,7 +360,7 @@ impl<L: Lanes> Lobes<L> {
             passed |= here;
             point -= slot.share;
         }
-        let (value, pdf) = evaluate(l, self, wo, sample.wi, true);
+        let (value, pdf) = evaluate(l, self, wo, sample.wi, Asked::Sampled);
         let alone = sample.delta | sample.entered;
         sample.value = alone.select(sample.value, value).keep_if(found);
         sample.pdf = alone.select(sample.pdf, pdf).keep_if(found);
@@ -400,13 +421,7 @@ impl<L: Lanes> Lobes<L> {
     /// The diffuse part of [`Self::eval`]: all but facets and interfaces.
     #[inline(always)]
     pub fn eval_diffuse(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
-        let mut parts = *self;
-        for slot in parts.slots.iter_mut() {
-            if slot.is_some_and(|slot| matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_))) {
-                *slot = None;
-            }
-        }
-        evaluate(l, &parts, wo, wi, false).0
+        evaluate(l, self, wo, wi, Asked::Diffuse).0
     }
     /// Emitted radiance towards the view, of the part that opacity leaves.
     #[inline(always)]
@@ -440,9 +455,9 @@ impl<L: Lanes> Lobes<L> {
 
 /// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
 #[inline(never)]
-fn evaluate<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, sampled: bool) -> (Rgb<L>, F<L>) {
+fn evaluate<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || lobes.sum(l, wo, wi, sampled),
+        || lobes.sum(l, wo, wi, asked),
     )
 }

@@ -29,6 +29,7 @@ mod tests;
 mod transmission;
 
 pub use lobes::{BsdfSample, Lobes, MAXIMUM};
+pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};
 pub use switches::{
     Anisotropy, Attenuation, Bump, Closure, CoatPath, Diffuse, Distribution, EmissionOrder, Fresnel, Fuzz, FuzzAttenuation, FuzzOrder,

@@ -34,15 +34,20 @@ pub(super) struct Layers<'a, 'b, L: Lanes> {
 
 /// A register of hits to resolve.
 #[derive(Clone, Copy, Debug)]
-struct Hits<'a, L: Lanes> {
-    values: &'a ParameterValues<'a>,
-    at: usize,
-    wo: Vec3<L>,
-    entering: M<L>,
-    normals: Option<&'a Normals<L>>,
+pub struct Hits<'a, L: Lanes> {
+    /// Parameters of a chunk of hits.
+    pub values: &'a ParameterValues<'a>,
+    /// The first of the register's hits in the chunk.
+    pub at: usize,
+    /// The view in the shading frame, on the viewer's side.
+    pub wo: Vec3<L>,
+    /// Where the geometric front is seen.
+    pub entering: M<L>,
+    /// Normals beside the shading normal: for a coat's own normal, and for the bump rules of the switches.
+    pub normals: Option<&'a Normals<L>>,
 }
 
-/// [`Surface::layers`] as a function of its own, which all that resolve share; it writes in place, for lists are long to copy.
+/// [`Surface::layers`] as a function of its own, which all that resolve share.
 #[inline(never)]
 fn resolve<L: Lanes>(l: L, surface: &Surface, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
     l.vectorize(
@@ -52,26 +57,11 @@ fn resolve<L: Lanes>(l: L, surface: &Surface, hits: &Hits<'_, L>, lobes: &mut Lo
 }
 
 impl Surface {
-    /// The lobes of the hits from `at` on, seen from `wo` in the shading frame on the viewer's side; `entering` tells the geometric front.
+    /// Makes `lobes` those of some hits. In place, for a list of lobes is long to copy.
     #[inline(always)]
-    pub fn resolve<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Lobes<L> {
-        self.resolve_about(l, values, at, wo, entering, None)
-    }
-
-    /// [`Self::resolve`] with normals beside the shading normal: for a coat's own normal, and for the bump rules of the switches.
-    #[inline(always)]
-    pub fn resolve_about<L: Lanes>(
-        &self,
-        l: L,
-        values: &ParameterValues,
-        at: usize,
-        wo: Vec3<L>,
-        entering: M<L>,
-        normals: Option<&Normals<L>>,
-    ) -> Lobes<L> {
-        let mut lobes = Lobes::empty(l);
-        resolve(l, self, &Hits { values, at, wo, entering, normals }, &mut lobes);
-        lobes
+    pub fn resolve<L: Lanes>(&self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+        lobes.clear(l);
+        resolve(l, self, hits, lobes);
     }
 
     #[inline(always)]
@@ -130,7 +120,9 @@ impl Surface {
             let open = if self.lobes.cut_out { 1.0 - values.get(l, p::OPACITY, at).saturate() } else { l.f(0.0) };
             return Rgb::grey(open);
         }
-        self.resolve(l, values, at, wo, entering).transmittance(l, wo)
+        let mut lobes = Lobes::empty(l);
+        resolve(l, self, &Hits { values, at, wo, entering, normals: None }, &mut lobes);
+        lobes.transmittance(l, wo)
     }
 }
 

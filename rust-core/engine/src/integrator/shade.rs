@@ -14,7 +14,7 @@ use super::{
     state::{Workspace, flag, gather3, load3, pixel},
 };
 use crate::{
-    bsdf::{Lobes, ParameterValues, normals::Normals, parameter::COUNT},
+    bsdf::{Hits, Lobes, ParameterValues, normals::Normals, parameter::COUNT},
     geometry::NONE,
     graph::{OutputColumns, Program},
     light::power_heuristic,
@@ -84,6 +84,7 @@ pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
     let Stage { l, tables, .. } = *stage;
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
+    let mut lobes = Lobes::empty(l);
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         ws.statistics.lanes += L::COUNT as u64;
@@ -95,7 +96,7 @@ pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
-        let lobes = material.surface.resolve_about(l, &values, at, wo, entering, normals.as_ref());
+        material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref() }, &mut lobes);
         shade_lanes(stage, material, &mut point, wo, &lobes, at, ws);
     }
     ws.outputs = outputs;

@@ -1,6 +1,6 @@
 //! Batches of samples and evaluations of one surface from one view, at any level.
 
-use crate::bsdf::{BsdfSample, Lobes, ParameterValues, Surface};
+use crate::bsdf::{BsdfSample, Hits, Lobes, ParameterValues, Surface};
 use gonio_simd::{Execution, F, Lanes, Rgb, Vec3, dispatch};
 
 /// A surface seen from one direction.
@@ -59,7 +59,8 @@ pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]
 fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
     let wo = Vec3::splat(l, view.wo);
     let values = ParameterValues::constant(&view.surface.constants);
-    let lobes = view.surface.resolve(l, &values, 0, wo, l.m(view.entering));
+    let mut lobes = Lobes::empty(l);
+    view.surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: None }, &mut lobes);
     for chunk in job.numbers.chunks(L::COUNT) {
         let s = sample(l, &lobes, wo, lanes(l, chunk));
         let (wi, value) = ([s.wi.x, s.wi.y, s.wi.z].map(|x| x.to_array()), rgb(s.value));

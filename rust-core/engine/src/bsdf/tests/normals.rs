@@ -4,7 +4,7 @@ use super::harness::{self, direction, spread};
 use super::rows::{Values, surface};
 use crate::bsdf::normals::Normals;
 use crate::bsdf::parameter as p;
-use crate::bsdf::{Bump, Closure, Distribution, ParameterValues, Surface, Switches};
+use crate::bsdf::{Bump, Closure, Distribution, Hits, Lobes, ParameterValues, Surface, Switches};
 use gonio_simd::{Execution, F, Frame, Lanes, Vec3, dispatch};
 
 /// View, sun and azimuth, degrees.
@@ -22,7 +22,8 @@ fn answer<L: Lanes>(l: L, surface: &Surface, lean: f32, wo: [f32; 3], sun: Optio
     let wo = frame.to_local(Vec3::splat(l, wo));
     let normals = Normals { geometric: up, smooth: up, coat: None };
     let values = ParameterValues::constant(&surface.constants);
-    let lobes = surface.resolve_about(l, &values, 0, wo, l.m(true), Some(&normals));
+    let mut lobes = Lobes::empty(l);
+    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals) }, &mut lobes);
     if let Some(sun) = sun {
         *out = f64::from(lobes.eval(l, wo, frame.to_local(Vec3::splat(l, sun))).0.r.to_array()[0]);
         return;
@@ -102,7 +103,8 @@ fn coat<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], normal: [f32; 3], out: 
     let (wo, normal, up) = (Vec3::splat(l, wo), Vec3::splat(l, normal), Vec3::splat(l, [0.0, 0.0, 1.0]));
     let normals = Normals { geometric: up, smooth: up, coat: Some(normal) };
     let values = ParameterValues::constant(&surface.constants);
-    let lobes = surface.resolve_about(l, &values, 0, wo, l.m(true), Some(&normals));
+    let mut lobes = Lobes::empty(l);
+    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals) }, &mut lobes);
     let sample = harness::sample(l, &lobes, wo, [l.f(0.0), l.f(0.3), l.f(0.7)]);
     let away = sample.wi - wo.reflect(normal);
     *out = [away.length(), sample.value.r, sample.pdf, sample.value.r / sample.pdf, wo.dot(normal)].map(|x| x.to_array()[0]);

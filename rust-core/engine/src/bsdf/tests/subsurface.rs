@@ -4,7 +4,7 @@ use super::harness::{self, direction, random};
 use super::rows::{Values, surface};
 use crate::bsdf::parameter as p;
 use crate::bsdf::subsurface::{LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
-use crate::bsdf::{Closure, ParameterValues, SubsurfaceMethod, Surface, Switches};
+use crate::bsdf::{Closure, Hits, Lobes, ParameterValues, SubsurfaceMethod, Surface, Switches};
 use gonio_simd::{Execution, F, Lanes, Rgb, Vec3, dispatch};
 
 /// Registers of walks.
@@ -39,7 +39,8 @@ impl Numbers {
 fn albedo<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], sum: &mut [f64; 3]) {
     let values = ParameterValues::constant(&surface.constants);
     let wo = Vec3::splat(l, wo);
-    let lobes = surface.resolve(l, &values, 0, wo, l.m(true));
+    let mut lobes = Lobes::empty(l);
+    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None }, &mut lobes);
     let mut numbers = Numbers { seed: 7, stock: Vec::new() };
     for _ in 0..WALKS / L::COUNT {
         let u = [numbers.next(l), numbers.next(l), numbers.next(l)];
