@@ -48,10 +48,11 @@ impl<L: Lanes> Rgb<L> {
         self.g.store(g, at);
         self.b.store(b, at);
     }
-    /// Three consecutive values of a table from `index` on.
+    /// Three consecutive values of a table from `index` on; the table has one more behind the last three.
     #[inline(always)]
     pub fn gather(l: L, table: &[f32], index: crate::U<L>) -> Self {
-        Self::new(l.gather(table, index), l.gather(table, index + 1), l.gather(table, index + 2))
+        let [r, g, b, _] = l.gather_quads(table, index);
+        Self::new(r, g, b)
     }
     /// Luminance Y by the weights of Rec.709.
     #[inline(always)]

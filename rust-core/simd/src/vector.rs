@@ -47,10 +47,11 @@ impl<L: Lanes> Vec3<L> {
         self.y.store(y, at);
         self.z.store(z, at);
     }
-    /// Three consecutive values of a table from `index` on.
+    /// Three consecutive values of a table from `index` on; the table has one more behind the last three.
     #[inline(always)]
     pub fn gather(l: L, table: &[f32], index: crate::U<L>) -> Self {
-        Self::new(l.gather(table, index), l.gather(table, index + 1), l.gather(table, index + 2))
+        let [x, y, z, _] = l.gather_quads(table, index);
+        Self::new(x, y, z)
     }
     /// Inner product.
     #[inline(always)]

@@ -98,7 +98,7 @@ impl CameraTable {
             start = start + aimed.opening[0] * (u * self.lens_radius) + aimed.opening[1] * (v * self.lens_radius);
         }
         let local = (aimed.through - start).normalize();
-        let axes = [0, 1, 2].map(|i| Vec3::splat(l, self.axes[i]));
+        let axes = [Vec3::splat(l, self.axes[0]), Vec3::splat(l, self.axes[1]), Vec3::splat(l, self.axes[2])];
         let position = Vec3::splat(l, self.position);
         let parallel = self.lens == Lens::Orthographic;
         let flat = parallel || self.lens == Lens::Perspective;

@@ -16,18 +16,22 @@ impl GeometryTable {
     /// Images of x, y and z of the instances' spaces in the world, and their origins, rebased.
     #[inline(always)]
     pub fn instance_columns<L: Lanes>(&self, l: L, hit: &HitLanes<L>) -> ([Vec3<L>; 3], Vec3<L>) {
-        let at = hit.instance * 12;
-        let column = |k: u32| Vec3::gather(l, &self.instance_transform, at + k);
-        ([column(0), column(3), column(6)], column(9))
+        let (table, at) = (&self.instance_transform, hit.instance * 12);
+        ([Vec3::gather(l, table, at), Vec3::gather(l, table, at + 3), Vec3::gather(l, table, at + 6)], Vec3::gather(l, table, at + 9))
+    }
+
+    /// A corner of the triangles, object space.
+    #[inline(always)]
+    pub(super) fn point<L: Lanes>(&self, l: L, hit: &HitLanes<L>, corner: usize) -> Vec3<L> {
+        Vec3::gather(l, &self.points, hit.points[corner] * 3)
     }
 
     /// Edges of the triangles from corner 0 to 1 and 2, world space.
     #[inline(always)]
     pub fn edges<L: Lanes>(&self, l: L, hit: &HitLanes<L>) -> [Vec3<L>; 2] {
         let (columns, _) = self.instance_columns(l, hit);
-        let point = |corner: usize| Vec3::gather(l, &self.points, hit.points[corner] * 3);
-        let first = point(0);
-        [(point(1) - first).transform(columns), (point(2) - first).transform(columns)]
+        let first = self.point(l, hit, 0);
+        [(self.point(l, hit, 1) - first).transform(columns), (self.point(l, hit, 2) - first).transform(columns)]
     }
 
     /// How the texture coordinates in a primvar column lie on triangles with these edges.

@@ -1,7 +1,7 @@
 //! Primvars at hits: which value each triangle corner has, and their interpolation, on lanes.
 
 use super::{GeometryTable, HitLanes, NONE};
-use gonio_simd::{F, Lanes, M, U};
+use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// What a compiled primvar's values belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl PrimvarRef {
 
 /// A primvar's references for hits on different meshes.
 #[derive(Clone, Copy, Debug)]
-struct RefLanes<L: Lanes> {
+pub(super) struct RefLanes<L: Lanes> {
     kind: U<L>,
     components: U<L>,
     first_value: U<L>,
@@ -64,10 +64,9 @@ impl GeometryTable {
         let weights = [l.f(1.0) - hit.u - hit.v, hit.u, hit.v];
         for (corner, weight) in weights.into_iter().enumerate() {
             let at = self.value_place(l, hit, &reference, corner as u32);
-            for (component, sum) in value.iter_mut().enumerate() {
-                let inside = (l.u(component as u32)).lt(reference.components);
-                let part = l.gather(&self.values, at + component as u32);
-                *sum = inside.select(part, l.f(0.0)).mul_add(weight, *sum);
+            for (component, (part, sum)) in l.gather_quads(&self.values, at).iter().zip(&mut value).enumerate() {
+                let inside = l.u(component as u32).lt(reference.components);
+                *sum = part.keep_if(inside).mul_add(weight, *sum);
             }
         }
         (value, present)
@@ -82,14 +81,8 @@ impl GeometryTable {
 
     /// Three components at one corner of the hit triangles.
     #[inline(always)]
-    pub(super) fn corner_value<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize, corner: u32) -> [F<L>; 3] {
-        let reference = self.reference(l, hit, column);
-        let at = self.value_place(l, hit, &reference, corner);
-        let mut value = [l.f(0.0); 3];
-        for (component, out) in value.iter_mut().enumerate() {
-            *out = l.gather(&self.values, at + component as u32);
-        }
-        value
+    pub(super) fn corner_vector<L: Lanes>(&self, l: L, hit: &HitLanes<L>, reference: &RefLanes<L>, corner: u32) -> Vec3<L> {
+        Vec3::gather(l, &self.values, self.value_place(l, hit, reference, corner))
     }
 
     /// Four components of a primvar column at the three corners; missing ones are zero.
@@ -100,9 +93,9 @@ impl GeometryTable {
         let mut corners = [[l.f(0.0); 4]; 3];
         for (corner, values) in corners.iter_mut().enumerate() {
             let at = self.value_place(l, hit, &reference, corner as u32);
-            for (component, value) in values.iter_mut().enumerate() {
+            for (component, (part, value)) in l.gather_quads(&self.values, at).iter().zip(values).enumerate() {
                 let inside = present & l.u(component as u32).lt(reference.components);
-                *value = l.gather(&self.values, at + component as u32).keep_if(inside);
+                *value = part.keep_if(inside);
             }
         }
         corners
@@ -116,13 +109,14 @@ impl GeometryTable {
         let mut corners = [[l.f(0.0); 2]; 3];
         for (corner, uv) in corners.iter_mut().enumerate() {
             let at = self.value_place(l, hit, &reference, corner as u32);
-            *uv = [l.gather(&self.values, at).keep_if(present), l.gather(&self.values, at + 1).keep_if(present)];
+            let [u, v] = l.gather_pairs(&self.values, at);
+            *uv = [u.keep_if(present), v.keep_if(present)];
         }
         corners
     }
 
     #[inline(always)]
-    fn reference<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> RefLanes<L> {
+    pub(super) fn reference<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> RefLanes<L> {
         let at = (hit.mesh * self.columns as u32 + column as u32) << 2;
         let head = l.gather_integers(&self.primvars, at);
         let (value, index) = (l.gather_integers(&self.primvars, at + 1), l.gather_integers(&self.primvars, at + 2));

@@ -72,10 +72,8 @@ impl GeometryTable {
     /// Positions come from the triangle, not from the ray, so their error does not grow with the distance travelled.
     #[inline(always)]
     pub fn surface_point<L: Lanes>(&self, l: L, hit: &HitLanes<L>) -> SurfacePoint<L> {
-        let [p0, p1, p2] = hit.points.map(|point| Vec3::gather(l, &self.points, point * 3));
-        let at = hit.instance * 12;
-        let columns = [0, 3, 6].map(|k| Vec3::gather(l, &self.instance_transform, at + k));
-        let origin = Vec3::gather(l, &self.instance_transform, at + 9);
+        let (p0, p1, p2) = (self.point(l, hit, 0), self.point(l, hit, 1), self.point(l, hit, 2));
+        let (columns, origin) = self.instance_columns(l, hit);
         let w = l.f(1.0) - hit.u - hit.v;
         let local = p0 * w + p1 * hit.u + p2 * hit.v;
         let position = local.transform(columns) + origin;
@@ -99,10 +97,10 @@ impl GeometryTable {
         if !present.any() {
             return flat;
         }
-        let [n0, n1, n2] = [0, 1, 2].map(|corner| {
-            let [x, y, z] = self.corner_value(l, hit, NORMALS, corner);
-            Vec3::new(x, y, z)
-        });
+        let reference = self.reference(l, hit, NORMALS);
+        let n0 = self.corner_vector(l, hit, &reference, 0);
+        let n1 = self.corner_vector(l, hit, &reference, 1);
+        let n2 = self.corner_vector(l, hit, &reference, 2);
         let local = n0 * (l.f(1.0) - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
         let world = (local.transform(cofactors) * sign).normalize_or(flat);
         // Authored normals may point to the other side; which side is the front is the winding's business.

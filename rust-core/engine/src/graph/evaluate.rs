@@ -109,10 +109,12 @@ fn run_steps<L: Lanes>(
                 arithmetic(l, *operation, *inputs, *even, registers, number);
                 continue;
             }
-            Step::Combine(sources) => [0, 1, 2, 3].map(
-                #[inline(always)]
-                |i| read_component(l, registers, sources[i], 0),
-            ),
+            Step::Combine(sources) => [
+                read_component(l, registers, sources[0], 0),
+                read_component(l, registers, sources[1], 0),
+                read_component(l, registers, sources[2], 0),
+                read_component(l, registers, sources[3], 0),
+            ],
         };
         for (i, component) in value.iter().enumerate() {
             component.store(registers, (number * 4 + i) * PADDING);

@@ -57,15 +57,7 @@ impl<L: Lanes> Place<'_, L> {
         let usable = squared.gt(0.0) & squared.is_finite();
         let scale = squared.recip();
         let change = [step.cross(edges[1]).dot(normal) * scale, edges[0].cross(step).dot(normal) * scale];
-        self.geometry.primvar_change(
-            l,
-            &self.hit,
-            column,
-            change.map(
-                #[inline(always)]
-                |x| x.keep_if(usable),
-            ),
-        )
+        self.geometry.primvar_change(l, &self.hit, column, [change[0].keep_if(usable), change[1].keep_if(usable)])
     }
     /// The unit tangent along u; zero where there is none.
     #[inline(always)]
@@ -84,22 +76,27 @@ pub(super) fn matrix_transform<L: Lanes>(value: [F<L>; 4], rows: &[[f32; 4]; 3])
     [row(0), row(1), row(2), w]
 }
 
+/// A vector's products with three axes.
+#[inline(always)]
+fn along<L: Lanes>(axes: [Vec3<L>; 3], v: Vec3<L>) -> Vec3<L> {
+    Vec3::new(axes[0].dot(v), axes[1].dot(v), axes[2].dot(v))
+}
+
 /// Between the world and the space of the instance that was hit; zero where the instance has no volume and its inverse is asked for.
 #[inline(always)]
 pub(super) fn instance_transform<L: Lanes>(l: L, place: &Place<'_, L>, value: [F<L>; 4], to_world: bool, quantity: Quantity) -> [F<L>; 4] {
     let (columns, origin) = place.geometry.instance_columns(l, &place.hit);
     let origin = origin + Vec3::splat(l, place.points.origin);
     let v = vector_of(value);
-    let along = |axes: [Vec3<L>; 3], v: Vec3<L>| Vec3::new(axes[0].dot(v), axes[1].dot(v), axes[2].dot(v));
     let cofactors = [columns[1].cross(columns[2]), columns[2].cross(columns[0]), columns[0].cross(columns[1])];
     let determinant = columns[0].dot(cofactors[0]);
-    let to_object = |v: Vec3<L>| along(cofactors, v) * (l.f(1.0) / determinant).keep_if(determinant.abs().gt(f32::MIN_POSITIVE));
+    let scale = (l.f(1.0) / determinant).keep_if(determinant.abs().gt(f32::MIN_POSITIVE));
     let result = match (quantity, to_world) {
         (Quantity::Point, true) => v.transform(columns) + origin,
         (Quantity::Vector, true) => v.transform(columns),
         (Quantity::Normal, true) => normalize(l, v.transform(cofactors) * l.f(1.0).copysign(determinant)),
-        (Quantity::Point, false) => to_object(v - origin),
-        (Quantity::Vector, false) => to_object(v),
+        (Quantity::Point, false) => along(cofactors, v - origin) * scale,
+        (Quantity::Vector, false) => along(cofactors, v) * scale,
         (Quantity::Normal, false) => normalize(l, along(columns, v)),
     };
     from_vector(l, result)

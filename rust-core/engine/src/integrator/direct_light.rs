@@ -47,7 +47,12 @@ fn shares<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L
     let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
     // What facets send to the other side is transmitted.
     let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
-    let share = |part: F<L>, all: F<L>| (part / all.max(1e-30)).saturate();
-    let shares = |part: Rgb<L>| Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b));
-    [shares(diffuse), shares(glossy)]
+    [share(diffuse, all), share(glossy, all)]
+}
+
+/// A part over the whole, channel by channel.
+#[inline(always)]
+fn share<L: Lanes>(part: Rgb<L>, all: Rgb<L>) -> Rgb<L> {
+    let [r, g, b] = [part.r / all.r.max(1e-30), part.g / all.g.max(1e-30), part.b / all.b.max(1e-30)];
+    Rgb::new(r.saturate(), g.saturate(), b.saturate())
 }

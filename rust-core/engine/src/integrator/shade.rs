@@ -140,12 +140,10 @@ fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Point<L>, at: usi
     if !bent && program.coat_normal.is_none() {
         return None;
     }
-    let local = |columns: &[gonio_simd::Column; 3]| point.frame.to_local(load3(l, columns, at));
-    Some(Normals {
-        geometric: point.frame.to_local(point.geometric),
-        smooth: if program.normal.is_some() { local(&ws.surface.smooth_normal) } else { local(&ws.surface.shading_normal) },
-        coat: program.coat_normal.map(|_| local(&ws.surface.coat_normal)),
-    })
+    let smooth = if program.normal.is_some() { &ws.surface.smooth_normal } else { &ws.surface.shading_normal };
+    let coat = if program.coat_normal.is_some() { Some(point.frame.to_local(load3(l, &ws.surface.coat_normal, at))) } else { None };
+    let (geometric, smooth) = (point.frame.to_local(point.geometric), point.frame.to_local(load3(l, smooth, at)));
+    Some(Normals { geometric, smooth, coat })
 }
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
@@ -154,8 +152,8 @@ fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'
     let sigma = gather3(l, &ws.paths.medium, point.path);
     point.medium = sigma.into();
     let distance = l.gather(&ws.hits.t, point.path);
-    let passed = |sigma: F<L>| (-(sigma * distance)).exp();
-    point.throughput = point.throughput * Rgb::new(passed(sigma.x), passed(sigma.y), passed(sigma.z));
+    let depth = -sigma * distance;
+    point.throughput = point.throughput * Rgb::new(depth.x.exp(), depth.y.exp(), depth.z.exp());
     // Leaving a solid leads to the open.
     let inside = material.surface.absorption(l, values, at);
     point.behind = inside.keep_if(l.load(&ws.surface.side, at).gt(0.0));

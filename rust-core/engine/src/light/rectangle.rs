@@ -68,8 +68,7 @@ impl<L: Lanes> Seen<L> {
     fn by_solid_angle(&self, u: [F<L>; 2]) -> [F<L>; 2] {
         let ([x0, x1], [y0, y1], h) = (self.x, self.y, self.h);
         let square = h * h;
-        let asin = |x: F<L>, y: F<L>| (x * y).atan2(h * (x * x + y * y + square).sqrt());
-        let delta = u[0] * self.solid_angle + (asin(x0, y1) - asin(x0, y0));
+        let delta = u[0] * self.solid_angle + (slant([x0, y1], h) - slant([x0, y0], h));
         let (sin_half, cos_half) = (delta * 0.5).sin_cos();
         let sine = sin_half * cos_half * 2.0;
         let (r0, r1) = ((square + y0 * y0).sqrt(), (square + y1 * y1).sqrt());
@@ -122,4 +121,10 @@ impl Emitter for Rectangle {
         let reached = x.abs().le(seen.reach) & y.abs().le(seen.reach);
         ((seen.density(x, y) * light.solid_angle_ratio(wi)).keep_if(reached), uv)
     }
+}
+
+/// The angle whose sine is xy / √((x² + h²)(y² + h²)).
+#[inline(always)]
+fn slant<L: Lanes>([x, y]: [F<L>; 2], h: F<L>) -> F<L> {
+    (x * y).atan2(h * (x * x + y * y + h * h).sqrt())
 }

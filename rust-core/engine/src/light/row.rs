@@ -152,8 +152,8 @@ impl<'a, L: Lanes> Reader<'a, L> {
     /// A world vector in the sampling frame's coordinates.
     #[inline(always)]
     pub(crate) fn in_frame(&self, v: Vec3<L>) -> Vec3<L> {
-        let row = |k: usize| self.vector(field::INVERSE + 3 * k);
-        Vec3::new(row(0).dot(v), row(1).dot(v), row(2).dot(v))
+        let (x, y, z) = (self.vector(field::INVERSE), self.vector(field::INVERSE + 3), self.vector(field::INVERSE + 6));
+        Vec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
     /// Solid angle in the sampling frame per solid angle in the world, towards unit `wi`: |det N| / |N wi|³ for the linear map N.
     #[inline(always)]

@@ -30,28 +30,45 @@ impl TexturePool {
         }
         let first = self.values.len() as u32;
         self.values.extend(image.rgb.iter().map(|v| if v.is_finite() { *v } else { 0.0 }));
+        // Room to read four values where three stand.
+        self.values.push(0.0);
         Some(Placed { first, width: image.width as u32, height: image.height as u32 })
     }
     /// Bilinear; `wrap` joins the left edge to the right one, other edges repeat their last pixel. `place` is in the unit square from the top left.
     #[inline(always)]
     pub(crate) fn lookup<L: Lanes>(&self, l: L, first: U<L>, size: [U<L>; 2], place: [F<L>; 2], wrap: bool) -> Rgb<L> {
         let [width, height] = size;
-        let axis = |x: F<L>, count: U<L>| {
-            let at = x.saturate() * count.to_float() - 0.5;
-            let low = at.floor();
-            (low, at - low)
-        };
-        let ((left, across), (top, down)) = (axis(place[0], width), axis(place[1], height));
-        let hold = |x: F<L>, count: U<L>| x.max(0.0).min(count.to_float() - 1.0).to_i32();
-        let turn = |x: F<L>| {
-            let count = width.to_float();
-            let x = x.lt(0.0).select(x + count, x);
-            x.ge(count).select(x - count, x).max(0.0).to_i32()
-        };
-        let column = |x: F<L>| if wrap { turn(x) } else { hold(x, width) };
-        let (x0, x1) = (column(left), column(left + 1.0));
+        let ((left, across), (top, down)) = (between(place[0], width), between(place[1], height));
+        let (x0, x1) = if wrap { (turn(left, width), turn(left + 1.0, width)) } else { (hold(left, width), hold(left + 1.0, width)) };
         let (y0, y1) = (hold(top, height) * width, hold(top + 1.0, height) * width);
-        let pixel = |y: U<L>, x: U<L>| Rgb::gather(l, &self.values, first + (y + x) * 3);
-        pixel(y0, x0).lerp(pixel(y0, x1), across).lerp(pixel(y1, x0).lerp(pixel(y1, x1), across), down)
+        let upper = self.pixel(l, first + (y0 + x0) * 3).lerp(self.pixel(l, first + (y0 + x1) * 3), across);
+        let lower = self.pixel(l, first + (y1 + x0) * 3).lerp(self.pixel(l, first + (y1 + x1) * 3), across);
+        upper.lerp(lower, down)
     }
+    #[inline(always)]
+    fn pixel<L: Lanes>(&self, l: L, at: U<L>) -> Rgb<L> {
+        Rgb::gather(l, &self.values, at)
+    }
+}
+
+/// The pixel below a place in the unit interval, and how far the place is on the way to the next.
+#[inline(always)]
+fn between<L: Lanes>(x: F<L>, count: U<L>) -> (F<L>, F<L>) {
+    let at = x.saturate() * count.to_float() - 0.5;
+    let low = at.floor();
+    (low, at - low)
+}
+
+/// A pixel number kept on the image.
+#[inline(always)]
+fn hold<L: Lanes>(x: F<L>, count: U<L>) -> U<L> {
+    x.max(0.0).min(count.to_float() - 1.0).to_i32()
+}
+
+/// A pixel number up to one beyond the image's edge taken round to the other.
+#[inline(always)]
+fn turn<L: Lanes>(x: F<L>, count: U<L>) -> U<L> {
+    let count = count.to_float();
+    let x = x.lt(0.0).select(x + count, x);
+    x.ge(count).select(x - count, x).max(0.0).to_i32()
 }
