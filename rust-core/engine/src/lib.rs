@@ -20,6 +20,7 @@ pub mod output;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod table;
 pub mod texture;
 mod threads;
 

@@ -2,6 +2,7 @@
 
 use super::{
     geometry::slots_of,
+    goniograms::CompiledGoniograms,
     instances::{rebased, rows},
     textures::CompiledTextures,
 };
@@ -23,16 +24,17 @@ const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
 pub(super) struct KeptLights {
     records: Vec<LightRecord>,
     images: Vec<Arc<LightTexture>>,
+    goniograms: CompiledGoniograms,
     table: Option<Arc<LightTable>>,
 }
 
 impl KeptLights {
     /// The table of these lights: the one at hand if nothing differs, for images are slow to lay out.
-    fn table(&self, records: &[LightRecord], images: &[Arc<LightTexture>]) -> Arc<LightTable> {
+    fn table(&self, records: &[LightRecord], images: &[Arc<LightTexture>], goniograms: &CompiledGoniograms) -> Arc<LightTable> {
         let same_images = self.images.len() == images.len() && self.images.iter().zip(images).all(|(a, b)| Arc::ptr_eq(a, b));
         match &self.table {
-            Some(table) if same_images && self.records == records => table.clone(),
-            _ => Arc::new(LightTable::build(records, images)),
+            Some(table) if same_images && self.goniograms.is_of_same(goniograms) && self.records == records => table.clone(),
+            _ => Arc::new(LightTable::build(records, images, &goniograms.tables)),
         }
     }
 }
@@ -61,9 +63,11 @@ pub(super) fn compile(
     let mut records = Vec::new();
     let mut instances = Vec::new();
     let mut instance_light = Vec::new();
+    let mut goniograms = CompiledGoniograms::default();
     for (number, light) in scene.lights.iter().enumerate() {
         let placed = rebased(&sized(light), origin);
-        records.push(record(light, &placed, textures.light_numbers[number], diagnostics));
+        let goniogram = goniograms.number(light, diagnostics);
+        records.push(LightRecord { goniogram, ..record(light, &placed, textures.light_numbers[number], diagnostics) });
         if let Some(instance) = shape_instance(light, &placed) {
             instance_light.push(number as u32);
             instances.push(instance);
@@ -72,8 +76,8 @@ pub(super) fn compile(
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
     let images = textures.of_lights.clone();
-    let table = previous.table(&records, &images);
-    let kept = KeptLights { records, images, table: Some(table.clone()) };
+    let table = previous.table(&records, &images, &goniograms);
+    let kept = KeptLights { records, images, goniograms, table: Some(table.clone()) };
     CompiledLights { table, kept, instances, instance_light, triangle_lights }
 }
 
@@ -153,6 +157,9 @@ fn report_unused(light: &Light, kind: LightKind, diagnostics: &mut Vec<Diagnosti
     }
     if light.spread_deg < 180.0 && !kind.is_flat() {
         warn("only rectangles, disks and ellipses have a spread; it is ignored");
+    }
+    if light.goniogram.is_some() && kind.is_infinite() {
+        warn("lights at infinity have no goniogram; it is ignored");
     }
     if light.spot.is_some() && kind.is_infinite() {
         warn("lights at infinity have no spot cone; it is ignored");

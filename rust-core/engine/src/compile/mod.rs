@@ -5,6 +5,7 @@
 mod bounds;
 mod catchers;
 mod geometry;
+mod goniograms;
 mod instances;
 mod kept;
 mod lights;

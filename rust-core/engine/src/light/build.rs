@@ -101,7 +101,15 @@ impl Geometry {
         put(field::ORIGIN, self.origin);
         put(field::BOUND_CENTRE, self.centre);
         put(field::NORMAL, self.normal);
-        put(field::AXIS, unit_or(scale(self.axes[2], -1.0), unit_or(self.normal, [0.0, 0.0, -1.0])));
+        let axis = unit_or(scale(self.axes[2], -1.0), unit_or(self.normal, [0.0, 0.0, -1.0]));
+        put(field::AXIS, axis);
+        let level = |v: Vector| add(v, scale(axis, -dot(v, axis)));
+        let x = unit_or(level(self.axes[0]), unit_or(level([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]));
+        // A mirrored luminaire stays mirrored.
+        let y = cross(x, axis);
+        let side = if dot(y, self.axes[1]) < 0.0 { -1.0 } else { 1.0 };
+        put(field::LEVEL_X, x);
+        put(field::LEVEL_Y, scale(y, side));
         for k in 0..3 {
             put(field::FRAME + 3 * k, self.frame[k]);
             put(field::INVERSE + 3 * k, self.inverse.map_or([0.0; 3], |rows| rows[k]));
@@ -134,8 +142,8 @@ fn fill_distant(angle: f32, radiance: [f32; 3], row: &mut [f32]) -> ([f32; 3], f
     (radiance, luminance(radiance) * facing, false)
 }
 
-/// One light's row. `texture_mean` is the mean luminance of its texture, 1 without one.
-pub(crate) fn fill_row(record: &LightRecord, texture_mean: f64, row: &mut [f32]) {
+/// One light's row. `factor` is what a texture makes of its luminance in the mean and a goniogram at most, 1 without them.
+pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
     debug_assert_eq!(row.len(), ROW);
     let geometry = Geometry::new(record);
     geometry.fill(row);
@@ -146,7 +154,7 @@ pub(crate) fn fill_row(record: &LightRecord, texture_mean: f64, row: &mut [f32])
     let spot = fill_spot(record, geometry.axes, row) && !record.kind.is_infinite();
     let spread = fill_spread(record, geometry.axes, row);
     let emitting = if record.area > 0.0 { f64::from(record.area) } else { geometry.area };
-    let bright = luminance(radiance) * texture_mean;
+    let bright = luminance(radiance) * factor;
     let (strength, delta) = match record.kind {
         LightKind::Rectangle | LightKind::Disk | LightKind::Triangle | LightKind::FacingDisk => (bright * emitting, false),
         // A convex body shows a quarter of its surface on average (Cauchy).

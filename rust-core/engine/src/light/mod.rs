@@ -13,6 +13,7 @@ mod distant;
 mod dome;
 mod emitter;
 mod facing_disk;
+mod goniogram;
 mod portal;
 mod record;
 mod rectangle;
@@ -31,6 +32,7 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
+pub use goniogram::{AngularType, Goniogram};
 pub use record::{LightKind, LightRecord, LightTexture, Shaping, Spot};
 pub use sample::{LightSample, power_heuristic};
 pub use size::size_factor;

@@ -96,6 +96,8 @@ pub struct LightRecord {
     pub shaping: Shaping,
     /// A spot's cone; domes and distant lights ignore it.
     pub spot: Option<Spot>,
+    /// Measured factors by direction, for lights that have a place: an index into the goniograms given to [`super::LightTable::build`].
+    pub goniogram: Option<u32>,
     /// Full angle in radians of the beam of flat lights, as slats before them would cut it: the radiance at angle θ from the normal is multiplied by
     /// `max(tan h − tan θ, 0) / (tan h − h)`, h being half of it, which keeps the flux. π and more is Lambert's law.
     pub spread: f32,
@@ -130,6 +132,7 @@ impl LightRecord {
             radiance: [1.0; 3],
             shaping: Shaping::default(),
             spot: None,
+            goniogram: None,
             spread: std::f32::consts::PI,
             portal: false,
             texture: None,

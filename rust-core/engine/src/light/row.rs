@@ -3,8 +3,8 @@
 use super::record::LightKind;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// Values in a row: four cache lines.
-pub(crate) const ROW: usize = 64;
+/// Values in a row: five cache lines.
+pub(crate) const ROW: usize = 80;
 
 /// Where a row keeps what.
 pub(crate) mod field {
@@ -70,6 +70,12 @@ pub(crate) mod field {
     pub(crate) const SPREAD_GAIN: usize = 62;
     /// How far from the foot of the perpendicular a flat light's spread still reaches, over the height, in the sampling frame.
     pub(crate) const REACH: usize = 63;
+    /// Unit axis x across the shaping axis, 3: the luminaire's C0.
+    pub(crate) const LEVEL_X: usize = 64;
+    /// Unit axis y across both, 3.
+    pub(crate) const LEVEL_Y: usize = 67;
+    /// Number of the goniogram counted from 1 as bits, 0 without one.
+    pub(crate) const GONIOGRAM: usize = 70;
 }
 
 /// Switches in [`field::FLAGS`]; the kind's number is in the low byte.

@@ -239,7 +239,7 @@ impl LightTable {
     #[inline(always)]
     fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
         let plain = light.colour(field::RADIANCE);
-        let shaped = plain * shaping(l, light, -wi, l.m(true));
+        let shaped = plain * shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi);
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);
         if !textured.any() {

@@ -3,12 +3,13 @@
 use super::build::fill_row;
 use super::choice::{Choice, WEIGHED};
 use super::dome::DomeDistribution;
+use super::goniogram::Goniogram;
 use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use super::tree::LightTree;
 use gonio_simd::{F, Lanes, M, U};
-use std::borrow::Borrow;
+use std::{borrow::Borrow, sync::Arc};
 
 /// An infinite light, visited by every ray that leaves the scene.
 #[derive(Clone, Debug)]
@@ -33,6 +34,7 @@ pub struct LightTable {
     pub(crate) choice: Choice,
     pub(crate) textures: TexturePool,
     pub(crate) infinite: Vec<InfiniteLight>,
+    pub(crate) goniograms: Vec<Arc<Goniogram>>,
     /// Rows of the rectangles that domes are looked for through.
     pub(crate) portals: Vec<u32>,
 }
@@ -40,7 +42,7 @@ pub struct LightTable {
 impl LightTable {
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
     /// never chosen. A texture whose values do not fit its size counts as white.
-    pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>]) -> Self {
+    pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>], goniograms: &[Arc<Goniogram>]) -> Self {
         let mut pool = TexturePool::default();
         let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image.borrow())).collect();
         let mut rows = vec![0.0; records.len() * ROW];
@@ -57,7 +59,9 @@ impl LightTable {
                 (None, Some((_, texture))) => mean_luminance(texture),
                 (None, None) => 1.0,
             };
-            fill_row(record, mean, row);
+            let goniogram = record.goniogram.filter(|_| !record.kind.is_infinite()).and_then(|number| goniograms.get(number as usize));
+            fill_row(record, mean * goniogram.map_or(1.0, |goniogram| f64::from(goniogram.peak())), row);
+            row[field::GONIOGRAM] = f32::from_bits(record.goniogram.filter(|_| goniogram.is_some()).map_or(0, |number| number + 1));
             fill_texture(image.map(|(place, _)| place), row);
             if record.portal {
                 if record.kind == LightKind::Rectangle && row[field::DENSITY].is_finite() {
@@ -72,7 +76,7 @@ impl LightTable {
             }
         }
         let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Tree(LightTree::new(&rows)) };
-        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, portals }
+        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, goniograms: goniograms.to_vec(), portals }
     }
     /// Lights in the table.
     pub fn len(&self) -> usize {

@@ -1,7 +1,8 @@
 //! Light sources.
 
-use super::{Origin, TextureId, Transform, Visibility};
+use super::{Goniogram, Origin, TextureId, Transform, Visibility};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// How a dome's image is laid out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -143,6 +144,9 @@ pub struct Light {
     /// A spot's cone.
     #[serde(default)]
     pub spot: Option<Spot>,
+    /// Measured factors by direction; lights at infinity have no use for them.
+    #[serde(default)]
+    pub goniogram: Option<Arc<Goniogram>>,
     /// Full angle in degrees of the beam of rectangles, disks and ellipses, which keeps its flux: h being half the angle, the radiance at angle θ from
     /// −z is multiplied by `max(tan h − tan θ, 0) / (tan h − h)`. 180 is Lambert's law.
     #[serde(default = "lambertian_deg")]
@@ -169,6 +173,7 @@ impl Default for Light {
             emission: Emission::default(),
             shaping: Shaping::default(),
             spot: None,
+            goniogram: None,
             spread_deg: lambertian_deg(),
             portal: false,
             texture: None,
@@ -195,7 +200,7 @@ mod tests {
         let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
         let mut json = serde_json::to_value(&light).expect("plain data");
         let fields = json.as_object_mut().expect("a structure");
-        for name in ["spot", "spread_deg", "portal"] {
+        for name in ["spot", "spread_deg", "portal", "goniogram"] {
             assert!(fields.remove(name).is_some(), "{name}");
         }
         let older: Light = serde_json::from_value(json).expect("older form");

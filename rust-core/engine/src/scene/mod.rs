@@ -6,6 +6,7 @@
 mod blob;
 mod bundle;
 mod camera;
+mod goniogram;
 mod instance;
 mod light;
 mod material;
@@ -17,6 +18,7 @@ mod transform;
 
 pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
+pub use goniogram::{Goniogram, PhotometricType};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use material::{

@@ -12,7 +12,7 @@ const DEVIATIONS: f64 = 4.9;
 
 /// Compares an estimate from `count` samples with quadrature on `grid`² elements whose own error is below `relative`.
 fn check(name: &str, record: &LightRecord, p: Vector, n: Vector, count: usize, grid: usize, relative: f64) {
-    let table = LightTable::build(std::slice::from_ref(record), NO_IMAGES);
+    let table = LightTable::build(std::slice::from_ref(record), NO_IMAGES, &[]);
     let expected = illuminance(record, p, n, grid);
     let drawn = draw(Execution::best(), &table, narrow(p), narrow(n), &numbers(7, count));
     let (mean, error) = estimate(&drawn, n, count);
@@ -136,7 +136,7 @@ fn spread_keeps_the_flux_and_little_noise() {
     for (shape, axes) in [(LightKind::Rectangle, turned([5.0, 4.0, 1.0], [0.0; 3])), (LightKind::Disk, turned([5.0, 4.5, 1.0], [0.0; 3]))] {
         for degrees in [0.2f32, 1.0, 5.0, 15.0, 33.0, 60.0] {
             let record = LightRecord { spread: degrees.to_radians(), ..light(shape, axes, [0.0; 3]) };
-            let table = LightTable::build(&[record], NO_IMAGES);
+            let table = LightTable::build(&[record], NO_IMAGES, &[]);
             // So near a large light the whole beam is seen, and it carries what an endless plane of the radiance would.
             let drawn = draw(Execution::best(), &table, [0.4, -0.7, -2.0], narrow(n), &numbers(37, 1 << 14));
             let (mean, error) = estimate(&drawn, n, 1 << 14);
@@ -159,7 +159,7 @@ fn distant_light_matches_the_projected_solid_angle() {
             LightRecord { angle: angle.to_radians() as f32, ..light(LightKind::Distant, turned([1.0; 3], [0.4, 0.1, 0.3]), [0.0; 3]) };
         record.radiance = [2.0, 1.0, 0.25];
         let n = record.to_world[2].map(f64::from);
-        let table = LightTable::build(&[record], NO_IMAGES);
+        let table = LightTable::build(&[record], NO_IMAGES, &[]);
         let drawn = draw(Execution::best(), &table, [1.0, 2.0, 3.0], narrow(n), &numbers(3, 1 << 16));
         let (mean, error) = estimate(&drawn, n, 1 << 16);
         for k in 0..3 {
@@ -181,7 +181,7 @@ fn parallel_light_and_points_are_exact() {
     let narrow_cone = LightRecord { angle: 1e-5, radiance: [1e6; 3], ..distant };
     let point = LightRecord { radiance: [5.0; 3], ..light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [0.0, 0.0, 4.0]) };
     for (record, expected) in [(distant, 1.0), (narrow_cone, 1e6 * std::f64::consts::PI * 25e-12), (point, 5.0 / 16.0)] {
-        let table = LightTable::build(&[record], NO_IMAGES);
+        let table = LightTable::build(&[record], NO_IMAGES, &[]);
         let n = if record.kind == LightKind::Point { [0.0, 0.0, 1.0] } else { record.to_world[2] };
         let drawn = draw(Execution::best(), &table, [0.0; 3], n, &numbers(3, 16));
         for i in 0..16 {

@@ -38,7 +38,7 @@ const POINTS: [[f32; 3]; 5] = [[0.0, 0.0, 0.0], [0.3, 0.2, 0.9], [0.4, 0.2, 1.75
 #[test]
 fn eval_hit_gives_what_sample_gave() {
     let records = lights();
-    let table = LightTable::build(&records, NO_IMAGES);
+    let table = LightTable::build(&records, NO_IMAGES, &[]);
     let count = 1 << 14;
     for p in POINTS {
         let drawn = draw(Execution::best(), &table, p, [0.0, 0.0, 1.0], &numbers(11, count));
@@ -130,7 +130,7 @@ fn samples_are_distributed_by_their_density() {
     let count = 1 << 16;
     for record in lights() {
         let record = LightRecord { shaping: Shaping::default(), spot: None, ..record };
-        let table = LightTable::build(&[record], NO_IMAGES);
+        let table = LightTable::build(&[record], NO_IMAGES, &[]);
         for p in POINTS {
             // The expectation's own error: the edge of the visible side, or of the beam's foot.
             let edge = if record.spread < 3.0 { 0.03 } else { 0.01 };
@@ -180,7 +180,7 @@ fn all_levels_agree_with_the_scalar_one() {
     records.push(LightRecord { angle: 0.3, ..light(LightKind::Distant, turned([1.0; 3], [0.2, 0.1, 0.0]), [0.0; 3]) });
     records.push(LightRecord::new(LightKind::Dome));
     records.push(light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [1.0, 1.0, 1.0]));
-    let table = LightTable::build(&records, NO_IMAGES);
+    let table = LightTable::build(&records, NO_IMAGES, &[]);
     let count = 1 << 12;
     let u = numbers(2, count);
     for p in POINTS {

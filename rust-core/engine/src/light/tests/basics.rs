@@ -101,7 +101,8 @@ fn odd_lights_and_odd_places_stay_finite() {
                 let spot = narrowed.then_some(Spot { angle: 0.0, blend: 0.0, stretch: [0.0, f32::NAN] });
                 let spread = if narrowed { 0.0 } else { 3.0 };
                 let record = LightRecord { shaping, spot, spread, angle: 0.01, ..light(kind, axes, [0.0; 3]) };
-                let table = LightTable::build(&[record, light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [0.0, 0.0, -5.0])], NO_IMAGES);
+                let table =
+                    LightTable::build(&[record, light(LightKind::Point, turned([1.0; 3], [0.0; 3]), [0.0, 0.0, -5.0])], NO_IMAGES, &[]);
                 for p in places {
                     for n in [[0.0, 0.0, 1.0], [0.0; 3]] {
                         let drawn = draw(Execution::best(), &table, p, n, &u);
@@ -120,7 +121,7 @@ fn odd_lights_and_odd_places_stay_finite() {
 
 #[test]
 fn an_empty_table_sends_nothing() {
-    let table = LightTable::build(&[], NO_IMAGES);
+    let table = LightTable::build(&[], NO_IMAGES, &[]);
     let drawn = draw(Execution::best(), &table, [0.0; 3], [0.0, 0.0, 1.0], &numbers(1, 16));
     assert!(drawn.pdf.iter().all(|p| *p == 0.0));
 }
@@ -129,7 +130,7 @@ fn an_empty_table_sends_nothing() {
 fn rectangle_images_are_upright_for_what_they_light() {
     let texture = LightTexture { width: 2, height: 2, rgb: vec![1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 4.0, 4.0, 4.0] };
     let record = LightRecord { texture: Some(0), ..light(LightKind::Rectangle, turned([1.0; 3], [0.0; 3]), [0.0; 3]) };
-    let table = LightTable::build(&[record], &[texture]);
+    let table = LightTable::build(&[record], &[texture], &[]);
     #[inline(always)]
     fn look<L: Lanes>(l: L, table: &LightTable, hit: [f32; 3]) -> f32 {
         let (from, hit) = (Vec3::splat(l, [0.0, 0.0, -2.0]), Vec3::splat(l, hit));

@@ -18,7 +18,7 @@ fn floor(record: LightRecord, x: f64, count: usize) -> (f64, f64) {
         },
         ..record
     };
-    let table = LightTable::build(&[record], NO_IMAGES);
+    let table = LightTable::build(&[record], NO_IMAGES, &[]);
     let drawn = draw(Execution::best(), &table, [x as f32, 0.0, 0.0], UP.map(|v| v as f32), &numbers(43, count));
     let (mean, error) = estimate(&drawn, UP, count);
     (mean[1] / PI, error[1] / PI)

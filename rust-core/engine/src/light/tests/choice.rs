@@ -54,7 +54,7 @@ fn probabilities<L: Lanes>(l: L, table: &LightTable, points: &[Column; 3], sums:
 #[test]
 fn probabilities_add_up_to_one() {
     for count in [1, 2, 7, 40, 64, 65, 300] {
-        let table = LightTable::build(&crowd(count), NO_IMAGES);
+        let table = LightTable::build(&crowd(count), NO_IMAGES, &[]);
         let points = numbers(23, 64);
         let mut sums = Column::new(64);
         for execution in Execution::all() {
@@ -71,7 +71,7 @@ fn probabilities_add_up_to_one() {
 #[test]
 fn lights_are_drawn_as_often_as_their_probability_says() {
     for lights in [7usize, 64, 100] {
-        let table = LightTable::build(&crowd(lights), NO_IMAGES);
+        let table = LightTable::build(&crowd(lights), NO_IMAGES, &[]);
         let count = 1 << 16;
         let drawn = draw(Execution::best(), &table, [0.5, 0.5, 0.0], [0.0, 0.0, 1.0], &numbers(29, count));
         let mut observed = vec![0.0f64; lights];
@@ -111,7 +111,7 @@ fn many_lights_give_the_sum_of_their_illuminances() {
             .filter(|r| matches!(r.kind, LightKind::Rectangle | LightKind::Disk | LightKind::Sphere | LightKind::Cylinder))
             .collect();
         let expected: f64 = records.iter().map(|r| super::shape::illuminance(r, p.map(f64::from), n.map(f64::from), 200)[1]).sum();
-        let table = LightTable::build(&records, NO_IMAGES);
+        let table = LightTable::build(&records, NO_IMAGES, &[]);
         let samples = 1 << 18;
         let drawn = draw(Execution::best(), &table, p, n, &numbers(31, samples));
         let (mean, error) = super::harness::estimate(&drawn, n.map(f64::from), samples);
@@ -134,7 +134,7 @@ fn hall(rows: usize) -> Vec<LightRecord> {
 /// Relative variance of the illuminance that one sample gives, with nothing in the way.
 fn relative_variance(records: &[LightRecord], p: [f32; 3]) -> f64 {
     let samples = 1 << 16;
-    let drawn = draw(Execution::best(), &LightTable::build(records, NO_IMAGES), p, [0.0, 0.0, 1.0], &numbers(37, samples));
+    let drawn = draw(Execution::best(), &LightTable::build(records, NO_IMAGES, &[]), p, [0.0, 0.0, 1.0], &numbers(37, samples));
     let (mean, error) = super::harness::estimate(&drawn, [0.0, 0.0, 1.0], samples);
     (error[1] / mean[1]).powi(2) * samples as f64
 }

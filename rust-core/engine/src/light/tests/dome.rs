@@ -19,7 +19,7 @@ fn constant_dome_gives_pi() {
     for textures in [vec![], vec![image(64, 32, |_, _| [1.0; 3])]] {
         let record = dome((!textures.is_empty()).then_some(0));
         let textured = record.texture.is_some();
-        let table = LightTable::build(&[record], &textures);
+        let table = LightTable::build(&[record], &textures, &[]);
         for n in [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.6, 0.0, -0.8]] {
             let drawn = draw(Execution::best(), &table, [0.0; 3], n, &numbers(1, 1 << 16));
             let (mean, error) = estimate(&drawn, n.map(f64::from), 1 << 16);
@@ -45,7 +45,7 @@ fn radiance(table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
 fn images_are_placed_as_openexr_says() {
     // Eight columns, four rows, each pixel its own colour.
     let texture = image(8, 4, |x, y| [x as f32 + 1.0, y as f32 + 1.0, 0.5]);
-    let table = LightTable::build(&[dome(Some(0))], &[texture]);
+    let table = LightTable::build(&[dome(Some(0))], &[texture], &[]);
     let direction = |column: f32, row: f32| {
         let (longitude, latitude) =
             (std::f32::consts::TAU * (0.5 - (column + 0.5) / 8.0), std::f32::consts::PI * (0.5 - (row + 0.5) / 4.0));
@@ -99,7 +99,7 @@ fn bright_spots_are_found() {
         },
         ..dome(Some(0))
     };
-    let table = LightTable::build(&[record], &[starry()]);
+    let table = LightTable::build(&[record], &[starry()], &[]);
     for n in [[0.0, 1.0, 0.0], [0.6, 0.0, 0.8], [0.0, 0.0, -1.0]] {
         let expected = quadrature(&table, n);
         let count = 1 << 16;
@@ -137,8 +137,8 @@ fn escaped_rays_and_samples_add_up_to_the_illuminance() {
         LightRecord { angle: 0.8, radiance: [2.0; 3], ..LightRecord::new(LightKind::Distant) },
         LightRecord { radiance: [1.5; 3], ..LightRecord::new(LightKind::Distant) },
     ];
-    let table = LightTable::build(&records, &[starry()]);
-    let alone = LightTable::build(&records[..1], &[starry()]);
+    let table = LightTable::build(&records, &[starry()], &[]);
+    let alone = LightTable::build(&records[..1], &[starry()], &[]);
     let expected = quadrature(&alone, [0.0, 0.0, 1.0]) + PI + 2.0 * PI * 0.4f64.sin().powi(2) + 1.5;
     for execution in Execution::all() {
         let count = 1 << 17;

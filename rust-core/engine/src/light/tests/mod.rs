@@ -6,6 +6,7 @@ mod basics;
 mod beam;
 mod choice;
 mod dome;
+mod goniogram;
 mod harness;
 mod portal;
 mod shape;

@@ -28,7 +28,7 @@ fn table(textured: bool, with_portals: bool) -> LightTable {
     if with_portals {
         records.extend(portals());
     }
-    LightTable::build(&records, &[sky()])
+    LightTable::build(&records, &[sky()], &[])
 }
 
 const NORMAL: [f32; 3] = [0.0, 0.0, 1.0];
@@ -153,7 +153,7 @@ fn portals_change_the_noise_and_not_the_light() {
 
 #[test]
 fn portals_are_no_lights() {
-    let table = LightTable::build(&portals(), NO_IMAGES);
+    let table = LightTable::build(&portals(), NO_IMAGES, &[]);
     let drawn = draw(Execution::best(), &table, [0.0; 3], NORMAL, &numbers(59, 256));
     assert!(drawn.pdf.iter().all(|pdf| *pdf == 0.0));
 }

@@ -1,0 +1,29 @@
+//! How a light's emission depends on direction, as measured.
+
+use serde::{Deserialize, Serialize};
+
+/// How two angles make a direction (CIE 121, LM-63). The luminaire's nadir is the light's −z, its C0 the light's +x.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PhotometricType {
+    /// Polar axis −z: tan C = y / x, cos γ = −z.
+    #[default]
+    C,
+    /// Polar axis y: tan V = x / −z, sin H = y.
+    B,
+    /// Polar axis x: tan H = y / −z, sin V = x.
+    A,
+}
+
+/// Factors on a light's emission on a grid of two angles, linear in both between its lines and zero beyond its ends. A point light of 1 cd whose
+/// factors are candela has the intensities themselves.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Goniogram {
+    /// What the angles are.
+    pub photometric_type: PhotometricType,
+    /// Strictly increasing; type C: from 0 to 360, both included.
+    pub horizontal_deg: Vec<f32>,
+    /// Strictly increasing.
+    pub vertical_deg: Vec<f32>,
+    /// Not negative: `factors[h * vertical_deg.len() + v]`.
+    pub factors: Vec<f32>,
+}
