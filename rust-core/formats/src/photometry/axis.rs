@@ -37,11 +37,17 @@ impl Axis {
         self.angles.last().copied().unwrap_or(0.0)
     }
 
-    /// Puts angles at `low` and `high` that are meant to be there: files round.
+    /// Puts the first and the last angle where they are meant to be: files round.
     pub(crate) fn snap(&mut self, to: &[f64]) {
-        for angle in &mut self.angles {
-            if let Some(exact) = to.iter().find(|exact| (*angle - **exact).abs() < 0.05) {
-                *angle = *exact;
+        let near = |angle: f64| to.iter().find(|exact| (angle - **exact).abs() < 0.01).copied().unwrap_or(angle);
+        let end = self.angles.len().saturating_sub(1);
+        for (index, neighbour) in [(0, 1), (end, end.saturating_sub(1))] {
+            let inner = self.angles.get(neighbour).copied();
+            if let Some(angle) = self.angles.get_mut(index) {
+                // An angle of its own must not fall on the end.
+                if inner.is_none_or(|inner| neighbour == index || (inner - near(*angle)) * (inner - *angle) > 0.0) {
+                    *angle = near(*angle);
+                }
             }
         }
     }

@@ -18,7 +18,9 @@ impl Goniogram {
             Symmetry::AboutC90 => (90.0, 180.0),
             Symmetry::Quadrants => (0.0, 90.0),
         };
-        let vertical = steps(0.0, 180.0, self.finest());
+        // Nothing is seen above the horizon of a luminaire that was measured in front alone; the step down to nothing is exact there.
+        let behind = self.about_axis().iter().any(|angle| angle.abs() > 90.0);
+        let vertical = steps(0.0, if behind { 180.0 } else { 90.0 }, self.finest());
         let horizontal = steps(start, span, 2.0 * self.finest());
         let at = |c: &f64| {
             let direction = |gamma: &f64| self.intensity(PhotometricType::C.direction(*c, *gamma));
@@ -31,6 +33,11 @@ impl Goniogram {
             resampled = resampled.times(wanted / found);
         }
         resampled
+    }
+
+    /// The angles about the polar axis.
+    fn about_axis(&self) -> &[f64] {
+        if self.photometric_type == PhotometricType::B { &self.vertical } else { &self.horizontal }
     }
 
     /// The least step of the angles, between half a degree and one.

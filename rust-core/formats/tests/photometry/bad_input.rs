@@ -55,12 +55,14 @@ fn eulumdat_errors_name_the_line() {
     let cut: String = good.lines().take(80).collect::<Vec<_>>().join("\n");
     assert!(ldt::read(cut.as_bytes()).unwrap_err().to_string().contains("but the rest of the file has room for"));
     let cut: String = good.lines().take(20).collect::<Vec<_>>().join("\n");
-    assert_eq!(ldt::read(cut.as_bytes()).unwrap_err().to_string(), "line 20: the file ends, expected the luminous area's height at C180");
+    assert_eq!(ldt::read(cut.as_bytes()).unwrap_err().to_string(), "line 20: the file ends, expected the luminous area's height at C270");
 }
 
 #[test]
 fn other_things_are_no_goniograms() {
-    for bytes in [&b""[..], b"\0\0\0\0", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"\xff\xfeT\0I\0L\0T\0=\0", &[0xd7; 4000], b"TILT=", b"TILT=INCLUDE"] {
+    for bytes in
+        [&b""[..], b"\0\0\0\0", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"\xff\xfeT\0I\0L\0T\0=\0", &[0xd7; 4000], b"TILT=", b"TILT=INCLUDE"]
+    {
         for name in ["a.ies", "a.ldt", "a", ""] {
             let message = read(bytes, name).unwrap_err().to_string();
             assert!(!message.contains('\n') && message.len() < 200, "{message}");

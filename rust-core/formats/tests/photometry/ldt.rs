@@ -23,7 +23,8 @@ impl Text {
     /// The file, with an isotropic source's right flux where `cd_per_klm` gives 79.577.
     pub(crate) fn write(&self, stored: &[f64], cd_per_klm: impl Fn(f64, f64) -> f64) -> String {
         let gammas: Vec<f64> = (0..=12).map(|index| f64::from(index) * 15.0).collect();
-        let mut lines: Vec<String> = vec!["company".into(), "1".into(), self.symmetry.to_string(), self.planes.len().to_string(), "30".into()];
+        let mut lines: Vec<String> =
+            vec!["company".into(), "1".into(), self.symmetry.to_string(), self.planes.len().to_string(), "30".into()];
         lines.extend([gammas.len().to_string(), "15".into()]);
         lines.extend(["report", "name", "number", "file", "date", "100", "100", "50"].map(String::from));
         lines.extend(self.area.iter().chain(&self.ratios).map(ToString::to_string));

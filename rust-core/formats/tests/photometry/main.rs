@@ -36,21 +36,18 @@ fn steps(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 /// The flux by the midpoint rule over directions: independent of the closed form.
 fn quadrature(goniogram: &Goniogram, below: bool) -> f64 {
-    const ROWS: usize = 1200;
-    let (mut sum, columns) = (0.0, 2 * ROWS);
-    for row in 0..ROWS {
-        // Equal steps of cos γ are equal solid angles.
-        let z = -1.0 + (row as f64 + 0.5) * 2.0 / ROWS as f64;
-        if below && z > 0.0 {
-            break;
-        }
-        let r = (1.0 - z * z).sqrt();
-        for column in 0..columns {
-            let phi = (column as f64 + 0.5) * std::f64::consts::TAU / columns as f64;
-            sum += goniogram.intensity([r * phi.cos(), r * phi.sin(), z]);
+    const ROWS: usize = 1800;
+    const COLUMNS: usize = 720;
+    let step = std::f64::consts::PI / ROWS as f64;
+    let mut sum = 0.0;
+    for row in 0..if below { ROWS / 2 } else { ROWS } {
+        let (r, z) = ((row as f64 + 0.5) * step).sin_cos();
+        for column in 0..COLUMNS {
+            let phi = (column as f64 + 0.5) * std::f64::consts::TAU / COLUMNS as f64;
+            sum += r * goniogram.intensity([r * phi.cos(), r * phi.sin(), -z]);
         }
     }
-    sum * 4.0 * std::f64::consts::PI / (ROWS * columns) as f64
+    sum * step * std::f64::consts::TAU / COLUMNS as f64
 }
 
 fn close(found: f64, expected: f64, relative: f64) {

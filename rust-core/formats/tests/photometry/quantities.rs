@@ -30,7 +30,8 @@ fn a_lambertian_source_has_pi_times_its_intensity() {
 fn flux_is_the_integral_of_the_interpolated_intensity() {
     let odd = |c: f64, gamma: f64| 50.0 + 40.0 * (c.to_radians() + 0.3).sin() * (gamma.to_radians() * 1.7).cos() + gamma / 9.0;
     let ragged = [0.0, 4.0, 11.0, 37.0, 38.0, 71.0, 90.0, 113.0, 180.0];
-    for horizontal in [vec![0.0, 13.0, 90.0], vec![0.0, 50.0, 77.0, 180.0], vec![90.0, 170.0, 270.0], vec![0.0, 10.0, 130.0, 200.0, 360.0]] {
+    for horizontal in [vec![0.0, 13.0, 90.0], vec![0.0, 50.0, 77.0, 180.0], vec![90.0, 170.0, 270.0], vec![0.0, 10.0, 130.0, 200.0, 360.0]]
+    {
         let goniogram = type_c(&ragged, &horizontal, odd);
         close(goniogram.flux(), quadrature(&goniogram, false), 1e-5);
         close(goniogram.flux_below(), quadrature(&goniogram, true), 1e-4);
@@ -98,7 +99,8 @@ fn tabulated_directions_give_the_tabulated_intensity() {
         assert_eq!((grid.horizontal[0], grid.horizontal[grid.horizontal.len() - 1]), (0.0, 360.0));
         // The last plane of a full circle is the first one's direction.
         let planes = horizontal.iter().filter(|c| **c < 360.0);
-        for (c, gamma) in planes.flat_map(|c| vertical.iter().map(|gamma| (*c, *gamma))).filter(|(_, gamma)| *gamma > 0.0 && *gamma < 180.0) {
+        for (c, gamma) in planes.flat_map(|c| vertical.iter().map(|gamma| (*c, *gamma))).filter(|(_, gamma)| *gamma > 0.0 && *gamma < 180.0)
+        {
             for image in &images {
                 let direction = PhotometricType::C.direction(image(c), gamma);
                 close(goniogram.intensity(direction), odd(c, gamma), 1e-6);
@@ -113,7 +115,7 @@ fn tabulated_directions_give_the_tabulated_intensity() {
 
 #[test]
 fn symmetries_are_found_and_given() {
-    let about_c0 = type_c(&[0.0, 45.0, 90.0], &[0.0, 60.0, 180.0], |c, gamma| 10.0 + c * gamma / 100.0);
+    let about_c0 = type_c(&[0.0, 45.0, 90.0], &[0.0, 60.0, 180.0], |c, gamma| 10.0 + c * c * gamma / 100.0);
     assert_eq!(about_c0.symmetry, Symmetry::AboutC0);
     assert_eq!(about_c0.symmetry_found(1e-9), Symmetry::AboutC0);
     for symmetry in [Symmetry::None, Symmetry::Rotational, Symmetry::AboutC0, Symmetry::AboutC90, Symmetry::Quadrants] {

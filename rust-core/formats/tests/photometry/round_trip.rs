@@ -52,7 +52,8 @@ fn eulumdat_becomes_ies_and_comes_back() {
     let area = ["1200", "300", "10", "20", "10", "20"];
     let sets = vec![["2", "LED", "1000", "3000", "80", "20"]];
     let stored: Vec<f64> = (9..=15).map(|index| f64::from(index) * 30.0).collect();
-    let text = Text { symmetry: 3, area, sets, ..Text::default() }.write(&stored, |c, gamma| 60.0 + c.rem_euclid(360.0) / 10.0 + gamma / 10.0);
+    let text =
+        Text { symmetry: 3, area, sets, ..Text::default() }.write(&stored, |c, gamma| 60.0 + c.rem_euclid(360.0) / 10.0 + gamma / 10.0);
     let first = ldt::read(text.as_bytes()).unwrap();
     let ies = ies::read(&ies::write(&first)).unwrap();
     assert_eq!(ies.symmetry, Symmetry::AboutC90);
@@ -68,9 +69,10 @@ fn eulumdat_becomes_ies_and_comes_back() {
 
 #[test]
 fn floodlights_stay_what_they_are_in_ies_and_become_type_c_in_eulumdat() {
-    let text = ies_text("IESNA:LM-63-2002", "1 -1 1 V H 2 2 0.3 0.2 0", "1 1 20", &steps(-90.0, 90.0, 60), &steps(0.0, 90.0, 30), |h, v| {
-        1000.0 * (-(h * h + (v - 10.0) * (v - 10.0)) / 800.0).exp()
-    });
+    let text =
+        ies_text("IESNA:LM-63-2002", "1 -1 1 V H 2 2 0.3 0.2 0", "1 1 20", &steps(-90.0, 90.0, 60), &steps(0.0, 90.0, 30), |h, v| {
+            1000.0 * (-(h * h + (v - 10.0) * (v - 10.0)) / 800.0).exp()
+        });
     let floodlight = ies::read(text.as_bytes()).unwrap();
     let again = ies::read(&ies::write(&floodlight)).unwrap();
     assert_eq!(again.photometric_type, PhotometricType::B);

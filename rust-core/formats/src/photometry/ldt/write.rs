@@ -37,12 +37,13 @@ fn planes(goniogram: &Goniogram) -> (Vec<f64>, Vec<Vec<f64>>) {
     let mut all = goniogram.expanded().horizontal;
     // The circle's end is its beginning.
     all.pop();
+    let within = |low: f64, high: f64| all.iter().copied().filter(move |c| (low..=high).contains(c));
     let wanted: Vec<f64> = match goniogram.symmetry {
         Symmetry::Rotational => vec![0.0],
         Symmetry::None => all.clone(),
-        Symmetry::AboutC0 | Symmetry::Quadrants => goniogram.horizontal.clone(),
-        // From C270 through C0 to C90: the mirror images of the planes that are kept.
-        Symmetry::AboutC90 => goniogram.horizontal.iter().rev().map(|c| 180.0 - c).collect(),
+        Symmetry::AboutC0 => within(0.0, 180.0).collect(),
+        Symmetry::AboutC90 => within(270.0, 360.0).chain(within(0.0, 90.0)).collect(),
+        Symmetry::Quadrants => within(0.0, 90.0).collect(),
     };
     if goniogram.symmetry == Symmetry::Rotational {
         all = vec![0.0];
