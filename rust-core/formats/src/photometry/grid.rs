@@ -3,7 +3,7 @@
 use super::{Goniogram, PhotometricType, Symmetry};
 
 /// Angles closer than this, in degrees, are one.
-pub(crate) const SAME: f64 = 1e-9;
+pub(crate) const SAME: f64 = 1e-6;
 
 /// Intensities on a full, non-uniform grid of two angles.
 #[derive(Clone, Debug, PartialEq)]

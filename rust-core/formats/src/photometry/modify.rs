@@ -1,5 +1,6 @@
 //! Other lamps, another flux, another C0.
 
+use super::text::LARGEST;
 use super::{Goniogram, PhotometricType, Symmetry};
 use crate::error::{FormatError, Result};
 
@@ -7,16 +8,16 @@ impl Goniogram {
     /// The same luminaire with its whole flux scaled to `flux` lm; its lamps' flux goes with it, so that the light output ratio stays.
     ///
     /// # Errors
-    /// A goniogram without light, or a flux that is not a positive number.
+    /// A goniogram without light, or a flux that is not a positive number of a sane size.
     pub fn scaled_to_flux(&self, flux: f64) -> Result<Self> {
         let own = self.flux();
-        if !(flux > 0.0 && flux.is_finite()) {
-            return Err(FormatError::whole(format!("the flux is {flux} lm, expected a positive number")));
-        }
-        if own <= 0.0 {
-            return Err(FormatError::whole("all intensities are 0: there is no flux to scale"));
+        if !(flux > 0.0 && flux <= LARGEST) {
+            return Err(FormatError::whole(format!("the flux is {flux} lm, expected a positive number up to {LARGEST:e}")));
         }
         let factor = flux / own;
+        if own <= 0.0 || self.peak() * factor > LARGEST {
+            return Err(FormatError::whole(format!("the intensities' flux is {own} lm, too little to be scaled")));
+        }
         let mut scaled = self.clone().times(factor);
         scaled.lamp_sets.iter_mut().filter_map(|set| set.flux.as_mut()).for_each(|flux| *flux *= factor);
         Ok(scaled)

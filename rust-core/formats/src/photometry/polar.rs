@@ -8,6 +8,9 @@ const PAGE: [f64; 2] = [520.0, 580.0];
 const CENTRE: [f64; 2] = [260.0, 275.0];
 const RADIUS: f64 = 215.0;
 
+/// Candela and lumens below this are none: no ring can be drawn for them.
+const DARK: f64 = 1e-9;
+
 const GREY: &str = "#bbbbbb";
 const RED: &str = "#c0282d";
 const BLUE: &str = "#1f5fa8";
@@ -25,7 +28,7 @@ pub enum PolarUnit {
 pub fn polar_diagram(goniogram: &Goniogram, unit: PolarUnit) -> String {
     let flux = goniogram.lamps().and_then(|lamps| lamps.flux).unwrap_or_else(|| goniogram.flux());
     let (factor, name) = match unit {
-        PolarUnit::CandelaPerKilolumen if flux > 0.0 => (1000.0 / flux, "cd/klm"),
+        PolarUnit::CandelaPerKilolumen if flux > DARK => (1000.0 / flux, "cd/klm"),
         _ => (1.0, "cd"),
     };
     let cuts = [goniogram.cut(0.0), goniogram.cut(90.0)];
@@ -51,7 +54,7 @@ fn at(gamma: f64, distance: f64) -> [f64; 2] {
 
 /// A round distance of rings, such that there are three to seven of them.
 fn ring_step(peak: f64) -> f64 {
-    if peak <= 0.0 {
+    if peak <= DARK {
         return 1.0;
     }
     let power = 10f64.powf((peak / 3.0).log10().floor());
