@@ -77,7 +77,9 @@ fn run(reader: &Reader, duration: Duration, seed: u64) -> Option<(String, Vec<u8
             break;
         }
         set(&work, Some((Instant::now(), input.clone())));
-        if let Some(problem) = attempt(reader, &input) {
+        // A busy machine makes anything slow once.
+        let problems: Vec<String> = (0..3).map_while(|_| attempt(reader, &input)).collect();
+        if let Some(problem) = problems.into_iter().nth(2) {
             return Some((problem, input));
         }
         set(&work, None);

@@ -97,15 +97,17 @@ impl Goniogram {
 
 /// The outermost directions of a cut that reach a share of its greatest intensity.
 fn spread(cut: &[[f64; 2]], share: f64) -> Spread {
-    let top = cut.iter().fold([0.0, 0.0], |top, point| if point[1] > top[1] { *point } else { top });
-    let up = top[0].abs() > 90.0;
-    let mut points: Vec<[f64; 2]> =
-        cut.iter().filter(|point| if up { point[0].abs() >= 90.0 } else { point[0].abs() <= 90.0 }).copied().collect();
+    let below = |point: &&[f64; 2]| point[0].abs() <= 90.0;
+    let above = |point: &&[f64; 2]| point[0].abs() >= 90.0;
+    let top = |points: &mut dyn Iterator<Item = &[f64; 2]>| points.map(|point| point[1]).fold(0.0, f64::max);
+    let tops = [top(&mut cut.iter().filter(below)), top(&mut cut.iter().filter(above))];
+    let up = tops[1] > tops[0];
+    let mut points: Vec<[f64; 2]> = cut.iter().filter(|point| if up { above(point) } else { below(point) }).copied().collect();
     if up {
         points.iter_mut().for_each(|point| point[0] = (180.0 - point[0].abs()) * point[0].signum());
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }
-    let level = share * top[1];
+    let level = share * tops[usize::from(up)];
     let mut ends = [0.0; 2];
     if level > 0.0 {
         ends[0] = crossing(points.iter(), level);

@@ -24,7 +24,7 @@ pub enum PolarUnit {
     CandelaPerKilolumen,
 }
 
-/// The polar diagram as an SVG document: C0–C180 drawn through, C90–C270 dashed.
+/// The polar diagram as an SVG document: C0–C180 drawn through, C90–C270 dashed, C0 and C90 to the right.
 pub fn polar_diagram(goniogram: &Goniogram, unit: PolarUnit) -> String {
     let flux = goniogram.lamps().and_then(|lamps| lamps.flux).unwrap_or_else(|| goniogram.flux());
     let (factor, name) = match unit {

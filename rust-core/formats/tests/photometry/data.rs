@@ -41,8 +41,8 @@ fn goniograms() -> Vec<(PathBuf, Goniogram)> {
 #[test]
 fn every_file_reads_and_keeps_its_tabulated_intensities() {
     for (path, goniogram) in goniograms() {
-        println!("{}: {:.1} lm, {:?}", path.display(), goniogram.flux(), goniogram.symmetry);
-        goniogram.warnings.iter().for_each(|warning| println!("    {warning}"));
+        eprintln!("{}: {:.1} lm, {:?}", path.display(), goniogram.flux(), goniogram.symmetry);
+        goniogram.warnings.iter().for_each(|warning| eprintln!("    {warning}"));
         assert_eq!(goniogram.photometric_type, PhotometricType::C);
         let count = goniogram.vertical.len();
         for (h, c) in goniogram.horizontal.iter().enumerate().filter(|(_, c)| **c < 360.0) {
