@@ -13,6 +13,9 @@ use crate::photometry::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated,
 /// Metres in a foot.
 const FOOT: f64 = 0.3048;
 
+/// Header lines that are kept: no file has so many, and a text's record is far longer than an empty line.
+const MOST_TEXTS: usize = 4096;
+
 /// What stands between the TILT line and the angles.
 struct Head {
     lamps: f64,
@@ -85,7 +88,7 @@ fn header<'a>(lines: &mut Lines<'a>) -> Result<(Version, Vec<HeaderLine>, &'a st
         }
         let keyword = line.strip_prefix('[').and_then(|rest| rest.split_once(']'));
         let (keyword, text) = keyword.unwrap_or(("", line));
-        if !line.is_empty() {
+        if !line.is_empty() && header.len() < MOST_TEXTS {
             header.push(HeaderLine { keyword: keyword.trim().to_owned(), text: text.trim().to_owned() });
         }
     }

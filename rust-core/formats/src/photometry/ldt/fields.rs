@@ -4,6 +4,9 @@ use crate::error::{FormatError, Result};
 use crate::photometry::axis::Axis;
 use crate::photometry::text::{Lines, number, parse, quote};
 
+/// Warnings that are told one by one.
+const MOST_WARNINGS: usize = 50;
+
 #[derive(Debug)]
 pub(super) struct Fields<'a> {
     lines: Lines<'a>,
@@ -28,9 +31,13 @@ impl<'a> Fields<'a> {
         FormatError::line(self.line(), problem)
     }
 
-    /// A warning about the line read last.
+    /// A warning about the line read last; after many it is enough to know that there are more.
     pub(super) fn warn(&mut self, problem: impl Into<String>) {
-        self.warnings.push(FormatError::line(self.line(), problem));
+        match self.warnings.len() {
+            ..MOST_WARNINGS => self.warnings.push(FormatError::line(self.line(), problem)),
+            MOST_WARNINGS => self.warnings.push(FormatError::line(self.line(), "further problems are not listed")),
+            _ => {}
+        }
     }
 
     /// A line of text.

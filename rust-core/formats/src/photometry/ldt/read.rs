@@ -11,6 +11,9 @@ use crate::photometry::{Goniogram, HeaderLine, LampSet, Opening, PhotometricType
 /// Metres in a millimetre.
 const MILLIMETRE: f64 = 1e-3;
 
+/// The most lamp sets: the format's own limit is 20.
+const MOST_SETS: usize = 1000;
+
 /// What the first seven lines say of the table.
 struct Layout {
     symmetry: Symmetry,
@@ -122,9 +125,7 @@ fn conversion_factor(fields: &mut Fields<'_>) -> Result<f64> {
 }
 
 fn lamp_sets(fields: &mut Fields<'_>) -> Result<Vec<LampSet>> {
-    // Each set takes six lines.
-    let most = fields.room() / 3 + 1;
-    let count = fields.whole("the number of lamp sets", [1, most])?;
+    let count = fields.whole("the number of lamp sets", [1, MOST_SETS])?;
     (0..count).map(|_| lamp_set(fields)).collect()
 }
 
