@@ -19,6 +19,8 @@ pub(super) enum Command {
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
     Compare(CompareOptions),
+    /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
+    Photometry(PhotometryOptions),
 }
 
 /// What of the stage is read.
@@ -189,4 +191,28 @@ pub(super) struct CompareOptions {
     /// Compare only these channels, separated by commas.
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(super) channels: Vec<String>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct PhotometryOptions {
+    /// The luminaire: an IES LM-63 or EULUMDAT file.
+    pub(super) file: PathBuf,
+    /// For machines.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Draw the polar diagram, in cd/klm.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) polar: Option<PathBuf>,
+    /// Draw the cone diagram: illuminance and the beam's diameter at 1 to 5 m.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) cone: Option<PathBuf>,
+    /// Write the luminaire as LM-63-2002 or EULUMDAT.
+    #[arg(long, value_name = "FILE.ies|FILE.ldt")]
+    pub(super) convert: Option<PathBuf>,
+    /// Take the file's alternative lamps of this number, from 1.
+    #[arg(long = "lamp-set", value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) lamp_set: Option<u32>,
+    /// Turn the luminaire about its vertical axis, from C0 towards C90.
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    pub(super) rotate: Option<f64>,
 }

@@ -6,6 +6,7 @@ mod file_name;
 mod frames;
 mod info;
 mod output;
+mod photometry;
 mod progress;
 mod render;
 
@@ -37,6 +38,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Render(options) => render::render(py, &options, &INTERRUPTED),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
+        Command::Photometry(options) => photometry::photometry(&options),
     };
     match result {
         Ok(status) => status,

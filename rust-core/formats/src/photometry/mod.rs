@@ -1,1 +1,52 @@
-//! Goniograms of luminaires.
+//! Goniograms: luminous intensity by direction, as luminaires' makers hand it out.
+//!
+//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019) and EULUMDAT files and gives one [`Goniogram`] in candela and metres; [`ies`] and
+//! [`ldt`] hold the two formats' readers and writers, [`polar_diagram`] and [`cone_diagram`] the two drawings that lighting people look for.
+//!
+//! The luminaire's frame: the photometric zero direction (γ = 0, nadir) is −Z, C0 is +X, C90 is +Y.
+
+pub mod ies;
+pub mod ldt;
+
+mod arrange;
+mod axis;
+mod check;
+mod cone;
+mod convert;
+mod figures;
+mod flux;
+mod goniogram;
+mod grid;
+mod lookup;
+mod modify;
+mod opening;
+mod polar;
+mod svg;
+mod symmetry;
+mod text;
+
+pub use cone::cone_diagram;
+pub use figures::{Figures, Spread};
+pub use goniogram::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Symmetry, Tilt};
+pub use grid::Grid;
+pub use opening::{Opening, OpeningShape};
+pub use polar::{PolarUnit, polar_diagram};
+
+use crate::error::{FormatError, Result};
+
+/// Reads an IES or EULUMDAT file; its content decides, and where that is not clear the ending of `name`.
+///
+/// # Errors
+/// What the format's own reader says, or that the bytes are neither.
+pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
+    let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+    if ies::looks_like(bytes) {
+        ies::read(bytes)
+    } else if ending == "ldt" || ldt::looks_like(bytes) {
+        ldt::read(bytes)
+    } else if ending == "ies" {
+        ies::read(bytes)
+    } else {
+        Err(FormatError::whole("neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
+    }
+}

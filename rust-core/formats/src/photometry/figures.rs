@@ -1,0 +1,132 @@
+//! The figures that lighting people ask a goniogram for.
+
+use super::{Goniogram, PhotometricType, Symmetry};
+
+/// Step in degrees at which a plane of photometric types A and B is cut.
+const CUT_STEP: f64 = 0.5;
+
+/// Difference, relative to the peak, below which two intensities count as equal where a symmetry is looked for.
+const EQUAL: f64 = 1e-3;
+
+/// Figures of a goniogram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Luminous flux in lm.
+    pub flux: f64,
+    /// Share of it below the horizontal plane (DFF), 0 to 1.
+    pub downward_fraction: f64,
+    /// Flux over the lamps' flux (LORL); `None` where the file states none.
+    pub light_output_ratio: Option<f64>,
+    /// Power in W; `None` where the file states none.
+    pub watts: Option<f64>,
+    /// Luminous efficacy in lm/W.
+    pub efficacy: Option<f64>,
+    /// The greatest intensity in cd.
+    pub peak: f64,
+    /// Its C plane and γ in degrees.
+    pub peak_direction: [f64; 2],
+    /// Where the intensity is 50 % of the plane's greatest, in the planes C0–C180 and C90–C270.
+    pub beam: [Spread; 2],
+    /// The same at 10 %.
+    pub field: [Spread; 2],
+    /// The highest symmetry within 0.1 % of the peak.
+    pub symmetry: Symmetry,
+}
+
+/// The range of directions in a plane in which the intensity exceeds a share of the plane's greatest: the outermost ones in the hemisphere
+/// that holds the greatest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// Angles in degrees from nadir, or from zenith for light that goes up; negative towards C180 or C270.
+    pub range: [f64; 2],
+    /// Whether the angles are from zenith.
+    pub up: bool,
+}
+
+impl Spread {
+    /// The angle between the two directions in degrees.
+    pub fn angle(&self) -> f64 {
+        self.range[1] - self.range[0]
+    }
+}
+
+impl Goniogram {
+    /// The figures of this goniogram.
+    pub fn figures(&self) -> Figures {
+        let flux = self.flux();
+        let lamps = self.lamps();
+        let watts = lamps.map(|lamps| lamps.watts).filter(|watts| *watts > 0.0);
+        let [c0, c90] = [self.cut(0.0), self.cut(90.0)];
+        Figures {
+            flux,
+            downward_fraction: if flux > 0.0 { self.flux_below() / flux } else { 0.0 },
+            light_output_ratio: lamps.and_then(|lamps| lamps.flux).map(|lamp_flux| flux / lamp_flux),
+            watts,
+            efficacy: watts.map(|watts| flux / watts),
+            peak: self.peak(),
+            peak_direction: self.peak_direction(),
+            beam: [spread(&c0, 0.5), spread(&c90, 0.5)],
+            field: [spread(&c0, 0.1), spread(&c90, 0.1)],
+            symmetry: self.symmetry_found(EQUAL),
+        }
+    }
+
+    /// C plane and γ in degrees of the greatest intensity.
+    fn peak_direction(&self) -> [f64; 2] {
+        let peak = self.peak();
+        let index = self.intensities.iter().position(|intensity| *intensity >= peak).unwrap_or(0);
+        let count = self.vertical.len().max(1);
+        let angle = |angles: &[f64], index: usize| angles.get(index).copied().unwrap_or(0.0);
+        let (h, v) = (angle(&self.horizontal, index / count), angle(&self.vertical, index % count));
+        let [c, gamma] = PhotometricType::C.angles(self.photometric_type.direction(h, v));
+        if self.photometric_type == PhotometricType::C { [h, v] } else { [c.rem_euclid(360.0), gamma] }
+    }
+
+    /// Intensities in cd in the plane through C(c) and the one across from it, with γ in degrees, negative in the latter; in increasing order.
+    pub(crate) fn cut(&self, c: f64) -> Vec<[f64; 2]> {
+        let own = self.photometric_type == PhotometricType::C;
+        let count = (180.0 / CUT_STEP) as usize;
+        let angles = if own { self.vertical.clone() } else { (0..=count).map(|index| index as f64 * CUT_STEP).collect() };
+        let at = |c: f64, gamma: f64| {
+            if own { self.intensity_at(c, gamma) } else { self.intensity(PhotometricType::C.direction(c, gamma)) }
+        };
+        let across = angles.iter().rev().filter(|gamma| **gamma > 0.0).map(|gamma| [-gamma, at(c + 180.0, *gamma)]);
+        across.chain(angles.iter().map(|gamma| [*gamma, at(c, *gamma)])).collect()
+    }
+}
+
+/// The outermost directions of a cut that reach a share of its greatest intensity.
+fn spread(cut: &[[f64; 2]], share: f64) -> Spread {
+    let below = |point: &&[f64; 2]| point[0].abs() <= 90.0;
+    let above = |point: &&[f64; 2]| point[0].abs() >= 90.0;
+    let top = |points: &mut dyn Iterator<Item = &[f64; 2]>| points.map(|point| point[1]).fold(0.0, f64::max);
+    let tops = [top(&mut cut.iter().filter(below)), top(&mut cut.iter().filter(above))];
+    let up = tops[1] > tops[0];
+    let mut points: Vec<[f64; 2]> = cut.iter().filter(|point| if up { above(point) } else { below(point) }).copied().collect();
+    if up {
+        points.iter_mut().for_each(|point| point[0] = (180.0 - point[0].abs()) * point[0].signum());
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
+    let level = share * tops[usize::from(up)];
+    let mut ends = [0.0; 2];
+    if level > 0.0 {
+        ends[0] = crossing(points.iter(), level);
+        ends[1] = crossing(points.iter().rev(), level);
+    }
+    Spread { range: ends, up }
+}
+
+/// Where points in order first reach a level, linear between them.
+fn crossing<'a>(points: impl Iterator<Item = &'a [f64; 2]>, level: f64) -> f64 {
+    let mut before: Option<&[f64; 2]> = None;
+    for point in points {
+        if point[1] >= level {
+            return match before {
+                Some(before) => before[0] + (level - before[1]) / (point[1] - before[1]) * (point[0] - before[0]),
+                None => point[0],
+            };
+        }
+        before = Some(point);
+    }
+    0.0
+}

@@ -1,0 +1,101 @@
+"""`gonio photometry`: figures, drawings and conversions of a file that the test writes."""
+
+import json
+import math
+import xml.etree.ElementTree as ET
+
+import pytest
+
+LAMBERTIAN_LM = 500.0
+
+
+@pytest.fixture(scope="module")
+def luminaire(tmp_path_factory):
+    """A Lambertian downlight of 500 lm, in cd/klm of two alternative lamps."""
+    angles = [i * 2.5 for i in range(37)]
+    head = "ACME;1;1;1;0;37;2.5;report 7;Downlight;DL-1;dl.ldt;today;200;0;50;180;0;0;0;0;0;100;50;1,0;0;2"
+    lamps = "1;LED;1000;3000 K;90;10;2;LED;3000;4000 K;80;24"
+    candela = [1000 / math.pi * 0.5 * math.cos(math.radians(angle)) for angle in angles]
+    values = [*head.split(";"), *lamps.split(";"), *["0.5"] * 10, 0, *angles, *candela]
+    path = tmp_path_factory.mktemp("luminaire") / "downlight.ldt"
+    path.write_bytes("\r\n".join(str(value) for value in values).encode("latin-1"))
+    return path
+
+
+def facts(run, *arguments):
+    return json.loads(run("photometry", *arguments, "--json").stdout)
+
+
+def test_figures(run, luminaire):
+    found = facts(run, luminaire)
+    assert found["flux_lm"] == pytest.approx(LAMBERTIAN_LM, rel=1e-3)
+    assert found["peak_cd"] == pytest.approx(LAMBERTIAN_LM / math.pi)
+    assert found["efficacy_lm_per_w"] == pytest.approx(50, rel=1e-3)
+    assert found["beam_angle_deg"] == pytest.approx([120, 120], abs=0.1)
+    assert found["light_output_ratio"] == pytest.approx(0.5, rel=1e-3)
+    assert found["downward_fraction"] == pytest.approx(1)
+    assert found["symmetry_found"] == "rotational"
+    assert found["opening"]["shape"] == "disk"
+    assert found["warnings"] == []
+
+
+def test_text(run, luminaire):
+    text = run("photometry", luminaire).stdout
+    for part in ("luminaire: Downlight", "flux: 499.9 lm", "lamp set 1 (in use): 1 × LED, 1000 lm", "lamp set 2: 2 × LED, 3000 lm"):
+        assert part in text
+
+
+def test_lamp_sets_are_alternatives(run, luminaire):
+    other = facts(run, luminaire, "--lamp-set", 2)
+    assert other["flux_lm"] == pytest.approx(3 * LAMBERTIAN_LM, rel=1e-3)
+    assert other["watts"] == 24
+    wrong = run("photometry", luminaire, "--lamp-set", 3)
+    assert wrong.returncode == 1
+    assert "lamp set 3 was asked for, the file has 2" in wrong.stderr
+
+
+def test_drawings(run, luminaire, tmp_path):
+    polar, cone = tmp_path / "polar.svg", tmp_path / "cone.svg"
+    run("photometry", luminaire, "--polar", polar, "--cone", cone)
+    assert ET.parse(polar).getroot().tag.endswith("svg")
+    # E = I / d².
+    assert f"1 m, {LAMBERTIAN_LM / math.pi:.0f} lx" in cone.read_text()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["cone.svg", "polar.svg"]
+
+
+def test_conversion_keeps_the_light(run, luminaire, tmp_path):
+    whole = facts(run, luminaire)
+    for name in ("out.ies", "out.ldt"):
+        run("photometry", luminaire, "--convert", tmp_path / name, "--rotate", 90)
+        again = facts(run, tmp_path / name)
+        assert again["flux_lm"] == pytest.approx(whole["flux_lm"], rel=1e-6)
+        assert again["opening"]["size_m"] == pytest.approx(whole["opening"]["size_m"])
+        assert again["light_output_ratio"] == pytest.approx(whole["light_output_ratio"], rel=1e-6)
+
+
+def test_a_stated_flux_that_is_wrong_is_told(run, luminaire, tmp_path):
+    lines = luminaire.read_text("latin-1").split("\n")
+    lines[22] = "80"
+    path = tmp_path / "wrong.ldt"
+    path.write_text("\n".join(lines), "latin-1")
+    (warning,) = facts(run, path)["warnings"]
+    assert "80.0000 % of 1000 lm" in warning
+
+
+def test_errors_are_one_line_with_place(run, luminaire, tmp_path):
+    lines = luminaire.read_text("latin-1").split("\n")
+    lines[60] = "rubbish"
+    path = tmp_path / "broken.ldt"
+    path.write_text("\n".join(lines), "latin-1")
+    for arguments, expected in [
+        ((path,), "broken.ldt:61: 'rubbish' was found"),
+        ((tmp_path / "none.ies",), "none.ies"),
+        ((luminaire, "--polar", tmp_path / "polar.png"), "the ending is 'png', expected svg"),
+        ((luminaire, "--convert", tmp_path / "out.txt"), "the ending is 'txt', expected ies or ldt"),
+        ((luminaire, "--rotate", "nan"), "expected degrees"),
+    ]:
+        failed = run("photometry", *arguments)
+        assert failed.returncode == 1
+        assert expected in failed.stderr
+        assert len(failed.stderr.strip().split("\n")) == 1
+    assert [entry.name for entry in tmp_path.iterdir()] == ["broken.ldt"]

@@ -1,0 +1,218 @@
+//! `gonio photometry`.
+
+use super::{arguments::PhotometryOptions, print};
+use gonio::{Error, Result, output::write_atomically};
+use gonio_formats::photometry::{
+    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt, polar_diagram, read,
+};
+use gonio_formats::{FormatError, Place};
+use serde_json::{Value, json};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::Path;
+
+/// The longest file in bytes: hundreds of times the longest luminaire's.
+const LONGEST: u64 = 256 << 20;
+
+/// Reads the file, says what it holds, and writes what was asked for.
+pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
+    for (option, path, endings) in outputs(options) {
+        check_ending(option, path, endings)?;
+    }
+    let goniogram = load(options)?;
+    let figures = goniogram.figures();
+    for (option, path, _) in outputs(options) {
+        let bytes = match option {
+            "polar" => polar_diagram(&goniogram, PolarUnit::CandelaPerKilolumen).into_bytes(),
+            "cone" => cone_diagram(&goniogram).into_bytes(),
+            _ if ending(path) == "ldt" => ldt::write(&goniogram),
+            _ => ies::write(&goniogram),
+        };
+        write_atomically(path, true, |file| file.write_all(&bytes))?;
+    }
+    if options.json {
+        print(&as_json(options, &goniogram, &figures).to_string());
+    } else {
+        as_text(&goniogram, &figures).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+/// The files asked for, with their option and the endings it takes.
+fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &Path, &'static [&'static str])> {
+    let all: [(_, _, &'static [&'static str]); 3] =
+        [("polar", &options.polar, &["svg"]), ("cone", &options.cone, &["svg"]), ("convert", &options.convert, &["ies", "ldt"])];
+    all.into_iter().filter_map(|(option, path, endings)| Some((option, path.as_deref()?, endings)))
+}
+
+fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+fn check_ending(option: &str, path: &Path, endings: &[&str]) -> Result<()> {
+    let found = ending(path);
+    if endings.contains(&found.as_str()) {
+        return Ok(());
+    }
+    let problem = format!("{}: the ending is '{found}', expected {}", path.display(), endings.join(" or "));
+    Err(Error::Setting { name: option.into(), problem })
+}
+
+/// The file's goniogram, for the lamps and with the turn that were asked for.
+fn load(options: &PhotometryOptions) -> Result<Goniogram> {
+    let path = &options.file;
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| Error::io(path, error))?;
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
+    if bytes.len() as u64 > LONGEST {
+        let problem = format!("more than {LONGEST} bytes: no luminaire's file");
+        return Err(Error::Format { path: path.clone(), line: None, problem });
+    }
+    let mut goniogram = read(&bytes, &path.to_string_lossy()).map_err(|error| in_file(path, error))?;
+    if let Some(number) = options.lamp_set {
+        let chosen = goniogram.with_lamp_set(number as usize - 1);
+        goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;
+    }
+    match options.rotate {
+        Some(degrees) if !degrees.is_finite() => {
+            Err(Error::Setting { name: "rotate".into(), problem: format!("{degrees} was found, expected degrees") })
+        }
+        Some(degrees) => Ok(goniogram.rotated(degrees)),
+        None => Ok(goniogram),
+    }
+}
+
+fn in_file(path: &Path, error: FormatError) -> Error {
+    let line = match error.place {
+        Some(Place::Line(line)) => Some(line),
+        _ => None,
+    };
+    Error::Format { path: path.to_owned(), line, problem: error.problem }
+}
+
+fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures) -> Value {
+    json!({
+        "file": options.file.to_string_lossy(),
+        "photometric_type": type_name(goniogram.photometric_type),
+        "symmetry": symmetry_name(goniogram.symmetry),
+        "symmetry_found": symmetry_name(figures.symmetry),
+        "planes": goniogram.horizontal.len(),
+        "angles": goniogram.vertical.len(),
+        "flux_lm": figures.flux,
+        "downward_fraction": figures.downward_fraction,
+        "light_output_ratio": figures.light_output_ratio,
+        "watts": figures.watts,
+        "efficacy_lm_per_w": figures.efficacy,
+        "peak_cd": figures.peak,
+        "peak_direction_deg": figures.peak_direction,
+        "beam_angle_deg": figures.beam.map(|spread| spread.angle()),
+        "field_angle_deg": figures.field.map(|spread| spread.angle()),
+        "opening": json!({
+            "shape": shape_name(goniogram.opening.shape),
+            "size_m": goniogram.opening.size,
+            "heights_m": goniogram.opening.heights,
+        }),
+        "lamp_set": goniogram.lamp_set + 1,
+        "lamp_sets": goniogram.lamp_sets.iter().map(lamps_json).collect::<Vec<_>>(),
+        "header": goniogram.header.iter().map(|line| [&line.keyword, &line.text]).collect::<Vec<_>>(),
+        "warnings": goniogram.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    })
+}
+
+fn lamps_json(set: &LampSet) -> Value {
+    json!({
+        "count": set.count,
+        "name": set.name,
+        "flux_lm": set.flux,
+        "absolute": set.absolute,
+        "watts": set.watts,
+        "colour": set.colour,
+        "colour_rendering": set.colour_rendering,
+    })
+}
+
+fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (keyword, name) in [("MANUFAC", "manufacturer"), ("LUMINAIRE", "luminaire"), ("LUMCAT", "number"), ("TEST", "test"), ("DATE", "date")] {
+        lines.extend(goniogram.text(keyword).map(|text| format!("{name}: {text}")));
+    }
+    lines.push(format!(
+        "photometry: type {}, {}, {} planes of {} angles; found: {}",
+        type_name(goniogram.photometric_type),
+        symmetry_name(goniogram.symmetry),
+        goniogram.horizontal.len(),
+        goniogram.vertical.len(),
+        symmetry_name(figures.symmetry)
+    ));
+    let ratio = figures.light_output_ratio.map_or(String::new(), |ratio| format!(", {:.1} % of the lamps'", ratio * 100.0));
+    lines.push(format!("flux: {:.1} lm{ratio}, {:.1} % of it down", figures.flux, figures.downward_fraction * 100.0));
+    if let Some((watts, efficacy)) = figures.watts.zip(figures.efficacy) {
+        lines.push(format!("power: {watts} W, {efficacy:.1} lm/W"));
+    }
+    let [c, gamma] = figures.peak_direction;
+    lines.push(format!("peak: {:.1} cd at C {c}°, γ {gamma}°", figures.peak));
+    lines.push(format!("beam angle (50 %): {}", spreads(&figures.beam)));
+    lines.push(format!("field angle (10 %): {}", spreads(&figures.field)));
+    lines.push(format!("opening: {}", opening(&goniogram.opening)));
+    for (index, set) in goniogram.lamp_sets.iter().enumerate() {
+        let here = if index == goniogram.lamp_set && goniogram.lamp_sets.len() > 1 { " (in use)" } else { "" };
+        lines.push(format!("lamp set {}{here}: {}", index + 1, lamps(set)));
+    }
+    lines.extend(goniogram.warnings.iter().map(|warning| format!("warning: {warning}")));
+    // Texts of a file must not reach into the terminal.
+    lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
+}
+
+fn spreads([c0, c90]: &[Spread; 2]) -> String {
+    let about = if c0.up { ", about zenith" } else { "" };
+    format!("{:.1}° in C0–C180, {:.1}° in C90–C270{about}", c0.angle(), c90.angle())
+}
+
+fn opening(opening: &Opening) -> String {
+    let [x, y, z] = opening.size;
+    match opening.shape {
+        OpeningShape::Point => shape_name(opening.shape).to_owned(),
+        shape => format!("{}, {x:.3} m along C0, {y:.3} m along C90, {z:.3} m high", shape_name(shape)),
+    }
+}
+
+fn lamps(set: &LampSet) -> String {
+    let flux = set.flux.map_or("no flux stated".to_owned(), |flux| format!("{flux} lm"));
+    let kind = if set.absolute { "absolute" } else { "relative" };
+    let texts = [set.name.as_str(), flux.as_str(), kind, set.colour.as_str(), set.colour_rendering.as_str()];
+    let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
+    format!("{} × {}, {} W", set.count, texts.join(", "), set.watts)
+}
+
+fn type_name(photometric_type: PhotometricType) -> &'static str {
+    match photometric_type {
+        PhotometricType::A => "A",
+        PhotometricType::B => "B",
+        PhotometricType::C => "C",
+    }
+}
+
+fn symmetry_name(symmetry: Symmetry) -> &'static str {
+    match symmetry {
+        Symmetry::None => "no symmetry",
+        Symmetry::Rotational => "rotational",
+        Symmetry::AboutC0 => "about C0-C180",
+        Symmetry::AboutC90 => "about C90-C270",
+        Symmetry::Quadrants => "quadrants",
+    }
+}
+
+fn shape_name(shape: OpeningShape) -> &'static str {
+    match shape {
+        OpeningShape::Point => "point",
+        OpeningShape::Rectangle => "rectangle",
+        OpeningShape::Box => "box",
+        OpeningShape::Disk => "disk",
+        OpeningShape::VerticalCylinder => "vertical cylinder",
+        OpeningShape::CylinderAlongX => "cylinder along C0",
+        OpeningShape::CylinderAlongY => "cylinder along C90",
+        OpeningShape::Ellipsoid => "ellipsoid",
+        OpeningShape::DiskFacingX => "disk facing C0",
+        OpeningShape::DiskFacingY => "disk facing C90",
+    }
+}
