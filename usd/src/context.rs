@@ -4,10 +4,11 @@ use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
 use crate::vt::FromValue;
-use gonio::scene::{MaterialId, Origin, Scene, TextureId};
+use gonio::scene::{Goniogram, MaterialId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};
 use pyo3::prelude::*;
 use std::collections::HashMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The stage's vertical axis.
@@ -47,6 +48,8 @@ pub struct Context<'a, 'py> {
     pub material_ids: HashMap<String, Option<MaterialId>>,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
+    /// Goniograms by a key of their reader's choice; `None` for those that could not be read.
+    pub goniograms: HashMap<String, Option<Arc<Goniogram>>>,
     /// Prims met, by type.
     pub prim_counts: HashMap<String, usize>,
     diagnostics: Vec<Diagnostic>,
@@ -73,6 +76,7 @@ impl<'a, 'py> Context<'a, 'py> {
             up_axis: UpAxis::Y,
             material_ids: HashMap::new(),
             texture_ids: HashMap::new(),
+            goniograms: HashMap::new(),
             prim_counts: HashMap::new(),
             diagnostics: Vec::new(),
             tallies: HashMap::new(),

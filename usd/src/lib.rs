@@ -3,11 +3,13 @@
 //! [`load_stage`] does it all; [`Stage::open`] and [`Stage::load`] apart read one stage at many times. Traversal makes *models* of the world
 //! and of each prototype (`traverse`), which are then multiplied out into the scene's instances (`place`).
 
+pub mod asset;
 pub mod build;
 pub mod camera;
 pub mod cli;
 pub mod context;
 pub mod framing;
+mod goniogram;
 pub mod instancer;
 pub mod light;
 pub mod material;

@@ -1,14 +1,17 @@
 //! UsdLux lights as light sources of the scene, by the formulas of its schema: intensity 1 is 1 cd/m².
 
 use crate::context::{Context, UpAxis};
+use crate::goniogram::{Request, goniogram};
 use crate::material::{stated_colour_space, texture, to_linear_rec709};
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::{AssetPath, FromValue};
 use gonio::scene::{
-    Channel, DomeFormat, Emission, Input, Light, LightShape, Material, MaterialId, Operation, Shaping, TextureId, Transform, Visibility,
+    Channel, DomeFormat, Emission, Goniogram, Input, Light, LightShape, Material, MaterialId, Operation, Shaping, TextureId, Transform,
+    Visibility,
 };
 use pyo3::{intern, prelude::*};
+use std::sync::Arc;
 
 /// Half angle from which on a cone takes nothing away, degrees.
 const FULL_CONE: f32 = 180.0;
@@ -44,11 +47,13 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
     };
     let has_texture = is_dome || matches!(shape, LightShape::Rectangle { .. });
     report_left_out(context, prim);
+    let goniogram = if shape.is_at_infinity() { None } else { measured(context, prim) };
     Some(Light {
         origin: prim.origin(),
         shape,
         emission,
         shaping: shaping(context, prim, &shape),
+        goniogram,
         texture: if has_texture { light_texture(context, prim) } else { None },
         transform: if is_dome { dome_transform(context, prim, &type_name, transform) } else { *transform },
         visibility: Visibility { camera: is_seen_by_camera(context, prim), ..Visibility::default() },
@@ -175,12 +180,7 @@ fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightS
     if !is_applied && !is_authored {
         return Shaping::default();
     }
-    let profile: Option<AssetPath> = input(context, prim, "shaping:ies:file");
-    if let Some(AssetPath { authored, .. }) = profile.filter(|path| !path.authored.is_empty()) {
-        let message = format!("the light distribution '{authored}' is not supported for UsdLux lights; the light counts as uniform");
-        context.once("ies", &authored, &prim.origin(), || message.clone());
-    }
-    if matches!(shape, LightShape::Dome { .. } | LightShape::Distant { .. }) {
+    if shape.is_at_infinity() {
         context.unsupported("shaping of lights at infinity", &prim.origin());
         return Shaping::default();
     }
@@ -193,6 +193,17 @@ fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightS
         focus: focus.max(0.0),
         focus_tint: input(context, prim, "shaping:focusTint").unwrap_or([0.0; 3]),
     }
+}
+
+/// The light distribution of the shaping's file.
+fn measured<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<Goniogram>> {
+    let path: AssetPath = input(context, prim, "shaping:ies:file")?;
+    if path.authored.is_empty() {
+        return None;
+    }
+    let angle_scale: f32 = input(context, prim, "shaping:ies:angleScale").unwrap_or(0.0);
+    let normalized = input(context, prim, "shaping:ies:normalize").unwrap_or(false);
+    goniogram(context, prim, &path, Request { angle_scale: if angle_scale.is_finite() { angle_scale } else { 0.0 }, normalized })
 }
 
 fn casts_shadow<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {

@@ -2,9 +2,10 @@
 
 use super::network::{Network, Shader};
 use super::value::{Source, Value, stated_colour_space};
+use crate::asset;
 use crate::context::Context;
 use crate::prim::Attribute;
-use crate::pxr::{self, Module};
+use crate::pxr::Module;
 use crate::vt::AssetPath;
 use gonio::colour::ColourSpace;
 use gonio::scene::{Input, Operation, Origin, Texture, TextureId, TextureSource};
@@ -35,20 +36,9 @@ fn open(py: Python<'_>, place: &str) -> Result<TextureSource, String> {
         return Ok(TextureSource::File(place.into()));
     }
     // Inside a package, or behind a resolver of its own: only the asset system can open it.
-    let read = || -> PyResult<Option<Vec<u8>>> {
-        let resolved = Module::Ar.item(py, "ResolvedPath")?.call1((place,))?;
-        let asset = Module::Ar.item(py, "GetResolver")?.call0()?.call_method1(intern!(py, "OpenAsset"), (resolved,))?;
-        if asset.is_none() {
-            return Ok(None);
-        }
-        asset.call_method0(intern!(py, "GetBuffer"))?.extract().map(Some)
-    };
+    let bytes = asset::bytes(py, place).map_err(|problem| format!("the image '{place}' {problem}"))?;
     let name = place.trim_end_matches(']').rsplit(['/', '[']).next().unwrap_or(place).to_owned();
-    match read() {
-        Ok(Some(bytes)) => Ok(TextureSource::Encoded { name, bytes: Arc::from(bytes) }),
-        Ok(None) => Err(format!("the image '{place}' cannot be opened")),
-        Err(error) => Err(format!("the image '{place}' cannot be opened: {}", pxr::message_of(py, &error))),
-    }
+    Ok(TextureSource::Encoded { name, bytes: Arc::from(bytes) })
 }
 
 /// The image that an asset-valued attribute names, added to the scene once for each file and colour space; `None`, with a warning that names

@@ -73,6 +73,13 @@ pub enum LightShape {
     },
 }
 
+impl LightShape {
+    /// Whether the light has no place.
+    pub fn is_at_infinity(&self) -> bool {
+        matches!(self, Self::Distant { .. } | Self::Dome { .. })
+    }
+}
+
 /// How strong the light is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Emission {

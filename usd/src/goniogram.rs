@@ -1,0 +1,106 @@
+//! IES and EULUMDAT files of UsdLux's ShapingAPI, literally by its specification: factors on the light's radiance, not candela.
+
+use crate::asset;
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::vt::AssetPath;
+use gonio::scene::{Goniogram, Origin, PhotometricType};
+use gonio_formats::{Place, photometry};
+use std::{f64::consts::PI, sync::Arc};
+
+/// What a light asks of its file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Request {
+    /// `shaping:ies:angleScale`.
+    pub(crate) angle_scale: f32,
+    /// `shaping:ies:normalize`.
+    pub(crate) normalized: bool,
+}
+
+/// The goniogram that a light's file holds, the same one for all lights that ask the same of it; `None`, with a warning that names the prim and
+/// the file, where there is none.
+pub(crate) fn goniogram<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    path: &AssetPath,
+    request: Request,
+) -> Option<Arc<Goniogram>> {
+    let key = format!("{}\n{}\n{}", path.resolved, request.angle_scale.to_bits(), request.normalized);
+    if let Some(known) = context.goniograms.get(&key) {
+        return known.clone();
+    }
+    let origin = prim.origin();
+    let read = read(context, path, &origin).map(|found| Arc::new(requested(context, &origin, found, request)));
+    context.goniograms.insert(key, read.clone());
+    read
+}
+
+fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {
+    let AssetPath { authored, resolved } = path;
+    let found = if resolved.is_empty() {
+        Err(format!("the light distribution '{authored}' does not exist"))
+    } else {
+        let bytes = asset::bytes(context.py, resolved).map_err(|problem| format!("the light distribution '{resolved}' {problem}"));
+        bytes.and_then(|bytes| photometry::read(&bytes, resolved).map_err(|error| in_file(resolved, &error)))
+    };
+    match found {
+        Ok(goniogram) => {
+            for warning in &goniogram.warnings {
+                context.note(origin, in_file(resolved, warning));
+            }
+            Some(goniogram)
+        }
+        Err(problem) => {
+            context.warn(origin, format!("{problem}; the light counts as uniform"));
+            None
+        }
+    }
+}
+
+/// A problem with its file, and its line if it is at one.
+fn in_file(file: &str, error: &gonio_formats::FormatError) -> String {
+    match error.place {
+        Some(Place::Line(line)) => format!("{file}:{line}: {}", error.problem),
+        _ => format!("{file}: {}", error.problem),
+    }
+}
+
+/// The factors as the light asks for them.
+fn requested(context: &mut Context<'_, '_>, origin: &Origin, found: photometry::Goniogram, request: Request) -> Goniogram {
+    let grid = found.expanded();
+    let is_polar = found.photometric_type == photometry::PhotometricType::C;
+    if request.angle_scale != 0.0 && !is_polar {
+        context.warn(origin, "ies:angleScale is for distributions of type C; it is ignored");
+    }
+    let factor = if request.normalized { normalization(&found) } else { 1.0 };
+    let scale = if is_polar { f64::from(request.angle_scale) } else { 0.0 };
+    Goniogram {
+        photometric_type: match found.photometric_type {
+            photometry::PhotometricType::C => PhotometricType::C,
+            photometry::PhotometricType::B => PhotometricType::B,
+            photometry::PhotometricType::A => PhotometricType::A,
+        },
+        horizontal_deg: grid.horizontal.iter().map(|angle| *angle as f32).collect(),
+        vertical_deg: grid.vertical.iter().map(|angle| scaled(*angle, scale) as f32).collect(),
+        factors: grid.intensities.iter().map(|intensity| (intensity * factor) as f32).collect(),
+    }
+}
+
+/// One over the mean of the intensities over the sphere, or over the half of it that the file covers.
+fn normalization(found: &photometry::Goniogram) -> f64 {
+    let span = found.vertical.last().zip(found.vertical.first()).map_or(0.0, |(last, first)| (last - first).to_radians());
+    let solid_angle = if span > PI / 2.0 + 0.1 { 4.0 * PI } else { 2.0 * PI };
+    let mean = found.flux() / solid_angle;
+    if mean > 0.0 { 1.0 / mean } else { 0.0 }
+}
+
+/// Where a polar angle of the file comes to lie, degrees: scaled about nadir, or about the zenith where the scale is negative.
+fn scaled(angle: f64, scale: f64) -> f64 {
+    if scale > 0.0 {
+        angle * scale
+    } else if scale < 0.0 {
+        180.0 - (180.0 - angle) * -scale
+    } else {
+        angle
+    }
+}
