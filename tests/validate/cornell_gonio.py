@@ -1,22 +1,15 @@
 """The Cornell box in gonio."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import cornell
 import gonio
 import numpy
 
-MAGIC = b"gonio1\n"
 
-
-def render(variant: str, samples: int, seed: int, folder: Path) -> numpy.ndarray:
+def render(variant: str, samples: int, seed: int) -> numpy.ndarray:
     """Radiance (height, width, 3), top row first."""
-    scene = described(variant, samples, seed)
-    bundle = folder / f"{variant}.gonio"
-    write_bundle(bundle, with_fixed_filter(scene.to_dict(), variant))
-    with gonio.Render(gonio.Scene.load(bundle)) as rendering:
+    with gonio.Render(described(variant, samples, seed)) as rendering:
         for _ in rendering:
             pass
         return numpy.asarray(rendering.film()["color"])[:, :, :3].astype("f8")
@@ -27,14 +20,25 @@ def described(variant: str, samples: int, seed: int) -> gonio.Scene:
     size = cornell.RESOLUTION
     scene = gonio.Scene()
     scene.set(width=size, height=size, samples=samples, seed=seed, max_bounces=cornell.MAX_BOUNCES, passes=["color"])
+    scene.set(filter="box", filter_width=1.0)
     for part in cornell.parts(variant):
         mesh = scene.add_mesh(part.points, part.triangles, name=part.name)
-        scene.add_instance(mesh, [scene.add_material(part.name, **parameters(part.surface))], name=part.name)
+        material = scene.add_material(part.name, **parameters(part.surface))
+        if isinstance(part.surface, cornell.Principled):
+            follow_blender(scene, material)
+        scene.add_instance(mesh, [material], name=part.name)
     radiance = [cornell.LIGHT_RADIANCE] * 3
     matrix = cornell.light_matrix()
     scene.add_light("rectangle", radiance, transform=matrix, width=cornell.LIGHT_WIDTH, height=cornell.LIGHT_DEPTH)
     scene.add_camera(cornell.camera_matrix(), fov=cornell.CAMERA_FOV)
     return scene
+
+
+def follow_blender(scene: gonio.Scene, material: int) -> None:
+    """Lets a material follow the rules of Blender's Principled BSDF."""
+    description = scene.to_dict()["materials"][material]
+    description["closures"][0]["model"] = "Principled"
+    scene.put_material(description, material)
 
 
 def parameters(surface: cornell.Surface) -> dict[str, Any]:
@@ -58,18 +62,3 @@ def parameters(surface: cornell.Surface) -> dict[str, Any]:
                 "coat_roughness": surface.coat_roughness,
                 "coat_ior": 1.5,
             }
-
-
-def with_fixed_filter(scene: dict[str, Any], variant: str) -> dict[str, Any]:
-    """What the Python module has no keyword for: the pixel filter, and whose rules a material follows."""
-    scene["settings"] |= {"filter": "Box", "filter_width": 1.0}
-    for material, part in zip(scene["materials"], cornell.parts(variant), strict=True):
-        if isinstance(part.surface, cornell.Principled):
-            material["model"] = "Principled"
-    return scene
-
-
-def write_bundle(path: Path, scene: dict[str, Any]) -> None:
-    """Writes a scene bundle."""
-    text = json.dumps(scene).encode()
-    path.write_bytes(MAGIC + f"{len(text)}\n".encode() + text)

@@ -63,10 +63,10 @@ def twice(render: Callable[[int], numpy.ndarray], samples: int) -> compare.Measu
 
 
 @cache
-def ours(variant: str, folder: Path) -> compare.Measured:
+def ours(variant: str) -> compare.Measured:
     """A variant in gonio."""
     samples = SAMPLES[variant]
-    return twice(lambda seed: cornell_gonio.render(variant, samples, seed, folder), samples)
+    return twice(lambda seed: cornell_gonio.render(variant, samples, seed), samples)
 
 
 def theirs(variant: str, other: str, folder: Path) -> compare.Measured:
@@ -92,7 +92,7 @@ def theirs(variant: str, other: str, folder: Path) -> compare.Measured:
 def test_blocks_agree(variant: str, other: str, folder: Path, rows: list[str]) -> None:
     """Blocks agree within the noise of both and the tables of energy compensation."""
     reference = theirs(variant, other, folder)
-    image = ours(variant, folder)
+    image = ours(variant)
     found = compare.difference(image.image, reference.image)
     picture = f"validation-cornell-{variant}-{other}.png"
     compare.write_strip(OUT / picture, image.image, reference.image)
