@@ -3,7 +3,8 @@
 use super::{arguments::PhotometryOptions, print};
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::photometry::{
-    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt, polar_diagram, read,
+    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt,
+    polar_diagram, read,
 };
 use gonio_formats::{FormatError, Place};
 use serde_json::{Value, json};
@@ -133,7 +134,9 @@ fn lamps_json(set: &LampSet) -> Value {
 
 fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
     let mut lines = Vec::new();
-    for (keyword, name) in [("MANUFAC", "manufacturer"), ("LUMINAIRE", "luminaire"), ("LUMCAT", "number"), ("TEST", "test"), ("DATE", "date")] {
+    for (keyword, name) in
+        [("MANUFAC", "manufacturer"), ("LUMINAIRE", "luminaire"), ("LUMCAT", "number"), ("TEST", "test"), ("DATE", "date")]
+    {
         lines.extend(goniogram.text(keyword).map(|text| format!("{name}: {text}")));
     }
     lines.push(format!(

@@ -29,9 +29,9 @@ struct Head {
 
 /// Reads an IES LM-63 file of any revision, photometric type and unit.
 ///
-/// Candela are the file's values times its multiplier and ballast factor, and until LM-63-1991 times the ballast-lamp photometric factor; the
-/// number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. `TILT=INCLUDE` is kept and not
-/// applied; a named TILT file is reported as a warning.
+/// Candela are the file's values times its multiplier and ballast factor, and until LM-63-1991 times the ballast-lamp photometric factor;
+/// the number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. `TILT=INCLUDE` is kept
+/// and not applied; a named TILT file is reported as a warning.
 ///
 /// # Errors
 /// Anything without one sensible reading, with the line.
