@@ -48,6 +48,6 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
     } else if ending == "ies" {
         ies::read(bytes)
     } else {
-        Err(FormatError::whole("neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
+        Err(FormatError::line(1, "neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
     }
 }

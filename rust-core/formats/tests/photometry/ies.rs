@@ -41,7 +41,7 @@ fn horizontal_ranges_tell_the_symmetry() {
         (vec![90.0, 100.0, 270.0], Symmetry::AboutC90, 0),
         (vec![-90.0, 10.0, 90.0], Symmetry::AboutC90, 1),
         (vec![180.0, 190.0, 360.0], Symmetry::AboutC0, 1),
-        (vec![0.0, 120.0, 240.0, 360.0], Symmetry::None, 0),
+        (vec![0.0, 120.0, 240.0, 360.0], Symmetry::None, 1),
         (vec![0.0, 120.0, 240.0], Symmetry::None, 1),
         (vec![-180.0, 0.0, 120.0, 180.0], Symmetry::None, 1),
     ] {
