@@ -1,7 +1,7 @@
 //! Fuzzing of the readers on stable Rust: `cargo run --release -p gonio-formats --example fuzz -- READER SECONDS [SEED]`.
 //!
-//! Good files are broken in the ways that files break, and worse. A panic, more than a second for one input, or more memory than 64 times the
-//! input's size and a fixed part is a finding: its bytes are written to `fuzz-READER-SEED.bin`, and the run ends with status 1.
+//! Good files are broken in the ways that files break, and worse. A panic, more than a second for one input, or more memory than 64 times
+//! the input's size and a fixed part is a finding: its bytes are written to `fuzz-READER-SEED.bin`, and the run ends with status 1.
 
 mod memory;
 mod mutate;

@@ -72,7 +72,12 @@ fn planes(table: &mut Table, warnings: &mut Vec<FormatError>) -> Result<Symmetry
         return Ok(Symmetry::Rotational);
     }
     match (last - first, first.rem_euclid(360.0)) {
-        (360.0, 0.0) if first == 0.0 => Ok(Symmetry::None),
+        (360.0, 0.0) if first == 0.0 => {
+            if table.has_seam() {
+                note("the planes at both ends differ, which are one");
+            }
+            Ok(Symmetry::None)
+        }
         (360.0, _) => {
             note("brought to 0 to 360");
             table.drop_last_plane();

@@ -130,6 +130,14 @@ impl Table {
         self.vertical.pick(vertical);
     }
 
+    /// Whether the first and the last plane differ by more than 1 % of the greatest intensity.
+    pub(crate) fn has_seam(&self) -> bool {
+        let count = self.vertical.angles.len();
+        let limit = 0.01 * self.intensities.iter().copied().fold(0.0, f64::max);
+        let last = self.intensities.len().saturating_sub(count);
+        self.intensities.iter().zip(&self.intensities[last..]).any(|(first, last)| (first - last).abs() > limit)
+    }
+
     /// Gives the planes new angles and sorts them by these.
     pub(crate) fn map_planes(&mut self, angle: impl Fn(f64) -> f64) {
         self.horizontal.angles.iter_mut().for_each(|c| *c = angle(*c));

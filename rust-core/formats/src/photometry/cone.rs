@@ -15,8 +15,8 @@ const HALF_WIDTH: f64 = 150.0;
 /// The steepest half angle whose width is told, in degrees: beyond it a width says nothing.
 const WIDEST: f64 = 85.0;
 
-/// The cone diagram as an SVG document: illuminance E in lx straight on at 1 to 5 m, and the diameters of the beam (half the greatest intensity) in
-/// the planes C0–C180 and C90–C270.
+/// The cone diagram as an SVG document: illuminance E in lx straight on at 1 to 5 m, and the diameters of the beam (half the greatest
+/// intensity) in the planes C0–C180 and C90–C270.
 ///
 /// Light that goes up is drawn about zenith.
 pub fn cone_diagram(goniogram: &Goniogram) -> String {

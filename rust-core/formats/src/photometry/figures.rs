@@ -82,7 +82,8 @@ impl Goniogram {
         if self.photometric_type == PhotometricType::C { [h, v] } else { [c.rem_euclid(360.0), gamma] }
     }
 
-    /// Intensities in cd in the plane through C(c) and the one across from it, with γ in degrees, negative in the latter; in increasing order.
+    /// Intensities in cd in the plane through C(c) and the one across from it, with γ in degrees, negative in the latter; in increasing
+    /// order.
     pub(crate) fn cut(&self, c: f64) -> Vec<[f64; 2]> {
         let own = self.photometric_type == PhotometricType::C;
         let count = (180.0 / CUT_STEP) as usize;

@@ -1,8 +1,9 @@
 //! Luminous flux in closed form, for the same bilinear interpolation that [`Goniogram::intensity`] uses.
 //!
 //! Within a cell the intensity is linear in each angle, so its integral over solid angle is a sum of weights of the tabulated values: of
-//! ∫ (a + bt) dt along the angle about the polar axis, and of ∫ (a + bt) sin t dt = −(a + bt) cos t + b sin t along the angle from it. Types A
-//! and B have their polar axis across nadir, and there the half space below is a range of the angle about the axis: exact as well.
+//! ∫ (a + bt) dt along the angle about the polar axis, and of ∫ (a + bt) sin t dt = −(a + bt) cos t + b sin t along the angle from it.
+//! Types A and B have their polar axis across nadir, and there the half space below is a range of the angle about the axis: exact as
+//! well.
 
 use super::{Goniogram, PhotometricType, Symmetry};
 use std::f64::consts::PI;

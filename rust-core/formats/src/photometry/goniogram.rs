@@ -5,8 +5,8 @@ use crate::FormatError;
 
 /// Luminous intensity of a luminaire by direction, with what its maker says of it.
 ///
-/// Only what a file stores is kept: [`Symmetry`] says how the rest of the sphere follows. Angles are in degrees, strictly increasing; outside of
-/// the vertical angles' range the intensity is zero.
+/// Only what a file stores is kept: [`Symmetry`] says how the rest of the sphere follows. Angles are in degrees, strictly increasing;
+/// outside of the vertical angles' range the intensity is zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goniogram {
     /// How the two angles make a direction.
@@ -15,8 +15,8 @@ pub struct Goniogram {
     pub symmetry: Symmetry,
     /// Horizontal angles (type C: C planes) in degrees, increasing.
     ///
-    /// Type C: one for rotational symmetry, 0 to 180 about C0, 90 to 270 about C90, 0 to 90 for quadrants; without symmetry within 0 to 360, and
-    /// where 360 is not stored the first plane closes the circle.
+    /// Type C: one for rotational symmetry, 0 to 180 about C0, 90 to 270 about C90, 0 to 90 for quadrants; without symmetry within 0 to
+    /// 360, and where 360 is not stored the first plane closes the circle.
     pub horizontal: Vec<f64>,
     /// Vertical angles (type C: γ, 0 at nadir) in degrees, increasing.
     pub vertical: Vec<f64>,

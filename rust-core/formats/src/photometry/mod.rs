@@ -1,7 +1,8 @@
 //! Goniograms: luminous intensity by direction, as luminaires' makers hand it out.
 //!
-//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019) and EULUMDAT files and gives one [`Goniogram`] in candela and metres; [`ies`] and
-//! [`ldt`] hold the two formats' readers and writers, [`polar_diagram`] and [`cone_diagram`] the two drawings that lighting people look for.
+//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019) and EULUMDAT files and gives one [`Goniogram`] in candela and metres; [`ies`]
+//! and [`ldt`] hold the two formats' readers and writers, [`polar_diagram`] and [`cone_diagram`] the two drawings that lighting people
+//! look for.
 //!
 //! The luminaire's frame: the photometric zero direction (γ = 0, nadir) is −Z, C0 is +X, C90 is +Y.
 
@@ -47,6 +48,6 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
     } else if ending == "ies" {
         ies::read(bytes)
     } else {
-        Err(FormatError::whole("neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
+        Err(FormatError::line(1, "neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
     }
 }

@@ -43,8 +43,8 @@ impl Goniogram {
 
     /// The luminaire turned about its vertical axis by `degrees`, from C0 towards C90: what shone along C0 shines along C(degrees).
     ///
-    /// Type C keeps every tabulated value; types A and B are resampled to type C. The opening follows quarter turns; by other angles one that is not
-    /// round stays, with a warning.
+    /// Type C keeps every tabulated value; types A and B are resampled to type C. The opening follows quarter turns; by other angles one
+    /// that is not round stays, with a warning.
     #[must_use]
     pub fn rotated(&self, degrees: f64) -> Self {
         if !degrees.is_finite() || degrees.rem_euclid(360.0) == 0.0 {

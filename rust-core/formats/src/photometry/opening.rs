@@ -2,8 +2,8 @@
 
 /// What shines, in metres in the luminaire's frame, centred on the photometric centre.
 ///
-/// LM-63's length runs along C0–C180 and its width along C90–C270. EULUMDAT's length is the lamps' direction, across C0, so that it runs along
-/// C90–C270. Both are kept by axis here, and a file converted between the two formats keeps its body in step with its intensities.
+/// LM-63's length runs along C0–C180 and its width along C90–C270. EULUMDAT's length is the lamps' direction, across C0, so that it runs
+/// along C90–C270. Both are kept by axis here, and a file converted between the two formats keeps its body in step with its intensities.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Opening {
     /// The shape.

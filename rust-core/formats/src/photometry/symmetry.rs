@@ -28,7 +28,8 @@ impl Goniogram {
 
     /// The goniogram with a symmetry, each intensity the mean over what the symmetry makes equal. The flux stays.
     ///
-    /// What the goniogram has of symmetry already and `symmetry` does not name is unfolded. Rotational symmetry resamples types A and B to type C.
+    /// What the goniogram has of symmetry already and `symmetry` does not name is unfolded. Rotational symmetry resamples types A and B
+    /// to type C.
     #[must_use]
     pub fn symmetrised(&self, symmetry: Symmetry) -> Self {
         match self.photometric_type {

@@ -41,7 +41,7 @@ fn horizontal_ranges_tell_the_symmetry() {
         (vec![90.0, 100.0, 270.0], Symmetry::AboutC90, 0),
         (vec![-90.0, 10.0, 90.0], Symmetry::AboutC90, 1),
         (vec![180.0, 190.0, 360.0], Symmetry::AboutC0, 1),
-        (vec![0.0, 120.0, 240.0, 360.0], Symmetry::None, 0),
+        (vec![0.0, 120.0, 240.0, 360.0], Symmetry::None, 1),
         (vec![0.0, 120.0, 240.0], Symmetry::None, 1),
         (vec![-180.0, 0.0, 120.0, 180.0], Symmetry::None, 1),
     ] {
@@ -67,7 +67,8 @@ fn a_file_about_c90_is_mirrored_and_not_turned() {
 
 #[test]
 fn anything_may_stand_before_the_tilt_line() {
-    let text = "Arnold says so\r\nIESNA:LM-63-1995\r\n[MANUFAC] Gr\u{fc}n\r\nloose text\r\n  TILT = NONE\r\n1,-1,1,2,1,1,1,\r\n1,2 ,0\r\n1 1 5\r\n0\r\n90\r\n0\r\n7 3\r\n";
+    let text = "Arnold says so\r\nIESNA:LM-63-1995\r\n[MANUFAC] Gr\u{fc}n\r\nloose text\r\n  TILT = NONE\r\n\
+                1,-1,1,2,1,1,1,\r\n1,2 ,0\r\n1 1 5\r\n0\r\n90\r\n0\r\n7 3\r\n";
     let bytes: Vec<u8> = [0xef, 0xbb, 0xbf].into_iter().chain(text.chars().map(|c| c as u8)).collect();
     let goniogram = read(&bytes, "odd.txt").unwrap();
     assert_eq!(goniogram.text("manufac"), Some("Grün"));

@@ -10,8 +10,8 @@ pub use write::write;
 
 /// A revision of the standard.
 ///
-/// Revisions read the signs of the luminous opening differently, and until 1991 a factor of the lamp with its ballast multiplies the intensities
-/// where later revisions leave a place for the future, or (2019) a code for how the file was made.
+/// Revisions read the signs of the luminous opening differently, and until 1991 a factor of the lamp with its ballast multiplies the
+/// intensities where later revisions leave a place for the future, or (2019) a code for how the file was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// LM-63-1986: no version line.

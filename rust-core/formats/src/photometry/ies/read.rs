@@ -24,14 +24,15 @@ struct Head {
     counts: [usize; 2],
     photometric_type: PhotometricType,
     dimensions: [f64; 3],
+    dimensions_line: u64,
     watts: f64,
 }
 
 /// Reads an IES LM-63 file of any revision, photometric type and unit.
 ///
-/// Candela are the file's values times its multiplier and ballast factor, and until LM-63-1991 times the ballast-lamp photometric factor; the
-/// number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. `TILT=INCLUDE` is kept and not
-/// applied; a named TILT file is reported as a warning.
+/// Candela are the file's values times its multiplier and ballast factor, and until LM-63-1991 times the ballast-lamp photometric factor;
+/// the number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. `TILT=INCLUDE` is kept
+/// and not applied; a named TILT file is reported as a warning.
 ///
 /// # Errors
 /// Anything without one sensible reading, with the line.
@@ -50,7 +51,7 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
     if !own {
         let dimensions = head.dimensions.map(number).join(", ");
         let problem = format!("the opening's width, length, height {dimensions} m are not of this revision: read as {:?}", opening.shape);
-        warnings.push(FormatError::whole(problem));
+        warnings.push(FormatError::line(head.dimensions_line, problem));
     }
     let lamps = lamp_set(&head, &header);
     let mut goniogram = Goniogram {
@@ -131,6 +132,7 @@ fn head(version: Version, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatEr
     for (dimension, name) in dimensions.iter_mut().zip(["width", "length", "height"]) {
         *dimension = numbers.next(&format!("the opening's {name}"))? * unit;
     }
+    let dimensions_line = numbers.line();
     factor *= positive("the ballast factor", numbers, warnings)?;
     let before_1995 = matches!(version, Version::Lm1986 | Version::Lm1991);
     if before_1995 {
@@ -146,7 +148,7 @@ fn head(version: Version, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatEr
     if watts < 0.0 {
         warnings.push(FormatError::line(numbers.line(), format!("the input watts are {}: not used", number(watts))));
     }
-    Ok(Head { lamps, lumens, factor, counts, photometric_type, dimensions, watts: watts.max(0.0) })
+    Ok(Head { lamps, lumens, factor, counts, photometric_type, dimensions, dimensions_line, watts: watts.max(0.0) })
 }
 
 /// A factor; one that is not positive counts as 1.

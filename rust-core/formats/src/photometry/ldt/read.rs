@@ -25,9 +25,9 @@ struct Layout {
 
 /// Reads an EULUMDAT file for its first lamp set; [`Goniogram::with_lamp_set`] gives the others, which are alternatives.
 ///
-/// Candela are cd/klm times the conversion factor times the set's flux in klm; the flux is the whole set's, whatever its number of lamps. A
-/// negative number of lamps is absolute photometry. Planes from C270 through C0 to C90 (symmetry 3) are kept as their mirror images from C90 to
-/// C270.
+/// Candela are cd/klm times the conversion factor times the set's flux in klm; the flux is the whole set's, whatever its number of lamps.
+/// A negative number of lamps is absolute photometry. Planes from C270 through C0 to C90 (symmetry 3) are kept as their mirror images
+/// from C90 to C270.
 ///
 /// # Errors
 /// Anything without one sensible reading, with the line.

@@ -6,8 +6,8 @@ use std::borrow::Cow;
 
 /// Writes EULUMDAT for the lamp set the goniogram is for, the others beside it as alternatives; ISO 8859-1, numbers of ten digits.
 ///
-/// Photometric types A and B are resampled to type C. Lamps without a flux of their own become absolute photometry: the luminaire's flux with a
-/// negative number of lamps.
+/// Photometric types A and B are resampled to type C. Lamps without a flux of their own become absolute photometry: the luminaire's flux
+/// with a negative number of lamps.
 pub fn write(goniogram: &Goniogram) -> Vec<u8> {
     let goniogram = match goniogram.photometric_type {
         PhotometricType::C => Cow::Borrowed(goniogram),
