@@ -26,7 +26,12 @@ pub fn plot(report: &Report) -> String {
         AXIS + LONGEST + 60.0
     );
     let processor = report.machine.processor.as_deref().unwrap_or("unknown processor");
-    text(&mut svg, [12.0, 20.0], "start", &format!("gonio {}, {processor}: times as fast as one lane (std: as the standard library)", report.machine.version));
+    text(
+        &mut svg,
+        [12.0, 20.0],
+        "start",
+        &format!("gonio {}, {processor}: times as fast as one lane (std: as the standard library)", report.machine.version),
+    );
     key(&mut svg, report);
     grid(&mut svg, most, scale, height);
     let mut top = TOP;

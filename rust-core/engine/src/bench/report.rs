@@ -188,7 +188,10 @@ pub(super) fn row(stage: Stage, case: &Case, variants: &[Variant], baseline: usi
         baseline_outcome: slots.outcomes[baseline].value,
         tolerance: slots.outcomes[baseline].tolerance,
         rounds: slots.seconds.len(),
-        levels: (0..variants.len()).filter(|variant| matches!(variants[*variant], Variant::Lanes(e) if e.lanes() > 1)).map(figure).collect(),
+        levels: (0..variants.len())
+            .filter(|variant| matches!(variants[*variant], Variant::Lanes(e) if e.lanes() > 1))
+            .map(figure)
+            .collect(),
     }
 }
 

@@ -10,5 +10,5 @@ pub use atomic::write_atomically;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, read_exr, write_exr};
 pub use picture::{encode_png, write_picture};
-pub(crate) use tone_map::{WHITE, map_lanes};
 pub use tone_map::{ToneMap, display};
+pub(crate) use tone_map::{WHITE, map_lanes};

@@ -32,7 +32,13 @@ pub(super) fn layered(colour: [f32; 3], parameters: &[(&str, f32)]) -> Material 
 }
 
 /// A layered surface whose base colour is an image over `repeats` times the texture coordinates' unit.
-pub(super) fn textured(scene: &mut Scene, size: u32, repeats: f32, texel: impl Fn(f32, f32) -> [f32; 3], parameters: &[(&str, f32)]) -> Material {
+pub(super) fn textured(
+    scene: &mut Scene,
+    size: u32,
+    repeats: f32,
+    texel: impl Fn(f32, f32) -> [f32; 3],
+    parameters: &[(&str, f32)],
+) -> Material {
     let source = pixels(size, size, texel);
     let texture = scene.add_texture(Texture { origin: Origin::new("bench"), source, colour_space: "raw".into() });
     let mut graph = Graph::default();

@@ -11,10 +11,8 @@ pub(in crate::bench) fn car() -> Scene {
     let mut scene = Scene::default();
     let floor = patch(100, 100, |u, v| [20.0 * (u - 0.5), 0.01 * (40.0 * u).sin() * (31.0 * v).sin(), -20.0 * (v - 0.5)]);
     place(&mut scene, floor, layered([0.3; 3], &[("specular_roughness", 0.35)]), Transform::IDENTITY);
-    let paint = layered(
-        [0.5, 0.02, 0.03],
-        &[("metalness", 0.2), ("specular_roughness", 0.4), ("coat_weight", 1.0), ("coat_roughness", 0.03)],
-    );
+    let paint =
+        layered([0.5, 0.02, 0.03], &[("metalness", 0.2), ("specular_roughness", 0.4), ("coat_weight", 1.0), ("coat_roughness", 0.03)]);
     let body = superellipsoid(200, 150, [2.2, 0.45, 0.9], [0.6, 0.5]);
     place(&mut scene, body, paint, Transform::translation([0.0, 0.75, 0.0]));
     let cabin = superellipsoid(128, 96, [1.2, 0.55, 0.75], [0.9, 0.7]);

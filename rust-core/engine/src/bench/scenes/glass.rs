@@ -20,7 +20,10 @@ pub(in crate::bench) fn glass() -> Scene {
     let wall = textured(&mut scene, 512, 3.0, tiles, &[("specular_weight", 0.0)]);
     place(&mut scene, quad([-2.0, 0.0, -1.5], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]), wall, Transform::IDENTITY);
     for (i, (x, z)) in [(-0.55, 0.1), (-0.25, -0.3), (0.05, 0.2), (0.35, -0.25), (0.6, 0.15)].into_iter().enumerate() {
-        let clear = layered([1.0; 3], &[("transmission_weight", 1.0), ("specular_roughness", if i == 4 { 0.15 } else { 0.0 }), ("specular_ior", 1.5)]);
+        let clear = layered(
+            [1.0; 3],
+            &[("transmission_weight", 1.0), ("specular_roughness", if i == 4 { 0.15 } else { 0.0 }), ("specular_ior", 1.5)],
+        );
         let size = 0.8 + 0.1 * i as f64;
         let transform = Transform::translation([x, 0.002, z]).after(&Transform::scale(size));
         place(&mut scene, lathe(64, 64, goblet), clear, transform);

@@ -22,7 +22,13 @@ pub(super) fn patch(n: u32, m: u32, point: impl Fn(f32, f32) -> [f32; 3]) -> Mes
         }
     }
     let normals = primvar("normals", 3, normals(&points, &triangles));
-    Mesh { points: points.into(), triangles: triangles.into(), normals: Some(normals), primvars: vec![primvar("st", 2, st)], ..Mesh::default() }
+    Mesh {
+        points: points.into(),
+        triangles: triangles.into(),
+        normals: Some(normals),
+        primvars: vec![primvar("st", 2, st)],
+        ..Mesh::default()
+    }
 }
 
 /// A parallelogram from a corner and two edges, its front where u × v points to.
