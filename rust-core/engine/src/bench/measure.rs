@@ -1,7 +1,8 @@
-//! Timing: all versions in turn, slot by slot.
+//! Timing: all versions in turn, slot by slot, in processor time, so that a busy machine counts as little as can be.
 
 use super::kernel::{Kernel, Outcome};
 use crate::error::{Error, Result};
+use cpu_time::ProcessTime;
 use gonio_simd::Execution;
 use std::{
     hint::black_box,
@@ -9,7 +10,7 @@ use std::{
     time::Instant,
 };
 
-/// Seconds of a slot: short beside a scheduler's time slice, so that most slots are undisturbed, and long beside the clock's resolution.
+/// Processor seconds of a slot: short beside a scheduler's time slice, so that most slots are undisturbed, and long beside the clock's resolution.
 const SLOT: f64 = 1e-3;
 /// Rounds at least, however long one takes.
 const LEAST_ROUNDS: usize = 5;
@@ -54,7 +55,7 @@ impl Variant {
 /// Timed slots of all versions.
 #[derive(Debug)]
 pub(super) struct Slots {
-    /// `seconds[round][variant]`: seconds a call.
+    /// `seconds[round][variant]`: processor seconds a call, all threads together.
     pub(super) seconds: Vec<Vec<f64>>,
     /// What each version computed.
     pub(super) outcomes: Vec<Outcome>,
@@ -101,9 +102,9 @@ pub(super) fn interleaved(kernel: &mut dyn Kernel, variants: &[Variant], seconds
     Ok(Slots { seconds: rounds, outcomes })
 }
 
-/// Seconds a call over some calls.
+/// Processor seconds a call over some calls.
 fn timed(variant: Variant, calls: u32, kernel: &mut dyn Kernel) -> Result<f64> {
-    let start = Instant::now();
+    let start = ProcessTime::now();
     for _ in 0..calls {
         variant.run(black_box(&mut *kernel))?;
     }

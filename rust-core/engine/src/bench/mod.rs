@@ -1,7 +1,7 @@
 //! Every stage at every SIMD level: ratios to the scalar level, measured in one interleaved run.
 //!
-//! A stage is a file in `stages` that gives [`kernel::Case`]s: batches of work that run at any level. [`measure`] times short slots of all levels in
-//! turn, so that what disturbs the machine disturbs them alike, and [`report`] keeps the ratios of slots that stood side by side.
+//! A stage is a file in `stages` that gives `Case`s: batches of work that run at any level. `measure` times short slots of all levels in turn,
+//! so that what disturbs the machine disturbs them alike, and `report` keeps the ratios of slots that stood side by side.
 
 mod kernel;
 mod measure;

@@ -21,8 +21,8 @@ pub fn plot(report: &Report) -> String {
     let most = report.rows.iter().flat_map(|row| &row.levels).map(|figure| figure.ratio.high).fold(1.0, f64::max);
     let scale = LONGEST / most;
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{height}\" viewBox=\"0 0 {0} {height}\" font-family=\"sans-serif\" \
-         font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{height}\" viewBox=\"0 0 {0} {height}\" \
+         font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         AXIS + LONGEST + 60.0
     );
     let processor = report.machine.processor.as_deref().unwrap_or("unknown processor");

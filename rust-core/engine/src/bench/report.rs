@@ -48,7 +48,7 @@ pub struct Row {
     pub unit: &'static str,
     /// What the ratios are taken over: the scalar level, or the standard library's functions.
     pub baseline: &'static str,
-    /// Median nanoseconds that the baseline takes for one unit.
+    /// Median nanoseconds of processor time that the baseline takes for one unit.
     pub baseline_ns: f64,
     /// What the baseline computed, see [`Figure::outcome`].
     pub baseline_outcome: f64,
@@ -67,7 +67,7 @@ pub struct Figure {
     pub level: &'static str,
     /// Lanes in a register.
     pub lanes: usize,
-    /// Median nanoseconds a unit.
+    /// Median nanoseconds of processor time a unit.
     pub ns: f64,
     /// The baseline's time over this one's, round by round.
     pub ratio: Spread,
@@ -104,9 +104,9 @@ pub struct Breakdown {
 pub struct LevelBreakdown {
     /// The level's name.
     pub level: &'static str,
-    /// Million rays a second of all threads, shadow rays among them.
+    /// Million rays a second of processor time, shadow rays among them.
     pub mrays: f64,
-    /// Shares of the time, which sum to 1.
+    /// Shares of the workers' time by the clock, which sum to 1.
     pub time: Vec<Share>,
     /// Lanes of use, bounce by bounce.
     pub lanes: Vec<LanesAlive>,

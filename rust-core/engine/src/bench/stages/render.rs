@@ -14,6 +14,7 @@ use crate::{
     render::Render,
     scene::{Aov, Scene, Settings, load_bundle},
 };
+use cpu_time::ProcessTime;
 use gonio_simd::Execution;
 use std::{
     sync::{Arc, atomic::AtomicBool},
@@ -29,8 +30,16 @@ struct Whole {
     scene: Arc<CompiledScene>,
     settings: Settings,
     last: Option<Render>,
-    /// What all runs at a level counted, and the seconds they took.
-    totals: Vec<(Execution, Statistics, f64)>,
+    totals: Vec<Total>,
+}
+
+/// All runs at a level.
+struct Total {
+    execution: Execution,
+    statistics: Statistics,
+    /// Seconds by the clock, and of processor time.
+    clock: f64,
+    processor: f64,
 }
 
 pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
@@ -48,17 +57,17 @@ pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>>
 
 impl Kernel for Whole {
     fn run(&mut self, execution: Execution) -> Result<()> {
-        let start = Instant::now();
+        let (start, processor) = (Instant::now(), ProcessTime::now());
         let mut render = Render::start(self.scene.clone(), &self.settings, execution)?;
         render.finish()?;
-        let seconds = start.elapsed().as_secs_f64();
-        let known = self.totals.iter_mut().find(|(level, ..)| level.name() == execution.name());
+        let (clock, processor) = (start.elapsed().as_secs_f64(), processor.elapsed().as_secs_f64());
+        let known = self.totals.iter_mut().find(|total| total.execution.name() == execution.name());
         match known {
-            Some((_, statistics, sum)) => {
-                statistics.add(&render.statistics());
-                *sum += seconds;
+            Some(total) => {
+                total.statistics.add(&render.statistics());
+                (total.clock, total.processor) = (total.clock + clock, total.processor + processor);
             }
-            None => self.totals.push((execution, render.statistics(), seconds)),
+            None => self.totals.push(Total { execution, statistics: render.statistics(), clock, processor }),
         }
         self.last = Some(render);
         Ok(())
@@ -72,18 +81,18 @@ impl Kernel for Whole {
         let count = luminance.len().max(1) as f64;
         let mean = luminance.iter().sum::<f64>() / count;
         let variance = luminance.iter().map(|y| (y - mean) * (y - mean)).sum::<f64>() / count;
-        // Levels draw the same numbers but part where rounding turns a choice; their pictures are then no more apart than two seeds'. The spread
-        // of the pixels is no less than their noise.
+        // Levels draw the same numbers but part where rounding turns a choice; their pictures are then no more apart than two seeds'.
+        // The spread of the pixels is no less than their noise.
         Outcome { value: mean, tolerance: 5.0 * (variance / count).sqrt() / mean.max(f64::MIN_POSITIVE) }
     }
 
     fn breakdown(&self) -> Option<Breakdown> {
         let statistics = self.scene.statistics;
-        let level = |(execution, statistics, seconds): &(Execution, Statistics, f64)| LevelBreakdown {
-            level: execution.name(),
-            mrays: (statistics.rays + statistics.shadow_rays) as f64 * 1e-6 / seconds,
-            time: shares(statistics, *seconds * f64::from(self.settings.threads)),
-            lanes: lanes(statistics),
+        let level = |total: &Total| LevelBreakdown {
+            level: total.execution.name(),
+            mrays: (total.statistics.rays + total.statistics.shadow_rays) as f64 * 1e-6 / total.processor,
+            time: shares(&total.statistics, total.clock * f64::from(self.settings.threads)),
+            lanes: lanes(&total.statistics),
         };
         let levels = self.totals.iter().map(level).collect();
         Some(Breakdown { scene: self.name.clone(), triangles: statistics.instanced_triangles, lights: statistics.lights, levels })
