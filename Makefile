@@ -66,8 +66,9 @@ validate: test-blender compare-cycles
 	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
+# Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.
 bench:
-	cargo bench -p gonio-simd
+	cargo bench -p gonio
 
 # Needs Debian's libembree-dev and a C compiler.
 bench-peers:

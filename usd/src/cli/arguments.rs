@@ -1,6 +1,7 @@
 //! What the command line takes.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gonio::bench::Stage;
 use std::path::PathBuf;
 
 /// Physically exact rendering of USD stages, with answers in cd/m² and lux.
@@ -21,6 +22,8 @@ pub(super) enum Command {
     Compare(CompareOptions),
     /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
+    /// Measure every stage of rendering at every SIMD level against one lane.
+    Bench(BenchOptions),
 }
 
 /// What of the stage is read.
@@ -215,4 +218,34 @@ pub(super) struct PhotometryOptions {
     /// Turn the luminaire about its vertical axis, from C0 towards C90.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     pub(super) rotate: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct BenchOptions {
+    /// Only these stages, separated by commas: generation, traversal, triangle, texture, bsdf, light, function, tone, render.
+    #[arg(long, value_name = "STAGES", value_delimiter = ',', value_parser = stage)]
+    pub(super) stage: Vec<Stage>,
+    /// Seconds for each row of the table.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.5, value_parser = seconds)]
+    pub(super) seconds: f64,
+    /// Worker threads of whole renders; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 1)]
+    pub(super) threads: u32,
+    /// Render this scene bundle instead of the benchmark's own scenes.
+    #[arg(long, value_name = "BUNDLE")]
+    pub(super) scene: Option<PathBuf>,
+    /// For machines: everything as JSON, once all is measured.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Write a bar chart.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) plot: Option<PathBuf>,
+}
+
+fn stage(name: &str) -> Result<Stage, String> {
+    Stage::by_name(name).ok_or_else(Stage::expected)
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|s| (0.0..=86_400.0).contains(s)).ok_or_else(|| "expected a number from 0 to 86400".into())
 }

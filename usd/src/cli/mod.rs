@@ -1,6 +1,7 @@
 //! The `gonio` command.
 
 mod arguments;
+mod bench;
 mod compare;
 mod file_name;
 mod frames;
@@ -39,6 +40,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
         Command::Photometry(options) => photometry::photometry(&options),
+        Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
     };
     match result {
         Ok(status) => status,

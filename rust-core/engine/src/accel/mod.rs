@@ -6,6 +6,7 @@
 //! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
 
 mod blas;
+mod block_tests;
 mod build;
 mod collapse;
 mod flat_tree;
@@ -31,6 +32,7 @@ mod walk;
 mod wide;
 
 pub use blas::{Blas, BlasMemory};
+pub(crate) use block_tests::BlockTests;
 pub use instance::{Geometry, Instance};
 pub use ray::{Hits, NONE, PassedHit, RayBatch};
 pub use scene_bvh::SceneBvh;

@@ -10,16 +10,16 @@ use gonio_simd::{F, Lanes, Rgb, U, Vec3};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TileArea {
+pub(crate) struct TileArea {
     /// First column and row in the image.
-    pub(super) min: [u32; 2],
+    pub(crate) min: [u32; 2],
     /// Behind the last column and row, at most [`super::TILE`] further.
-    pub(super) max: [u32; 2],
+    pub(crate) max: [u32; 2],
 }
 
 /// Starts a path through every pixel of a tile; four by four pixels follow one another, so that sixteen rays make a packet.
 #[inline(always)]
-pub(super) fn generate<L: Lanes>(
+pub(crate) fn generate<L: Lanes>(
     l: L,
     camera: &CameraTable,
     filter: &FilterTable,

@@ -26,7 +26,10 @@ pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
         dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, ws));
         pass_through_lights(tables, transport, ws);
     }
+    let count = ws.escaped.len();
     dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
+    let lanes = transport.execution.lanes();
+    ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
     catcher::split(tables, ws);
     list_materials(tables, ws);
 }

@@ -41,7 +41,7 @@ pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Ve
 
 /// [`Lobes::sample`].
 #[inline(never)]
-pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+pub(crate) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.sample(l, wo, u),
@@ -50,7 +50,7 @@ pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]
 
 /// [`crate::light::LightTable::sample`].
 #[inline(never)]
-pub(super) fn sample_light<L: Lanes>(l: L, tables: &Tables, p: Vec3<L>, n: Vec3<L>, u_choice: F<L>, u: [F<L>; 2]) -> LightSample<L> {
+pub(crate) fn sample_light<L: Lanes>(l: L, tables: &Tables, p: Vec3<L>, n: Vec3<L>, u_choice: F<L>, u: [F<L>; 2]) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
         || tables.lights.sample(l, p, n, u_choice, u),

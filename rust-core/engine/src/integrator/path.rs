@@ -175,8 +175,13 @@ impl Tracer<'_> {
             kernels::evaluate(l, self.tables, &material.program, &mut ws.surface, count, &mut ws.scratch, &mut ws.outputs);
         }
         start = ws.statistics.spent(3, start);
+        let (sent, going_on) = (ws.shadows.count, ws.next.count);
         shade_chunk(&Stage { l, tables: self.tables, transport: &self.transport, context, shader }, material, first, count, ws);
         ws.statistics.spent(4, start);
+        let run = count.next_multiple_of(L::COUNT);
+        for (stage, alive) in [(1, count), (2, ws.shadows.count - sent), (3, ws.next.count - going_on)] {
+            ws.statistics.count_lanes(context.depth, stage, run, alive);
+        }
     }
 }
 

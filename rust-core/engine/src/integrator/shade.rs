@@ -87,8 +87,6 @@ pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
     let mut lobes = Lobes::empty(l);
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
-        ws.statistics.lanes += L::COUNT as u64;
-        ws.statistics.lanes_alive += alive.count() as u64;
         let mut point = load_point(l, material, first, at, alive, ws);
         if tables.any_absorbing {
             absorb(l, material, &values, &mut point, at, ws);

@@ -1,6 +1,6 @@
 //! The state of a batch of paths, in columns.
 
-use super::{catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, subsurface::Walks};
+use super::{catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, statistics::Statistics, subsurface::Walks};
 use crate::{
     accel::{Hits, PassedHit},
     geometry::ShadowSegment,
@@ -67,7 +67,7 @@ pub(super) fn pixel<L: Lanes>(slot: U<L>) -> U<L> {
     slot & (BATCH as u32 - 1)
 }
 
-pub(super) type Columns3 = [Column; 3];
+pub(crate) type Columns3 = [Column; 3];
 
 pub(super) fn columns3(len: usize) -> Columns3 {
     [Column::new(len), Column::new(len), Column::new(len)]
@@ -93,11 +93,11 @@ pub(super) fn append3<L: Lanes>(v: Vec3<L>, mask: M<L>, columns: &mut Columns3, 
 
 /// Paths with a ray each.
 #[derive(Debug)]
-pub(super) struct Paths {
+pub(crate) struct Paths {
     /// Paths in the columns.
-    pub(super) count: usize,
-    pub(super) origin: Columns3,
-    pub(super) direction: Columns3,
+    pub(crate) count: usize,
+    pub(crate) origin: Columns3,
+    pub(crate) direction: Columns3,
     pub(super) t_min: Column,
     pub(super) t_max: Column,
     /// The point that scattered the ray, and its normal: what lights are sampled from.
@@ -436,41 +436,6 @@ pub struct Workspace {
     pub first_hit: FirstHit,
     /// Rays traced and lanes alive, for benchmarks.
     pub statistics: Statistics,
-}
-
-/// Counts for benchmarks and progress.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Statistics {
-    /// Rays that looked for their first hit.
-    pub rays: u64,
-    /// Shadow rays.
-    pub shadow_rays: u64,
-    /// Lanes shaded that held a path.
-    pub lanes_alive: u64,
-    /// Lanes shaded.
-    pub lanes: u64,
-    /// Nanoseconds spent in each stage, in the order of [`STAGES`].
-    pub time_ns: [u64; STAGES.len()],
-}
-
-/// The stages that are timed.
-pub const STAGES: [&str; 6] = ["generate", "intersect", "surface", "graph", "shade", "shadow"];
-
-impl Statistics {
-    /// Adds the time since `start` to a stage and gives the time now.
-    pub(super) fn spent(&mut self, stage: usize, start: std::time::Instant) -> std::time::Instant {
-        let now = std::time::Instant::now();
-        self.time_ns[stage] += (now - start).as_nanos() as u64;
-        now
-    }
-    /// Adds another's counts.
-    pub fn add(&mut self, other: &Self) {
-        self.rays += other.rays;
-        self.shadow_rays += other.shadow_rays;
-        self.lanes_alive += other.lanes_alive;
-        self.lanes += other.lanes;
-        self.time_ns.iter_mut().zip(other.time_ns).for_each(|(sum, time)| *sum += time);
-    }
 }
 
 const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

@@ -18,7 +18,7 @@ pub enum ToneMap {
 /// Grey that the log-average luminance is brought to.
 const KEY: f32 = 0.18;
 /// Multiple of the key at which the photographic operator reaches white.
-const WHITE: f32 = 6.0;
+pub(crate) const WHITE: f32 = 6.0;
 
 /// The colour pass as 8-bit sRGB RGBA, rows from the top; `stops` brightens by powers of two.
 pub fn display(image: &Image, tone_map: ToneMap, stops: f32, execution: Execution) -> Vec<u8> {
@@ -58,17 +58,22 @@ fn log_average(channels: &[Vec<f32>; 4], pixels: usize) -> f32 {
 fn map_batch<L: Lanes>(l: L, channels: &mut [Vec<f32>; 4], scale: f32, compress: bool) {
     let [red, green, blue, alpha] = channels;
     for at in (0..red.len()).step_by(L::COUNT) {
-        let mut colour = Rgb::new(l.load(red, at), l.load(green, at), l.load(blue, at)).max(0.0) * scale;
-        if compress {
-            let y = colour.luminance();
-            let factor = (y * (1.0 / (WHITE * WHITE)) + 1.0) / (y + 1.0);
-            colour = colour * factor;
-        }
-        srgb(colour.r).store(red, at);
-        srgb(colour.g).store(green, at);
-        srgb(colour.b).store(blue, at);
+        let colour = Rgb::new(l.load(red, at), l.load(green, at), l.load(blue, at));
+        map_lanes(colour, scale, compress).store([red, green, blue], at);
         l.load(alpha, at).saturate().store(alpha, at);
     }
+}
+
+/// Display values in [0, 1] of a register of scene-linear colours.
+#[inline(always)]
+pub(crate) fn map_lanes<L: Lanes>(colour: Rgb<L>, scale: f32, compress: bool) -> Rgb<L> {
+    let mut colour = colour.max(0.0) * scale;
+    if compress {
+        let y = colour.luminance();
+        let factor = (y * (1.0 / (WHITE * WHITE)) + 1.0) / (y + 1.0);
+        colour = colour * factor;
+    }
+    Rgb::new(srgb(colour.r), srgb(colour.g), srgb(colour.b))
 }
 
 /// The sRGB curve (IEC 61966-2-1) of a value clipped to [0, 1].

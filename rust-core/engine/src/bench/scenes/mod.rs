@@ -1,0 +1,12 @@
+//! Scenes that the benchmark makes itself, sized as those that ratios are commonly given for.
+
+mod build;
+mod car;
+mod glass;
+mod room;
+mod shapes;
+
+pub(super) use build::{aimed, light};
+pub(super) use car::{car, sky};
+pub(super) use glass::glass;
+pub(super) use room::room;

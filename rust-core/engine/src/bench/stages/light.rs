@@ -1,0 +1,117 @@
+//! One light sampled from points on a floor, by type of light.
+
+use super::compiled;
+use crate::{
+    bench::{
+        kernel::{Case, Kernel, Outcome},
+        numbers::{BATCH, columns3, cube},
+        scenes::{self, aimed, light},
+    },
+    compile::CompiledScene,
+    error::Result,
+    integrator::{Tables, kernels},
+    scene::{Closure, DomeFormat, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Texture, Transform, Visibility},
+};
+use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
+use std::sync::{Arc, atomic::AtomicBool};
+
+struct Sampling {
+    scene: Arc<CompiledScene>,
+    points: [Column; 3],
+    numbers: [Column; 3],
+    direction: [Column; 3],
+    radiance: [Column; 3],
+    pdf: Column,
+}
+
+pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
+    let case = |name: &str, scene: &Scene| {
+        let [x, _, z] = cube();
+        let mut points = columns3();
+        for i in 0..BATCH {
+            (points[0][i], points[2][i]) = (4.0 * x[i] - 2.0, 4.0 * z[i] - 2.0);
+        }
+        let (scene, numbers) = (compiled(scene, cancel)?, cube());
+        let kernel = Sampling { scene, points, numbers, direction: columns3(), radiance: columns3(), pdf: Column::new(BATCH) };
+        Ok(Case::new(name, "sample", BATCH, kernel))
+    };
+    let shapes = [
+        ("rectangle", LightShape::Rectangle { width: 1.0, height: 0.6 }),
+        ("disk", LightShape::Disk { radius: 0.4 }),
+        ("sphere", LightShape::Sphere { radius: 0.3 }),
+        ("cylinder", LightShape::Cylinder { radius: 0.1, length: 1.2 }),
+        ("facing disk", LightShape::FacingDisk { radius: 0.3 }),
+        ("point", LightShape::Point),
+        ("distant", LightShape::Distant { angle_deg: 0.53 }),
+        ("dome", LightShape::Dome { format: DomeFormat::LatLong }),
+    ];
+    let mut cases = Vec::new();
+    for (name, shape) in shapes {
+        cases.push(case(name, &alone(shape))?);
+    }
+    cases.push(case("dome with an image", &sky())?);
+    cases.push(case("triangle", &triangle())?);
+    cases.push(case("nine lights of five kinds", &scenes::room())?);
+    Ok(cases)
+}
+
+/// One light two metres above the floor, facing it.
+fn alone(shape: LightShape) -> Scene {
+    Scene { lights: vec![light(shape, 1.0, aimed([0.0, 2.0, 0.0], [0.0; 3]))], ..Scene::default() }
+}
+
+/// A dome with the image of a sky.
+fn sky() -> Scene {
+    let mut scene = Scene::default();
+    let texture = Texture { origin: Origin::new("sky"), source: scenes::sky(256, 128), colour_space: "raw".into() };
+    let dome = light(LightShape::Dome { format: DomeFormat::LatLong }, 1.0, Transform::IDENTITY);
+    let texture = Some(scene.add_texture(texture));
+    scene.lights.push(Light { texture, ..dome });
+    scene
+}
+
+/// An emissive triangle, its front down.
+fn triangle() -> Scene {
+    let mut scene = Scene::default();
+    let points = Arc::from([[-0.5, 2.0, -0.4], [0.5, 2.0, -0.4], [0.0, 2.0, 0.5]]);
+    let mesh = scene.add_mesh(Mesh { points, triangles: Arc::from([[0, 1, 2]]), ..Mesh::default() });
+    let mut glow = Closure::default();
+    glow.set_colour("emission_color", [1.0; 3]);
+    let material = scene.add_material(Material::of(Origin::new("glow"), glow));
+    scene.instances.push(Instances {
+        origin: Origin::new("triangle"),
+        mesh,
+        materials: vec![material],
+        transforms: vec![Transform::IDENTITY],
+        primvars: Vec::new(),
+        visibility: Visibility::default(),
+        holdout: false,
+        shadow_catcher: false,
+        pass_index: 0,
+    });
+    scene
+}
+
+#[inline(always)]
+fn sample<L: Lanes>(l: L, tables: &Tables, job: [&[Column; 3]; 2], out: [&mut [Column; 3]; 2], pdf: &mut Column) {
+    let ([[x, y, z], [u, v, w]], [[dx, dy, dz], [r, g, b]]) = (job, out);
+    let up = Vec3::splat(l, [0.0, 1.0, 0.0]);
+    for at in (0..BATCH).step_by(L::COUNT) {
+        let point = Vec3::load(l, [x, y, z], at);
+        let sample = kernels::sample_light(l, tables, point, up, l.load(u, at), [l.load(v, at), l.load(w, at)]);
+        sample.wi.store([dx, dy, dz], at);
+        sample.radiance.store([r, g, b], at);
+        sample.pdf.store(pdf, at);
+    }
+}
+
+impl Kernel for Sampling {
+    fn run(&mut self, execution: Execution) -> Result<()> {
+        let Self { scene, points, numbers, direction, radiance, pdf } = self;
+        dispatch!(execution, l => sample(l, &scene.tables, [&*points, &*numbers], [&mut *direction, &mut *radiance], pdf));
+        Ok(())
+    }
+    fn outcome(&self) -> Outcome {
+        Outcome::of(self.direction.iter().chain(&self.radiance).chain([&self.pdf]).map(|column| &column[..]))
+    }
+}
