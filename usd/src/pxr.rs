@@ -133,7 +133,10 @@ fn most_specific(commentaries: Vec<String>) -> String {
     commentaries.into_iter().nth(place).unwrap_or_default()
 }
 
-/// One line without the C++ namespaces that carry the library's version, and without the names of anonymous layers.
+/// A message longer than this many characters is cut: a corrupt file may have hundreds of things wrong with it.
+const LONGEST_MESSAGE: usize = 400;
+
+/// One line that can be read, without the C++ namespaces that carry the library's version and the names of anonymous layers.
 pub fn one_line(text: &str) -> String {
     let mut line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     while let Some(start) = line.find("pxrInternal_") {
@@ -143,6 +146,9 @@ pub fn one_line(text: &str) -> String {
     while let Some(start) = line.find(",@anon:") {
         let end = line[start + 2..].find('@').map_or(line.len(), |offset| start + 2 + offset + 1);
         line.replace_range(start..end, "");
+    }
+    if let Some((end, _)) = line.char_indices().nth(LONGEST_MESSAGE) {
+        line.replace_range(end.., "…");
     }
     line
 }
