@@ -27,7 +27,7 @@ pub(crate) fn readers() -> Vec<Reader> {
 fn use_all(measured: &Measured) {
     let mut values = vec![0.0; measured.channels().count()];
     let directions = [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.0, -0.96, 0.28], [0.0, 0.6, -0.8], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]];
-    let coarse = Resolution { theta: 2, phi: 1, columns: 4, rows: 4, points: 1 };
+    let coarse = Resolution { theta: 2, phi: 1, columns: 4, rows: 4, points: 1, cosine_share: 0.1 };
     let sampler = Sampler::new(measured, &coarse);
     for wo in directions {
         for wi in directions {

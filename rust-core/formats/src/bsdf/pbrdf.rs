@@ -14,7 +14,8 @@ use crate::error::{FormatError, Result};
 /// Elements of a Mueller matrix.
 const MUELLER: usize = 16;
 
-/// Reads `M` over φd, θd, θh and wavelength. Cells below the horizon are not numbers; noise below zero is zero. Axes of no length are taken
+/// Reads `M` over φd, θd, θh and wavelength. Cells below the horizon and those that were not measured are not
+/// numbers or exactly zero in the files; noise below zero is zero. Axes of no length are taken
 /// for equal steps: φd from −π to π, θd and θh from 0 to π/2.
 ///
 /// # Errors
@@ -55,7 +56,7 @@ pub(crate) fn from_tensor_file(file: &TensorFile<'_>) -> Result<Table> {
 
 fn clean(x: f64) -> f32 {
     let x = x as f32;
-    if x.is_finite() { x.max(0.0) } else { f32::NAN }
+    if x.is_finite() && x != 0.0 { x.max(0.0) } else { f32::NAN }
 }
 
 /// An axis of `count` knots, radians.

@@ -8,6 +8,9 @@ use super::hemispheres::Hemispheres;
 use super::report::{STRATA, quadrature};
 use crate::error::{FormatError, Result};
 
+/// Valid cells that weigh less than that together are an angle's rounding, not a neighbourhood.
+const LEAST_WEIGHT: f64 = 1e-6;
+
 /// What a table is, but for its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
@@ -150,10 +153,12 @@ impl Table {
                 out.iter_mut().zip(values).for_each(|(sum, v)| *sum += weight * f64::from(*v));
             }
         }
-        if total > 0.0 {
-            out.iter_mut().for_each(|sum| *sum /= total);
+        if total <= LEAST_WEIGHT {
+            out.fill(0.0);
+            return false;
         }
-        total > 0.0
+        out.iter_mut().for_each(|sum| *sum /= total);
+        true
     }
 
     /// A corner's cell and weight: bit `i` of `corner` says whether it is at the upper knot of axis `i`.

@@ -18,7 +18,7 @@ use super::super::measured::Measured;
 use super::lobe::Lobe;
 
 /// How fine the tables are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
     /// Slices along the view's polar angle.
     pub theta: usize,
@@ -30,18 +30,17 @@ pub struct Resolution {
     pub rows: usize,
     /// Evaluations along each side of a cell.
     pub points: usize,
+    /// The share of samples that follow the cosine.
+    pub cosine_share: f64,
 }
 
 impl Resolution {
     /// Of an isotropic material.
-    pub const ISOTROPIC: Self = Self { theta: 32, phi: 1, columns: 32, rows: 64, points: 2 };
+    pub const ISOTROPIC: Self = Self { theta: 32, phi: 1, columns: 32, rows: 64, points: 2, cosine_share: 0.1 };
 
     /// Of an anisotropic material.
     pub const ANISOTROPIC: Self = Self { phi: 16, ..Self::ISOTROPIC };
 }
-
-/// The share of samples that follow the cosine.
-const COSINE_SHARE: f64 = 0.1;
 
 /// The least share of a lobe that is there: its density never vanishes where it scatters.
 const LEAST_SHARE: f32 = 0.02;
@@ -52,6 +51,8 @@ pub struct HalfVectorTable {
     /// Slices along the view's polar angle (equal steps from 0 to just above the surface) and azimuth (equal steps of a full turn); the
     /// polar angle is faster.
     pub slices: [usize; 2],
+    /// The share of samples that follow the cosine.
+    pub cosine_share: f64,
     /// For a view at the front and at the back, reflection and transmission, where there are.
     pub lobes: [[Option<Lobe>; 2]; 2],
 }
@@ -66,7 +67,8 @@ impl HalfVectorTable {
     /// The tables of a measurement.
     pub fn new(measured: &Measured, resolution: &Resolution) -> Self {
         let slices = [resolution.theta.max(2), resolution.phi.max(1)];
-        let mut table = Self { slices, lobes: [[None, None], [None, None]] };
+        let cosine_share = resolution.cosine_share.clamp(0.0, 1.0);
+        let mut table = Self { slices, cosine_share, lobes: [[None, None], [None, None]] };
         let weights = measured.channels().luminance_weights();
         for side in 0..2 {
             let lobes = pairs(side).map(|pair| measured.has(pair).then(|| table.lobe(measured, &weights, pair, resolution)));
@@ -146,7 +148,7 @@ impl HalfVectorTable {
         let shares = [0, 1].map(|i| self.lobes[side][i].as_ref().map_or(0.0, |lobe| f64::from(lobe.share[slice])));
         let (kind, rest) = choose(&shares, rest);
         let lobe = self.lobes[side][kind].as_ref()?;
-        let direction = if rest < COSINE_SHARE {
+        let direction = if rest < self.cosine_share {
             cosine_direction([u[1], u[2]])
         } else {
             let normal = self.normal(angles_of(lobe.sample(slice, [u[1], u[2]])), up);
@@ -169,7 +171,7 @@ impl HalfVectorTable {
         for (&slice, weight) in slices.index.iter().zip(slices.weight) {
             if weight > 0.0 {
                 let by_half: f64 = ways.iter().flatten().map(|&(square, jacobian)| lobe.density(slice, square) / jacobian).sum();
-                let density = COSINE_SHARE * wi[2] / PI + (1.0 - COSINE_SHARE) * by_half;
+                let density = self.cosine_share * wi[2] / PI + (1.0 - self.cosine_share) * by_half;
                 pdf += weight * f64::from(lobe.share[slice]) * density;
             }
         }
