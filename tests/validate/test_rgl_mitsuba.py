@@ -22,12 +22,15 @@ def evaluated_by_us(kind: str, folder: Path) -> tuple[Path, np.ndarray]:
 
 def evaluated_by_mitsuba(file: Path, wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
     """Its cosine is the second direction's, so what it calls wi is our wo."""
-    mitsuba.set_variant("llvm_ad_rgb")
+    mitsuba.set_variant("scalar_rgb")
     bsdf = mitsuba.load_dict({"type": "measured", "filename": str(file)})
-    interaction = mitsuba.SurfaceInteraction3f()
-    interaction.wi = mitsuba.Vector3f(*wo.T.astype(np.float32))
-    value = bsdf.eval(mitsuba.BSDFContext(), interaction, mitsuba.Vector3f(*wi.T.astype(np.float32)))
-    return np.array([np.array(channel) for channel in value]).T
+    context, interaction = mitsuba.BSDFContext(), mitsuba.SurfaceInteraction3f()
+
+    def value(light: list[float], view: list[float]) -> list[float]:
+        interaction.wi = view
+        return list(bsdf.eval(context, interaction, light))
+
+    return np.array([value(light, view) for light, view in zip(wi.tolist(), wo.tolist())])
 
 
 @pytest.mark.parametrize("kind", ["isotropic", "anisotropic"])
@@ -38,6 +41,6 @@ def test_the_same_values_as_mitsuba(kind: str, tmp_path: Path) -> None:
     # Where values are a millionth of the largest one, single precision has no digits left to compare.
     bright = ours > 1e-6 * ours.max()
     difference = np.abs(ours - theirs)[bright] / ours[bright]
-    print(f"{kind}: median {np.median(difference):.1e}, 99.9 % below {np.quantile(difference, 0.999):.1e}, largest {difference.max():.1e}")
-    assert bright.mean() > 0.5
-    assert np.quantile(difference, 0.999) < 1e-3
+    print(f"{kind}: {bright.mean():.1%} compared, median {np.median(difference):.1e}, largest {difference.max():.1e}")
+    assert bright.mean() > 0.9
+    assert difference.max() < 1e-3

@@ -110,7 +110,11 @@ fn directions(i: usize, hemispheres: Hemispheres) -> [Direction; 2] {
 /// squares, over projected solid angle and over half vectors, weighted with the balance heuristic (Veach 1997).
 pub(crate) fn quadrature(up: Direction, strata: usize) -> impl Iterator<Item = Node> {
     let points = (strata * strata) as f64;
-    let square = move |i: usize| [i % strata, i / strata].map(|x| (x as f64 + 0.5) / strata as f64);
+    // Rows are shifted by the golden ratio, because the horizon of a steep view runs along columns.
+    let square = move |i: usize| {
+        let row = i / strata;
+        [(i % strata) as f64 + (0.618_034 * row as f64).fract(), row as f64 + 0.5].map(|x| x / strata as f64)
+    };
     (0..strata * strata).flat_map(move |i| {
         let (theta, phi) = angles_of(square(i));
         let by_half = reflected(up, spherical(theta, phi));

@@ -99,6 +99,15 @@ impl Interpolant {
 }
 
 impl Blend {
+    /// Slices with their weights, at most eight.
+    pub(crate) fn new(slices: &[(usize, f64)]) -> Self {
+        let mut blend = Self { slice: [0; MOST_SLICES], weight: [0.0; MOST_SLICES], count: slices.len().min(MOST_SLICES) };
+        for (i, &(slice, weight)) in slices.iter().take(MOST_SLICES).enumerate() {
+            (blend.slice[i], blend.weight[i]) = (slice, weight);
+        }
+        blend
+    }
+
     /// The blend of one element of all slices of `stride` elements.
     fn sum(&self, data: &[f32], stride: usize, at: usize) -> f64 {
         (0..self.count).map(|i| self.weight[i] * f64::from(data[self.slice[i] * stride + at])).sum()

@@ -15,7 +15,8 @@ use super::super::direction::{
 };
 use super::super::hemispheres::Hemispheres;
 use super::super::measured::Measured;
-use super::lobe::Lobe;
+use super::super::warp::Blend;
+use super::lobe::{Lobe, around_node};
 
 /// How fine the tables are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +25,11 @@ pub struct Resolution {
     pub theta: usize,
     /// Slices along the view's azimuth; one for an isotropic material.
     pub phi: usize,
-    /// Cells along the half vector's polar angle.
+    /// Nodes along the half vector's polar angle.
     pub columns: usize,
-    /// Cells along its azimuth.
+    /// Nodes along its azimuth.
     pub rows: usize,
-    /// Evaluations along each side of a cell.
+    /// Evaluations along each side of the area around a node.
     pub points: usize,
     /// The share of samples that follow the cosine.
     pub cosine_share: f64,
@@ -36,7 +37,7 @@ pub struct Resolution {
 
 impl Resolution {
     /// Of an isotropic material.
-    pub const ISOTROPIC: Self = Self { theta: 32, phi: 1, columns: 32, rows: 64, points: 2, cosine_share: 0.1 };
+    pub const ISOTROPIC: Self = Self { theta: 32, phi: 1, columns: 32, rows: 64, points: 2, cosine_share: 0.02 };
 
     /// Of an anisotropic material.
     pub const ANISOTROPIC: Self = Self { phi: 16, ..Self::ISOTROPIC };
@@ -80,27 +81,26 @@ impl HalfVectorTable {
 
     /// One lobe's densities for all slices.
     fn lobe(&self, measured: &Measured, luminance: &[f64], pair: Hemispheres, resolution: &Resolution) -> Lobe {
-        let mut lobe = Lobe::new(resolution.columns.max(1), resolution.rows.max(1));
+        let nodes = [resolution.columns.max(2), resolution.rows.max(2)];
         let points = resolution.points.max(1);
-        let place = |i: usize| (i as f64 + 0.5) / points as f64;
-        let mut weights = vec![0.0; lobe.columns * lobe.rows];
+        let mut weights = Vec::with_capacity(self.slices[0] * self.slices[1] * nodes[0] * nodes[1]);
         for slice in 0..self.slices[0] * self.slices[1] {
             let wo = self.view(slice);
-            for (cell, weight) in weights.iter_mut().enumerate() {
-                *weight = 0.0;
-                for i in 0..points * points {
-                    let (angles, area) = lobe.point(cell / lobe.rows, cell % lobe.rows, place(i % points), place(i / points));
+            for node in 0..nodes[0] * nodes[1] {
+                let place = [node % nodes[0], node / nodes[0]];
+                let scattered = around_node(place, nodes, points).map(|(angles, area)| {
                     let half = self.normal(angles, wo);
                     let wi = reflected(wo, half);
-                    if wi[2] > 0.0 {
-                        let [wi_side, wo_side] = to_sides(pair, wi, wo);
-                        *weight += measured.luminance(luminance, wi_side, wo_side).max(0.0) * area * 4.0 * dot(wo, half);
+                    if wi[2] <= 0.0 {
+                        return 0.0;
                     }
-                }
+                    let [wi_side, wo_side] = to_sides(pair, wi, wo);
+                    measured.luminance(luminance, wi_side, wo_side).max(0.0) * area * 4.0 * dot(wo, half)
+                });
+                weights.push((scattered.sum::<f64>() / (points * points) as f64) as f32);
             }
-            lobe.push(&weights);
         }
-        lobe
+        Lobe::new(nodes[0], nodes[1], weights)
     }
 
     /// Whether only the difference of azimuths counts.
@@ -166,16 +166,13 @@ impl HalfVectorTable {
         let Some(lobe) = &self.lobes[usize::from(wo[2] < 0.0)][usize::from(!pair.is_reflection())] else { return 0.0 };
         let (wi, wo) = pair.to_front(wi, wo);
         let slices = self.around(wo);
+        let weighted = |i: usize| (slices.index[i], slices.weight[i] * f64::from(lobe.share[slices.index[i]]));
+        let weighted = [0, 1, 2, 3].map(weighted);
+        let share: f64 = weighted.iter().map(|(_, weight)| weight).sum();
+        let blend = Blend::new(&weighted);
         let ways = [wi, through(wi)].map(|wi| self.way(wi, wo));
-        let mut pdf = 0.0;
-        for (&slice, weight) in slices.index.iter().zip(slices.weight) {
-            if weight > 0.0 {
-                let by_half: f64 = ways.iter().flatten().map(|&(square, jacobian)| lobe.density(slice, square) / jacobian).sum();
-                let density = self.cosine_share * wi[2] / PI + (1.0 - self.cosine_share) * by_half;
-                pdf += weight * f64::from(lobe.share[slice]) * density;
-            }
-        }
-        pdf
+        let by_half: f64 = ways.iter().flatten().map(|&(square, jacobian)| lobe.density(&blend, square) / jacobian).sum();
+        self.cosine_share * share * wi[2] / PI + (1.0 - self.cosine_share) * by_half
     }
 
     /// The normal that mirrors `wo` to `wi`, in the square, and the solid angle of `wi` for one of the normal.
