@@ -1,1 +1,48 @@
-//! Measured scattering of materials.
+//! Measured scattering of materials: what files hold, how it is evaluated, and how it is sampled.
+//!
+//! Directions are unit vectors of the shading frame, z along the front's normal, both pointing away from the surface; light comes from `wi`
+//! and leaves to `wo`. Values in tables are BSDF in 1/sr *without* a cosine, [`Measured::eval`] gives BSDF × |cos θ| of `wi`.
+//!
+//! Everything here is scalar and in f64: the reference that lane kernels are tested against. The arrays are flat, so that those kernels can
+//! gather from them as they are.
+
+mod axis;
+mod bytes;
+mod colour;
+mod coordinates;
+mod direction;
+pub mod gbsdf;
+mod hemispheres;
+mod measured;
+pub mod merl;
+mod patches;
+mod pbrdf;
+mod report;
+mod resample;
+mod rgl;
+mod sampling;
+mod table;
+mod tensor_file;
+#[cfg(test)]
+mod tests;
+mod text;
+mod tree;
+pub mod utia;
+mod warp;
+pub mod xml;
+pub mod zemax;
+
+pub use axis::{Axis, Mode};
+pub use colour::Channels;
+pub use coordinates::Coordinates;
+pub use direction::Direction;
+pub use hemispheres::Hemispheres;
+pub use measured::{Measured, read};
+pub use patches::{Band, Basis, Matrix, Patches};
+pub use report::{Albedo, Reciprocity};
+pub use resample::Grid;
+pub use rgl::{Rgl, RglGrid};
+pub use sampling::{HalfVectorTable, Lobe, Resolution, Sample, Sampler};
+pub use table::{Layout, Table};
+pub use tree::{Component, TensorTree, Tree, disk_to_square, square_to_disk};
+pub use warp::{Interpolant, Warp};

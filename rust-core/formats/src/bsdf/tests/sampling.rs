@@ -1,0 +1,133 @@
+//! Samplers against their densities, for every kind of measurement.
+
+use super::super::direction::{Direction, spherical, through};
+use super::super::report::quadrature;
+use super::super::{Axis, Channels, Coordinates, Grid, HalfVectorTable, Hemispheres, Layout, Measured, Mode, Resolution, Sampler, Table};
+use super::models::Ggx;
+use super::{Random, chi_square, klems, rgl, trees};
+
+/// Coarse tables: they make no difference to whether samples follow the density.
+const COARSE: Resolution = Resolution { theta: 6, phi: 1, columns: 12, rows: 16, points: 2, cosine_share: 0.1 };
+
+fn views() -> [Direction; 3] {
+    [spherical(0.1, 0.3), spherical(0.8, 2.0), spherical(1.3, -1.1)]
+}
+
+fn both_sides() -> Vec<Direction> {
+    views().into_iter().chain(views().map(through)).collect()
+}
+
+/// A table of a surface that reflects and lets some through.
+fn table(coordinates: Coordinates) -> Measured {
+    let ggx = Ggx { diffuse: 0.3, ..Ggx::ISOTROPIC };
+    let theta = Axis::uniform(0.0, 1.5, 10, Mode::Linear).unwrap();
+    let phi = Axis::uniform(0.0, 6.0, 16, Mode::Periodic { period: core::f64::consts::TAU }).unwrap();
+    let axes = match coordinates {
+        Coordinates::Isotropic => vec![theta.clone(), theta, phi],
+        _ => vec![theta.clone(), phi.clone(), theta, phi],
+    };
+    let side = |hemispheres| {
+        let layout = Layout { coordinates, axes: axes.clone(), channels: Channels::Rgb, hemispheres, reciprocal: false, bilateral: false };
+        let fill = |wi, wo, out: &mut [f32]| out.iter_mut().zip(ggx.brdf(wi, wo)).for_each(|(out, v)| *out = v as f32);
+        Table::from_function(layout, fill).unwrap()
+    };
+    Measured::Tables([Hemispheres::ReflectionFront, Hemispheres::TransmissionBack].map(side).to_vec())
+}
+
+#[test]
+fn samples_of_tables_follow_their_density() {
+    for (coordinates, phi) in [(Coordinates::Isotropic, 1), (Coordinates::Anisotropic, 4)] {
+        let material = table(coordinates);
+        chi_square::test(&Sampler::new(&material, &Resolution { phi, ..COARSE }), &views(), 1);
+    }
+}
+
+#[test]
+fn samples_of_trees_follow_their_density() {
+    let material = Measured::Tree(trees::material(4));
+    chi_square::test(&Sampler::new(&material, &Resolution { phi: 4, ..COARSE }), &both_sides(), 2);
+}
+
+#[test]
+fn samples_of_rgl_follow_their_density() {
+    for material in [rgl::small(), rgl::small_anisotropic()].map(Measured::Rgl) {
+        chi_square::test(&Sampler::new(&material, &COARSE), &views(), 3);
+    }
+}
+
+#[test]
+fn samples_of_matrices_follow_their_density() {
+    let material = Measured::Patches(klems::blind());
+    chi_square::test(&Sampler::new(&material, &COARSE), &both_sides(), 4);
+}
+
+#[test]
+fn densities_integrate_to_one() {
+    let (tables, tree, patches) = (table(Coordinates::Isotropic), Measured::Tree(trees::material(3)), Measured::Patches(klems::blind()));
+    for material in [&tables, &tree, &patches] {
+        let sampler = Sampler::new(material, &COARSE);
+        for wo in views() {
+            let integral = chi_square::integral(&sampler, wo);
+            assert!((integral - 1.0).abs() < 1e-3, "{integral} to {wo:?}");
+        }
+    }
+}
+
+#[test]
+fn an_rgl_density_integrates_to_what_stays_above_the_surface() {
+    let material = Measured::Rgl(rgl::small());
+    let sampler = Sampler::new(&material, &COARSE);
+    let n = 400;
+    for wo in views() {
+        let place = |i: usize| (i as f64 + 0.5) / f64::from(n);
+        let kept = (0..(n * n) as usize).filter(|i| sampler.sample(wo, [0.5, place(i % n as usize), place(i / n as usize)]).is_some());
+        let (kept, integral) = (kept.count() as f64 / f64::from(n * n), chi_square::integral(&sampler, wo));
+        assert!((integral - kept).abs() < 1e-3, "{integral} and {kept} to {wo:?}");
+    }
+}
+
+/// Mean and variance of luminance × cosine over density, for samples to a view.
+fn weights(material: &Measured, wo: Direction, sample: impl Fn([f64; 3]) -> Option<(Direction, f64)>) -> (f64, f64) {
+    let mut random = Random(53);
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for _ in 0..SAMPLES {
+        if let Some((wi, pdf)) = sample([random.next(), random.next(), random.next()]) {
+            let weight = material.eval_luminance(wi, wo) / pdf;
+            sum += weight;
+            squares += weight * weight;
+        }
+    }
+    let mean = sum / f64::from(SAMPLES);
+    (mean, squares / f64::from(SAMPLES) - mean * mean)
+}
+
+const SAMPLES: u32 = 20_000;
+
+#[test]
+fn weights_average_to_what_leaves() {
+    let rgl = Measured::Rgl(rgl::small());
+    let table = Measured::Tables(rgl.resampled(Grid { theta: 24, phi: 48, isotropic: true }).unwrap());
+    for material in [&rgl, &table] {
+        let sampler = Sampler::new(material, &Resolution::ISOTROPIC);
+        for wo in views() {
+            let (mean, variance) = weights(material, wo, |u| sampler.sample(wo, u).map(|s| (s.wi, s.pdf)));
+            let leaving: f64 = quadrature(wo, 200).map(|n| material.eval_luminance(n.direction, wo) * n.solid_angle).sum();
+            let error = 4.0 * (variance / f64::from(SAMPLES)).sqrt();
+            assert!((mean - leaving).abs() < error + 1e-3, "{mean} ± {error} and {leaving}");
+        }
+    }
+}
+
+#[test]
+fn half_vectors_are_nearly_as_good_as_the_files_own_warp() {
+    // The same material sampled both ways.
+    let material = Measured::Rgl(rgl::small());
+    let own = Sampler::new(&material, &COARSE);
+    let table = HalfVectorTable::new(&material, &Resolution::ISOTROPIC);
+    for wo in views() {
+        let (_, warp) = weights(&material, wo, |u| own.sample(wo, u).map(|s| (s.wi, s.pdf)));
+        let (_, half) = weights(&material, wo, |u| table.sample(wo, u));
+        eprintln!("to {wo:?}: variance {half:.2e} by half vectors, {warp:.2e} by the file's warp");
+        assert!(half < 1.3 * warp, "variance {half} by half vectors, {warp} by the file's warp");
+    }
+}
