@@ -6,6 +6,7 @@ from math import degrees, hypot, pi, sin
 import numpy as np
 
 from ..units import LUMENS_PER_WATT
+from . import goniogram  # noqa: F401 (it registers its node)
 from .material.closures import flatten
 from .material.sockets import active_output, input_socket
 from .material.translator import Translator
@@ -16,7 +17,7 @@ from .visibility import RAYS
 def describe(group, matrix, images, report):
     """The description of one lamp at one place."""
     lamp = group.data
-    strength = _strength(lamp, images, report)
+    strength, distribution = _strength(lamp, images, report)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
     return {
@@ -35,27 +36,29 @@ def describe(group, matrix, images, report):
         "spot": None,
         "spread_deg": 180.0,
         "portal": False,
+        "goniogram": distribution,
         **extra,
     }
 
 
 def _strength(lamp, images, report):
-    """The lamp's colour in W or W/m²: its own, of its temperature, and of its nodes."""
+    """The lamp's colour in W or W/m²: its own, of its temperature, and of its nodes; and its goniogram."""
     strength = np.array(lamp.color, dtype=float) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     if getattr(lamp, "use_temperature", False):
         strength = strength * np.array(lamp.temperature_color, dtype=float)
     if lamp.use_nodes and lamp.node_tree is not None:
-        strength = strength * _nodes_colour(lamp, images, report)
-    return strength
+        colour, distribution = _nodes_colour(lamp, images, report)
+        return strength * colour, distribution
+    return strength, None
 
 
 def _nodes_colour(lamp, images, report):
-    """What a lamp's nodes multiply its strength by."""
+    """What a lamp's nodes multiply its strength by: evenly, and by direction."""
     report.forget("Light", lamp.name)
     t = Translator(lamp, lamp.node_tree, images, report, kind="Light")
     end = active_output(lamp.node_tree, "Light")
     if end is None:
-        return np.zeros(3)
+        return np.zeros(3), None
     flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
     total = np.zeros(3)
     for closure in t.closures:
@@ -66,7 +69,7 @@ def _nodes_colour(lamp, images, report):
             report.add("Light", lamp.name, "a texture or a value that varies drives the light; its strength is taken as even")
             continue
         total += np.array(colour["Constant"][:3]) * np.array(weight["Constant"][:3]) / LUMENS_PER_WATT
-    return total
+    return total, t.goniogram
 
 
 def _is_normalized(lamp):

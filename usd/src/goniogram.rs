@@ -30,7 +30,7 @@ pub(crate) fn goniogram<'py>(
         return known.clone();
     }
     let origin = prim.origin();
-    let read = read(context, path, &origin).map(|found| Arc::new(requested(context, &origin, found, request)));
+    let read = read(context, path, &origin).map(|found| Arc::new(requested(context, &origin, &found, request)));
     context.goniograms.insert(key, read.clone());
     read
 }
@@ -66,24 +66,18 @@ fn in_file(file: &str, error: &gonio_formats::FormatError) -> String {
 }
 
 /// The factors as the light asks for them.
-fn requested(context: &mut Context<'_, '_>, origin: &Origin, found: photometry::Goniogram, request: Request) -> Goniogram {
-    let grid = found.expanded();
-    let is_polar = found.photometric_type == photometry::PhotometricType::C;
-    if request.angle_scale != 0.0 && !is_polar {
+fn requested(context: &mut Context<'_, '_>, origin: &Origin, found: &photometry::Goniogram, request: Request) -> Goniogram {
+    let mut goniogram = Goniogram::from(found);
+    if request.normalized {
+        let factor = normalization(found) as f32;
+        goniogram.factors.iter_mut().for_each(|intensity| *intensity *= factor);
+    }
+    if goniogram.photometric_type == PhotometricType::C {
+        goniogram.vertical_deg.iter_mut().for_each(|angle| *angle = scaled(*angle, request.angle_scale));
+    } else if request.angle_scale != 0.0 {
         context.warn(origin, "ies:angleScale is for distributions of type C; it is ignored");
     }
-    let factor = if request.normalized { normalization(&found) } else { 1.0 };
-    let scale = if is_polar { f64::from(request.angle_scale) } else { 0.0 };
-    Goniogram {
-        photometric_type: match found.photometric_type {
-            photometry::PhotometricType::C => PhotometricType::C,
-            photometry::PhotometricType::B => PhotometricType::B,
-            photometry::PhotometricType::A => PhotometricType::A,
-        },
-        horizontal_deg: grid.horizontal.iter().map(|angle| *angle as f32).collect(),
-        vertical_deg: grid.vertical.iter().map(|angle| scaled(*angle, scale) as f32).collect(),
-        factors: grid.intensities.iter().map(|intensity| (intensity * factor) as f32).collect(),
-    }
+    goniogram
 }
 
 /// One over the mean of the intensities over the sphere, or over the half of it that the file covers.
@@ -95,7 +89,7 @@ fn normalization(found: &photometry::Goniogram) -> f64 {
 }
 
 /// Where a polar angle of the file comes to lie, degrees: scaled about nadir, or about the zenith where the scale is negative.
-fn scaled(angle: f64, scale: f64) -> f64 {
+fn scaled(angle: f32, scale: f32) -> f32 {
     if scale > 0.0 {
         angle * scale
     } else if scale < 0.0 {

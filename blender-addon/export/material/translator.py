@@ -62,6 +62,8 @@ class Translator:
         self.root = Context(tree)
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
+        # Of a lamp's IES texture.
+        self.goniogram = None
         self._values, self._open = {}, set()
         # While a height is taken beside the hit: along which of the two steps, and how far.
         self._step = None

@@ -16,6 +16,12 @@ pub(crate) fn read<T: DeserializeOwned>(description: &Bound<'_, PyDict>, kind: &
     serde_json::from_str(&text).map_err(|error| wrong(kind, format!("the description is not understood: {error}")))
 }
 
+/// An element as a dictionary.
+pub(crate) fn to_python<'py>(py: Python<'py>, element: &impl serde::Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let text = serde_json::to_string(element).map_err(|error| wrong("description", error.to_string()))?;
+    py.import("json")?.call_method1("loads", (text,))
+}
+
 /// Appends an element, or replaces one; gives its number.
 pub(crate) fn put<T>(list: &mut Vec<T>, kind: &str, element: T, index: Option<u32>) -> PyResult<u32> {
     match index {

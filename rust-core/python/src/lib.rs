@@ -8,6 +8,7 @@ mod film;
 mod memory;
 mod mesh;
 mod pass;
+mod photometry;
 mod render;
 mod scene;
 mod settings;
@@ -24,6 +25,8 @@ mod _gonio {
     use crate::film::Film;
     #[pymodule_export]
     use crate::pass::Pass;
+    #[pymodule_export]
+    use crate::photometry::read_goniogram;
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile};
     #[pymodule_export]

@@ -3,7 +3,7 @@
 from math import radians
 
 import numpy
-from stage import ball, box, camera, diffuse, even_world, image, image_world, lamp, material, plane, principled
+from stage import ball, box, camera, diffuse, distribution, even_world, ies, image, image_world, lamp, material, plane, principled
 
 
 def corner() -> None:
@@ -34,6 +34,18 @@ def spot() -> None:
     lamp("SPOT", 500.0, (-1.8, -2.2, 3.2), (0.65, -0.45, 0.0), spot_size=radians(70), spot_blend=0.4, shadow_soft_size=0.1)
     blue = {"color": (0.4, 0.6, 1.0), "shadow_soft_size": 0.25}
     lamp("SPOT", 300.0, (2.2, -2.0, 2.6), (0.7, 0.55, 0.0), spot_size=radians(50), spot_blend=0.0, **blue)
+
+
+def goniogram() -> None:
+    """Two lamps with IES textures, no plane of theirs like another, one of them turned."""
+    corner()
+    # Fine enough that it does not count that Cycles takes cubic curves between the angles.
+    vertical, horizontal = numpy.arange(0, 181, 5), numpy.arange(0, 361, 15)
+    down, around = numpy.radians(vertical), numpy.radians(horizontal)[:, None]
+    candela = 900 * numpy.cos(down / 2) ** 4 * (1 + numpy.sin(down) * (0.5 * numpy.cos(around) + 0.3 * numpy.sin(2 * around)))
+    text = ies(vertical, horizontal, candela.round(3))
+    distribution(lamp("POINT", 1.0, (0.2, -1.4, 2.8), shadow_soft_size=0.05, use_soft_falloff=False), text, 1.0)
+    distribution(lamp("POINT", 0.5, (-1.9, -1.0, 1.5), (0.3, -0.9, 0.7), color=(1.0, 0.7, 0.4), shadow_soft_size=0.0), text, 0.8)
 
 
 def area(**fields) -> None:

@@ -128,6 +128,25 @@ def lamp(kind: str, energy: float, location, rotation=(0.0, 0.0, 0.0), **fields)
     return link(kind, made, location, rotation)
 
 
+def ies(vertical: list[float], horizontal: list[float], candela: list[list[float]]) -> str:
+    """An IES file of type C, metres, a point."""
+    counts = f"1 -1 1 {len(vertical)} {len(horizontal)} 1 2 0 0 0"
+    rows = [" ".join(str(value) for value in row) for row in (vertical, horizontal, *candela)]
+    return "\n".join(["IESNA:LM-63-2002", "TILT=NONE", counts, "1 1 10", *rows, ""])
+
+
+def distribution(thing: bpy.types.Object, text: str, strength: float) -> None:
+    """Lets an IES texture drive a lamp."""
+    light, file = thing.data, bpy.data.texts.new("distribution.ies")
+    file.write(text)
+    light.use_nodes = True
+    tree = light.node_tree
+    emission = next(each for each in tree.nodes if each.bl_idname == "ShaderNodeEmission")
+    texture = node(tree, "ShaderNodeTexIES", ies=file, Strength=strength)
+    tree.links.new(texture.outputs[0], emission.inputs["Strength"])
+
+
+
 def camera(location, target, **fields) -> bpy.types.Object:
     """The scene's camera, looking at a point."""
     data = bpy.data.cameras.new("Camera")

@@ -19,6 +19,7 @@ SCENES = [
     Scene("light", "point"),
     Scene("light", "sun"),
     Scene("light", "spot"),
+    Scene("light", "goniogram"),
     Scene("light", "area_square"),
     Scene("light", "area_rectangle"),
     Scene("light", "area_disk", 512, 512),

@@ -20,7 +20,7 @@ impl CompiledGoniograms {
     /// The number of a light's goniogram, laid out if it is new; reports those that cannot be used.
     pub(super) fn number(&mut self, light: &Light, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
         let source = light.goniogram.as_ref()?;
-        if let Some(known) = self.sources.iter().position(|known| Arc::ptr_eq(known, source)) {
+        if let Some(known) = self.sources.iter().position(|known| Arc::ptr_eq(known, source) || known == source) {
             return self.places[known];
         }
         let table = table(source);

@@ -1,5 +1,6 @@
 //! How a light's emission depends on direction, as measured.
 
+use gonio_formats::photometry;
 use serde::{Deserialize, Serialize};
 
 /// How two angles make a direction (CIE 121, LM-63). The luminaire's nadir is the light's −z, its C0 the light's +x.
@@ -26,4 +27,28 @@ pub struct Goniogram {
     pub vertical_deg: Vec<f32>,
     /// Not negative: `factors[h * vertical_deg.len() + v]`.
     pub factors: Vec<f32>,
+}
+
+impl From<photometry::PhotometricType> for PhotometricType {
+    fn from(found: photometry::PhotometricType) -> Self {
+        match found {
+            photometry::PhotometricType::C => Self::C,
+            photometry::PhotometricType::B => Self::B,
+            photometry::PhotometricType::A => Self::A,
+        }
+    }
+}
+
+impl From<&photometry::Goniogram> for Goniogram {
+    /// A file's goniogram with all its planes; the factors are candela.
+    fn from(found: &photometry::Goniogram) -> Self {
+        let photometry::Grid { horizontal, vertical, intensities } = found.expanded();
+        let narrow = |values: Vec<f64>| values.into_iter().map(|value| value as f32).collect();
+        Self {
+            photometric_type: found.photometric_type.into(),
+            horizontal_deg: narrow(horizontal),
+            vertical_deg: narrow(vertical),
+            factors: narrow(intensities),
+        }
+    }
 }

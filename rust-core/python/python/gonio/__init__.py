@@ -15,6 +15,7 @@ from ._gonio import (
     UnsupportedError,
     __version__,
     load_usd,
+    read_goniogram,
     simd_level,
 )
 
@@ -33,5 +34,6 @@ __all__ = [
     "UnsupportedError",
     "__version__",
     "load_usd",
+    "read_goniogram",
     "simd_level",
 ]

@@ -21,6 +21,7 @@ __all__ = [
     "Scene",
     "_main",
     "load_usd",
+    "read_goniogram",
     "__version__",
     "simd_level",
 ]
@@ -204,6 +205,7 @@ class Scene:
     @staticmethod
     def load(path: str | PathLike[str]) -> Scene: ...
 
+def read_goniogram(data: bytes, name: str) -> tuple[dict[str, Any], list[str]]: ...
 def load_usd(
     path: str | PathLike[str],
     *,
