@@ -8,6 +8,8 @@ import pytest
 
 mitsuba = pytest.importorskip("mitsuba")
 
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(3600)]
+
 REPOSITORY = Path(__file__).resolve().parents[2]
 PAIRS = 100_000
 

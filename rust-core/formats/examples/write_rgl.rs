@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rgl = Rgl::from_function(&grid, "a GGX surface", |wi, wo| ggx(alpha, wi, wo))?;
     let bytes = rgl.write();
     std::fs::write(file, &bytes)?;
-    let material = Measured::Rgl(Rgl::read(&bytes)?);
+    let material = Measured::Rgl(Box::new(Rgl::read(&bytes)?));
     std::fs::write(pairs, evaluations(&material, count.parse()?))?;
     Ok(())
 }

@@ -18,7 +18,7 @@ pub enum Measured {
     /// Tables over angles, at most one for each pair of hemispheres, all with the same channels; sides without a table scatter nothing.
     Tables(Vec<Table>),
     /// An adaptive measurement with its own warp.
-    Rgl(Rgl),
+    Rgl(Box<Rgl>),
     /// Matrices over patches of directions.
     Patches(Patches),
     /// Tensor trees.
@@ -35,7 +35,7 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Measured> {
         let file = TensorFile::read(bytes)?;
         return match file.find("M") {
             Some(_) => pbrdf::from_tensor_file(&file).map(table),
-            None => Rgl::from_tensor_file(&file).map(Measured::Rgl),
+            None => Rgl::from_tensor_file(&file).map(|rgl| Measured::Rgl(Box::new(rgl))),
         };
     }
     if bytes.starts_with(gbsdf::MAGIC.as_bytes()) {

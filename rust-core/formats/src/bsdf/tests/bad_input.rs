@@ -105,7 +105,7 @@ fn axes_that_do_not_increase() {
     for knots in [vec![], vec![0.0, 0.0], vec![1.0, 0.5], vec![f64::NAN], vec![0.0, f64::INFINITY]] {
         assert!(Axis::new(knots, Mode::Linear).is_err());
     }
-    assert!(Axis::new(vec![0.0, 6.3], Mode::Periodic { period: 6.28 }).is_err());
+    assert!(Axis::new(vec![0.0, 6.0], Mode::Periodic { period: 5.5 }).is_err());
     assert!(Axis::new(vec![0.0, 1.0], Mode::Periodic { period: f64::NAN }).is_err());
     let good = String::from_utf8(gbsdf::write(&[table(Coordinates::Isotropic)], "", Encoding::Text)).unwrap();
     let broken = good.replacen("linear 3\n0 ", "linear 3\n60 ", 1);

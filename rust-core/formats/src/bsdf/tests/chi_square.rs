@@ -35,7 +35,7 @@ pub(super) fn test(sampler: &Sampler<'_>, views: &[Direction], seed: u64) {
 pub(super) fn integral(sampler: &Sampler<'_>, wo: Direction) -> f64 {
     let up = if wo[2] < 0.0 { through(wo) } else { wo };
     let both = |d: Direction| sampler.pdf(wo, d) + sampler.pdf(wo, through(d));
-    quadrature(up, 400).map(|node| both(node.direction) * node.solid_angle).sum()
+    quadrature(up, 300).map(|node| both(node.direction) * node.solid_angle).sum()
 }
 
 /// How many samples of each bin; the last is for those that gave no direction.

@@ -73,7 +73,7 @@ fn bands_and_other_modes_come_back() {
     let phi = degrees(&[0.0, 90.0, 180.0], Mode::Linear);
     let channels = Channels::bands(vec![400.0, 555.5]).unwrap();
     let table = surface(Coordinates::Isotropic, vec![theta.clone(), theta, phi], channels, true);
-    let found = tables(&gbsdf::write(&[table.clone()], "", Encoding::Text));
+    let found = tables(&gbsdf::write(std::slice::from_ref(&table), "", Encoding::Text));
     assert_same(&found[0], &table, 0.0);
     assert_eq!(found[0].layout().axes[0].mode(), Mode::Nearest);
     assert!(found[0].layout().bilateral);

@@ -197,7 +197,7 @@ fn half_of_a_bilateral_material_is_enough() {
 
 #[test]
 fn a_resampled_material_is_the_material_at_knots() {
-    let material = Measured::Rgl(super::rgl::small());
+    let material = Measured::Rgl(Box::new(super::rgl::small()));
     let tables = material.resampled(Grid { theta: 9, phi: 8, isotropic: true }).unwrap();
     assert_eq!(tables.len(), 1);
     let resampled = Measured::Tables(tables);
