@@ -63,15 +63,19 @@ compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
 validate: test-blender compare-cycles
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 bench:
 	cargo bench -p gonio-simd
 
-# Needs Debian's libembree-dev and a C compiler.
-bench-peers:
+# Needs Debian's libembree-dev and libllvm19 (15 aborts on processors with AVX-512; DRJIT_LIBLLVM_PATH names another copy), and a C compiler.
+# The page of the pictures is out/peers/index.html; PEERS="--seconds 60" makes them longer.
+bench-peers: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
+bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	cd tests/peers/embree && cargo run --release
+	$(BIN)/python tests/validate/environments.py mitsuba
+	$(BIN)/python tests/peers/render/bench.py $(PEERS)
 
 clean:
 	cargo clean
