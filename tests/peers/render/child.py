@@ -1,7 +1,7 @@
 """Renders one scene with one engine, in the Python that has the engine: `child.py ENGINE SCENE SCALE THREADS`.
 
-Answers in lines of JSON: first about laying out the scene, then, for each line `{"samples": ..., "seed": ..., "file": ...}`, about a picture, which
-it saves as an array.
+Answers in lines of JSON: first about laying out the scene, then, for each line `{"samples": ..., "seed": ..., "file": ...}`, about a
+picture, which it saves as an array.
 """
 
 import dataclasses

@@ -85,7 +85,7 @@ def held(contest: Contest, *, seconds: float, rounds: int, scale: float, threads
                 say(f"{entrant.engine} is left out: {reason}")
         for peer in peers:
             peer.calibrate(seconds)
-            say(f"{contest.name}: {peer.entrant.engine} on {peer.entrant.scene}, {peer.samples} samples, prepared in {peer.preparation:.2f} s")
+            say(f"{peer.entrant.engine} on {peer.entrant.scene}: {peer.samples} samples, prepared in {peer.preparation:.2f} s")
         pictures: list[list[Picture]] = [[] for _ in peers]
         for seed in range(1, 2 * rounds + 1):
             for peer, made in zip(peers, pictures, strict=True):

@@ -41,7 +41,7 @@ class Cost:
 
 
 def cost(first: Picture, second: Picture, reference: numpy.ndarray) -> Cost:
-    """The cost of a picture like these two; `reference` (height, width, 3) is the best that is known of the scene, the same for all engines."""
+    """The cost of a picture like these two; `reference` (height, width, 3) is what is best known of the scene, the same for all."""
     known = reference @ LUMINANCE
     known = known + compare.FLOOR * known.mean()
     # The difference of two has twice the variance of one.

@@ -1,10 +1,11 @@
 """What a scene is, for every renderer alike: flat triangles, surfaces that all share, lights by radiance, one camera.
 
-Metres, y up, linear Rec.709; radiance in cd/m² (its luminance), intensity in cd. Matrices are 4 by 4 for column vectors. Lights shine and the
-camera looks along the -z of their frames.
+Metres, y up, linear Rec.709; radiance in cd/m² (its luminance), intensity in cd. Matrices are 4 by 4 for column vectors. Lights shine and
+the camera looks along the -z of their frames.
 """
 
 import importlib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy
@@ -109,8 +110,8 @@ class Camera:
 class Scene:
     """A scene and how it is rendered."""
 
-    meshes: list[Mesh]
-    lights: list[Light]
+    meshes: Sequence[Mesh]
+    lights: Sequence[Light]
     camera: Camera
     # (height, width, 3) float32 in cd/m², latitude-longitude by the OpenEXR convention: top row +y, centre column +z, left of it +x.
     environment: numpy.ndarray | None = None

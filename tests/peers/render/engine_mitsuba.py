@@ -1,4 +1,4 @@
-"""Scenes in Mitsuba 3, in either of its modes; lights are surfaces there, and scenes with coats, images around them or copies are not for it."""
+"""Scenes in Mitsuba 3, in either of its modes; lights are surfaces there, and coats, images and copies are not for it."""
 
 import math
 import tempfile

@@ -8,7 +8,7 @@ from statistics import geometric_mean, median
 from typing import Any
 
 import compare
-from contest import Result, Standing
+from contest import MOST_MEDIAN, Result, Standing
 from cost import OUTLIERS
 
 OUT = Path(__file__).resolve().parents[3] / "out" / "peers"
@@ -16,10 +16,10 @@ HEADS = ["scene", "engine", "cost ratio", "with outliers", "by processor", "cost
 HEADS += ["samples", "preparation s", "compiling s", "blocks differ", "noise of blocks"]
 EXPLANATION = f"""Cost is relative variance × seconds of two pictures with different seeds; a ratio is gonio's cost over the other's, the median over
 rounds (less than 1: gonio is cheaper). Variance is that of luminance over the squared luminance of the mean of all pictures, which has
-{compare.FLOOR:.0%} of the image's mean added; the {OUTLIERS:.1%} of pixels with the most variance are left out on all sides, "with outliers" has
-them. Seconds are those of the samples alone: laying out the scene and compiling kernels stand apart. "By processor" takes seconds of the
-processor instead of the clock's. Blocks of {compare.BLOCK} × {compare.BLOCK} pixels: the median relative difference of gonio's, which must stay
-below 1 %."""
+{compare.FLOOR:.0%} of the image's mean added; the {OUTLIERS:.1%} of pixels with the most variance are left out on all sides, "with
+outliers" has them. Seconds are those of the samples alone: laying out the scene and compiling kernels stand apart. "By processor" takes
+seconds of the processor instead of the clock's. Blocks of {compare.BLOCK} × {compare.BLOCK} pixels: the median relative difference of
+gonio's, which must stay below {MOST_MEDIAN:.0%}."""
 PAGE = """<!doctype html>
 <meta charset="utf-8">
 <title>Gonio beside other renderers</title>
@@ -98,7 +98,8 @@ def write(results: list[Result], found: dict[str, Any]) -> None:
         for other in others:
             name = f"{result.name}-{other.entrant.engine.replace(':', '-')}.png"
             compare.write_strip(OUT / name, ours.image, other.image)
-            pictures.append(f'<h2>{result.name}: gonio, {html.escape(other.entrant.engine)}, difference</h2>\n<img src="{name}">')
+            shown = " beside ".join(f"{each.entrant.engine} on {each.entrant.scene}" for each in (ours, other))
+            pictures.append(f'<h2>{shown}, and the difference (grey is none, white +5 %)</h2>\n<img src="{name}" alt="{shown}">')
     rows = ["<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells(row)) + "</tr>" for row in found["entrants"]]
     heads = "".join(f"<th>{head}</th>" for head in HEADS)
     versions = "; ".join(sorted({row["version"] for row in found["entrants"]}))

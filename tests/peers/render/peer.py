@@ -55,13 +55,14 @@ class Peer:
 
     def __init__(self, entrant: Entrant, *, scale: float = 1.0, threads: int = 2) -> None:
         """Starts laying out the scene, its sides multiplied by `scale`; raises `Unavailable` if the engine cannot be had."""
+        python = python_of(entrant.engine)
         self.entrant = entrant
         self.samples = 1
         # Processor seconds of a render that are not its samples'.
         self._beside = 0.0
         self._folder = tempfile.TemporaryDirectory()
         self._errors = (Path(self._folder.name) / "errors.txt").open("w+b")
-        command = [str(python_of(entrant.engine)), str(CHILD), entrant.engine, entrant.scene, str(scale), str(threads)]
+        command = [str(python), str(CHILD), entrant.engine, entrant.scene, str(scale), str(threads)]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True)
         said = self._answer()
         self.version: str = said["version"]
@@ -101,6 +102,7 @@ class Peer:
         if line:
             said: dict[str, Any] = json.loads(line)
             return said
+        self._process.wait()
         self._errors.seek(0)
         text = self._errors.read().decode(errors="replace").strip()
         self.__exit__()

@@ -43,6 +43,18 @@ def quad(name: str, corners: Sequence[Vector], surface: Surface) -> Mesh:
     return Mesh(name, numpy.array(corners, "f4"), numpy.array([(0, 1, 2), (0, 2, 3)], "i4"), surface, uvs)
 
 
+def room(half_width: float, half_depth: float, height: float, floor: Surface, ceiling: Surface, wall: Surface) -> list[Mesh]:
+    """A room about the vertical, seen from inside, without the wall at -x."""
+    x, z, h = half_width, half_depth, height
+    return [
+        quad("floor", [(-x, 0, z), (x, 0, z), (x, 0, -z), (-x, 0, -z)], floor),
+        quad("ceiling", [(-x, h, -z), (x, h, -z), (x, h, z), (-x, h, z)], ceiling),
+        quad("back", [(-x, 0, -z), (x, 0, -z), (x, h, -z), (-x, h, -z)], wall),
+        quad("front", [(x, 0, z), (-x, 0, z), (-x, h, z), (x, h, z)], wall),
+        quad("right", [(x, 0, -z), (x, 0, z), (x, h, z), (x, h, -z)], wall),
+    ]
+
+
 def box(name: str, centre: Vector, size: Vector, surface: Surface, turn_deg: float = 0.0) -> Mesh:
     """A closed box about its centre, turned about y."""
     corners = numpy.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * size

@@ -2,8 +2,8 @@
 
 import numpy
 from cornell import Diffuse, Glass, Mirror, Principled
-from description import Camera, Mesh, Rectangle, Scene
-from shapes import ball, box, facing, moved, quad, sheet, sky
+from description import Camera, Mesh, Rectangle, Scene, Surface
+from shapes import Vector, ball, box, facing, moved, quad, sheet, sky
 
 PAINT = Principled((0.55, 0.04, 0.03), 0.45, coat_weight=1.0, coat_roughness=0.1)
 RUBBER = Diffuse((0.04, 0.04, 0.04))
@@ -30,13 +30,14 @@ def body() -> list[Mesh]:
     ]
 
 
-def hull(name: str, centre, radii, power: float, surface, columns: int, rows: int) -> Mesh:
-    """A superellipsoid; a power of 1 makes an ellipsoid, less a box with round edges."""
+def hull(name: str, centre: Vector, radii: Vector, power: float, surface: Surface, columns: int, rows: int) -> Mesh:
+    """A superellipsoid; a power of 1 makes an ellipsoid, less makes a box with round edges."""
     latitude = numpy.pi * (numpy.arange(rows + 1) / rows - 0.5)[:, None]
     longitude = -2.0 * numpy.pi * (numpy.arange(columns) / columns)[None, :]
 
-    def bent(value):
-        return numpy.sign(value) * numpy.abs(value) ** power
+    def bent(value: numpy.ndarray) -> numpy.ndarray:
+        signed: numpy.ndarray = numpy.sign(value) * numpy.abs(value) ** power
+        return signed
 
     across = bent(numpy.cos(latitude).round(12))
     x, y, z = across * bent(numpy.cos(longitude)), bent(numpy.sin(latitude)) + 0.0 * longitude, across * bent(numpy.sin(longitude))

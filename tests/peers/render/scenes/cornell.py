@@ -1,8 +1,8 @@
 """The Cornell box of the validation, diffuse."""
 
 import cornell as box
-from description import Camera, Mesh, Rectangle, Scene
 import numpy
+from description import Camera, Mesh, Rectangle, Scene
 
 
 def scene() -> Scene:

@@ -1,9 +1,9 @@
 """A diffuse room with nine flat lights close to ceiling and walls, so that a renderer whose lights are surfaces shows the same."""
 
+import numpy
 from cornell import Diffuse
 from description import Camera, Disk, Light, Mesh, Rectangle, Scene
-from shapes import ball, box, downward, facing, lathed, quad
-import numpy
+from shapes import ball, box, downward, facing, lathed, quad, room
 
 WALL = (0.72, 0.70, 0.66)
 CEILING = (0.8, 0.8, 0.8)
@@ -17,13 +17,8 @@ def scene() -> Scene:
 
 def shell() -> list[Mesh]:
     """A closed room."""
-    wall = Diffuse(WALL)
     return [
-        quad("floor", [(-X, 0, Z), (X, 0, Z), (X, 0, -Z), (-X, 0, -Z)], Diffuse((0.35, 0.24, 0.16))),
-        quad("ceiling", [(-X, H, -Z), (X, H, -Z), (X, H, Z), (-X, H, Z)], Diffuse(CEILING)),
-        quad("back", [(-X, 0, -Z), (X, 0, -Z), (X, H, -Z), (-X, H, -Z)], wall),
-        quad("front", [(X, 0, Z), (-X, 0, Z), (-X, H, Z), (X, H, Z)], wall),
-        quad("right", [(X, 0, -Z), (X, 0, Z), (X, H, Z), (X, H, -Z)], wall),
+        *room(X, Z, H, Diffuse((0.35, 0.24, 0.16)), Diffuse(CEILING), Diffuse(WALL)),
         quad("left", [(-X, 0, Z), (-X, 0, -Z), (-X, H, -Z), (-X, H, Z)], Diffuse((0.55, 0.2, 0.15))),
     ]
 

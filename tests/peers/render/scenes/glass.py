@@ -2,7 +2,7 @@
 
 import numpy
 from cornell import Glass
-from description import Camera, Rectangle, Disk, Mesh, Scene, Textured
+from description import Camera, Disk, Mesh, Rectangle, Scene, Textured
 from shapes import ball, downward, facing, lathed, quad
 
 
@@ -45,7 +45,8 @@ def checks() -> numpy.ndarray:
     check = 0.5 + 0.5 * numpy.tanh(6.0 * numpy.sin(24.0 * numpy.pi * u) * numpy.sin(16.0 * numpy.pi * v))
     grain = 0.9 + 0.1 * numpy.sin(150.0 * u + 20.0 * numpy.sin(9.0 * v))
     light, dark = numpy.array([0.75, 0.68, 0.55]), numpy.array([0.25, 0.12, 0.08])
-    return ((check * grain)[..., None] * light + ((1.0 - check) * grain)[..., None] * dark).astype("f4")
+    colour: numpy.ndarray = (check * grain)[..., None] * light + ((1.0 - check) * grain)[..., None] * dark
+    return colour.astype("f4")
 
 
 def waves() -> numpy.ndarray:

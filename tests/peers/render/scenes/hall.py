@@ -36,7 +36,8 @@ def middle(column: int, row: int) -> tuple[float, float]:
 
 def ceiling(x: float, z: float) -> list[Light]:
     """A bay's ten lights, 2 by 5."""
-    return [Disk(downward(x + SIDE * (i - 0.5) / 2, HEIGHT - 0.01, z + SIDE * (j - 2) / 5), 0.06, RADIANCE) for i in (0, 1) for j in range(5)]
+    places = [(x + SIDE * (i - 0.5) / 2, z + SIDE * (j - 2) / 5) for i in (0, 1) for j in range(5)]
+    return [Disk(downward(light_x, HEIGHT - 0.01, light_z), 0.06, RADIANCE) for light_x, light_z in places]
 
 
 def shell() -> list[Mesh]:

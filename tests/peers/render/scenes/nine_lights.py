@@ -3,7 +3,7 @@
 import numpy
 from cornell import Diffuse, Glass, Mirror
 from description import Camera, Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Spot, Sun
-from shapes import ball, box, downward, facing, lathed, moved, quad
+from shapes import ball, box, downward, facing, lathed, moved, room
 
 WALL = Diffuse((0.72, 0.70, 0.66))
 FLOOR = Diffuse((0.35, 0.24, 0.16))
@@ -22,11 +22,7 @@ def scene() -> Scene:
 def shell() -> list[Mesh]:
     """Floor, ceiling and walls; the one at -x has an opening of 1.6 by 1.4 m."""
     return [
-        quad("floor", [(-X, 0, Z), (X, 0, Z), (X, 0, -Z), (-X, 0, -Z)], FLOOR),
-        quad("ceiling", [(-X, H, -Z), (X, H, -Z), (X, H, Z), (-X, H, Z)], CEILING),
-        quad("back", [(-X, 0, -Z), (X, 0, -Z), (X, H, -Z), (-X, H, -Z)], WALL),
-        quad("front", [(X, 0, Z), (-X, 0, Z), (-X, H, Z), (X, H, Z)], WALL),
-        quad("right", [(X, 0, -Z), (X, 0, Z), (X, H, Z), (X, H, -Z)], WALL),
+        *room(X, Z, H, FLOOR, CEILING, WALL),
         box("under", (-X - 0.1, 0.45, 0.0), (0.2, 0.9, 2 * Z), WALL),
         box("over", (-X - 0.1, 2.65, 0.0), (0.2, 0.7, 2 * Z), WALL),
         box("beside", (-X - 0.1, 1.6, -2.7), (0.2, 1.4, 2.6), WALL),
