@@ -14,12 +14,12 @@ from cost import OUTLIERS
 OUT = Path(__file__).resolve().parents[3] / "out" / "peers"
 HEADS = ["scene", "engine", "cost ratio", "with outliers", "by processor", "cost", "relative variance", "outliers from", "seconds"]
 HEADS += ["samples", "preparation s", "compiling s", "blocks differ", "noise of blocks"]
-EXPLANATION = f"""Cost is relative variance × seconds of two pictures with different seeds; a ratio is gonio's cost over the other's, the median over
-rounds (less than 1: gonio is cheaper). Variance is that of luminance over the squared luminance of the mean of all pictures, which has
-{compare.FLOOR:.0%} of the image's mean added; the {OUTLIERS:.1%} of pixels with the most variance are left out on all sides, "with
-outliers" has them. Seconds are those of the samples alone: laying out the scene and compiling kernels stand apart. "By processor" takes
-seconds of the processor instead of the clock's. Blocks of {compare.BLOCK} × {compare.BLOCK} pixels: the median relative difference of
-gonio's, which must stay below {MOST_MEDIAN:.0%}."""
+EXPLANATION = f"""Cost is relative variance × seconds of two pictures with different seeds; a ratio is gonio's cost over the other's, the
+median over rounds (less than 1: gonio is cheaper). Variance is that of luminance over the squared luminance of the mean of all pictures,
+which has {compare.FLOOR:.0%} of the image's mean added; the {OUTLIERS:.1%} of pixels with the most variance are left out on all sides,
+"with outliers" has them. Seconds are those of the samples alone: laying out the scene and compiling kernels stand apart. "By processor"
+takes seconds of the processor instead of the clock's. Blocks of {compare.BLOCK} × {compare.BLOCK} pixels: the median relative difference
+of gonio's, which must stay below {MOST_MEDIAN:.0%}."""
 PAGE = """<!doctype html>
 <meta charset="utf-8">
 <title>Gonio beside other renderers</title>

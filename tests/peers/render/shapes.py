@@ -7,7 +7,7 @@ import numpy
 from cornell import refined
 from description import Mesh, Surface
 
-Vector = Sequence[float]
+Vector = Sequence[float] | numpy.ndarray
 OCTAHEDRON = numpy.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], "f8")
 OCTANTS = numpy.array([(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)], "i4")
 
@@ -34,7 +34,8 @@ def moved(x: float, y: float, z: float, turn_deg: float = 0.0, scale: float = 1.
 
 def unit(vector: Vector) -> numpy.ndarray:
     """A vector made unit."""
-    return numpy.asarray(vector, "f8") / numpy.linalg.norm(vector)
+    length = float(numpy.linalg.norm(vector))
+    return numpy.asarray(vector, "f8") / length
 
 
 def quad(name: str, corners: Sequence[Vector], surface: Surface) -> Mesh:
@@ -60,7 +61,8 @@ def box(name: str, centre: Vector, size: Vector, surface: Surface, turn_deg: flo
     corners = numpy.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * size
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = numpy.array([triangle for a, b, c, d in faces for triangle in ((a, b, c), (a, c, d))], "i4")
-    place = moved(*centre, turn_deg)
+    x, y, z = centre
+    place = moved(x, y, z, turn_deg)
     return Mesh(name, (corners @ place[:3, :3].T + place[:3, 3]).astype("f4"), triangles, surface)
 
 
@@ -111,4 +113,5 @@ def sky(toward_sun: Vector, *, height: int = 256, glow: float = 0.0, width: floa
     ground = numpy.array([700.0, 620.0, 500.0])
     halo = numpy.array([1.0, 0.85, 0.65]) * (glow * numpy.exp((cosine - 1.0) / width) + 3000.0 * numpy.exp((cosine - 1.0) / 0.1))[..., None]
     blend = numpy.clip(d[..., 1:2] * 20.0 + 0.5, 0.0, 1.0)
-    return ((blue + halo) * blend + ground * (1.0 - blend)).astype("f4")
+    radiance: numpy.ndarray = (blue + halo) * blend + ground * (1.0 - blend)
+    return radiance.astype("f4")

@@ -2,13 +2,13 @@
 
 import numpy
 from cornell import Glass
-from description import Camera, Disk, Mesh, Rectangle, Scene, Textured
+from description import Camera, Disk, Light, Mesh, Rectangle, Scene, Textured
 from shapes import ball, downward, facing, lathed, quad
 
 
 def scene() -> Scene:
     """Lights are wide, for a path finds them through smooth glass by chance only."""
-    lights = [
+    lights: list[Light] = [
         Rectangle(downward(0.0, 2.4, 0.0), 2.6, 2.0, (1500.0, 1350.0, 1100.0)),
         Disk(facing((-2.2, 1.3, 1.0), (0.0, 0.3, 0.0)), 0.8, (900.0, 1100.0, 1500.0)),
     ]
