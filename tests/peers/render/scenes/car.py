@@ -24,7 +24,7 @@ def body() -> list[Mesh]:
     """A rounded hull and a cabin of solid glass with a roof."""
     return [
         quad("ground", [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)], Diffuse((0.3, 0.3, 0.3))),
-        hull("hull", (0.0, 0.55, 0.0), (2.1, 0.36, 0.85), 0.35, PAINT, 260, 180),
+        hull("hull", (0.0, 0.55, 0.0), (2.1, 0.36, 0.85), 0.35, PAINT, 240, 167),
         hull("cabin", (-0.15, 1.02, 0.0), (1.05, 0.3, 0.66), 0.6, Glass(1.5), 120, 80),
         hull("roof", (-0.2, 1.345, 0.0), (0.7, 0.03, 0.5), 0.5, PAINT, 60, 40),
     ]

@@ -31,8 +31,8 @@ def glasses() -> list[Mesh]:
     )
     fine = numpy.stack([numpy.interp(numpy.linspace(0, 13, 53), numpy.arange(14), goblet[:, k]) for k in (0, 1)], axis=1)
     return [
-        lathed("goblet", fine, (-0.28, 0.004, 0.05), Glass(1.5), segments=144),
-        lathed("other goblet", fine, (0.3, 0.004, -0.2), Glass(1.5), segments=144),
+        lathed("goblet", fine, (-0.28, 0.004, 0.05), Glass(1.5), segments=157),
+        lathed("other goblet", fine, (0.3, 0.004, -0.2), Glass(1.5), segments=157),
         ball("ball", (0.05, 0.124, 0.2), 0.12, Glass(1.5), 5),
         ball("drop", (0.32, 0.064, 0.3), (0.1, 0.06, 0.1), Glass(1.7), 4),
         ball("water", (-0.05, 0.154, -0.3), 0.15, Glass(1.33), 4),
