@@ -30,6 +30,11 @@ class Cost:
         return self.variance * self.seconds
 
     @property
+    def sample_variance(self) -> float:
+        """The relative variance of one sample, as if they were independent."""
+        return self.variance * self.samples
+
+    @property
     def whole_cost(self) -> float:
         """The same with the outliers."""
         return self.whole_variance * self.seconds

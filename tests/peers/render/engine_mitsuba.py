@@ -13,8 +13,6 @@ import numpy
 from cornell_mitsuba import bsdf, rgb, write_ply
 from description import Disk, Light, Mesh, Rectangle, Scene, Textured
 
-# Paths that the vector mode starts at once; their states lie in memory together.
-MOST_PATHS = 2**25
 # From gonio's frames, which look and shine along -z, to those of Mitsuba's camera and of its flat shapes.
 LOOKING = numpy.diag([-1.0, 1.0, -1.0, 1.0])
 SHINING = numpy.diag([1.0, -1.0, -1.0, 1.0])
@@ -28,10 +26,8 @@ class Engine:
         drjit.set_thread_count(threads)
         self._is_vector = variant.startswith("llvm")
         self.version = f"Mitsuba {mitsuba.__version__} {variant}" + (f", LLVM {drjit.detail.llvm_version()}" if self._is_vector else "")
-        self._pixels = scene.width * scene.height
-        self._bounces = scene.bounces
         folder = Path(tempfile.mkdtemp())
-        parts: dict[str, Any] = {"type": "scene", "camera": camera(scene)}
+        parts: dict[str, Any] = {"type": "scene", "camera": camera(scene), "integrator": {"type": "path", "max_depth": scene.bounces + 2}}
         parts |= {f"light {number}": emitter(light) for number, light in enumerate(scene.lights)}
         parts |= {f"mesh {number}": shape(mesh, folder / f"{number}.ply") for number, mesh in enumerate(scene.meshes)}
         self._scene = mitsuba.load_dict(parts)
@@ -41,12 +37,10 @@ class Engine:
     def render(self, samples: int, seed: int) -> tuple[numpy.ndarray, float, int]:
         """A picture, the seconds that its samples took without compiling, and how many they were: a square, as the sampler wants it."""
         side = max(1, round(math.sqrt(samples)))
-        passes = {"samples_per_pass": side} if self._is_vector and self._pixels * side * side > MOST_PATHS else {}
-        integrator = mitsuba.load_dict({"type": "path", "max_depth": self._bounces + 2, **passes})
         with drjit.scoped_set_flag(drjit.JitFlag.KernelHistory, self._is_vector):
             drjit.kernel_history_clear()
             start = time.perf_counter()
-            picture = numpy.array(mitsuba.render(self._scene, integrator=integrator, spp=side * side, seed=seed))
+            picture = numpy.array(mitsuba.render(self._scene, spp=side * side, seed=seed))
             seconds = time.perf_counter() - start
             compiling = sum(kernel.get("codegen_time", 0.0) + kernel.get("backend_time", 0.0) for kernel in drjit.kernel_history()) * 1e-3
         self.jit += compiling

@@ -12,8 +12,9 @@ from contest import MOST_MEDIAN, Result, Standing
 from cost import OUTLIERS
 
 OUT = Path(__file__).resolve().parents[3] / "out" / "peers"
-HEADS = ["scene", "engine", "cost ratio", "with outliers", "by processor", "cost", "relative variance", "outliers from", "seconds"]
-HEADS += ["samples", "preparation s", "compiling s", "blocks differ", "noise of blocks"]
+HEADS = ["scene", "engine", "cost ratio", "with outliers", "by processor", "cost", "relative variance", "of a sample"]
+HEADS += ["outliers from", "seconds", "samples", "preparation s", "compiling s", "blocks differ", "noise of blocks"]
+FIGURES = ("cost", "variance", "sample_variance", "outliers_from", "seconds", "processor")
 EXPLANATION = f"""Cost is relative variance × seconds of two pictures with different seeds; a ratio is gonio's cost over the other's, the
 median over rounds (less than 1: gonio is cheaper). Variance is that of luminance over the squared luminance of the mean of all pictures,
 which has {compare.FLOOR:.0%} of the image's mean added; the {OUTLIERS:.1%} of pixels with the most variance are left out on all sides,
@@ -42,7 +43,7 @@ td, th {{ padding: 0.2em 0.6em; text-align: right }}
 def figures(result: Result, standing: Standing) -> dict[str, Any]:
     """An entrant's figures by name; of what each round has, medians."""
     ours = result.standings[0]
-    middle = {name: median(getattr(cost, name) for cost in standing.costs) for name in ("cost", "variance", "outliers_from", "seconds")}
+    middle = {name: median(getattr(cost, name) for cost in standing.costs) for name in FIGURES}
     return {
         "scene": standing.entrant.scene,
         "engine": standing.entrant.engine,
@@ -74,7 +75,7 @@ def summary(results: list[Result], seconds: float) -> dict[str, Any]:
 def cells(row: dict[str, Any]) -> list[str]:
     """A row of the table."""
     texts = [row["scene"], row["engine"], *(f"{row[name]:.3f}" for name in ("ratio", "ratio_with_outliers", "ratio_by_processor"))]
-    texts += [f"{row[name]:.3g}" for name in ("cost", "variance", "outliers_from")]
+    texts += [f"{row[name]:.3g}" for name in ("cost", "variance", "sample_variance", "outliers_from")]
     texts += [f"{row['seconds']:.2f}", str(row["samples"]), f"{row['preparation']:.2f}", f"{row['jit']:.2f}"]
     return [*texts, f"{row['difference']:.2%}" + ("" if row["agrees"] else " OVER"), f"{row['noise']:.2%}"]
 

@@ -17,7 +17,7 @@ def scene() -> Scene:
         Rectangle(facing((0.0, 3.4, -3.0), (0.0, 0.6, 0.0)), 3.0, 0.5, (9000.0, 8000.0, 6500.0)),
     ]
     environment = sky((-0.5, 0.6, 0.45), glow=150000.0, width=0.004)
-    return Scene([*body(), *wheels(), *inside()], lights, Camera(facing((-3.6, 1.7, 4.2), (0.0, 0.5, 0.0)), 32.0), environment)
+    return Scene([*body(), *wheels(), *inside()], lights, Camera(facing((-3.6, 1.7, 4.8), (-0.1, 0.55, 0.0)), 38.0), environment)
 
 
 def body() -> list[Mesh]:
