@@ -9,7 +9,9 @@ export PYO3_PYTHON := $(BIN)/python
 # Blender as a Python package, in the versions that Python 3.11 can load.
 BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
-.PHONY: build render extension test test-rust test-python test-blender lint compare-cycles validate bench bench-peers clean
+FUZZED := ies ldt goniogram merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
+
+.PHONY: fuzz build render extension test test-rust test-python test-blender lint compare-cycles validate bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -61,18 +63,27 @@ compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
 	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
 	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/blender/compare_cycles -m validate
 
+# Every reader of untrusted files, ten minutes each.
+fuzz:
+	cargo build --release --quiet -p gonio-formats --example fuzz
+	for reader in $(FUZZED); do cargo run --release --quiet -p gonio-formats --example fuzz -- $$reader 600 || exit 1; done
+
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
-validate: test-blender compare-cycles
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
+validate: test-blender compare-cycles fuzz
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 # Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.
 bench:
 	cargo bench -p gonio
 
-# Needs Debian's libembree-dev and a C compiler.
-bench-peers:
+# Needs Debian's libembree-dev and libllvm19 (15 aborts on processors with AVX-512; DRJIT_LIBLLVM_PATH names another copy), and a C compiler.
+# The page of the pictures is out/peers/index.html; PEERS="--seconds 60" makes them longer.
+bench-peers: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
+bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	cd tests/peers/embree && cargo run --release
+	$(BIN)/python tests/validate/environments.py mitsuba
+	$(BIN)/python tests/peers/render/bench.py $(PEERS)
 
 clean:
 	cargo clean

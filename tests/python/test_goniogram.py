@@ -24,7 +24,7 @@ def test_a_file_becomes_a_description():
 
 def test_a_light_takes_it():
     scene = gonio.Scene()
-    number = scene.add_light("point", (1.0, 1.0, 1.0))
+    number = scene.add_light("sphere", (1.0, 1.0, 1.0), radius=0.1)
     light = scene.to_dict()["lights"][number]
     scene.put_light({**light, "goniogram": gonio.read_goniogram(IES.encode(), "lamp.ies")[0]}, number)
     assert scene.to_dict()["lights"][number]["goniogram"]["factors"][0] == 300

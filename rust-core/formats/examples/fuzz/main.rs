@@ -3,6 +3,7 @@
 //! Good files are broken in the ways that files break, and worse. A panic, more than a second for one input, or more memory than 64 times
 //! the input's size and a fixed part is a finding: its bytes are written to `fuzz-READER-SEED.bin`, and the run ends with status 1.
 
+mod bsdf;
 mod memory;
 mod mutate;
 mod photometry;
@@ -37,7 +38,7 @@ pub struct Reader {
 
 /// All readers of the crate.
 fn readers() -> Vec<Reader> {
-    photometry::readers()
+    [photometry::readers(), bsdf::readers()].concat()
 }
 
 /// The input at work and since when, for the watchdog.
