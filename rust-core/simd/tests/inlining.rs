@@ -1,4 +1,4 @@
-//! A function on lanes that is not inlined loses its level's instructions without a warning; this test reads the sources for such functions.
+//! A function or closure on lanes that is not inlined loses its level's instructions without a warning; this test reads the sources for such.
 
 use std::path::{Path, PathBuf};
 
@@ -69,6 +69,30 @@ fn offenders(text: &str) -> Vec<(usize, String)> {
         }
     }
     found
+}
+
+/// Whether a line has a closure that takes lanes; bind a function instead, which can ask to be inlined.
+fn opens_closure_on_lanes(line: &str) -> bool {
+    let Some((_, behind)) = line.split_once("= |") else { return false };
+    behind.split_once('|').is_some_and(|(parameters, _)| parameters.contains("<L>") || parameters.contains("<S>"))
+}
+
+#[test]
+fn no_closure_takes_lanes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    sources(&root, &mut files);
+    let mut report = String::new();
+    for file in files.iter().filter(|file| !file.components().any(|part| part.as_os_str() == "tests")) {
+        let Ok(text) = std::fs::read_to_string(file) else { continue };
+        for (at, line) in text.lines().enumerate().filter(|(_, line)| opens_closure_on_lanes(line)) {
+            report += &format!("{}:{}: {}\n", file.strip_prefix(&root).unwrap_or(file).display(), at + 1, line.trim());
+        }
+    }
+    assert!(report.is_empty(), "closures on lanes, which may stay calls:\n{report}");
+    assert!(
+        opens_closure_on_lanes("    let part = |centre: F<L>, half: F<L>| {") && !opens_closure_on_lanes("    let at = |i: usize| x[i];")
+    );
 }
 
 #[test]

@@ -53,8 +53,8 @@ fn polarised<L: Lanes>(c: F<L>, eta: F<L>) -> Polarised<L> {
     let cos = squared.safe_sqrt();
     let s = (c - eta * cos) / (c + eta * cos).max(1e-9);
     let p = (eta * c - cos) / (eta * c + cos).max(1e-9);
-    let sign = |x: F<L>| x.ge(0.0).select(l.f(1.0), l.f(-1.0));
-    Polarised { reflectance: [s * s, p * p], sign: [sign(s), sign(p)], cos, total: squared.le(0.0) }
+    let sign = [l.f(1.0).copysign(s), l.f(1.0).copysign(p)];
+    Polarised { reflectance: [s * s, p * p], sign, cos, total: squared.le(0.0) }
 }
 
 /// Sensitivities at a path difference in nanometres.

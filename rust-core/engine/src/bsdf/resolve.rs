@@ -259,8 +259,11 @@ impl<L: Lanes> Layers<'_, '_, L> {
     pub(super) fn walk(&mut self, colour: Rgb<L>, presence: F<L>, eta: F<L>) -> Rgb<L> {
         let method = self.surface.switches.subsurface;
         let radius = self.rgb(p::SUBSURFACE_RADIUS);
-        let live = |colour: F<L>, radius: F<L>| colour.keep_if(radius.ge(LEAST_RADIUS));
-        let scattered = Rgb::new(live(colour.r, radius.r), live(colour.g, radius.g), live(colour.b, radius.b));
+        let scattered = Rgb::new(
+            colour.r.keep_if(radius.r.ge(LEAST_RADIUS)),
+            colour.g.keep_if(radius.g.ge(LEAST_RADIUS)),
+            colour.b.keep_if(radius.b.ge(LEAST_RADIUS)),
+        );
         let (medium, factor) = medium(self.l, method, scattered, radius, self.get(p::SUBSURFACE_ANISOTROPY), eta);
         self.lobes.medium = Some(medium);
         let lobe = EntryLobe::new(method, self.base_roughness(), eta);

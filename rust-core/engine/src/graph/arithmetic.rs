@@ -76,20 +76,25 @@ fn sin_cos<L: Lanes>(angle: F<L>) -> [F<L>; 2] {
     [large.select(far_sin, sin), large.select(far_cos, cos)]
 }
 
+/// A divisor that is never zero.
+#[inline(always)]
+fn or_one<L: Lanes>(l: L, x: F<L>) -> F<L> {
+    x.eq(0.0).select(l.f(1.0), x)
+}
+
 /// Reflectance of a smooth dielectric for unpolarised light at |`cosine`|; `eta` is the far side's index over the near side's.
 #[inline(always)]
 fn fresnel<L: Lanes>(l: L, cosine: F<L>, eta: F<L>) -> F<L> {
     let one = l.f(1.0);
-    let or_one = |x: F<L>| x.eq(0.0).select(one, x);
     let c = cosine.abs();
     let excess = (eta - 1.0) * (eta + 1.0);
     let squared = c.mul_add(c, excess);
     let root = squared.safe_sqrt();
-    let sum = or_one(root + c);
+    let sum = or_one(l, root + c);
     // root − c without cancellation.
     let difference = excess / sum;
     let perpendicular = difference / sum;
-    let ratio = c.mul_add(root + c, -1.0) / or_one(c.mul_add(difference, 1.0));
+    let ratio = c.mul_add(root + c, -1.0) / or_one(l, c.mul_add(difference, 1.0));
     let reflectance = perpendicular * perpendicular * 0.5 * ratio.mul_add(ratio, 1.0);
     squared.gt(0.0).select(reflectance, one)
 }

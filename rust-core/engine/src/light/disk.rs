@@ -62,8 +62,8 @@ impl<L: Lanes> Seen<L> {
         let ends = [ends[0].keep_if(!self.inside), ends[1]];
         let cut = ends[1].gt(self.reach);
         let ends = [ends[0].min(self.reach), ends[1].min(self.reach)];
-        let slant = |x: F<L>| (x * x + self.h * self.h).sqrt();
-        let slants = [slant(ends[0]), slant(ends[1])];
+        let height = self.h * self.h;
+        let slants = [(ends[0] * ends[0] + height).sqrt(), (ends[1] * ends[1] + height).sqrt()];
         let whole = self.inside.select(ends[1] * ends[1], middle * half_chord * 4.0);
         let squares = cut.select((ends[1] - ends[0]) * (ends[1] + ends[0]), whole);
         // Difference of the cosines at the ends, without cancellation.

@@ -39,16 +39,12 @@ impl<L: Lanes> Seen<L> {
         // Both sides of a two-sided light look alike.
         let h = local.z.abs();
         let reach = h * light.value(field::REACH);
-        let part = |centre: F<L>, half: F<L>| {
-            let low = (centre - half).max(-reach);
-            [low, (centre + half).min(reach).max(low)]
-        };
         let centre = [-local.x, -local.y];
-        let (x, y) = (part(centre[0], half_x), part(centre[1], half_y));
+        let (x, y) = (within_reach(centre[0], half_x, reach), within_reach(centre[1], half_y, reach));
         let volume = h * ((x[1] - x[0]) * (y[1] - y[0]));
-        let corner = |i: usize, j: usize| Vec3::new(x[i], y[j], -h);
-        let first = triangle(volume, corner(0, 0), corner(1, 0), corner(1, 1));
-        let second = triangle(volume, corner(0, 0), corner(1, 1), corner(0, 1));
+        let (near, far) = (Vec3::new(x[0], y[0], -h), Vec3::new(x[1], y[1], -h));
+        let first = triangle(volume, near, Vec3::new(x[1], y[0], -h), far);
+        let second = triangle(volume, near, far, Vec3::new(x[0], y[1], -h));
         Self { x, y, centre, h, reach, solid_angle: first + second }
     }
     #[inline(always)]
@@ -121,6 +117,13 @@ impl Emitter for Rectangle {
         let reached = x.abs().le(seen.reach) & y.abs().le(seen.reach);
         ((seen.density(x, y) * light.solid_angle_ratio(wi)).keep_if(reached), uv)
     }
+}
+
+/// The part of a side that the light's spread reaches.
+#[inline(always)]
+fn within_reach<L: Lanes>(centre: F<L>, half: F<L>, reach: F<L>) -> [F<L>; 2] {
+    let low = (centre - half).max(-reach);
+    [low, (centre + half).min(reach).max(low)]
 }
 
 /// The angle whose sine is xy / √((x² + h²)(y² + h²)).
