@@ -10,16 +10,21 @@ use gonio_formats::bsdf::{
 /// The readers, and everything that is done with what they give.
 pub(crate) fn readers() -> Vec<Reader> {
     vec![
-        Reader { name: "merl", seeds: merl_seeds, read: |bytes| drop(merl::read(bytes)), memory: 1 << 20 },
+        Reader { name: "merl", seeds: merl_seeds, read: |bytes| merl::read(bytes).is_ok(), memory: 1 << 20 },
         // Every file of the one right size is read whole; the database's own grid is added to.
-        Reader { name: "utia", seeds: utia_seeds, read: |bytes| drop(utia::read(bytes)), memory: 16 << 20 },
-        Reader { name: "rgl", seeds: rgl_seeds, read: |bytes| drop(Rgl::read(bytes)), memory: 1 << 20 },
-        Reader { name: "pbrdf", seeds: pbrdf_seeds, read: |bytes| drop(read(bytes, "")), memory: 1 << 20 },
-        Reader { name: "bsdf-xml", seeds: xml_seeds, read: |bytes| drop(xml::read(bytes)), memory: 1 << 20 },
-        Reader { name: "zemax", seeds: zemax_seeds, read: |bytes| drop(std::str::from_utf8(bytes).map(zemax::read)), memory: 1 << 20 },
-        Reader { name: "gbsdf", seeds: gbsdf_seeds, read: |bytes| drop(gbsdf::read(bytes)), memory: 1 << 20 },
+        Reader { name: "utia", seeds: utia_seeds, read: |bytes| utia::read(bytes).is_ok(), memory: 16 << 20 },
+        Reader { name: "rgl", seeds: rgl_seeds, read: |bytes| Rgl::read(bytes).is_ok(), memory: 1 << 20 },
+        Reader { name: "pbrdf", seeds: pbrdf_seeds, read: |bytes| read(bytes, "").is_ok(), memory: 1 << 20 },
+        Reader { name: "bsdf-xml", seeds: xml_seeds, read: |bytes| xml::read(bytes).is_ok(), memory: 1 << 20 },
+        Reader {
+            name: "zemax",
+            seeds: zemax_seeds,
+            read: |bytes| std::str::from_utf8(bytes).is_ok_and(|text| zemax::read(text).is_ok()),
+            memory: 1 << 20,
+        },
+        Reader { name: "gbsdf", seeds: gbsdf_seeds, read: |bytes| gbsdf::read(bytes).is_ok(), memory: 1 << 20 },
         // Sampling tables have a size of their own.
-        Reader { name: "measured", seeds: all_seeds, read: |bytes| drop(read(bytes, "").map(|m| use_all(&m))), memory: 64 << 20 },
+        Reader { name: "measured", seeds: all_seeds, read: |bytes| read(bytes, "").map(|m| use_all(&m)).is_ok(), memory: 64 << 20 },
     ]
 }
 
