@@ -24,12 +24,7 @@ pub(crate) fn readers() -> Vec<Reader> {
         },
         Reader { name: "gbsdf", seeds: gbsdf_seeds, read: |bytes| gbsdf::read(bytes).is_ok(), memory: 1 << 20 },
         // Sampling tables have a size of their own.
-        Reader {
-            name: "measured",
-            seeds: all_seeds,
-            read: |bytes| read(bytes, "").map(|measured| use_all(&measured)).is_ok(),
-            memory: 64 << 20,
-        },
+        Reader { name: "measured", seeds: all_seeds, read: |bytes| read(bytes, "").map(|m| use_all(&m)).is_ok(), memory: 64 << 20 },
     ]
 }
 
