@@ -14,8 +14,8 @@ import numpy
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 CHILD = HERE / "child.py"
-# Seconds that a first, rough measurement takes at least.
-ENOUGH = 1.0
+# The share of the wanted seconds that a first, rough measurement takes at least.
+ENOUGH = 0.25
 
 
 class Unavailable(Exception):
@@ -90,7 +90,7 @@ class Peer:
     def calibrate(self, seconds: float) -> None:
         """Chooses the samples that take so many seconds."""
         self._beside = self.render(0).processor
-        enough = min(ENOUGH, 0.5 * seconds)
+        enough = ENOUGH * seconds
         self.samples = 4
         while (first := self.render(0)).seconds < enough:
             self.samples = round(first.samples * max(2.0, min(16.0, 1.5 * enough / max(first.seconds, 1e-3))))
