@@ -37,7 +37,7 @@ pub(super) fn light<L: Lanes>(
     let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
     add_sampled(&mut ws.first_hit, code, point.slot, contribution, shares, free);
     let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
-    let ray = ShadowLanes { segment, contribution, slot: point.slot, code, shares };
+    let ray = ShadowLanes { segment, contribution, slot: point.slot, code, light: sample.light, shares };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
 

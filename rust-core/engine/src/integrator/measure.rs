@@ -76,7 +76,7 @@ fn light<L: Lanes>(l: L, tables: &Tables, point: &Point<L>, u_choice: F<L>, u: [
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
     let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
-    let ray = ShadowLanes { segment, contribution, slot: point.slot, code: l.u(0), shares: None };
+    let ray = ShadowLanes { segment, contribution, slot: point.slot, code: l.u(0), light: sample.light, shares: None };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -18,6 +18,7 @@ mod scatter;
 mod shade;
 mod shader_passes;
 mod shadow;
+mod shadow_order;
 mod state;
 mod statistics;
 mod subsurface;

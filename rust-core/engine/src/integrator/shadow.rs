@@ -6,6 +6,7 @@ use super::{
     path::Transport,
     scatter::add_sampled,
     shade::{parameter_values, threshold},
+    shadow_order::ShadowOrder,
     state::{ShadowRays, Workspace, load3},
     surface::ChunkSource,
 };
@@ -33,6 +34,9 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
         (Execution::Scalar, true) => tables.bvh.blocked_or_passed_scalar(&rays, blocked, &mut ws.passed),
         (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
         (Execution::Vector(level), true) => tables.bvh.blocked_or_passed(level, &rays, blocked, &mut ws.passed),
+        (Execution::Vector(level), false) if coherent && ShadowOrder::pays(&tables.lights) => {
+            ws.shadow_order.occluded(&tables.bvh, &tables.lights, level, &ws.shadows, blocked);
+        }
         (Execution::Vector(level), false) if coherent => tables.bvh.occluded_packets(level, &rays, blocked),
         (Execution::Vector(level), false) => tables.bvh.occluded(level, &rays, blocked),
     }

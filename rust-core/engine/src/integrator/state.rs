@@ -1,6 +1,9 @@
 //! The state of a batch of paths, in columns.
 
-use super::{catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, statistics::Statistics, subsurface::Walks};
+use super::{
+    catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, shadow_order::ShadowOrder, statistics::Statistics,
+    subsurface::Walks,
+};
 use crate::{
     accel::{Hits, PassedHit},
     geometry::ShadowSegment,
@@ -14,6 +17,8 @@ pub const TILE: usize = 64;
 pub const BATCH: usize = TILE * TILE;
 /// Paths under way at once: each pixel's own, which a shadow catcher splits in two, and the one that measures its illuminance.
 pub(super) const CAPACITY: usize = 3 * BATCH;
+/// Room for shadow rays: walks under surfaces come out and are lit beside the surfaces themselves.
+pub(super) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + gonio_simd::PADDING;
 
 /// What a path has met so far.
 pub(super) mod flag {
@@ -209,6 +214,7 @@ pub(super) struct ShadowLanes<L: Lanes> {
     pub(super) contribution: Rgb<L>,
     pub(super) slot: U<L>,
     pub(super) code: U<L>,
+    pub(super) light: U<L>,
     pub(super) shares: Option<[Rgb<L>; 2]>,
 }
 
@@ -223,6 +229,8 @@ pub(super) struct ShadowRays {
     pub(super) slot: Column<u32>,
     /// What the contribution counts as, see [`super::light_sums::code`].
     pub(super) code: Column<u32>,
+    /// The light that each ray leads to.
+    pub(super) light: Column<u32>,
     /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
     pub(super) shares: [Columns3; 2],
     /// Constant columns that the traversal wants.
@@ -232,8 +240,7 @@ pub(super) struct ShadowRays {
 
 impl Default for ShadowRays {
     fn default() -> Self {
-        // Walks under surfaces come out and are lit beside the surfaces themselves.
-        let room = padded(2 * CAPACITY) + gonio_simd::PADDING;
+        let room = SHADOW_ROOM;
         Self {
             count: 0,
             origin: columns3(room),
@@ -242,6 +249,7 @@ impl Default for ShadowRays {
             contribution: columns3(room),
             slot: Column::new(room),
             code: Column::new(room),
+            light: Column::new(room),
             shares: [columns3(room), columns3(room)],
             t_min: vec![0.0; room],
             mask: vec![ray_mask::SHADOW; room],
@@ -259,6 +267,7 @@ impl ShadowRays {
         append3(ray.contribution.into(), chosen, &mut self.contribution, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);
+        ray.light.append(chosen, &mut self.light, n);
         if let Some(shares) = ray.shares {
             append3(shares[0].into(), chosen, &mut self.shares[0], n);
             append3(shares[1].into(), chosen, &mut self.shares[1], n);
@@ -410,6 +419,7 @@ pub struct Workspace {
     pub(super) retraced: Hits,
     pub(super) retraced_rays: RetracedRays,
     pub(super) shadows: ShadowRays,
+    pub(super) shadow_order: ShadowOrder,
     pub(super) blocked: Vec<u8>,
     pub(super) passed: Vec<PassedHit>,
     pub(super) measure: MeasurePoints,

@@ -86,6 +86,10 @@ impl LightTable {
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
+    /// Whether a light shines from all around.
+    pub fn is_dome(&self, light: u32) -> bool {
+        self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)
+    }
     /// Whether some light is of this kind.
     pub fn has(&self, kind: LightKind) -> bool {
         self.kinds >> kind as u32 & 1 != 0
