@@ -63,6 +63,7 @@ pub(super) fn fill_spread(record: &LightRecord, axes: [Vector; 3], row: &mut [f3
     let tangent = half.tan();
     row[field::SPREAD_TANGENT] = tangent as f32;
     row[field::SPREAD_GAIN] = (1.0 / (tangent - half)) as f32;
+    row[field::SPREAD_COSINE] = half.cos() as f32 - SLACK;
     let area = length(cross(axes[0], axes[1]));
     // The beam's circle about the foot, in the frame: in units of length for rectangles, of radii for disks.
     let reach = match record.kind {

@@ -13,9 +13,6 @@ const RECEIVER_FLOOR: f32 = 0.05;
 /// The same for the emitter's obliqueness, because the far end of a light may face the point more squarely.
 pub(super) const EMITTER_FLOOR: f32 = 0.1;
 
-/// Cosines bound a beam less this.
-const BEAM_SLACK: f32 = 1e-4;
-
 /// What the estimate of a light's illuminance takes, one light in all lanes or a light in each.
 pub(super) struct Estimate<L: Lanes> {
     centre: Vec3<L>,
@@ -25,8 +22,8 @@ pub(super) struct Estimate<L: Lanes> {
     normal: Vec3<L>,
     cone_cosine: F<L>,
     sine: F<L>,
-    /// Tangent of the half angle of a flat light's spread, and what the spread gains on the normal: 1 without one.
-    tangent: F<L>,
+    /// Cosine of the half angle of a flat light's spread, and what the spread gains on the normal: 1 without one.
+    spread_cosine: F<L>,
     gain: F<L>,
     flags: U<L>,
 }
@@ -42,7 +39,7 @@ impl<L: Lanes> Estimate<L> {
             normal: light.vector(field::NORMAL),
             cone_cosine: light.value(field::CONE_COSINE),
             sine: light.value(field::SINE),
-            tangent: light.value(field::SPREAD_TANGENT),
+            spread_cosine: light.value(field::SPREAD_COSINE),
             gain: light.value(field::SPREAD_TANGENT) * light.value(field::SPREAD_GAIN),
             flags: light.integer(field::FLAGS),
         }
@@ -58,7 +55,7 @@ impl<L: Lanes> Estimate<L> {
             normal: vector(field::NORMAL),
             cone_cosine: l.f(row[field::CONE_COSINE]),
             sine: l.f(row[field::SINE]),
-            tangent: l.f(row[field::SPREAD_TANGENT]),
+            spread_cosine: l.f(row[field::SPREAD_COSINE]),
             gain: l.f(row[field::SPREAD_TANGENT] * row[field::SPREAD_GAIN]),
             flags: l.u(row[field::FLAGS].to_bits()),
         }
@@ -77,19 +74,18 @@ impl<L: Lanes> Estimate<L> {
 
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
-        let distance = squared.sqrt();
-        let direction = towards * distance.recip();
-        let sine = (self.radius / distance).min(1.0);
-        let cosine = (1.0 - sine * sine).safe_sqrt();
+        let nearness = squared.sqrt().recip();
+        // The cosine of an angle less another one is at most the cosine of the one plus the sine of the other.
+        let sine = (self.radius * nearness).min(1.0);
         let inside = squared.le(self.radius * self.radius);
-        let receiver = inside.select(l.f(1.0), widened(l, n.dot(direction), sine, cosine));
+        let receiver = inside.select(l.f(1.0), (n.dot(towards) * nearness + sine).min(1.0));
         let height = -self.normal.dot(towards);
         let height = self.is(flag::TWO_SIDED).select(height.abs(), height);
-        let emitter = inside.select(l.f(1.0), (height / distance).max(EMITTER_FLOOR));
+        let cosine = height * nearness;
+        let emitter = inside.select(l.f(1.0), cosine.max(EMITTER_FLOOR));
         let emitter = self.is(flag::FLAT).select(emitter.keep_if(height.gt(0.0)), l.f(1.0));
-        let edge = (self.tangent * self.tangent + 1.0).sqrt().recip() - BEAM_SLACK;
-        let in_beam = inside | self.gain.le(1.0) | widened(l, height / distance, sine, cosine).ge(edge);
-        let in_cone = inside | widened(l, -self.axis.dot(direction), sine, cosine).ge(self.cone_cosine);
+        let in_beam = inside | self.gain.le(1.0) | (cosine + sine).ge(self.spread_cosine);
+        let in_cone = inside | (sine - self.axis.dot(towards) * nearness).ge(self.cone_cosine);
         // However the beam is gathered, no more arrives than from an endless plane of the light's radiance.
         let widening = squared.max(self.gain * self.radius * self.radius).max(f32::MIN_POSITIVE);
         let from_near = (lifted(l, n, receiver) * emitter * self.gain / widening).keep_if(in_cone & in_beam);
@@ -101,13 +97,6 @@ impl<L: Lanes> Estimate<L> {
 #[inline(always)]
 pub(super) fn lifted<L: Lanes>(l: L, n: Vec3<L>, cosine: F<L>) -> F<L> {
     n.length_squared().lt(0.5).select(l.f(1.0), cosine.clamp(RECEIVER_FLOOR, 1.0))
-}
-
-/// Cosine of an angle less another one, 1 where that would be negative.
-#[inline(always)]
-fn widened<L: Lanes>(l: L, cosine: F<L>, by_sine: F<L>, by_cosine: F<L>) -> F<L> {
-    let sine = (1.0 - cosine * cosine).safe_sqrt();
-    cosine.gt(by_cosine).select(l.f(1.0), cosine.mul_add(by_cosine, sine * by_sine))
 }
 
 /// How lights are chosen.

@@ -6,14 +6,14 @@ use crate::table::{Axis, Table};
 use gonio_simd::{F, Lanes, M, Vec3};
 use std::f32::consts::TAU;
 
-/// How two angles make a direction; `crate::scene::PhotometricType` tells the formulas.
+/// How two angles make a direction (CIE 121); `z` is up, nadir −z, C0 +x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AngularType {
-    /// Polar axis −z.
+    /// Polar axis −z: tan C = y / x, cos γ = −z.
     C,
-    /// Polar axis y.
+    /// Polar axis y: tan V = x / −z, sin H = y.
     B,
-    /// Polar axis x.
+    /// Polar axis x: tan H = y / −z, sin V = x.
     A,
 }
 

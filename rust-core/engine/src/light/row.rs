@@ -76,6 +76,8 @@ pub(crate) mod field {
     pub(crate) const LEVEL_Y: usize = 67;
     /// Number of the goniogram counted from 1 as bits, 0 without one.
     pub(crate) const GONIOGRAM: usize = 70;
+    /// Cosine of the half angle of a flat light's spread, less a little; 0 without one.
+    pub(crate) const SPREAD_COSINE: usize = 71;
 }
 
 /// Switches in [`field::FLAGS`]; the kind's number is in the low byte.
