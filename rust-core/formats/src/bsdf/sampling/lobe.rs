@@ -14,7 +14,7 @@ pub struct Lobe {
 }
 
 impl Lobe {
-    /// The lobe of slices of weights at nodes, columns fastest. Shares are the sums of slices for now.
+    /// The lobe of slices of weights at nodes, columns fastest. Shares begin as the sums of slices; the table weighs lobes against each other.
     pub(super) fn new(columns: usize, rows: usize, weights: Vec<f32>) -> Self {
         let share = weights.chunks_exact(columns * rows).map(|slice| slice.iter().sum()).collect();
         Self { share, warp: Warp::new(Interpolant { parameters: Vec::new(), columns, rows, data: weights }) }
