@@ -13,6 +13,7 @@ mod goniogram;
 pub mod instancer;
 pub mod light;
 pub mod material;
+pub mod memory_limit;
 pub mod mesh;
 pub mod model;
 mod nesting;

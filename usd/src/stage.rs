@@ -1,6 +1,7 @@
 //! Opening stages and reading them into scenes.
 
 use crate::context::{Context, UpAxis};
+use crate::memory_limit::MemoryLimit;
 use crate::options::{SampleTime, StageOptions};
 use crate::prim::Prim;
 use crate::pxr::{self, Module, Trap};
@@ -247,6 +248,7 @@ fn open_prepared<'py>(py: Python<'py>, path: &Path, options: &StageOptions, diag
 
 /// The stage, with the session layer as the edit target.
 fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, session: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>> {
+    let _limit = MemoryLimit::new(py);
     let root = find_layer(py, path)?;
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
