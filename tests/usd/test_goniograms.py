@@ -113,3 +113,10 @@ def test_files_that_cannot_be_read_leave_the_light_uniform(tmp_path, text):
 def test_a_missing_file_is_told(tmp_path):
     scene = gonio.load_usd(str(stage(tmp_path)))
     assert any("lamp.ies" in str(line) and "does not exist" in str(line) for line in scene.diagnostics)
+
+
+def test_each_missing_file_is_told(tmp_path):
+    other = LIGHT.replace('"L"', '"M"').format(file="other.ies", body="")
+    scene = gonio.load_usd(str(stage(tmp_path, more=other)))
+    told = " ".join(str(line) for line in scene.diagnostics)
+    assert "'lamp.ies'" in told and "'other.ies'" in told

@@ -12,6 +12,7 @@ import cornell
 import mathutils
 import numpy
 from blender_pixels import pixels
+from cycles_settings import unbiased
 
 
 def main(variant: str, samples: int, seed: int, out: Path) -> None:
@@ -33,22 +34,10 @@ def main(variant: str, samples: int, seed: int, out: Path) -> None:
 
 
 def settings(scene: bpy.types.Scene, samples: int, seed: int) -> None:
-    """Everything that would bias the picture off, a box filter (always one pixel wide in Cycles)."""
-    scene.render.engine = "CYCLES"
+    """What this rendering has of its own."""
+    unbiased(scene, cornell.MAX_BOUNCES)
     scene.render.resolution_x = scene.render.resolution_y = cornell.RESOLUTION
-    scene.render.resolution_percentage = 100
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.image_settings.color_depth = "32"
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples, cycles.seed = samples, seed
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.pixel_filter_type = "BOX"
-    cycles.blur_glossy = cycles.light_sampling_threshold = 0.0
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
-    cycles.caustics_reflective = cycles.caustics_refractive = True
-    for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces"):
-        setattr(cycles, limit, cornell.MAX_BOUNCES)
+    scene.cycles.samples, scene.cycles.seed = samples, seed
 
 
 def place(scene: bpy.types.Scene, name: str, data: bpy.types.ID, matrix: list[list[float]] | None) -> bpy.types.Object:

@@ -4,8 +4,9 @@ use crate::asset;
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::vt::AssetPath;
+use gonio::Error;
 use gonio::scene::{Goniogram, Origin, PhotometricType};
-use gonio_formats::{Place, photometry};
+use gonio_formats::photometry;
 use std::{f64::consts::PI, sync::Arc};
 
 /// What a light asks of its file.
@@ -25,7 +26,7 @@ pub(crate) fn goniogram<'py>(
     path: &AssetPath,
     request: Request,
 ) -> Option<Arc<Goniogram>> {
-    let key = format!("{}\n{}\n{}", path.resolved, request.angle_scale.to_bits(), request.normalized);
+    let key = format!("{}\n{}\n{}\n{}", path.authored, path.resolved, request.angle_scale.to_bits(), request.normalized);
     if let Some(known) = context.goniograms.get(&key) {
         return known.clone();
     }
@@ -41,12 +42,12 @@ fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Opt
         Err(format!("the light distribution '{authored}' does not exist"))
     } else {
         let bytes = asset::bytes(context.py, resolved).map_err(|problem| format!("the light distribution '{resolved}' {problem}"));
-        bytes.and_then(|bytes| photometry::read(&bytes, resolved).map_err(|error| in_file(resolved, &error)))
+        bytes.and_then(|bytes| photometry::read(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string()))
     };
     match found {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {
-                context.note(origin, in_file(resolved, warning));
+                context.note(origin, Error::in_file(resolved, warning).to_string());
             }
             Some(goniogram)
         }
@@ -54,14 +55,6 @@ fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Opt
             context.warn(origin, format!("{problem}; the light counts as uniform"));
             None
         }
-    }
-}
-
-/// A problem with its file, and its line if it is at one.
-fn in_file(file: &str, error: &gonio_formats::FormatError) -> String {
-    match error.place {
-        Some(Place::Line(line)) => format!("{file}:{line}: {}", error.problem),
-        _ => format!("{file}: {}", error.problem),
     }
 }
 

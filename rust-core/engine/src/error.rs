@@ -1,6 +1,7 @@
 //! Errors and diagnostics: the place first, then what was found and expected, then a hint.
 
 use crate::scene::Origin;
+use gonio_formats::{FormatError, Place};
 use std::path::PathBuf;
 
 /// The result of an operation of the engine.
@@ -63,6 +64,11 @@ impl Error {
     /// An I/O error with its path.
     pub fn io(path: impl Into<PathBuf>, source: std::io::Error) -> Self {
         Self::Io { path: path.into(), source }
+    }
+    /// What a reader found wrong with a file's content, with the file.
+    pub fn in_file(path: impl Into<PathBuf>, error: &FormatError) -> Self {
+        let line = if let Some(Place::Line(line)) = error.place { Some(line) } else { None };
+        Self::Format { path: path.into(), line, problem: error.problem.clone() }
     }
     /// A scene element's problem.
     pub fn scene(origin: &Origin, problem: impl Into<String>) -> Self {

@@ -11,6 +11,7 @@ import numpy
 from blender_pixels import pixels
 from cornell import Diffuse
 from cornell_cycles import node_name, sockets
+from cycles_settings import unbiased
 from description import LUMENS_PER_WATT, Camera, Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Spot, Sun, Surface, Textured
 
 # Blender's z is up, and the middle of an image around the scene lies at its x.
@@ -54,23 +55,11 @@ def render_seconds(file: bytes) -> float:
 
 
 def settings(made: bpy.types.Scene, scene: Scene, threads: int) -> None:
-    """Everything that would bias the picture off, a box filter (always one pixel wide in Cycles)."""
-    made.render.engine = "CYCLES"
+    """What this scene has of its own."""
+    unbiased(made, scene.bounces)
     made.render.resolution_x, made.render.resolution_y = scene.width, scene.height
-    made.render.resolution_percentage = 100
-    made.render.image_settings.file_format = "OPEN_EXR"
-    made.render.image_settings.color_depth = "32"
     made.render.threads_mode, made.render.threads = "FIXED", threads
     made.render.use_persistent_data = True
-    cycles = made.cycles
-    cycles.device = "CPU"
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.pixel_filter_type = "BOX"
-    cycles.blur_glossy = cycles.light_sampling_threshold = 0.0
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
-    cycles.caustics_reflective = cycles.caustics_refractive = True
-    for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces"):
-        setattr(cycles, limit, scene.bounces)
 
 
 def linked(name: str, data: bpy.types.ID, matrix: numpy.ndarray) -> bpy.types.Object:

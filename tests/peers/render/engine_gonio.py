@@ -3,6 +3,7 @@
 import time
 from typing import Any
 
+import cornell_gonio
 import gonio
 import numpy
 from cornell import Diffuse, Glass, Mirror, Principled
@@ -83,16 +84,7 @@ def parameters(surface: Surface) -> tuple[str, dict[str, Any]]:
         case Glass(ior):
             return "Glass", {"base_color": (1.0, 1.0, 1.0), "specular_roughness": 0.0, "specular_ior": ior}
         case Principled():
-            return "Principled", {
-                "base_color": surface.base_color,
-                "specular_roughness": surface.roughness,
-                "metalness": surface.metallic,
-                "specular_color": surface.specular_tint,
-                "metal_edge_tint": surface.specular_tint,
-                "coat_weight": surface.coat_weight,
-                "coat_roughness": surface.coat_roughness,
-                "coat_ior": 1.5,
-            }
+            return "Principled", cornell_gonio.parameters(surface)
     raise NotImplementedError(surface)
 
 

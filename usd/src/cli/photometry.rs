@@ -6,7 +6,6 @@ use gonio_formats::photometry::{
     Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt,
     polar_diagram, read,
 };
-use gonio_formats::{FormatError, Place};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{Read, Write};
@@ -69,7 +68,7 @@ fn load(options: &PhotometryOptions) -> Result<Goniogram> {
         let problem = format!("more than {LONGEST} bytes: no luminaire's file");
         return Err(Error::Format { path: path.clone(), line: None, problem });
     }
-    let mut goniogram = read(&bytes, &path.to_string_lossy()).map_err(|error| in_file(path, error))?;
+    let mut goniogram = read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(path, &error))?;
     if let Some(number) = options.lamp_set {
         let chosen = goniogram.with_lamp_set(number as usize - 1);
         goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;
@@ -81,14 +80,6 @@ fn load(options: &PhotometryOptions) -> Result<Goniogram> {
         Some(degrees) => Ok(goniogram.rotated(degrees)),
         None => Ok(goniogram),
     }
-}
-
-fn in_file(path: &Path, error: FormatError) -> Error {
-    let line = match error.place {
-        Some(Place::Line(line)) => Some(line),
-        _ => None,
-    };
-    Error::Format { path: path.to_owned(), line, problem: error.problem }
 }
 
 fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures) -> Value {

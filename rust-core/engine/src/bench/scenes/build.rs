@@ -7,7 +7,7 @@ use crate::scene::{
 use std::sync::Arc;
 
 /// Adds a mesh of one material, placed once.
-pub(super) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform: Transform) {
+pub(in crate::bench) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform: Transform) {
     let mesh = scene.add_mesh(mesh);
     let material = scene.add_material(material);
     scene.instances.push(Instances {

@@ -6,7 +6,7 @@ mod glass;
 mod room;
 mod shapes;
 
-pub(super) use build::{aimed, light};
+pub(super) use build::{aimed, light, place};
 pub(super) use car::{car, sky};
 pub(super) use glass::glass;
 pub(super) use room::room;

@@ -5,12 +5,12 @@ use crate::{
     bench::{
         kernel::{Case, Kernel, Outcome},
         numbers::{BATCH, columns3, cube},
-        scenes::{self, aimed, light},
+        scenes::{self, aimed, light, place},
     },
     compile::CompiledScene,
     error::Result,
     integrator::{Tables, kernels},
-    scene::{Closure, DomeFormat, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Texture, Transform, Visibility},
+    scene::{Closure, DomeFormat, Light, LightShape, Material, Mesh, Origin, Scene, Texture, Transform},
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
 use std::sync::{Arc, atomic::AtomicBool};
@@ -74,21 +74,10 @@ fn sky() -> Scene {
 fn triangle() -> Scene {
     let mut scene = Scene::default();
     let points = Arc::from([[-0.5, 2.0, -0.4], [0.5, 2.0, -0.4], [0.0, 2.0, 0.5]]);
-    let mesh = scene.add_mesh(Mesh { points, triangles: Arc::from([[0, 1, 2]]), ..Mesh::default() });
+    let mesh = Mesh { points, triangles: Arc::from([[0, 1, 2]]), ..Mesh::default() };
     let mut glow = Closure::default();
     glow.set_colour("emission_color", [1.0; 3]);
-    let material = scene.add_material(Material::of(Origin::new("glow"), glow));
-    scene.instances.push(Instances {
-        origin: Origin::new("triangle"),
-        mesh,
-        materials: vec![material],
-        transforms: vec![Transform::IDENTITY],
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-    });
+    place(&mut scene, mesh, Material::of(Origin::new("glow"), glow), Transform::IDENTITY);
     scene
 }
 

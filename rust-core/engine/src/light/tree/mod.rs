@@ -7,7 +7,7 @@ mod bound;
 mod build;
 mod node;
 
-use super::choice::Estimate;
+use super::choice::{Estimate, proportion};
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
@@ -56,7 +56,7 @@ fn draw<L: Lanes>(l: L, weights: &[F<L>], total: F<L>, u: F<L>) -> Drawn<L> {
         sum += *weight;
     }
     let rest = ((target - before) / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0 - f32::EPSILON);
-    Drawn { index, probability: (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)), rest }
+    Drawn { index, probability: proportion(own, total), rest }
 }
 
 impl LightTree {
@@ -113,7 +113,7 @@ impl LightTree {
         let (node, share) = self.climb(receiver, leaf, near);
         let weight = if near.any() { Node::gather(l, &self.nodes.words, node).illuminance(l, p, n) * share } else { l.f(0.0) };
         let weight = near.select(weight, Estimate::gather(&Reader::new(l, rows, light)).illuminance(l, p, n));
-        (weight / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0))
+        proportion(weight, total)
     }
 
     /// Estimates of the children of each lane's node, zero beyond the last, and their sum.
@@ -170,7 +170,7 @@ impl LightTree {
             }
             let (_, total) = self.children(receiver, Below::gather(l, &self.nodes.words, parent), below);
             let own = Node::gather(l, &self.nodes.words, node).illuminance(l, p, n);
-            let share = (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0));
+            let share = proportion(own, total);
             probability = below.select(probability * share, probability);
             node = below.select(parent, node);
         }
@@ -201,6 +201,6 @@ impl LightTree {
             own = reached.select(weight, own);
             sum += weight;
         }
-        (light, (own / total.max(f32::MIN_POSITIVE)).keep_if(total.gt(0.0)))
+        (light, proportion(own, total))
     }
 }
