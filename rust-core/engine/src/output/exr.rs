@@ -99,13 +99,13 @@ fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
         aov if single && aov != Aov::Depth => name(layer).to_owned(),
         _ => format!("{}.{channel}", name(layer)),
     };
-    let values = |channel: usize| layer.values.iter().skip(channel).step_by(layer.channels);
+    let values = |channel: usize| layer.values.chunks_exact(layer.channels).map(move |pixel| pixel[channel]);
     let samples = |channel: usize| {
         if half && !is_absolute(layer.aov) {
             // Beyond half's range the largest half is nearer than infinity.
             FlatSamples::F16(values(channel).map(|v| f16::from_f32(v.clamp(-65504.0, 65504.0))).collect())
         } else {
-            FlatSamples::F32(values(channel).copied().collect())
+            FlatSamples::F32(values(channel).collect())
         }
     };
     names.iter().enumerate().map(|(i, channel)| AnyChannel::new(Text::from(full_name(channel).as_str()), samples(i))).collect()

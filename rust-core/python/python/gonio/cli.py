@@ -1,13 +1,23 @@
 """The console script: hands its arguments to the parser in Rust."""
 
+import os
 import sys
 
 from ._gonio import _main
 
+# 128 + SIGINT, as shells have it.
+INTERRUPTED = 130
+
 
 def main() -> int:
     """Run the `gonio` command; return its exit status."""
-    return _main(["gonio", *sys.argv[1:]])
+    status = _main(["gonio", *sys.argv[1:]])
+    if status == INTERRUPTED:
+        # Somebody waits, all files are closed, and taking the modules of pxr apart takes longer than writing a picture.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    return status
 
 
 if __name__ == "__main__":
