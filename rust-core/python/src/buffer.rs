@@ -13,19 +13,10 @@ pub(crate) struct Grouped<T> {
     pub(crate) width: usize,
 }
 
-impl<T: Copy + Default> Grouped<T> {
+impl<T> Grouped<T> {
     /// Number of groups.
     pub(crate) fn len(&self) -> usize {
         self.values.len() / self.width
-    }
-    /// The groups as arrays; `N` is the width.
-    pub(crate) fn arrays<const N: usize>(&self) -> Vec<[T; N]> {
-        let array = |chunk: &[T]| {
-            let mut group = [T::default(); N];
-            group.copy_from_slice(chunk);
-            group
-        };
-        self.values.chunks_exact(N).map(array).collect()
     }
 }
 

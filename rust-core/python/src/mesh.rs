@@ -30,14 +30,16 @@ struct Topology {
 impl MeshBuffers<'_, '_> {
     /// Checks and copies the arrays.
     pub(crate) fn mesh(self, name: &str) -> PyResult<Mesh> {
-        let points = floats(self.points, "points", 3)?.arrays::<3>();
-        let mut triangles = indices(self.triangles, "triangles", 3)?.arrays::<3>();
+        let points = floats(self.points, "points", 3)?.values;
+        let points = points.as_chunks::<3>().0;
+        let mut triangles = indices(self.triangles, "triangles", 3)?.values;
+        let triangles = triangles.as_chunks_mut::<3>().0;
         let faces = self.faces.map(|faces| indices(faces, "faces", 1)).transpose()?.map(|faces| faces.values);
         if let Some(faces) = faces.as_ref().filter(|faces| faces.len() != triangles.len()) {
             return Err(PyValueError::new_err(format!("faces: {} values were found, expected {}", faces.len(), triangles.len())));
         }
         let corners = match self.corners {
-            Some(corners) => Some(resolve_corners(&indices(corners, "corners", 1)?.values, &mut triangles)?),
+            Some(corners) => Some(resolve_corners(&indices(corners, "corners", 1)?.values, triangles)?),
             None => None,
         };
         if let Some(index) = triangles.iter().flatten().find(|index| **index as usize >= points.len()) {
@@ -57,7 +59,7 @@ impl MeshBuffers<'_, '_> {
             normals: self.normals.map(|normals| topology.primvar(normals, "normals", Some(3))).transpose()?,
             slots: self.slots.map(|slots| topology.slots(slots)).transpose()?,
             points: points.into(),
-            triangles: triangles.into(),
+            triangles: Arc::from(&*triangles),
             primvars,
             faces: topology.faces.map(|(_, of_triangle)| of_triangle),
         })
@@ -66,12 +68,12 @@ impl MeshBuffers<'_, '_> {
 
 /// Turns corner numbers of triangles into point numbers; gives the number of corners and the corner numbers.
 fn resolve_corners(corners: &[u32], triangles: &mut [[u32; 3]]) -> PyResult<(usize, Arc<[u32]>)> {
-    let of_triangles: Vec<u32> = triangles.iter().flatten().copied().collect();
+    let of_triangles: Arc<[u32]> = triangles.as_flattened().into();
     if let Some(corner) = of_triangles.iter().find(|corner| **corner as usize >= corners.len()) {
         return Err(PyValueError::new_err(format!("triangles: corner {corner} is out of range, there are {} corners", corners.len())));
     }
     triangles.iter_mut().flatten().for_each(|corner| *corner = corners[*corner as usize]);
-    Ok((corners.len(), of_triangles.into()))
+    Ok((corners.len(), of_triangles))
 }
 
 impl Topology {

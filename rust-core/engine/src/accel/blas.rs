@@ -4,6 +4,7 @@ use super::Cancelled;
 use super::build::{Effort, build};
 use super::collapse::LeafMaker;
 use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::refit::looseness;
 use super::triangle_block::TriangleBlock;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +15,9 @@ pub struct Blas {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<TriangleBlock>,
     pub(super) bounds: Bounds,
-    triangles: usize,
+    pub(super) triangles: usize,
+    /// What rays may expect to meet (`refit.rs`), as it was built.
+    pub(super) looseness: f32,
 }
 
 /// Bytes held by a [`Blas`].
@@ -41,19 +44,17 @@ impl Blas {
     /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.
     /// `cancel` is read between the steps of the build, which ends with [`Cancelled`] when it is set.
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cancel: &AtomicBool) -> Result<Blas, Cancelled> {
-        let corners = |triangle: &[u32; 3]| -> Option<[[f32; 3]; 3]> {
-            let [a, b, c] = triangle.map(|i| positions.get(i as usize));
-            Some([*a?, *b?, *c?])
-        };
+        let bounds = |triangle: &[u32; 3]| triangle_bounds(&corners(positions, triangle)?);
         let (boxes, primitives): (Vec<Bounds>, Vec<u32>) =
-            triangles.par_iter().enumerate().filter_map(|(i, triangle)| Some((triangle_bounds(&corners(triangle)?)?, i as u32))).unzip();
+            triangles.par_iter().enumerate().filter_map(|(i, triangle)| Some((bounds(triangle)?, i as u32))).unzip();
         if cancel.load(Ordering::Relaxed) {
             return Err(Cancelled);
         }
         assert!(boxes.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
         let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
-        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len() })
+        let looseness = looseness(&tree.nodes, &bounds);
+        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len(), looseness })
     }
 
     /// The bytes of the tree.
@@ -66,8 +67,14 @@ impl Blas {
     }
 }
 
+/// A triangle's points, if the mesh has them all.
+pub(super) fn corners(positions: &[[f32; 3]], triangle: &[u32; 3]) -> Option<[[f32; 3]; 3]> {
+    let [a, b, c] = triangle.map(|point| positions.get(point as usize));
+    Some([*a?, *b?, *c?])
+}
+
 /// The padded box of a triangle, if all its coordinates are usable and it is more than a point or a line along an axis.
-fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
+pub(super) fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
     if !corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE) {
         return None;
     }

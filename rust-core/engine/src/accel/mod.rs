@@ -21,6 +21,7 @@ mod packet_walk;
 mod prepared;
 mod query;
 mod ray;
+mod refit;
 mod scalar;
 mod scene_bvh;
 mod shape;

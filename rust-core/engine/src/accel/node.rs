@@ -83,6 +83,11 @@ impl Node {
         }
         self.children[slot] = child;
     }
+
+    pub(super) fn bounds_of(&self, slot: usize) -> Bounds {
+        let [min, max] = [0, 3].map(|row| [0, 1, 2].map(|axis| self.bounds[row + axis][slot]));
+        Bounds { min, max }
+    }
 }
 
 /// An axis-aligned box; empty when `min > max`.

@@ -1,4 +1,4 @@
-//! Trees of meshes, kept from one compilation to the next.
+//! Trees of meshes, kept from one compilation to the next, or fitted to points that moved.
 
 use super::{
     bounds::{Bounds, of_mesh},
@@ -10,7 +10,7 @@ use crate::{
     scene::{Mesh, Scene},
 };
 use std::{
-    collections::HashMap,
+    collections::{HashMap, HashSet},
     sync::{Arc, atomic::AtomicBool},
 };
 
@@ -31,7 +31,7 @@ fn arrays(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Arrays {
     (points.as_ptr(), triangles.as_ptr())
 }
 
-/// Trees of all meshes; those whose arrays are the very same as before are kept.
+/// Trees of all meshes; those whose arrays are the very same as before are kept, those of gone meshes fitted to the same triangles over other points.
 pub(super) fn build_trees(
     scene: &Scene,
     previous: &[KeptTree],
@@ -39,6 +39,7 @@ pub(super) fn build_trees(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<KeptTree>> {
     let known: HashMap<Arrays, &KeptTree> = previous.iter().map(|kept| (arrays(&kept.points, &kept.triangles), kept)).collect();
+    let gone = gone(scene, previous);
     let mut trees = Vec::with_capacity(scene.meshes.len());
     for mesh in &scene.meshes {
         check(cancel)?;
@@ -48,13 +49,34 @@ pub(super) fn build_trees(
             trees.push(kept.clone());
             continue;
         }
-        let usable = has_valid_triangles(mesh, diagnostics);
-        let triangles: &[[u32; 3]] = if usable { &mesh.triangles } else { &[] };
-        let tree = Blas::build(&mesh.points, triangles, cancel).map_err(|_| Error::Cancelled)?;
+        let tree = match fitted(mesh, &gone) {
+            Some(tree) => tree,
+            None => built(mesh, cancel, diagnostics)?,
+        };
         let bounds = of_mesh(mesh);
         trees.push(KeptTree { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds });
     }
     Ok(trees)
+}
+
+/// Trees that no mesh of the scene has any more, by the numbers of points and triangles.
+fn gone<'a>(scene: &Scene, previous: &'a [KeptTree]) -> HashMap<[usize; 2], &'a KeptTree> {
+    let present: HashSet<Arrays> = scene.meshes.iter().map(|mesh| arrays(&mesh.points, &mesh.triangles)).collect();
+    let gone = previous.iter().filter(|kept| !present.contains(&arrays(&kept.points, &kept.triangles)));
+    gone.map(|kept| ([kept.points.len(), kept.triangles.len()], kept)).collect()
+}
+
+/// The tree of a mesh that is gone, if its triangles were the same, over this one's points.
+fn fitted(mesh: &Mesh, gone: &HashMap<[usize; 2], &KeptTree>) -> Option<Blas> {
+    let kept = gone.get(&[mesh.points.len(), mesh.triangles.len()])?;
+    let same = kept.tree.memory().triangles > 0 && kept.triangles == mesh.triangles;
+    if same { kept.tree.refit(&mesh.points, &mesh.triangles) } else { None }
+}
+
+fn built(mesh: &Mesh, cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>) -> Result<Blas> {
+    let usable = has_valid_triangles(mesh, diagnostics);
+    let triangles: &[[u32; 3]] = if usable { &mesh.triangles } else { &[] };
+    Blas::build(&mesh.points, triangles, cancel).map_err(|_| Error::Cancelled)
 }
 
 fn has_valid_triangles(mesh: &Mesh, diagnostics: &mut Vec<Diagnostic>) -> bool {

@@ -3,6 +3,7 @@
 mod agreement;
 mod degenerate;
 mod oracle;
+mod refit;
 mod robust;
 mod scenes;
 mod watertight;
