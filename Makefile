@@ -28,10 +28,15 @@ render: build
 	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64 --exposure 0.7
 	@echo "The picture is out/office.png; radiance, luminance (cd/m2) and illuminance (lx) are in out/office.exr."
 
-# The Blender extension: one zip, the wheel inside.
-extension: build
+# A linker that knows old C libraries.
+$(VENV)/zig: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet ziglang
+	touch $@
+
+# The Blender extension: one zip, the wheel inside, for every system that Blender itself runs on.
+extension: build $(VENV)/zig
 	rm -rf dist/wheels
-	$(BIN)/maturin build --release --quiet --out dist/wheels
+	PATH="$(BIN):$$PATH" $(BIN)/maturin build --release --quiet --zig --compatibility manylinux_2_28 --out dist/wheels
 	$(BIN)/python blender-addon/build.py dist/wheels/*.whl --output-dir dist
 
 $(CURDIR)/.venv-bpy45/ready: VERSION := 4.5.15
