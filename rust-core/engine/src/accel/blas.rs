@@ -3,11 +3,14 @@
 use super::Cancelled;
 use super::build::{Effort, build};
 use super::collapse::LeafMaker;
-use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, WIDTH};
 use super::refit::looseness;
 use super::triangle_block::TriangleBlock;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Most boxes of an outline.
+const OUTLINE: usize = 32;
 
 /// Bottom-level tree: the triangles of one mesh in its own space. Share it between scenes by `Arc`.
 #[derive(Debug)]
@@ -55,6 +58,19 @@ impl Blas {
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
         let looseness = looseness(&tree.nodes, &bounds);
         Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len(), looseness })
+    }
+
+    /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
+    pub(super) fn outline(&self) -> Vec<Bounds> {
+        let mut outline = vec![(self.bounds, ChildRef::ROOT)];
+        let area = |(bounds, _): &(Bounds, ChildRef)| bounds.half_area();
+        while outline.len() + WIDTH <= OUTLINE {
+            let opened = (0..outline.len()).filter(|i| outline[*i].1.is_inner()).max_by(|a, b| area(&outline[*a]).total_cmp(&area(&outline[*b])));
+            let Some(opened) = opened else { break };
+            let node = &self.nodes[outline.swap_remove(opened).1.index()];
+            outline.extend((0..WIDTH).map(|slot| (node.bounds_of(slot), node.children[slot])).filter(|(bounds, _)| !bounds.is_empty()));
+        }
+        outline.into_iter().map(|(bounds, _)| bounds).filter(|bounds| !bounds.is_empty()).collect()
     }
 
     /// The bytes of the tree.

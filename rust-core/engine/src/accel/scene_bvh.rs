@@ -28,8 +28,9 @@ impl SceneBvh {
     pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
         let mut boxes = Vec::with_capacity(instances.len());
         let mut records = Vec::with_capacity(instances.len());
+        let outlines: Vec<Vec<Bounds>> = meshes.iter().map(|mesh| mesh.outline()).collect();
         for (id, instance) in instances.iter().enumerate() {
-            if let Some((bounds, record)) = placed(&meshes, instance, id as u32) {
+            if let Some((bounds, record)) = placed(&outlines, instance, id as u32) {
                 boxes.push(bounds);
                 records.push(record);
             }
@@ -65,15 +66,20 @@ impl SceneBvh {
 const MANY_INSTANCES: usize = 10_000;
 
 /// The world box and the record of an instance, if rays can hit it.
-fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
-    let object_bounds = match instance.geometry {
-        Geometry::Mesh(index) => meshes.get(index as usize)?.bounds,
-        Geometry::Shape(shape) => shape.bounds(),
+fn placed(outlines: &[Vec<Bounds>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
+    let shape_bounds;
+    let outline: &[Bounds] = match instance.geometry {
+        Geometry::Mesh(index) => outlines.get(index as usize)?,
+        Geometry::Shape(shape) => {
+            shape_bounds = [shape.bounds()];
+            &shape_bounds
+        }
     };
-    if object_bounds.is_empty() {
+    if outline.is_empty() {
         return None;
     }
-    let bounds = transformed_bounds(&instance.object_to_world, &object_bounds);
+    let placed = outline.iter().map(|bounds| transformed_bounds(&instance.object_to_world, bounds));
+    let bounds = placed.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
     let usable = bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE);
     let world_to_object = inverse(&instance.object_to_world)?.map(|row| row.map(|x| x as f32));
     let record = InstanceRecord {
