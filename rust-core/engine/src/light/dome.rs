@@ -7,10 +7,12 @@ use std::f32::consts::{PI, TAU};
 
 /// Cells of the distribution, at most; finer images are averaged.
 const LARGEST: [usize; 2] = [1024, 512];
-/// Every direction keeps this share of the mean, because filtering spreads bright pixels into dark neighbours.
-const FLOOR: f64 = 1e-3;
+/// Every direction keeps this share of the mean: an even image has nothing else, and lights alone still find all there is.
+const FLOOR: f64 = 0.05;
 
-/// Where a textured dome is bright.
+/// Where a textured dome is brighter than in the mean: scattered rays find the rest as well.
+///
+/// Karlík et al., MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling, ACM TOG 38(6), 2019, section 5.
 #[derive(Clone, Debug)]
 pub(crate) struct DomeDistribution {
     distribution: Distribution2D,
@@ -51,7 +53,8 @@ impl DomeDistribution {
         let sines: f64 = (0..size[1]).map(sine).sum::<f64>() * size[0] as f64;
         let weighted: f64 = luminance.iter().enumerate().map(|(i, v)| v * sine(i / size[0])).sum();
         let mean = weighted / sines;
-        let weights: Vec<f32> = luminance.iter().enumerate().map(|(i, v)| ((v + FLOOR * mean) * sine(i / size[0])) as f32).collect();
+        let above = |v: f64| (v - mean).max(0.0) + FLOOR * mean;
+        let weights: Vec<f32> = luminance.iter().enumerate().map(|(i, v)| (above(*v) * sine(i / size[0])) as f32).collect();
         Self { distribution: Distribution2D::new(&weights, size[0]), mean_luminance: mean }
     }
     /// A direction in the dome's frame, its density and its place in the image.
