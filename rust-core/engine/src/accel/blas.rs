@@ -65,7 +65,8 @@ impl Blas {
         let mut outline = vec![(self.bounds, ChildRef::ROOT)];
         let area = |(bounds, _): &(Bounds, ChildRef)| bounds.half_area();
         while outline.len() + WIDTH <= OUTLINE {
-            let opened = (0..outline.len()).filter(|i| outline[*i].1.is_inner()).max_by(|a, b| area(&outline[*a]).total_cmp(&area(&outline[*b])));
+            let opened =
+                (0..outline.len()).filter(|i| outline[*i].1.is_inner()).max_by(|a, b| area(&outline[*a]).total_cmp(&area(&outline[*b])));
             let Some(opened) = opened else { break };
             let node = &self.nodes[outline.swap_remove(opened).1.index()];
             outline.extend((0..WIDTH).map(|slot| (node.bounds_of(slot), node.children[slot])).filter(|(bounds, _)| !bounds.is_empty()));

@@ -69,6 +69,7 @@ impl View {
             forward: table.axes[2].map(|x| -x),
             seed: settings.seed,
             samples: settings.samples,
+            known: None,
         };
         let filter = FilterTable::new(settings.filter, settings.filter_width.clamp(0.0, 16.0));
         Ok(Self { camera: table, filter, transport, exposure: camera.exposure.0, window })

@@ -131,7 +131,7 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
     }
     if transport.shows_surroundings {
         let radiance: Rgb<L> =
-            kernels::surroundings(l, tables, [vertex, normal], direction, l.gather(&ws.paths.pdf, point.path), caught, caught);
+            kernels::surroundings(l, tables, None, [vertex, normal], direction, l.gather(&ws.paths.pdf, point.path), [caught, caught]);
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }

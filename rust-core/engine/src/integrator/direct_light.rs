@@ -22,7 +22,7 @@ pub(super) fn light<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, context, .. } = *stage;
-    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u[0], [u[1], u[2]]);
+    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u[0], [u[1], u[2]]);
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::knows(l, tables, point.slot, sample.light);
     if !usable.any() {
         return;

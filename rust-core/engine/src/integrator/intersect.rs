@@ -80,7 +80,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let from = gather3(l, &ws.paths.vertex, path);
         let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
         let hit = LightHit { light, from, normal: gather3(l, &ws.paths.normal, path), direction, point };
-        let (radiance, pdf) = kernels::eval_light(l, tables, &hit, alive);
+        let (radiance, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, alive);
         let flags = l.gather_integers(&ws.paths.flags, path);
         let sampled = (flags & flag::DELTA).eq(0);
         let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, path), pdf), l.f(1.0));
@@ -145,7 +145,8 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let delta = (flags & flag::DELTA).ne(0);
         let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
         let direction = gather3(l, &ws.paths.direction, path);
-        let radiance = kernels::surroundings(l, tables, from, direction, l.gather(&ws.paths.pdf, path), camera, delta);
+        let radiance =
+            kernels::surroundings(l, tables, transport.known.as_deref(), from, direction, l.gather(&ws.paths.pdf, path), [camera, delta]);
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let value = clamped(radiance * throughput, transport.clamp(depth));
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, alive & value.is_lit());

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     bsdf::{BsdfSample, Lobes, ParameterValues, Surface},
     graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns},
-    light::LightSample,
+    light::{KnownLights, LightSample},
 };
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
@@ -50,10 +50,17 @@ pub(crate) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]
 
 /// [`crate::light::LightTable::sample`].
 #[inline(never)]
-pub(crate) fn sample_light<L: Lanes>(l: L, tables: &Tables, p: Vec3<L>, n: Vec3<L>, u_choice: F<L>, u: [F<L>; 2]) -> LightSample<L> {
+pub(crate) fn sample_light<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    known: Option<&KnownLights>,
+    [p, n]: [Vec3<L>; 2],
+    u_choice: F<L>,
+    u: [F<L>; 2],
+) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample(l, p, n, u_choice, u),
+        || tables.lights.sample(l, known, p, n, u_choice, u),
     )
 }
 
@@ -69,10 +76,10 @@ pub(super) struct LightHit<L: Lanes> {
 
 /// [`crate::light::LightTable::eval_hit`].
 #[inline(never)]
-pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_hit(l, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+        || tables.lights.eval_hit(l, known, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
     )
 }
 
@@ -81,15 +88,15 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, hit: &LightHit<L>, mas
 pub(super) fn surroundings<L: Lanes>(
     l: L,
     tables: &Tables,
+    known: Option<&KnownLights>,
     [from, normal]: [Vec3<L>; 2],
     direction: Vec3<L>,
     pdf: F<L>,
-    first: M<L>,
-    delta: M<L>,
+    [first, delta]: [M<L>; 2],
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.escaped(l, from, normal, direction, pdf, first, delta),
+        || tables.lights.escaped(l, known, from, normal, direction, pdf, first, delta),
     )
 }
 

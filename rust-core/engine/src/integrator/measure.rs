@@ -5,7 +5,7 @@
 use super::{
     kernels,
     material::Tables,
-    path::SampleContext,
+    path::{SampleContext, Transport},
     scatter::add_rgb,
     state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
 };
@@ -32,7 +32,7 @@ struct Point<L: Lanes> {
 
 /// Lights the measured points and starts a path from each.
 #[inline(always)]
-pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, context: &SampleContext, ws: &mut Workspace) {
+pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace) {
     let count = ws.measure.count;
     for at in (0..count).step_by(L::COUNT) {
         let point = load_point(l, at, l.first(count - at), ws);
@@ -41,7 +41,7 @@ pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, context: &SampleContext, 
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
         let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
-            light(l, tables, &point, u_choice, context.sampler.pair(l, index, base + dimension::LIGHT), ws);
+            light(l, tables, transport, &point, u_choice, context.sampler.pair(l, index, base + dimension::LIGHT), ws);
         }
         start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);
     }
@@ -64,8 +64,8 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, ws: &Workspace) -> Point<L
 }
 
 #[inline(always)]
-fn light<L: Lanes>(l: L, tables: &Tables, point: &Point<L>, u_choice: F<L>, u: [F<L>; 2], ws: &mut Workspace) {
-    let sample = kernels::sample_light(l, tables, point.position, point.frame.z, u_choice, u);
+fn light<L: Lanes>(l: L, tables: &Tables, transport: &Transport, point: &Point<L>, u_choice: F<L>, u: [F<L>; 2], ws: &mut Workspace) {
+    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u_choice, u);
     let cosine = point.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {

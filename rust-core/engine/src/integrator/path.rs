@@ -15,9 +15,9 @@ use super::{
     subsurface::walk,
     surface::ChunkSource,
 };
-use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, sampler::Sampler};
+use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, light::KnownLights, sampler::Sampler};
 use gonio_simd::{Execution, Lanes, dispatch};
-use std::time::Instant;
+use std::{sync::Arc, time::Instant};
 
 /// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
 const MOST_DEPTH: u32 = 256;
@@ -49,6 +49,8 @@ pub struct Transport {
     pub seed: u32,
     /// Samples a pixel in the whole render.
     pub samples: u32,
+    /// Which lights arrive where, if that was learned.
+    pub known: Option<Arc<KnownLights>>,
 }
 
 /// What passes want to know of first surfaces beyond the usual.
@@ -130,7 +132,7 @@ impl Tracer<'_> {
             time = Instant::now();
             walk(self.tables, &self.transport, &context, ws, cancelled);
             if ws.measure.count > 0 {
-                dispatch!(execution, l => measure(l, self.tables, &context, ws));
+                dispatch!(execution, l => measure(l, self.tables, &self.transport, &context, ws));
             }
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
             time = ws.statistics.spent(5, time);

@@ -14,6 +14,7 @@ use crate::{
     accel::{PassedHit, RayBatch},
     bsdf::parameter::OPACITY,
     graph::CHUNK,
+    light::Arrival,
 };
 use gonio_simd::{Execution, Frame, Lanes, Rgb, dispatch};
 
@@ -44,6 +45,7 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
         dim_by_surfaces(tables, transport, ws);
     }
     dispatch!(transport.execution, l => add_arrived(l, ws));
+    note_arrivals(ws);
     ws.shadows.count = 0;
 }
 
@@ -56,6 +58,19 @@ fn rays_of(shadows: &ShadowRays) -> RayBatch<'_> {
         t_max: &shadows.t_max[..n],
         mask: &shadows.mask[..n],
     }
+}
+
+/// Notes the light that arrives, where somebody learns from it.
+fn note_arrivals(ws: &mut Workspace) {
+    let Some(arrivals) = &mut ws.arrivals else { return };
+    let rays = &ws.shadows;
+    let arrived = (0..rays.count).filter(|ray| ws.blocked[*ray] == 0);
+    arrivals.extend(arrived.map(|ray| Arrival {
+        position: [0, 1, 2].map(|axis| rays.origin[axis][ray]),
+        distance: rays.t_max[ray],
+        light: rays.light[ray],
+        value: rays.contribution.iter().map(|channel| channel[ray]).sum(),
+    }));
 }
 
 #[inline(always)]

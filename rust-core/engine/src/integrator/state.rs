@@ -1,13 +1,14 @@
 //! The state of a batch of paths, in columns.
 
 use super::{
-    catcher::CatcherSums, light_sums::LightSums, shader_passes::ShaderSums, shadow_order::ShadowOrder, statistics::Statistics,
-    subsurface::Walks,
+    catcher::CatcherSums, light_sums::LightSums, material::Tables, path::Transport, shader_passes::ShaderSums, shadow_order::ShadowOrder,
+    statistics::Statistics, subsurface::Walks,
 };
 use crate::{
     accel::{Hits, PassedHit},
     geometry::ShadowSegment,
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
+    light::Arrival,
 };
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
 
@@ -420,6 +421,8 @@ pub struct Workspace {
     pub(super) retraced_rays: RetracedRays,
     pub(super) shadows: ShadowRays,
     pub(super) shadow_order: ShadowOrder,
+    /// Light that arrived, where it is to be learned from.
+    pub(crate) arrivals: Option<Vec<Arrival>>,
     pub(super) blocked: Vec<u8>,
     pub(super) passed: Vec<PassedHit>,
     pub(super) measure: MeasurePoints,
@@ -446,6 +449,18 @@ pub struct Workspace {
     pub first_hit: FirstHit,
     /// Rays traced and lanes alive, for benchmarks.
     pub statistics: Statistics,
+}
+
+impl Workspace {
+    /// Empties the block's sums, and makes room for those that passes want.
+    pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
+        self.first_hit.lights.prepare(shows_lights);
+        self.first_hit.shader.prepare(&transport.passes.shader);
+        if !tables.geometry.set_catcher.is_empty() {
+            self.first_hit.prepare_catchers();
+        }
+        self.first_hit.clear();
+    }
 }
 
 const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

@@ -3,7 +3,7 @@
 use super::record::LightKind;
 use super::row::{ROW, Reader, field, flag};
 use super::table::LightTable;
-use super::tree::LightTree;
+use super::tree::{Arrival, KnownLights, LightTree};
 use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// Up to this many lights each point weighs all of them.
@@ -125,13 +125,27 @@ impl LightTable {
         total
     }
 
+    /// Whether lights are too many to weigh all of them.
+    pub fn has_tree(&self) -> bool {
+        matches!(self.choice, Choice::Tree(_))
+    }
+
+    /// What light that arrived somewhere tells about which lights do; none where all are weighed anyway.
+    pub fn learn(&self, arrivals: &[Arrival]) -> Option<KnownLights> {
+        match &self.choice {
+            Choice::Tree(tree) => KnownLights::learn(tree, arrivals),
+            Choice::Weighed => None,
+        }
+    }
+
     /// Draws a light for each point and gives its probability: 0 where no light can arrive.
     #[inline(always)]
-    pub fn choose<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
-        match &self.choice {
-            Choice::Tree(tree) => tree.choose(l, &self.rows, p, n, u),
-            Choice::Weighed if self.count <= 1 => (l.u(0), l.f(1.0)),
-            Choice::Weighed => {
+    pub fn choose<L: Lanes>(&self, l: L, known: Option<&KnownLights>, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+        match (&self.choice, known) {
+            (Choice::Tree(tree), Some(known)) => known.choose(l, tree, &self.rows, p, n, u),
+            (Choice::Tree(tree), None) => tree.choose(l, &self.rows, p, n, u),
+            (Choice::Weighed, _) if self.count <= 1 => (l.u(0), l.f(1.0)),
+            (Choice::Weighed, _) => {
                 let mut sums = [l.f(0.0); WEIGHED];
                 let mut total = l.f(0.0);
                 for (row, sum) in self.rows.chunks_exact(ROW).zip(&mut sums) {
@@ -152,11 +166,12 @@ impl LightTable {
 
     /// Probability that [`Self::choose`] draws `light` at a point.
     #[inline(always)]
-    pub fn choice_probability<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
-        match &self.choice {
-            Choice::Tree(tree) => tree.probability(l, &self.rows, p, n, light),
-            Choice::Weighed if self.count <= 1 => l.f(1.0),
-            Choice::Weighed => {
+    pub fn choice_probability<L: Lanes>(&self, l: L, known: Option<&KnownLights>, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
+        match (&self.choice, known) {
+            (Choice::Tree(tree), Some(known)) => known.probability(l, tree, &self.rows, p, n, light),
+            (Choice::Tree(tree), None) => tree.probability(l, &self.rows, p, n, light),
+            (Choice::Weighed, _) if self.count <= 1 => l.f(1.0),
+            (Choice::Weighed, _) => {
                 let total = self.total_estimate(l, p, n);
                 let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
                 proportion(chosen, total)

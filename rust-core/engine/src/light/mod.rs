@@ -37,3 +37,4 @@ pub use record::{LightKind, LightRecord, LightTexture, Shaping, Spot};
 pub use sample::{LightSample, power_heuristic};
 pub use size::size_factor;
 pub use table::LightTable;
+pub use tree::{Arrival, KnownLights};

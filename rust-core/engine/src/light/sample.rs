@@ -11,6 +11,7 @@ use super::row::{Reader, field, flag};
 use super::shaping::shaping;
 use super::sphere::Sphere;
 use super::table::{InfiniteLight, LightTable};
+use super::tree::KnownLights;
 use super::triangle::Triangle;
 use super::{distant, dome};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
@@ -42,14 +43,22 @@ pub fn power_heuristic<L: Lanes>(own: F<L>, other: F<L>) -> F<L> {
 }
 
 impl LightTable {
-    /// Draws a light and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_choice` and `u` in
+    /// Draws a light, among those `known` to arrive there if that was learned, and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_choice` and `u` in
     /// `[0, 1)`.
     #[inline(always)]
-    pub fn sample<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u_choice: F<L>, u: [F<L>; 2]) -> LightSample<L> {
+    pub fn sample<L: Lanes>(
+        &self,
+        l: L,
+        known: Option<&KnownLights>,
+        p: Vec3<L>,
+        n: Vec3<L>,
+        u_choice: F<L>,
+        u: [F<L>; 2],
+    ) -> LightSample<L> {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let (index, probability) = self.choose(l, p, n, u_choice);
+        let (index, probability) = self.choose(l, known, p, n, u_choice);
         let light = self.reader(l, index);
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
@@ -266,6 +275,7 @@ impl LightTable {
     pub fn eval_hit<L: Lanes>(
         &self,
         l: L,
+        known: Option<&KnownLights>,
         light: U<L>,
         from: Vec3<L>,
         n: Vec3<L>,
@@ -324,7 +334,7 @@ impl LightTable {
         );
         let (pdf, uv) = density;
         let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
-        let probability = self.choice_probability(l, from, n, index);
+        let probability = self.choice_probability(l, known, from, n, index);
         (self.emitted(l, &light, wi, uv).keep_if(valid), (pdf * probability).keep_if(valid))
     }
 
@@ -353,14 +363,24 @@ impl LightTable {
     /// which sees visible lights alone) or was sent by a delta lobe (`delta`).
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-    pub fn escaped<L: Lanes>(&self, l: L, from: Vec3<L>, n: Vec3<L>, wi: Vec3<L>, bsdf_pdf: F<L>, first: M<L>, delta: M<L>) -> Rgb<L> {
+    pub fn escaped<L: Lanes>(
+        &self,
+        l: L,
+        known: Option<&KnownLights>,
+        from: Vec3<L>,
+        n: Vec3<L>,
+        wi: Vec3<L>,
+        bsdf_pdf: F<L>,
+        first: M<L>,
+        delta: M<L>,
+    ) -> Rgb<L> {
         let mut sum = Rgb::zero(l);
         for infinite in &self.infinite {
             let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);
             if weighed.any() {
-                let pdf = pdf * self.choice_probability(l, from, n, l.u(infinite.light));
+                let pdf = pdf * self.choice_probability(l, known, from, n, l.u(infinite.light));
                 weight = weighed.select(power_heuristic(bsdf_pdf, pdf), weight);
             }
             let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);

@@ -1,5 +1,6 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
+mod learn;
 mod progress;
 mod schedule;
 mod worker;
@@ -12,13 +13,14 @@ use crate::{
     error::{Error, Result},
     film::Film,
     integrator::Statistics,
+    light::KnownLights,
     scene::Settings,
     threads::available_threads,
 };
 use schedule::Schedule;
 use std::{
     sync::{
-        Arc,
+        Arc, OnceLock,
         atomic::{AtomicBool, Ordering},
     },
     thread::JoinHandle,
@@ -38,6 +40,9 @@ pub struct Render {
 pub(crate) struct Shared {
     pub(crate) scene: Arc<CompiledScene>,
     pub(crate) view: View,
+    pub(crate) settings: Settings,
+    /// What the first worker learns.
+    pub(crate) known: OnceLock<Option<Arc<KnownLights>>>,
     pub(crate) film: Film,
     pub(crate) schedule: Schedule,
     pub(crate) cancel: AtomicBool,
@@ -55,6 +60,8 @@ impl Render {
         let shared = Arc::new(Shared {
             scene,
             view,
+            settings: settings.clone(),
+            known: OnceLock::new(),
             film,
             schedule,
             cancel: AtomicBool::new(false),

@@ -1,9 +1,9 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Shared, TileReady, schedule::Work};
+use super::{Shared, TileReady, learn::learn, schedule::Work};
 use crate::{
     film::Block,
-    integrator::{Tracer, Workspace},
+    integrator::{Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{
@@ -29,20 +29,14 @@ pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
 
 /// Traces a block, adds it and tells the host; nothing of it remains if it was cancelled on the way.
 fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &Sender<TileReady>) {
-    let tracer = Tracer {
-        tables: &shared.scene.tables,
-        camera: &shared.view.camera,
-        filter: &shared.view.filter,
-        transport: shared.view.transport.clone(),
-    };
+    let tables = &shared.scene.tables;
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    workspace.first_hit.lights.prepare(shared.film.layout.shows_lights());
-    workspace.first_hit.shader.prepare(&shared.view.transport.passes.shader);
-    if !shared.scene.tables.geometry.set_catcher.is_empty() {
-        workspace.first_hit.prepare_catchers();
-    }
-    workspace.first_hit.clear();
+    let execution = shared.view.transport.execution;
+    let known = shared.known.get_or_init(|| learn(&shared.scene, &shared.settings, execution, &cancelled)).clone();
+    let transport = Transport { known, ..shared.view.transport.clone() };
+    let tracer = Tracer { tables, camera: &shared.view.camera, filter: &shared.view.filter, transport };
+    workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
     for sample in work.samples.clone() {
         tracer.trace(area.min, area.max, sample, workspace, &cancelled);
         if cancelled() {

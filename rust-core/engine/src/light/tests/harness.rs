@@ -1,6 +1,6 @@
 //! Batches of samples through the kernels at any level.
 
-use crate::light::{LightKind, LightRecord, LightTable};
+use crate::light::{KnownLights, LightKind, LightRecord, LightTable};
 use gonio_simd::{Column, Execution, F, Lanes, Rgb, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
@@ -45,11 +45,11 @@ pub(super) fn numbers(seed: u64, count: usize) -> [Column; 3] {
 }
 
 #[inline(always)]
-fn kernel<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], n: [f32; 3], u: &[Column; 3], drawn: &mut Drawn) {
+fn kernel<L: Lanes>(l: L, table: &LightTable, known: Option<&KnownLights>, p: [f32; 3], n: [f32; 3], u: &[Column; 3], drawn: &mut Drawn) {
     let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, n));
     for at in (0..u[0].len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample(l, p, n, numbers[0], [numbers[1], numbers[2]]);
+        let s = table.sample(l, known, p, n, numbers[0], [numbers[1], numbers[2]]);
         let [x, y, z] = &mut drawn.wi;
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
@@ -59,15 +59,27 @@ fn kernel<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], n: [f32; 3], u: &[Col
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
         let hit = s.wi.mul_add(s.distance, p);
-        let (radiance, pdf): (Rgb<L>, F<L>) = table.eval_hit(l, s.light, p, n, s.wi, hit, placed);
+        let (radiance, pdf): (Rgb<L>, F<L>) = table.eval_hit(l, known, s.light, p, n, s.wi, hit, placed);
         let [r, g, b] = &mut drawn.eval_radiance;
         radiance.store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);
     }
 }
 
-/// Samples at one point.
+/// Samples at one point, nothing being known.
 pub(super) fn draw(execution: Execution, table: &LightTable, p: [f32; 3], n: [f32; 3], u: &[Column; 3]) -> Drawn {
+    draw_known(execution, table, None, p, n, u)
+}
+
+/// Samples at one point.
+pub(super) fn draw_known(
+    execution: Execution,
+    table: &LightTable,
+    known: Option<&KnownLights>,
+    p: [f32; 3],
+    n: [f32; 3],
+    u: &[Column; 3],
+) -> Drawn {
     let count = u[0].len();
     let column = || Column::new(count);
     let three = || [column(), column(), column()];
@@ -80,7 +92,7 @@ pub(super) fn draw(execution: Execution, table: &LightTable, p: [f32; 3], n: [f3
         eval_radiance: three(),
         eval_pdf: column(),
     };
-    dispatch!(execution, l => kernel(l, table, p, n, u, &mut drawn));
+    dispatch!(execution, l => kernel(l, table, known, p, n, u, &mut drawn));
     drawn
 }
 

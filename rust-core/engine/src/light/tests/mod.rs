@@ -8,5 +8,6 @@ mod choice;
 mod dome;
 mod goniogram;
 mod harness;
+mod known;
 mod portal;
 mod shape;

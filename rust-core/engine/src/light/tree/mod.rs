@@ -5,13 +5,18 @@
 
 mod bound;
 mod build;
+mod known;
+mod learn;
 mod node;
+mod single;
 
 use super::choice::{Estimate, proportion};
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
+pub use known::KnownLights;
+pub use learn::Arrival;
 use node::{Below, Node, WORDS};
 
 /// A light tree.

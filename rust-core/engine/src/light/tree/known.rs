@@ -1,0 +1,149 @@
+//! Lights that are known to arrive in a part of space: no estimate tells the walls that stand between others and it.
+//!
+//! Space is divided into cells, and a few paths before the render tell which lights arrive in each. There most draws are among those, and
+//! the others among all lights by the tree, which lose what is known already: each light is drawn in one way, and its probability is simple.
+
+use super::{Below, LightTree, NONE, Node, draw};
+use crate::light::choice::proportion;
+use gonio_simd::{F, Lanes, M, One, U, Vec3};
+
+/// Most lights known in a cell.
+pub(super) const MOST: usize = 16;
+/// Words of a cell: key, share, count, and the leaves of its lights.
+pub(super) const WORDS: usize = 3 + MOST;
+const SHARE: u32 = 1;
+const COUNT: u32 = 2;
+const FIRST: u32 = 3;
+/// Where the grid begins, in cells: walls and floors stand at round numbers, and must not lie in between.
+const SHIFT: f32 = 0.377;
+
+/// So many points of a register go through the tree one by one sooner than together.
+const FEW: usize = 4;
+
+/// Lights by cell.
+#[derive(Clone, Debug)]
+pub struct KnownLights {
+    pub(super) cells: Vec<f32>,
+    /// Cells less one; a power of two.
+    pub(super) mask: u32,
+    pub(super) per_metre: f32,
+}
+
+/// What is known at each lane's place.
+#[derive(Clone, Copy, Debug)]
+struct Cell<L: Lanes> {
+    leaves: [U<L>; MOST],
+    count: U<L>,
+    /// Of the draws that are among these lights.
+    share: F<L>,
+}
+
+/// Place in a table and key of the cell that holds a point.
+#[inline(always)]
+fn hashed<L: Lanes>(p: Vec3<L>, per_metre: f32) -> [U<L>; 2] {
+    let [x, y, z] = [p.x, p.y, p.z].map(|x| (x * per_metre + SHIFT).floor().to_i32());
+    let mixed = (x * 0x8da6_b343) ^ (y * 0xd816_3841) ^ (z * 0xcb1a_b31f);
+    let key = ((x * 0x9e37_79b1) ^ (y * 0x85eb_ca77) ^ (z * 0xc2b2_ae3d)) | 1;
+    [mixed ^ (mixed >> 15), key]
+}
+
+/// The same for one point.
+pub(super) fn place(position: [f32; 3], per_metre: f32) -> [u32; 2] {
+    hashed(Vec3::splat(One, position), per_metre).map(|word| word.0)
+}
+
+impl KnownLights {
+    #[inline(always)]
+    fn cell<L: Lanes>(&self, l: L, p: Vec3<L>) -> Cell<L> {
+        let [place, key] = hashed(p, self.per_metre);
+        let start = (place & self.mask) * WORDS as u32;
+        let found = l.gather(&self.cells, start).to_bits().eq(key);
+        let count = l.gather(&self.cells, start + COUNT).to_bits().keep_if(found);
+        let share = l.gather(&self.cells, start + SHARE).keep_if(found);
+        let mut leaves = [l.u(NONE); MOST];
+        for (number, leaf) in leaves.iter_mut().enumerate() {
+            let present = l.u(number as u32).lt(count);
+            if !present.any() {
+                break;
+            }
+            *leaf = present.select(l.gather(&self.cells, start + (FIRST + number as u32)).to_bits(), *leaf);
+        }
+        Cell { leaves, count, share }
+    }
+
+    /// Draws a light for each point and gives its probability: 0 where no light can arrive, and where the draw is lost.
+    #[inline(always)]
+    pub(crate) fn choose<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+        let cell = self.cell(l, p);
+        let among_known = u.lt(cell.share);
+        let rest = l.f(1.0) - cell.share;
+        let spread = |part: F<L>| part.clamp(0.0, 1.0 - f32::EPSILON);
+        let (mut light, mut probability) = (l.u(0), l.f(0.0));
+        if among_known.any() {
+            let (weights, total) = cell.weigh(l, tree, p, n);
+            let drawn = draw(l, &weights, total, spread(u / cell.share.max(f32::MIN_POSITIVE)));
+            let mut leaf = cell.leaves[0];
+            for (number, other) in cell.leaves.iter().enumerate().skip(1) {
+                leaf = drawn.index.eq(number as u32).select(*other, leaf);
+            }
+            light = Below::gather(l, &tree.nodes.words, leaf.keep_if(among_known)).index();
+            probability = drawn.probability * cell.share;
+        }
+        if !(!among_known).any() {
+            return (light, probability);
+        }
+        let u = spread((u - cell.share) / rest);
+        let unknown = !among_known;
+        let (other, chance) =
+            if unknown.count() <= FEW { tree.choose_each(l, rows, p, n, u, unknown) } else { tree.choose(l, rows, p, n, u) };
+        let lost = cell.holds(l.gather_integers(&tree.leaves, other));
+        let chance = (chance * rest).keep_if(!lost);
+        (among_known.select(light, other), among_known.select(probability, chance))
+    }
+
+    /// Probability that [`Self::choose`] draws `light` at a point.
+    #[inline(always)]
+    pub(crate) fn probability<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
+        let cell = self.cell(l, p);
+        let leaf = l.gather_integers(&tree.leaves, light);
+        let known = cell.holds(leaf);
+        let mut probability = l.f(0.0);
+        if known.any() {
+            let (weights, total) = cell.weigh(l, tree, p, n);
+            for (other, weight) in cell.leaves.iter().zip(&weights) {
+                probability = other.eq(leaf).select(proportion(*weight, total) * cell.share, probability);
+            }
+        }
+        if !(!known).any() {
+            return probability;
+        }
+        known.select(probability, tree.probability(l, rows, p, n, light) * (l.f(1.0) - cell.share))
+    }
+}
+
+impl<L: Lanes> Cell<L> {
+    /// Estimates of the lights known, and their sum.
+    #[inline(always)]
+    fn weigh(&self, l: L, tree: &LightTree, p: Vec3<L>, n: Vec3<L>) -> ([F<L>; MOST], F<L>) {
+        let (mut weights, mut total) = ([l.f(0.0); MOST], l.f(0.0));
+        for (number, (leaf, weight)) in self.leaves.iter().zip(&mut weights).enumerate() {
+            let present = l.u(number as u32).lt(self.count);
+            if !present.any() {
+                break;
+            }
+            *weight = Node::gather(l, &tree.nodes.words, leaf.keep_if(present)).illuminance(l, p, n).keep_if(present);
+            total += *weight;
+        }
+        (weights, total)
+    }
+
+    /// Whether a leaf is among the known ones.
+    #[inline(always)]
+    fn holds(&self, leaf: U<L>) -> M<L> {
+        let mut found = self.leaves[0].eq(leaf);
+        for other in &self.leaves[1..] {
+            found |= other.eq(leaf);
+        }
+        found & leaf.ne(NONE)
+    }
+}

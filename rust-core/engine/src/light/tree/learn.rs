@@ -1,0 +1,91 @@
+//! Which lights arrive where, from light that did.
+
+use super::known::{KnownLights, MOST, WORDS, place};
+use super::{LightTree, NONE};
+
+/// Light that arrived at a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// The surface's place, rebased world space.
+    pub position: [f32; 3],
+    /// The way it came, metres.
+    pub distance: f32,
+    /// The light.
+    pub light: u32,
+    /// What it brought to the picture.
+    pub value: f32,
+}
+
+/// A cell is this part of the way to the lights wide, in the median.
+const CELL: f32 = 0.3;
+/// Most draws that are among known lights, however sure: the others find what was overlooked.
+const MOST_CERTAIN: f32 = 0.97;
+/// After so many arrivals half of what they tell is trusted.
+const DOUBTS: f32 = 4.0;
+
+/// An arrival in its cell.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    place: u32,
+    key: u32,
+    leaf: u32,
+    value: f32,
+}
+
+impl KnownLights {
+    /// What arrivals tell; none if no light of the tree arrived anywhere.
+    pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
+        let leaf = |arrival: &Arrival| tree.leaves.get(arrival.light as usize).copied().unwrap_or(NONE);
+        let mut ways: Vec<f32> = arrivals.iter().filter(|arrival| leaf(arrival) != NONE).map(|arrival| arrival.distance).collect();
+        if ways.is_empty() {
+            return None;
+        }
+        let middle = ways.len() / 2;
+        let median = *ways.select_nth_unstable_by(middle, f32::total_cmp).1;
+        let per_metre = 1.0 / (CELL * median).max(f32::MIN_POSITIVE);
+        let entry = |arrival: &Arrival| {
+            let [place, key] = place(arrival.position, per_metre);
+            Entry { place, key, leaf: leaf(arrival), value: arrival.value }
+        };
+        let mut entries: Vec<Entry> = arrivals.iter().map(entry).collect();
+        // Stable, so that sums have one order.
+        entries.sort_by_key(|entry| (entry.place, entry.key, entry.leaf));
+        Some(Self::of_entries(&entries, per_metre))
+    }
+
+    fn of_entries(entries: &[Entry], per_metre: f32) -> Self {
+        let in_cells = || entries.chunk_by(|a, b| (a.place, a.key) == (b.place, b.key));
+        let count = (2 * in_cells().count()).next_power_of_two();
+        let mut known = Self { cells: vec![0.0; count * WORDS], mask: count as u32 - 1, per_metre };
+        // Of cells that share a place, the one that more arrived in stays.
+        let mut arrived = vec![0; count];
+        for cell in in_cells() {
+            let number = (cell[0].place & known.mask) as usize;
+            if cell.len() > arrived[number] {
+                arrived[number] = cell.len();
+                fill(cell, &mut known.cells[number * WORDS..(number + 1) * WORDS]);
+            }
+        }
+        known
+    }
+}
+
+/// Writes a cell's words: the lights that brought most, and how much of the draws is theirs.
+///
+/// What none of the arrivals has told of is as likely as lights that one alone has told of (Good, The Population Frequencies of Species and the
+/// Estimation of Population Parameters, Biometrika 40, 1953).
+fn fill(entries: &[Entry], words: &mut [f32]) {
+    let sum = |entries: &[Entry]| entries.iter().map(|entry| entry.value).sum::<f32>();
+    let by_light = entries.chunk_by(|a, b| a.leaf == b.leaf);
+    let mut lights: Vec<(u32, f32)> = by_light.map(|entries| (entries[0].leaf, sum(entries))).filter(|light| light.0 != NONE).collect();
+    lights.sort_by(|a, b| b.1.total_cmp(&a.1));
+    lights.truncate(MOST);
+    let (all, of_known) = (sum(entries), lights.iter().map(|light| light.1).sum::<f32>());
+    let count = entries.len() as f32;
+    let once = entries.chunk_by(|a, b| a.leaf == b.leaf).filter(|entries| entries.len() == 1).count() as f32;
+    let certain = (1.0 - once / count).min(MOST_CERTAIN) * count / (count + DOUBTS);
+    let share = if all > 0.0 { certain * (of_known / all).min(1.0) } else { 0.0 };
+    words.fill(0.0);
+    words[..3].copy_from_slice(&[f32::from_bits(entries[0].key), share, f32::from_bits(lights.len() as u32)]);
+    words[3..].iter_mut().zip(&lights).for_each(|(word, light)| *word = f32::from_bits(light.0));
+}

@@ -1,0 +1,66 @@
+//! Which lights arrive where: learned from a small picture of the view, which nobody sees.
+
+use crate::{
+    compile::{CompiledScene, View},
+    integrator::{TILE, Tracer, Workspace},
+    light::KnownLights,
+    scene::{Aov, Settings},
+};
+use gonio_simd::Execution;
+use std::sync::Arc;
+
+/// The small picture's longer side, and samples a pixel.
+const SIDE: u32 = 128;
+const SAMPLES: u32 = 4;
+/// Pictures of fewer samples end before it pays.
+const LEAST_SAMPLES: u32 = 16;
+/// Other random numbers than the picture's: what is learned from some must not choose among the same.
+const OTHER_SEED: u32 = 0x5bd1_e995;
+
+/// None where lights are few, samples too few, or nothing could be learned.
+pub(super) fn learn(
+    scene: &CompiledScene,
+    settings: &Settings,
+    execution: Execution,
+    cancelled: &dyn Fn() -> bool,
+) -> Option<Arc<KnownLights>> {
+    if settings.samples < LEAST_SAMPLES || !scene.tables.lights.has_tree() {
+        return None;
+    }
+    let View { camera, filter, transport, window, .. } = View::new(scene, &reduced(settings), execution).ok()?;
+    let tracer = Tracer { tables: &scene.tables, camera: &camera, filter: &filter, transport };
+    let mut workspace = Workspace::default();
+    workspace.prepare(&scene.tables, &tracer.transport, false);
+    workspace.arrivals = Some(Vec::new());
+    for y in (window.min[1]..window.max[1]).step_by(TILE) {
+        for x in (window.min[0]..window.max[0]).step_by(TILE) {
+            let end = [(x + TILE as u32).min(window.max[0]), (y + TILE as u32).min(window.max[1])];
+            for sample in 0..SAMPLES {
+                tracer.trace([x, y], end, sample, &mut workspace, cancelled);
+                if cancelled() {
+                    return None;
+                }
+            }
+        }
+    }
+    scene.tables.lights.learn(&workspace.arrivals.take()?).map(Arc::new)
+}
+
+/// The same view in a few pixels, without passes.
+fn reduced(settings: &Settings) -> Settings {
+    let [width, height] = settings.resolution;
+    let scale = (f64::from(SIDE) / f64::from(width.max(height))).min(1.0);
+    let part = |pixels: u32| f64::from(pixels) * scale;
+    let crop = settings.crop.map(|crop| crate::scene::Crop {
+        min: crop.min.map(|pixels| part(pixels).floor() as u32),
+        max: crop.max.map(|pixels| part(pixels).ceil() as u32),
+    });
+    Settings {
+        resolution: [width, height].map(|pixels| (part(pixels).round() as u32).max(1)),
+        crop,
+        samples: SAMPLES,
+        seed: settings.seed ^ OTHER_SEED,
+        aovs: vec![Aov::Color],
+        ..settings.clone()
+    }
+}
