@@ -108,15 +108,29 @@ class GonioWorldSettings(bpy.types.PropertyGroup):
     year: _whole("Year", "Year of the Gregorian calendar", 2025, 1600, 2999)
     month: _whole("Month", "1 is January", 6, 1, 12)
     day: _whole("Day", "Day of the month", 21, 1, 31)
-    hour: _number("Hour", "Time of day in hours on the clock of the time zone, 14.5 is half past two. Keyframes animate the day", 12.0, 0.0, 24.0)
-    utc_offset: _number("UTC Offset", "Hours that the clock is ahead of UTC; one more in summer where clocks are changed", 1.0, -14.0, 14.0, step=50)
-    north: _number("North", "Angle from the scene's +Y to true north, clockwise seen from above", 0.0, radians(-360.0), radians(360.0), subtype="ANGLE")
+    hour: _number(
+        "Hour", "Time of day in hours on the clock of the time zone, 14.5 is half past two. Keyframes animate the day", 12.0, 0.0, 24.0
+    )
+    utc_offset: _number(
+        "UTC Offset", "Hours that the clock is ahead of UTC; one more in summer where clocks are changed", 1.0, -14.0, 14.0, step=50
+    )
+    north: _number(
+        "North", "Angle from the scene's +Y to true north, clockwise seen from above", 0.0, radians(-360.0), radians(360.0), subtype="ANGLE"
+    )
     sky: EnumProperty(name="Sky", description="How luminance is spread over the sky", items=SKIES, default="PEREZ", update=tag_data)
     turbidity: _number("Turbidity", "Haze by Linke: 2 in the mountains, 3 in the country, 5 in a city", 3.0, 1.0, 10.0)
-    use_irradiance: switch("Measured Irradiance", "Take the brightness of sun and sky from measured values, as weather files have them", tag_data)
+    use_irradiance: switch(
+        "Measured Irradiance", "Take the brightness of sun and sky from measured values, as weather files have them", tag_data
+    )
     direct_normal: _number("Direct Normal", "Irradiance by the sun's disc of a surface that faces it, in W/m²", 800.0, 0.0, 1500.0)
     diffuse_horizontal: _number("Diffuse Horizontal", "Irradiance by the sky of a level surface, in W/m²", 100.0, 0.0, 1500.0)
-    ground: _number("Ground Albedo", "Share of the light that the ground beyond the scene reflects; it shows below the horizon, black if 0", 0.0, 0.0, 1.0)
+    ground: _number(
+        "Ground Albedo",
+        "Share of the light that the ground beyond the scene reflects; it shows below the horizon, black if 0",
+        0.0,
+        0.0,
+        1.0,
+    )
     use_colour: BoolProperty(
         name="Colors", description="Blue sky and warm sun; without it both are white, as bright as with it", default=True, update=tag_data
     )

@@ -70,7 +70,9 @@ def test_north_the_axis_and_the_prim_turn_the_sky(tmp_path):
 def test_the_hour_may_be_animated(tmp_path):
     path = stage(tmp_path, "double gonio:daylight:hour.timeSamples = { 1: 9, 11: 17 }")
     heights = [gonio.load_usd(path, frame=frame).to_dict()["lights"][1]["transform"]["columns"][2][2] for frame in (1, 6, 11)]
-    expected = [math.sin(math.radians(gonio.daylight(48.21, 16.37, f"2025-06-21T{hour}:00+02:00").elevation)) for hour in ("09", "13", "17")]
+    expected = [
+        math.sin(math.radians(gonio.daylight(48.21, 16.37, f"2025-06-21T{hour}:00+02:00").elevation)) for hour in ("09", "13", "17")
+    ]
     assert heights == pytest.approx(expected)
 
 

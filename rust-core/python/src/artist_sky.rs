@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 /// model: "preetham" and "hosek-wilkie" in cd/m², by turbidity and ground (its albedo), without a disc; "single-scattering" and
 /// "multiple-scattering" in W/m² weighed by the eye, by altitude in metres, amounts of air, dust and ozone, and the disc's diameter in degrees.
 #[pyfunction]
-#[pyo3(signature = (model, elevation, *, turbidity = 2.2, ground = 0.0, altitude = 0.0, air = 1.0, dust = 1.0, ozone = 1.0, diameter = 0.545, rows = sky::DEFAULT_ROWS))]
+#[pyo3(signature = (model, elevation, *, turbidity = 2.2, ground = 0.0, altitude = 0.0, air = 1.0, dust = 1.0, ozone = 1.0, diameter = 0.545, rows = 512))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn artist_sky(
     py: Python<'_>,

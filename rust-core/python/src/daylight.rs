@@ -157,7 +157,7 @@ impl Daylight {
     }
     /// The sky without the sun's disc as a latitude-longitude picture of `rows` rows and twice as many columns: linear RGBA in cd/m², the zenith on
     /// top, south in the middle, east left of it.
-    #[pyo3(signature = (rows = sky::DEFAULT_ROWS))]
+    #[pyo3(signature = (rows = 512))]
     fn image(&self, py: Python<'_>, rows: u32) -> PyResult<Pass> {
         let image = py.detach(|| self.sky.image(rows)).map_err(exception)?;
         Ok(Pass::new([image.width as usize, image.height as usize], 4, &["R", "G", "B", "A"], image.rgba.to_vec()))

@@ -258,7 +258,7 @@ impl Scene {
 
     /// Adds sun and sky: a dome of `rows` rows, and a distant light where the sun's disc shines. `up` is the scene's vertical axis, Z (north is +Y) or
     /// Y (north is −Z); east is +X. `north` turns true north clockwise, in degrees seen from above.
-    #[pyo3(signature = (daylight, *, up = "Z", north = 0.0, rows = gonio::sky::DEFAULT_ROWS))]
+    #[pyo3(signature = (daylight, *, up = "Z", north = 0.0, rows = 512))]
     fn add_daylight(&mut self, py: Python<'_>, daylight: &Daylight, up: &str, north: f64, rows: u32) -> PyResult<()> {
         let (frame, daylight) = (daylight::frame(up, north)?, daylight.daylight);
         py.detach(|| daylight.add_to(&mut self.scene, &frame, rows)).map_err(exception)?;
