@@ -142,7 +142,6 @@ def _described(world, t, total, images, report):
         image, number, is_ball, matrix = t.environments[node]
         orientation = None if number is None or matrix is None else _orientation(matrix, is_ball)
         if orientation is not None:
-            # A sky that was drawn is in W, as an image is.
             dome = _dome_of(world, factor, orientation, number, "MirroredBall" if is_ball else "LatLong")
             return [dome, *_sun(world, image, factor, matrix)]
     if any(isinstance(image, Picture) and any(image.sun) for image, *_ in t.environments.values()):
@@ -181,7 +180,7 @@ def _sun(world, picture, factor, matrix):
     towards = np.linalg.solve(matrix, [0.0, cos(elevation), sin(elevation)])
     axes = facing(towards / np.linalg.norm(towards))
     shape = {"Distant": {"angle_deg": picture.diameter}}
-    return [at_infinity(world.name, shape, factor * np.array(picture.sun) * LUMENS_PER_WATT, axes, normalized=True)]
+    return [at_infinity(world.name, shape, factor * np.array(picture.sun), axes, normalized=True)]
 
 
 def _even(world, radiance):

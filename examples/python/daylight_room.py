@@ -72,8 +72,11 @@ def main() -> None:
     day = gonio.daylight(*PLACE, "2025-09-21T14:30+02:00", ground=0.2)
     print(day)
     scene.add_daylight(day, up="Y")
-    scene.set(width=480, height=360, samples=256, passes=["color"])
-    scene.add_camera([[1, 0, 0, 0.6], [0, 1, 0, 1.5], [0, 0, 1, DEPTH - 0.3], [0, 0, 0, 1]], fov=68.0)
+    scene.set(width=480, height=360, samples=512, passes=["color"])
+    # From the back of the room towards the window, turned a little to the wall that the sun meets.
+    turn = numpy.radians(195.0)
+    sine, cosine = numpy.sin(turn), numpy.cos(turn)
+    scene.add_camera([[cosine, 0, sine, -1.2], [0, 1, 0, 1.5], [-sine, 0, cosine, 0.5], [0, 0, 0, 1]], fov=62.0)
     finished(scene).write_picture(sys.argv[1] if len(sys.argv) > 1 else "daylight_room.png")
 
 

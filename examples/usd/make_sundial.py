@@ -36,8 +36,8 @@ def Xform "World"
         float focalLength = 35
         float horizontalAperture = 24
         float verticalAperture = 18
-        float exposure = -13
-        double3 xformOp:translate = (0.9, -2.2, 2.6)
+        float exposure = -15
+        double3 xformOp:translate = (1, -2.6, 3)
         double3 xformOp:rotateXYZ = (42, 0, 22)
         uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
     }

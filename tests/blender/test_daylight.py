@@ -161,6 +161,9 @@ def test_the_disc_of_a_sky_texture_is_a_sun(tmp_path):
     fields = {"sun_elevation": radians(30.0), "sun_rotation": radians(40.0), "sun_size": radians(2.0), "sun_intensity": 0.5}
     (dome, sun), scene, _ = world_with(lambda tree: sky(tree, kind, **fields))
     assert sun["shape"]["Distant"]["angle_deg"] == pytest.approx(2.0, rel=1e-5)
+    # Half of four fifths (the limb is darker) of what the atmosphere lets through, 150 W/m² at most.
+    assert 30.0 * K < sun["emission"]["radiance"][1] < 0.4 * 150.0 * K
+    assert dome["emission"]["radiance"] == pytest.approx([K] * 3)
     towards = [cos(radians(30)) * sin(radians(40)), cos(radians(30)) * cos(radians(40)), sin(radians(30))]
     assert sun["transform"]["columns"][2] == pytest.approx(towards, abs=1e-5)
     # The sky is brightest at the sun, which is not in the picture itself.
