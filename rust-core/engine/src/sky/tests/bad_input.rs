@@ -5,7 +5,8 @@ use crate::sky::{Daylight, HosekWilkie, Irradiance, SkyModel};
 
 #[test]
 fn numbers_out_of_range_are_named() {
-    let changes: [(&str, fn(&mut Daylight)); 9] = [
+    type Change = (&'static str, fn(&mut Daylight));
+    let changes: [Change; 9] = [
         ("latitude", |day| day.place.latitude_deg = 90.1),
         ("longitude", |day| day.place.longitude_deg = f64::NAN),
         ("elevation", |day| day.place.elevation_m = f64::INFINITY),
