@@ -63,16 +63,16 @@ class GONIO_WORLD_PT_daylight(WorldPanel, Panel):
 
 
 def _draw_sun(column, world) -> None:
-    """Where the sun stands, and how much light there is."""
+    """Where the sun stands, and how much light it and the sky bring: to a surface that faces it, and to a level one."""
     try:
         found = of_world(world)
     except gonio.Error as problem:
         column.label(text=str(problem), icon="ERROR")
         return
-    column.label(text=f"Sun {found.elevation:.1f}° high, {found.azimuth:.1f}° from north", icon="LIGHT_SUN")
+    column.label(text=f"Height {found.elevation:.1f}°, azimuth {found.azimuth:.1f}°")
     if found.sunrise is not None and found.sunset is not None:
         column.label(text=f"Sunrise {_clock(found.sunrise)}, sunset {_clock(found.sunset)}")
-    column.label(text=f"Sun {found.direct_illuminance:,.0f} lx, facing it; sky {found.diffuse_illuminance:,.0f} lx, level")
+    column.label(text=f"Sun {found.direct_illuminance:,.0f} lx, sky {found.diffuse_illuminance:,.0f} lx")
 
 
 def _clock(hours: float) -> str:
