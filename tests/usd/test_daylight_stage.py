@@ -111,6 +111,13 @@ def test_what_is_wrong_is_told_with_the_prim(tmp_path, body, words):
     assert any(origin == "/Sky" and words in message for origin, message in scene.diagnostics), scene.diagnostics
 
 
+def test_a_place_without_latitude_is_told(tmp_path):
+    path = tmp_path / "stage.usda"
+    path.write_text(HEAD.format(up="Z") + 'def Xform "Sky" { double gonio:daylight:longitude = 16 }\n')
+    scene = gonio.load_usd(str(path), neutral_dome=False)
+    assert any("latitude: NaN" in message for _, message in scene.diagnostics), scene.diagnostics
+
+
 @pytest.fixture
 def plane(run, tmp_path):
     """Renders the plane with more arguments; gives the finished process and the mean illuminance in lx."""

@@ -12,7 +12,7 @@ const PREFIX: &str = "gonio:daylight:";
 
 /// Whether the prim says where the sun and the sky are to be seen from.
 pub(crate) fn is_daylight(prim: &Prim<'_>) -> bool {
-    prim.has_authored("gonio:daylight:latitude")
+    prim.has_authored_prefix(PREFIX)
 }
 
 /// The vertical axis of the scene's sky.

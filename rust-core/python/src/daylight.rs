@@ -131,7 +131,7 @@ impl Daylight {
     fn global_illuminance(&self) -> f64 {
         self.sky.global_lux()
     }
-    /// Irradiances that the illuminances belong to, W/m²: direct normal and diffuse horizontal.
+    /// Irradiances that were given, or those of a cloudless day, W/m²: direct normal and diffuse horizontal.
     #[getter]
     fn irradiances(&self) -> (f64, f64) {
         (self.sky.irradiance.direct_normal, self.sky.irradiance.diffuse_horizontal)

@@ -136,8 +136,6 @@ pub(super) struct RenderOptions {
     /// Half floats for the passes of EXR files that are not absolute.
     #[arg(long)]
     pub(super) half: bool,
-    #[command(flatten)]
-    pub(super) daylight: DaylightArguments,
     /// No neutral dome for stages without lights.
     #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
     pub(super) disable_camera_light: bool,
@@ -147,6 +145,8 @@ pub(super) struct RenderOptions {
     /// Write nothing but errors.
     #[arg(long, short = 'q')]
     pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) daylight: DaylightArguments,
 }
 
 /// Sun and sky beside the stage's own lights.

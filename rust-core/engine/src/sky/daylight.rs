@@ -104,17 +104,10 @@ impl Daylight {
             SkyModel::Cie(kind) => Distribution::Cie(CieSky::new(kind, zenith_angle).ok_or_else(|| setting("sky", "no such type"))?),
         };
         let unscaled = distribution.horizontal(zenith_angle);
-        let measured = irradiance.diffuse_horizontal * diffuse_efficacy(&clearness, zenith_angle, self.dew_point_c);
-        let diffuse_lux = match (self.irradiance, self.model) {
-            (None, SkyModel::HosekWilkie) => unscaled,
-            (None, model) if model.hides_sun() => 300.0 + 21_000.0 * zenith_angle.cos(),
-            _ => measured,
-        };
-        let is_hidden = self.irradiance.is_none() && self.model.hides_sun();
-        let direct = irradiance.direct_normal * direct_efficacy(&clearness, zenith_angle, self.dew_point_c);
+        let [direct_lux, diffuse_lux] = self.illuminances(&irradiance, &clearness, zenith_angle, unscaled);
         Ok(Sky {
             sun,
-            direct_lux: if is_hidden { 0.0 } else { direct },
+            direct_lux,
             diffuse_lux,
             irradiance,
             clearness,
@@ -124,6 +117,18 @@ impl Daylight {
             blue: self.is_coloured.then_some((blue, self.clear_share(&clearness))),
             sun_colour: if self.is_coloured { colour::of_sun(air_mass * pressure_ratio, self.turbidity) } else { [1.0; 3] },
         })
+    }
+
+    /// Of a surface that faces the sun by its disc, and of a level one by the sky, lx; `unscaled` is the latter in the distribution's unit.
+    fn illuminances(&self, irradiance: &Irradiance, clearness: &Clearness, zenith_angle: f64, unscaled: f64) -> [f64; 2] {
+        let direct = irradiance.direct_normal * direct_efficacy(clearness, zenith_angle, self.dew_point_c);
+        let diffuse = irradiance.diffuse_horizontal * diffuse_efficacy(clearness, zenith_angle, self.dew_point_c);
+        match self.model {
+            _ if self.irradiance.is_some() => [direct, diffuse],
+            SkyModel::HosekWilkie => [direct, unscaled],
+            model if model.hides_sun() => [0.0, 300.0 + 21_000.0 * zenith_angle.cos()],
+            _ => [direct, diffuse],
+        }
     }
 
     /// How much of the sky's light has the blue of clear air.
@@ -160,7 +165,7 @@ pub struct Sky {
     pub direct_lux: f64,
     /// Illuminance by the sky alone of a level surface, lx.
     pub diffuse_lux: f64,
-    /// The irradiances that they belong to.
+    /// What was measured, or the irradiances of a cloudless day.
     pub irradiance: Irradiance,
     /// Perez's figures of these irradiances.
     pub clearness: Clearness,
