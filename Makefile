@@ -9,7 +9,7 @@ export PYO3_PYTHON := $(BIN)/python
 # Blender as a Python package, in the versions that Python 3.11 can load.
 BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
-FUZZED := ies ldt goniogram merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
+FUZZED := ies ldt goniogram weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
 .PHONY: fuzz build render extension test test-rust test-python test-blender lint compare-cycles validate bench bench-peers clean
 

@@ -5,6 +5,7 @@ import numpy as np
 
 from .images import linear_pixels
 from .material.operations import compute
+from .sky_texture import Picture
 
 # Rows of a baked world without images; one with an image has the image's rows up to the limit.
 ROWS, MOST_ROWS = 512, 2048
@@ -57,6 +58,8 @@ def _evaluate(t, total, directions, loaded):
 
 
 def _pixels(image):
+    if isinstance(image, Picture):
+        return image.pixels[::-1]
     if not image.has_data and image.source in ("FILE", "SEQUENCE"):
         image.pixels  # noqa: B018 (loads the file)
     return linear_pixels(image) if image.size[0] else np.zeros((1, 1, 4), dtype=np.float32)

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The world as domes: an even one, an image turned by its mapping, or whatever the nodes compute, baked."""
 
+from dataclasses import replace
+from math import cos, radians, sin
+
 import bpy
 import numpy as np
 
 from ..units import LUMENS_PER_WATT
+from . import daylight
 from .bake import bake
+from .daylight import facing
+from .light_description import at_infinity
 from .material.closures import flatten
 from .material.graph import Value
 from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket
 from .material.textures import equirectangular, mirror_ball
 from .material.translator import Translator
-from .transforms import columns
+from .sky_texture import Picture
 from .visibility import RAYS
 
 # Axes of gonio's dome (latitude-longitude by the OpenEXR convention: +Y up, +Z in the middle, longitude to the left) in Blender's
@@ -41,6 +47,16 @@ class WorldTranslator(Translator):
         self.environments[value.node] = (node.image, number, is_ball, matrix)
         return value
 
+    def sky(self, picture, towards, uv):
+        """The value of a sky that was drawn: as an environment texture's, and its sun is remembered."""
+        key = (self.owner.original.session_uid, picture.name, self.is_camera_ray, len(self.environments))
+        number = self.images.baked(("sky", *key), picture.name, picture.pixels)
+        fields = {"image": f"{picture.name} {number}", "closest": False, "repeat": True}
+        value = self.graph.add({"Lookup": fields}, uv, kind="RGBA")
+        picture = replace(picture, name=fields["image"])
+        self.environments[value.node] = (picture, number, False, self._linear(towards))
+        return value
+
     def _linear(self, towards):
         """The 3×3 matrix that turns the asked direction into this one; None if it is anything else."""
         matrix, value = np.eye(3), towards.input()
@@ -63,6 +79,8 @@ def domes(world, images, report):
     if world is None:
         return []
     report.forget("World", world.name)
+    if world.gonio.use_daylight:
+        return _with_visibility(world, daylight.lights(world, images, report))
     tree = world.node_tree
     if tree is None or not _uses_nodes(world):
         return _with_visibility(world, [_even(world, np.array(world.color))])
@@ -121,10 +139,13 @@ def _described(world, t, total, images, report):
         return [] if total.is_zero() else [_even(world, np.array(total.constant[:3]) / LUMENS_PER_WATT)]
     factor, node = _factored(t, total)
     if node in t.environments:
-        _, number, is_ball, matrix = t.environments[node]
+        image, number, is_ball, matrix = t.environments[node]
         orientation = None if number is None or matrix is None else _orientation(matrix, is_ball)
         if orientation is not None:
-            return [_dome_of(world, factor, orientation, number, "MirroredBall" if is_ball else "LatLong")]
+            dome = _dome_of(world, factor, orientation, number, "MirroredBall" if is_ball else "LatLong")
+            return [dome, *_sun(world, image, factor, matrix)]
+    if any(isinstance(image, Picture) and any(image.sun) for image, *_ in t.environments.values()):
+        t.say(active_output(t.root.tree, "World"), t.root, "other nodes change the sky texture; the sun's disc is left out")
     pixels = bake(t, total, images, report)
     number = images.baked((world.original.session_uid, t.is_camera_ray), world.name, pixels)
     return [_dome_of(world, np.ones(3), DOME_TO_BLENDER, number, "LatLong")]
@@ -151,23 +172,20 @@ def _orientation(matrix, is_ball):
     return (matrix / scale).T @ (BALL_TO_BLENDER if is_ball else DOME_TO_BLENDER)
 
 
+def _sun(world, picture, factor, matrix):
+    """The disc of a sky that was drawn and is looked up in directions multiplied by `matrix`; nothing for images."""
+    if not isinstance(picture, Picture) or not any(picture.sun) or picture.elevation <= 0.0:
+        return []
+    elevation = radians(picture.elevation)
+    towards = np.linalg.solve(matrix, [0.0, cos(elevation), sin(elevation)])
+    axes = facing(towards / np.linalg.norm(towards))
+    shape = {"Distant": {"angle_deg": picture.diameter}}
+    return [at_infinity(world.name, shape, factor * np.array(picture.sun), axes, normalized=True)]
+
+
 def _even(world, radiance):
     return _dome_of(world, radiance * LUMENS_PER_WATT, DOME_TO_BLENDER, None, "LatLong")
 
 
 def _dome_of(world, radiance, axes, texture, layout):
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes
-    return {
-        "origin": {"name": world.name, "file": ""},
-        "shape": {"Dome": {"format": layout}},
-        "emission": {"radiance": [float(x) for x in radiance], "normalized": False, "metres_per_unit": 1.0},
-        "shaping": {"cone_angle_deg": None, "cone_softness": 0.0, "focus": 0.0, "focus_tint": [0.0, 0.0, 0.0]},
-        "texture": texture,
-        "transform": columns(matrix),
-        "visibility": dict.fromkeys(RAYS, True),
-        "casts_shadow": True,
-        "spot": None,
-        "spread_deg": 180.0,
-        "portal": False,
-    }
+    return at_infinity(world.name, {"Dome": {"format": layout}}, radiance, axes, texture=texture)

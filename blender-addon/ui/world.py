@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The world."""
 
+import gonio
 from bpy.types import Panel
 
+from ..daylight import of_world
 from .base import GonioPanel, draw_shader
 
 
@@ -29,8 +31,73 @@ class GONIO_WORLD_PT_surface(WorldPanel, Panel):
 
     def draw(self, context):
         self.layout.use_property_split = True
+        self.layout.active = not context.world.gonio.use_daylight
         if not draw_shader(self.layout, context.world, "OUTPUT_WORLD", "Surface"):
             self.layout.prop(context.world, "color")
+
+
+class GONIO_WORLD_PT_daylight(WorldPanel, Panel):
+    bl_label = "Daylight"
+
+    def draw_header(self, context):
+        self.layout.prop(context.world.gonio, "use_daylight", text="")
+
+    def draw(self, context):
+        layout, settings = self.layout, context.world.gonio
+        layout.use_property_split = True
+        layout.active = settings.use_daylight
+        place = layout.column(align=True)
+        place.prop(settings, "city", text="Place")
+        place.prop(settings, "latitude")
+        place.prop(settings, "longitude")
+        place.prop(settings, "elevation")
+        date = layout.column(align=True)
+        for name in ("day", "month", "year"):
+            date.prop(settings, name)
+        time = layout.column(align=True)
+        time.prop(settings, "hour")
+        time.prop(settings, "utc_offset")
+        layout.prop(settings, "north")
+        if settings.use_daylight:
+            _draw_sun(layout.box().column(align=True), context.world)
+
+
+def _draw_sun(column, world) -> None:
+    """Where the sun stands, and how much light it and the sky bring: to a surface that faces it, and to a level one."""
+    try:
+        found = of_world(world)
+    except gonio.Error as problem:
+        column.label(text=str(problem), icon="ERROR")
+        return
+    column.label(text=f"Height {found.elevation:.1f}°, azimuth {found.azimuth:.1f}°")
+    if found.sunrise is not None and found.sunset is not None:
+        column.label(text=f"Sunrise {_clock(found.sunrise)}, sunset {_clock(found.sunset)}")
+    column.label(text=f"Sun {found.direct_illuminance:,.0f} lx, sky {found.diffuse_illuminance:,.0f} lx")
+
+
+def _clock(hours: float) -> str:
+    minutes = round(hours * 60.0) % 1440
+    return f"{minutes // 60:02d}:{minutes % 60:02d}"
+
+
+class GONIO_WORLD_PT_daylight_sky(WorldPanel, Panel):
+    bl_label = "Sky"
+    bl_parent_id = "GONIO_WORLD_PT_daylight"
+
+    def draw(self, context):
+        layout, settings = self.layout, context.world.gonio
+        layout.use_property_split = True
+        layout.active = settings.use_daylight
+        layout.prop(settings, "sky")
+        layout.prop(settings, "turbidity")
+        layout.prop(settings, "ground", slider=True)
+        layout.prop(settings, "use_colour")
+        column = layout.column(heading="Measured")
+        column.prop(settings, "use_irradiance", text="Irradiance")
+        values = column.column(align=True)
+        values.active = settings.use_irradiance
+        values.prop(settings, "direct_normal")
+        values.prop(settings, "diffuse_horizontal")
 
 
 class GONIO_WORLD_PT_mist(WorldPanel, Panel):
@@ -46,4 +113,10 @@ class GONIO_WORLD_PT_mist(WorldPanel, Panel):
         self.layout.prop(mist, "falloff")
 
 
-PANELS = (GONIO_WORLD_PT_preview, GONIO_WORLD_PT_surface, GONIO_WORLD_PT_mist)
+PANELS = (
+    GONIO_WORLD_PT_preview,
+    GONIO_WORLD_PT_surface,
+    GONIO_WORLD_PT_daylight,
+    GONIO_WORLD_PT_daylight_sky,
+    GONIO_WORLD_PT_mist,
+)

@@ -8,6 +8,7 @@ pub mod build;
 pub mod camera;
 pub mod cli;
 pub mod context;
+mod daylight;
 pub mod framing;
 mod goniogram;
 pub mod instancer;

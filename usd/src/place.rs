@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
 use crate::options::Purpose;
 use crate::prim::Prim;
-use crate::{camera, light, material, primvar};
+use crate::{camera, daylight, light, material, primvar};
 use gonio::scene::{Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
 use std::collections::{HashMap, HashSet};
@@ -227,7 +227,9 @@ impl<'py> Placer<'_, '_, 'py> {
         let path = placement.path(&element.path);
         let Some(prim) = self.context.prim_at(&path) else { return };
         for transform in self.transforms(element, placement) {
-            if let Some(light) = light::light(self.context, &prim, &transform) {
+            if daylight::is_daylight(&prim) {
+                daylight::add_lights(self.context, &prim, &transform);
+            } else if let Some(light) = light::light(self.context, &prim, &transform) {
                 self.context.scene.lights.push(light);
             }
         }

@@ -7,7 +7,7 @@ use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{instancer, light, material, mesh, primvar, quadrics, skeleton};
+use crate::{daylight, instancer, light, material, mesh, primvar, quadrics, skeleton};
 use gonio::mesh::Interpolation;
 use gonio::scene::{Mesh, MeshId, Origin, Transform};
 use gonio::{Error, Result};
@@ -239,7 +239,12 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             PrimKind::Instancer => self.point_instancer(prim, branch, model)?,
             PrimKind::Light => push(model, prim, branch, Kind::Light),
             PrimKind::Camera => push(model, prim, branch, Kind::Camera),
-            PrimKind::Container => self.report_draw_mode(prim),
+            PrimKind::Container => {
+                if daylight::is_daylight(prim) {
+                    push(model, prim, branch, Kind::Light);
+                }
+                self.report_draw_mode(prim);
+            }
             PrimKind::SkelRoot => skeleton::bake(self.context, prim),
             PrimKind::Leaf | PrimKind::Unsupported => {}
         }

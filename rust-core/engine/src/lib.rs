@@ -21,6 +21,7 @@ pub mod output;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod sky;
 pub mod table;
 pub mod texture;
 mod threads;

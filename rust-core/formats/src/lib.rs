@@ -1,4 +1,4 @@
-//! Readers and writers of files that nobody vouches for: goniograms of luminaires and measured scattering of materials.
+//! Readers and writers of files that nobody vouches for: goniograms of luminaires, measured scattering of materials, and the weather.
 //!
 //! A reader takes the bytes of a whole file and gives plain data or one [`FormatError`]. Counts that a file states are checked against its
 //! size before anything is allocated; nothing panics and nothing loops without end, whatever the bytes.
@@ -7,6 +7,7 @@
 
 pub mod bsdf;
 pub mod photometry;
+pub mod weather;
 
 mod error;
 

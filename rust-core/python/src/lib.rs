@@ -1,6 +1,8 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
+mod artist_sky;
 mod buffer;
+mod daylight;
 mod description;
 mod error;
 mod film;
@@ -19,6 +21,10 @@ use pyo3::prelude::*;
 /// Physically exact rendering on SIMD lanes.
 #[pymodule]
 mod _gonio {
+    #[pymodule_export]
+    use crate::artist_sky::artist_sky;
+    #[pymodule_export]
+    use crate::daylight::{Daylight, daylight, read_weather};
     #[pymodule_export]
     use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]

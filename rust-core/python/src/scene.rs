@@ -2,6 +2,7 @@
 
 use crate::{
     buffer::{floats_of_any_width, matrices},
+    daylight::{self, Daylight},
     description,
     error::exception,
     mesh::MeshBuffers,
@@ -253,6 +254,15 @@ impl Scene {
             ..Light::new(Origin::new(name), shape, self::transform(transform)?)
         });
         Ok((self.scene.lights.len() - 1) as u32)
+    }
+
+    /// Adds sun and sky: a dome of `rows` rows, and a distant light where the sun's disc shines. `up` is the scene's vertical axis, Z (north is +Y) or
+    /// Y (north is −Z); east is +X. `north` turns true north clockwise, in degrees seen from above.
+    #[pyo3(signature = (daylight, *, up = "Z", north = 0.0, rows = 512))]
+    fn add_daylight(&mut self, py: Python<'_>, daylight: &Daylight, up: &str, north: f64, rows: u32) -> PyResult<()> {
+        let (frame, daylight) = (daylight::frame(up, north)?, daylight.daylight);
+        py.detach(|| daylight.add_to(&mut self.scene, &frame, rows)).map_err(exception)?;
+        Ok(())
     }
 
     /// Adds a camera looking along −z of its transform, y up; makes it the one that renders.

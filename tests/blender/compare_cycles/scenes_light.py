@@ -3,7 +3,7 @@
 from math import radians
 
 import numpy
-from stage import ball, box, camera, diffuse, distribution, even_world, ies, image, image_world, lamp, material, plane, principled
+from stage import ball, box, camera, diffuse, distribution, even_world, ies, image, image_world, lamp, material, plane, principled, sky_world
 
 
 def corner() -> None:
@@ -87,3 +87,26 @@ def hdri() -> None:
     glow = numpy.exp((toward - 1.0) / 0.006)[..., None] * numpy.array([120.0, 100.0, 70.0])
     sky = (0.25 + 0.2 * numpy.sin(latitude) + 0.0 * longitude)[..., None] * numpy.array([0.6, 0.9, 1.4])
     image_world(image("Sky", glow + sky, is_float=True), 0.8, (0.15, -0.1, 0.7))
+
+
+def sky_single() -> None:
+    """Light scattered once, with a large disc of the sun."""
+    corner()
+    sun = {"sun_elevation": radians(28), "sun_rotation": radians(200), "sun_size": radians(3)}
+    sky_world("SINGLE_SCATTERING", 0.05, **sun, altitude=300.0, air_density=1.3, ozone_density=1.5)
+
+
+def sky_multiple() -> None:
+    """Light scattered often, without the sun's disc."""
+    corner()
+    sky_world("MULTIPLE_SCATTERING", 0.2, sun_elevation=radians(12), sun_rotation=radians(160), sun_disc=False)
+
+
+def sky_preetham() -> None:
+    corner()
+    sky_world("PREETHAM", 1.0, sun_direction=(0.4, -0.7, 0.5), turbidity=3.5)
+
+
+def sky_hosek_wilkie() -> None:
+    corner()
+    sky_world("HOSEK_WILKIE", 3.0, sun_direction=(-0.4, -0.7, 0.6), turbidity=4.0, ground_albedo=0.4)

@@ -183,6 +183,15 @@ def image_world(picture: bpy.types.Image, strength: float = 1.0, rotation=(0.0, 
     node(tree, "ShaderNodeOutputWorld", Surface=shown.outputs[0])
 
 
+def sky_world(kind: str, strength: float, **values) -> None:
+    """A Sky Texture; `kind` is its type since Blender 5.0."""
+    tree = new_world()
+    old = {"SINGLE_SCATTERING": "NISHITA"} if bpy.app.version < (5, 0, 0) else {}
+    sky = node(tree, "ShaderNodeTexSky", sky_type=old.get(kind, kind), **values)
+    shown = node(tree, "ShaderNodeBackground", Color=sky.outputs[0], Strength=strength)
+    node(tree, "ShaderNodeOutputWorld", Surface=shown.outputs[0])
+
+
 def image(name: str, pixels: numpy.ndarray, *, is_float: bool = False, colours: str | None = None) -> bpy.types.Image:
     """A packed image of (height, width, 3 or 4) values, the bottom row first; `colours` names its colour space."""
     height, width, channels = pixels.shape

@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod compare;
+mod daylight;
 mod file_name;
 mod frames;
 mod info;

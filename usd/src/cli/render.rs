@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
-    file_name, frames, list,
+    daylight, file_name, frames, list,
     output::{Notes, Writer},
     print,
     progress::{Reporter, clock},
@@ -123,6 +123,7 @@ impl Job<'_> {
         if !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
+        daylight::add(&self.options.daylight, &mut loaded, self.options.quiet)?;
         self.apply_settings(&mut loaded)?;
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;

@@ -7,6 +7,7 @@ mod bsdf;
 mod memory;
 mod mutate;
 mod photometry;
+mod weather;
 
 use mutate::Random;
 use std::panic::catch_unwind;
@@ -38,7 +39,7 @@ pub struct Reader {
 
 /// All readers of the crate.
 fn readers() -> Vec<Reader> {
-    [photometry::readers(), bsdf::readers()].concat()
+    [photometry::readers(), bsdf::readers(), weather::readers()].concat()
 }
 
 /// The input at work and since when, for the watchdog.

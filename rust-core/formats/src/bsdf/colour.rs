@@ -116,6 +116,12 @@ fn tristimulus_weights(wavelengths_nm: &[f64]) -> Vec<[f64; 3]> {
     weights.iter().map(|w| [w[0] / sum[0], w[1] / sum[1], w[2] / sum[2]]).collect()
 }
 
+/// The CIE 1931 2° observer's x̄, ȳ, z̄ at a wavelength in nm, to the nearest nanometre; zero outside 360 to 830.
+pub fn cie_1931(nanometres: f64) -> [f64; 3] {
+    let step = (nanometres - OBSERVER_START).round();
+    if !(0.0..OBSERVER_COUNT as f64).contains(&step) { [0.0; 3] } else { std::array::from_fn(|curve| observer(step as usize, curve)) }
+}
+
 /// One curve of the observer at one of its wavelengths.
 fn observer(step: usize, curve: usize) -> f64 {
     let at = 4 * (3 * step + curve);

@@ -33,7 +33,7 @@ pub mod xml;
 pub mod zemax;
 
 pub use axis::{Axis, Mode};
-pub use colour::Channels;
+pub use colour::{Channels, cie_1931};
 pub use coordinates::Coordinates;
 pub use direction::Direction;
 pub use hemispheres::Hemispheres;

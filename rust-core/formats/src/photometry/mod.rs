@@ -24,7 +24,7 @@ mod opening;
 mod polar;
 mod svg;
 mod symmetry;
-mod text;
+pub(crate) mod text;
 
 pub use cone::cone_diagram;
 pub use figures::{Figures, Spread};

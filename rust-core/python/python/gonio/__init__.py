@@ -2,6 +2,7 @@
 
 from ._gonio import (
     Cancelled,
+    Daylight,
     Error,
     Film,
     FormatError,
@@ -14,13 +15,17 @@ from ._gonio import (
     Tile,
     UnsupportedError,
     __version__,
+    artist_sky,
+    daylight,
     load_usd,
     read_goniogram,
+    read_weather,
     simd_level,
 )
 
 __all__ = [
     "Cancelled",
+    "Daylight",
     "Error",
     "Film",
     "FormatError",
@@ -33,7 +38,10 @@ __all__ = [
     "Tile",
     "UnsupportedError",
     "__version__",
+    "artist_sky",
+    "daylight",
     "load_usd",
     "read_goniogram",
+    "read_weather",
     "simd_level",
 ]

@@ -1,3 +1,4 @@
+import datetime
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
@@ -7,6 +8,10 @@ from typing import Any, final
 from typing_extensions import Buffer
 
 __all__ = [
+    "Daylight",
+    "artist_sky",
+    "daylight",
+    "read_weather",
     "Cancelled",
     "Error",
     "FormatError",
@@ -172,6 +177,7 @@ class Scene:
         visible: bool = True,
         name: str = "light",
     ) -> int: ...
+    def add_daylight(self, daylight: Daylight, *, up: str = "Z", north: float = 0.0, rows: int = 512) -> None: ...
     def add_camera(self, transform: Sequence[Sequence[float]] | None = None, *, fov: float = 40.0, name: str = "camera") -> None: ...
     def set(
         self,
@@ -205,6 +211,67 @@ class Scene:
     @staticmethod
     def load(path: str | PathLike[str]) -> Scene: ...
 
+@final
+class Daylight:
+    @property
+    def azimuth(self) -> float: ...
+    @property
+    def elevation(self) -> float: ...
+    @property
+    def sun_direction(self) -> tuple[float, float, float]: ...
+    @property
+    def sunrise(self) -> float | None: ...
+    @property
+    def transit(self) -> float | None: ...
+    @property
+    def sunset(self) -> float | None: ...
+    @property
+    def direct_illuminance(self) -> float: ...
+    @property
+    def diffuse_illuminance(self) -> float: ...
+    @property
+    def global_illuminance(self) -> float: ...
+    @property
+    def irradiances(self) -> tuple[float, float]: ...
+    @property
+    def zenith_luminance(self) -> float: ...
+    @property
+    def sun_luminance(self) -> float: ...
+    @property
+    def sun_irradiance(self) -> list[float]: ...
+    def luminance(self, direction: Sequence[float]) -> float: ...
+    def image(self, rows: int = 512) -> Pass: ...
+
+def daylight(
+    latitude: float,
+    longitude: float,
+    time: str | datetime.datetime,
+    *,
+    elevation: float = 0.0,
+    pressure: float | None = None,
+    temperature: float | None = None,
+    sky: str = "perez",
+    turbidity: float = 3.0,
+    direct_normal: float | None = None,
+    diffuse_horizontal: float | None = None,
+    dew_point: float | None = None,
+    ground: float = 0.0,
+    coloured: bool = True,
+) -> Daylight: ...
+def artist_sky(
+    model: str,
+    elevation: float,
+    *,
+    turbidity: float = 2.2,
+    ground: float = 0.0,
+    altitude: float = 0.0,
+    air: float = 1.0,
+    dust: float = 1.0,
+    ozone: float = 1.0,
+    diameter: float = 0.545,
+    rows: int = 512,
+) -> tuple[Pass, list[float]]: ...
+def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
 def read_goniogram(data: bytes, name: str) -> tuple[dict[str, Any], list[str]]: ...
 def load_usd(
     path: str | PathLike[str],

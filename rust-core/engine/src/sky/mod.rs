@@ -1,0 +1,54 @@
+//! Daylight: where the sun stands, how bright sun and sky are in every direction, and the lights that make a scene see them.
+//!
+//! [`Daylight`] says place, moment and weather; [`Daylight::sky`] turns it into a [`Sky`] of absolute luminances, and [`Daylight::add_to`]
+//! into a dome and a distant light. Nothing here draws random numbers: the same daylight gives the same bits.
+//!
+//! Directions are unit vectors (east, north, up). Azimuths are degrees from true north, clockwise seen from above.
+
+mod atmosphere;
+mod cie;
+mod clear_sky;
+mod colour;
+mod daylight;
+mod distribution;
+mod efficacy;
+mod frame;
+mod hosek_wilkie;
+mod image;
+mod model;
+mod moment;
+mod perez;
+mod preetham;
+mod sun_position;
+
+pub use atmosphere::{Atmosphere, Scattering};
+pub use cie::{CIE_TYPES, CieSky};
+pub use clear_sky::{Irradiance, clear_sky_irradiance, extraterrestrial_irradiance, relative_air_mass};
+pub use daylight::{Daylight, SUN_ANGLE_DEG, Sky};
+pub use efficacy::{diffuse_efficacy, direct_efficacy};
+pub use frame::{Frame, UpAxis};
+pub use hosek_wilkie::HosekWilkie;
+pub use image::{DEFAULT_ROWS, SkyImage, draw_by_angle};
+pub use model::SkyModel;
+pub use moment::Moment;
+pub use perez::{Clearness, PerezSky};
+pub use preetham::Preetham;
+pub use sun_position::{Air, Place, SunPosition, SunTimes, sun_position, sun_times};
+
+#[cfg(test)]
+mod tests;
+
+use crate::{Error, Result};
+
+/// An error about a setting of the daylight.
+fn setting(name: &str, problem: impl Into<String>) -> Error {
+    Error::Setting { name: name.into(), problem: problem.into() }
+}
+
+/// The number, if it is within the range.
+fn within(name: &str, unit: &str, value: f64, range: std::ops::RangeInclusive<f64>) -> Result<f64> {
+    if range.contains(&value) {
+        return Ok(value);
+    }
+    Err(setting(name, format!("{value} was found, expected {} to {}{unit}", range.start(), range.end())))
+}

@@ -1,0 +1,62 @@
+//! EPW and WEA files, good and broken.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use gonio_formats::weather::{Hour, read};
+
+const WEA: &str = "place Oakland_USA\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\nsite_elevation 2.0\nweather_data_file_units 1
+6 21 11.500 830 95\n6 21 12.500 850 90.5\n";
+
+fn epw() -> String {
+    let mut text = String::from("LOCATION,Oakland,CA,USA,TMY3,724930,37.72,-122.22,-8.0,2.0\n");
+    for name in ["DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0", "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0"] {
+        text += &format!("{name}\n");
+    }
+    text += "COMMENTS 1,none\nCOMMENTS 2,none\nDATA PERIODS,1,1,Data,Sunday,6/21,6/21\n";
+    for hour in 12..14 {
+        text += &format!("1997,6,21,{hour},60,?9?9?9,21.0,12.5,58,101300,1321,1321,330,900,8{hour},95,1,2,3,4,5,6\n");
+    }
+    text
+}
+
+#[test]
+fn a_wea_file_is_read() {
+    let weather = read(WEA.replace('\n', "\r\n").as_bytes()).unwrap();
+    assert_eq!((weather.place.as_str(), weather.latitude_deg, weather.longitude_deg), ("Oakland_USA", 37.72, -122.22));
+    assert_eq!((weather.utc_offset_h, weather.elevation_m, weather.hours.len()), (-8.0, 2.0, 2));
+    let found = weather.at(6, 21, 12.9).unwrap();
+    assert_eq!((found.hour, found.direct_normal, found.diffuse_horizontal, found.dew_point_c), (12.5, 850.0, 90.5, None));
+    assert!(weather.at(6, 22, 12.0).is_none());
+}
+
+#[test]
+fn an_epw_file_is_read() {
+    let weather = read(epw().as_bytes()).unwrap();
+    assert_eq!((weather.latitude_deg, weather.longitude_deg, weather.utc_offset_h, weather.elevation_m), (37.72, -122.22, -8.0, 2.0));
+    let expected = Hour { month: 6, day: 21, hour: 11.5, direct_normal: 812.0, diffuse_horizontal: 95.0, dew_point_c: Some(12.5) };
+    assert_eq!(weather.hours[0], expected);
+    let quarters = epw().replace("DATA PERIODS,1,1", "DATA PERIODS,1,4").replace("21,12,60", "21,12,15");
+    assert_eq!(read(quarters.as_bytes()).unwrap().hours[0].hour, 11.125);
+}
+
+#[test]
+fn what_is_broken_is_told_with_its_line() {
+    let wea = |from: &str, to: &str| read(WEA.replace(from, to).as_bytes()).unwrap_err().to_string();
+    assert!(wea("latitude 37.72", "latitude 97.72").starts_with("line 2: latitude is '97.72', expected"));
+    assert!(wea("850", "8x0").starts_with("line 8: the direct normal irradiance is '8x0'"));
+    assert!(wea(" 90.5", "").starts_with("line 8: the diffuse horizontal irradiance is missing"));
+    assert!(wea(" 90.5", " -1").contains("expected a number from 0 to 1500"));
+    assert!(wea(" 90.5", " nan").contains("expected a number"));
+    assert!(wea("units 1", "units 2").starts_with("line 6: "));
+    assert!(wea("time_zone", "timezone").starts_with("line 4: "));
+    assert!(read(WEA.lines().take(6).collect::<Vec<_>>().join("\n").as_bytes()).unwrap_err().to_string().contains("no hours"));
+    let of_epw = |from: &str, to: &str| read(epw().replace(from, to).as_bytes()).unwrap_err().to_string();
+    assert!(of_epw("812", "9999").contains("line 9: the direct normal irradiance was not measured"));
+    assert!(of_epw("813", "2000").contains("line 10: the direct normal irradiance is '2000'"));
+    assert!(of_epw("DATA PERIODS", "PERIODS").contains("DATA PERIODS"));
+    assert!(of_epw("1,1,Data", "1,0,Data").starts_with("line 8: "));
+    assert!(of_epw("-8.0", "west").starts_with("line 1: the time zone"));
+    assert!(of_epw("21,13,60", "21,25,60").starts_with("line 10: the hour is '25'"));
+    for rubbish in [&b""[..], b"\0\0\0", b"\x89PNG\r\n\x1a\n", b"place", b"LOCATION,", b"\xff\xfe"] {
+        assert!(read(rubbish).is_err());
+    }
+}
