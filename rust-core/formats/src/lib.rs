@@ -9,5 +9,6 @@ pub mod bsdf;
 pub mod photometry;
 
 mod error;
+mod svg;
 
 pub use error::{FormatError, Place};

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod bsdf;
 mod compare;
 mod file_name;
 mod frames;
@@ -40,6 +41,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
         Command::Photometry(options) => photometry::photometry(&options),
+        Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
     };
     match result {
