@@ -1,9 +1,11 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
+mod array;
 mod buffer;
 mod description;
 mod error;
 mod film;
+mod measured;
 #[cfg(unix)]
 mod memory;
 mod mesh;
@@ -12,7 +14,9 @@ mod photometry;
 mod render;
 mod scene;
 mod settings;
+mod table;
 mod usd;
+mod view;
 
 use pyo3::prelude::*;
 
@@ -20,9 +24,13 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _gonio {
     #[pymodule_export]
+    use crate::array::Array;
+    #[pymodule_export]
     use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]
     use crate::film::Film;
+    #[pymodule_export]
+    use crate::measured::MeasuredBsdf;
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]

@@ -1,10 +1,12 @@
 """Physically exact rendering on SIMD lanes, with answers in cd/m² and lux."""
 
 from ._gonio import (
+    Array,
     Cancelled,
     Error,
     Film,
     FormatError,
+    MeasuredBsdf,
     Pass,
     Progress,
     Render,
@@ -20,10 +22,12 @@ from ._gonio import (
 )
 
 __all__ = [
+    "Array",
     "Cancelled",
     "Error",
     "Film",
     "FormatError",
+    "MeasuredBsdf",
     "Pass",
     "Progress",
     "Render",

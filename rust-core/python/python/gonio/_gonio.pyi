@@ -13,7 +13,9 @@ __all__ = [
     "SceneError",
     "SettingError",
     "UnsupportedError",
+    "Array",
     "Film",
+    "MeasuredBsdf",
     "Pass",
     "Progress",
     "Render",
@@ -49,6 +51,45 @@ class Pass:
     def tobytes(self) -> bytes: ...
     if sys.version_info >= (3, 12):
         def __buffer__(self, flags: int, /) -> memoryview: ...
+
+@final
+class Array:
+    @property
+    def shape(self) -> list[int]: ...
+    if sys.version_info >= (3, 12):
+        def __buffer__(self, flags: int, /) -> memoryview: ...
+
+@final
+class MeasuredBsdf:
+    @staticmethod
+    def from_file(path: str | PathLike[str]) -> MeasuredBsdf: ...
+    @staticmethod
+    def from_bytes(data: bytes, name: str = "bytes") -> MeasuredBsdf: ...
+    @staticmethod
+    def from_table(
+        axes: Mapping[str, Sequence[float]],
+        values: Buffer,
+        *,
+        side: str = "reflection-front",
+        periods: Mapping[str, float] | None = None,
+        nearest: Sequence[str] | None = None,
+        wavelengths: Sequence[float] | None = None,
+        xyz: bool = False,
+        reciprocal: bool = False,
+        bilateral: bool = False,
+    ) -> MeasuredBsdf: ...
+    @property
+    def channels(self) -> list[str]: ...
+    @property
+    def isotropic(self) -> bool: ...
+    @property
+    def sides(self) -> list[str]: ...
+    def eval(self, wi: Buffer, wo: Buffer, *, rgb: bool = False) -> Array: ...
+    def pdf(self, wi: Buffer, wo: Buffer) -> Array: ...
+    def sample(self, wo: Buffer, u: Buffer) -> tuple[Array, Array]: ...
+    def write(
+        self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int = 46, phi: int = 72
+    ) -> None: ...
 
 @final
 class Film:

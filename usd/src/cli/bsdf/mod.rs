@@ -6,10 +6,7 @@ mod fit;
 
 use super::{arguments::BsdfOptions, print};
 use gonio::{Error, Result, output::write_atomically};
-use gonio_formats::{
-    FormatError, Place,
-    bsdf::{Format, Measured, lobe_diagram, lobe_map, read},
-};
+use gonio_formats::bsdf::{Format, Measured, lobe_diagram, lobe_map, read};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -48,7 +45,7 @@ pub(super) fn bsdf(options: &BsdfOptions) -> Result<i32> {
         description["conversion"] = convert::convert(options, &loaded.measured, &name, path)?;
     }
     if options.fit || options.material.is_some() {
-        let found = loaded.measured.fit().map_err(|error| unusable(&options.file, &error))?;
+        let found = loaded.measured.fit().map_err(|error| Error::in_file(&options.file, &error))?;
         if let Some(path) = &options.material {
             write(path, fit::as_usda(&found, &name).as_bytes())?;
         }
@@ -89,18 +86,11 @@ fn load(path: &Path) -> Result<Loaded> {
     let file = File::open(path).map_err(|error| Error::io(path, error))?;
     file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
     if bytes.len() as u64 > LONGEST {
-        return Err(unusable(path, &FormatError::whole(format!("more than {LONGEST} bytes: no measured material's file"))));
+        let problem = format!("more than {LONGEST} bytes: no measured material's file");
+        return Err(Error::Format { path: path.into(), line: None, problem });
     }
     let name = path.to_string_lossy();
-    let measured = read(&bytes, &name).map_err(|error| unusable(path, &error))?;
+    let measured = read(&bytes, &name).map_err(|error| Error::in_file(path, &error.by_lines()))?;
     let format = Format::of(&bytes, &name).unwrap_or(Format::Gbsdf);
     Ok(Loaded { measured, format })
-}
-
-/// What a reader found wrong, with the byte where the format has no lines.
-fn unusable(path: &Path, error: &FormatError) -> Error {
-    match error.place {
-        Some(Place::Byte(_)) => Error::Format { path: path.into(), line: None, problem: error.to_string() },
-        _ => Error::in_file(path, error),
-    }
 }
