@@ -150,6 +150,7 @@ fn switches_of(closure: &Closure) -> Switches {
         Model::Translucent => single(Single::Translucent),
         Model::Subsurface => single(Single::Subsurface),
         Model::Transparent => single(Single::Transparent),
+        Model::Measured => single(Single::Diffuse),
         Model::Emission | Model::Holdout => single(Single::Emission),
     };
     let distribution = match closure.distribution {

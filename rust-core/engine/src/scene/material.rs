@@ -1,6 +1,6 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{Origin, TextureFilter, TextureId, WrapMode};
+use super::{MeasuredId, Origin, TextureFilter, TextureId, WrapMode};
 use serde::{Deserialize, Serialize};
 
 /// The model whose rules a closure's parameters follow; parameter names are those of the surface's parameter block for all of them.
@@ -43,6 +43,9 @@ pub enum Model {
     Emission,
     /// Nothing, and no coverage either.
     Holdout,
+    /// The measurement that [`Closure::measured`] names: its values times `base_color` (white unless set) and `specular_scale`, its tangent
+    /// turned by `specular_rotation` turns. Where only the front's reflection was measured, the back reflects alike.
+    Measured,
 }
 
 /// How the facets of rough reflection and refraction are distributed.
@@ -339,6 +342,8 @@ pub struct Closure {
     pub distribution: Distribution,
     /// How subsurface parameters are meant.
     pub subsurface: SubsurfaceMethod,
+    /// What [`Model::Measured`] shows; without it the closure is grey.
+    pub measured: Option<MeasuredId>,
 }
 
 impl Default for Closure {
@@ -354,6 +359,7 @@ impl Default for Closure {
             opacity_threshold: 0.0,
             distribution: Distribution::default(),
             subsurface: SubsurfaceMethod::default(),
+            measured: None,
         }
     }
 }

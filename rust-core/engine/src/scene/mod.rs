@@ -10,6 +10,7 @@ mod goniogram;
 mod instance;
 mod light;
 mod material;
+mod measured;
 mod mesh;
 mod origin;
 mod settings;
@@ -25,6 +26,7 @@ pub use material::{
     Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, ShaderOutput, Space,
     SubsurfaceMethod,
 };
+pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use origin::Origin;
 pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
@@ -59,6 +61,10 @@ id!(
     /// A texture of the scene.
     TextureId
 );
+id!(
+    /// A measured BSDF of the scene.
+    MeasuredId
+);
 
 /// Everything that is rendered.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -71,6 +77,9 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Images.
     pub textures: Vec<Texture>,
+    /// Measured BSDFs, shared by closures.
+    #[serde(default)]
+    pub measured: Vec<MeasuredBsdf>,
     /// Light sources other than emissive materials.
     pub lights: Vec<Light>,
     /// Cameras; [`Settings::camera`] chooses one.
@@ -94,6 +103,11 @@ impl Scene {
     pub fn add_texture(&mut self, texture: Texture) -> TextureId {
         self.textures.push(texture);
         TextureId(id_of(self.textures.len()))
+    }
+    /// Adds a measured BSDF.
+    pub fn add_measured(&mut self, measured: MeasuredBsdf) -> MeasuredId {
+        self.measured.push(measured);
+        MeasuredId(id_of(self.measured.len()))
     }
 }
 

@@ -47,6 +47,16 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Measured> {
 }
 
 impl Measured {
+    /// The bytes of a file of its kind, from which [`read`] gives the same again: `.gbsdf`, RGL `.bsdf` or BSDF XML.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Tables(tables) => gbsdf::write(tables, "", gbsdf::Encoding::Binary),
+            Self::Rgl(rgl) => rgl.write(),
+            Self::Patches(patches) => xml::write_patches(patches, "").into_bytes(),
+            Self::Tree(tree) => xml::write_tree(tree, "").into_bytes(),
+        }
+    }
+
     /// What the channels of [`Measured::eval`] are.
     pub fn channels(&self) -> &Channels {
         match self {
