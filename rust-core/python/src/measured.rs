@@ -3,12 +3,16 @@
 use crate::{array::Array, buffer::doubles, error::exception, table};
 use gonio::{Error, output::write_atomically};
 use gonio_formats::bsdf::{
-    Direction, Grid, HalfVectorTable, Hemispheres, Measured, Resolution, Sampler,
+    Direction, Grid, HalfVectorTable, Hemispheres, Layout, Measured, Resolution, Sampler, Table,
     gbsdf::{self, Encoding},
     read,
 };
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
-use std::{io::Write, path::PathBuf, sync::OnceLock};
+use std::{
+    io::Write,
+    path::PathBuf,
+    sync::{Arc, OnceLock},
+};
 
 /// A measured material: BSDF, density and samples at any directions, in double precision.
 ///
@@ -16,7 +20,7 @@ use std::{io::Write, path::PathBuf, sync::OnceLock};
 /// `wi` and leaves to `wo`. One row stands for as many as the other argument has.
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct MeasuredBsdf {
-    measured: Measured,
+    measured: Arc<Measured>,
     /// What sampling needs, built when it is first asked for.
     table: OnceLock<Option<HalfVectorTable>>,
 }
@@ -65,9 +69,9 @@ impl MeasuredBsdf {
         let cells = axes.iter().map(|axis| axis.knots().len()).product();
         let channels = table::channels(numbers.len(), cells, wavelengths, xyz)?;
         let hemispheres = table::side(side)?;
-        let layout = gonio_formats::bsdf::Layout { coordinates, axes, channels, hemispheres, reciprocal, bilateral };
+        let layout = Layout { coordinates, axes, channels, hemispheres, reciprocal, bilateral };
         let numbers = numbers.into_iter().map(|x| x as f32).collect();
-        let table = gonio_formats::bsdf::Table::new(layout, numbers).map_err(|error| table::wrong(&error))?;
+        let table = Table::new(layout, numbers).map_err(|error| table::wrong(&error))?;
         Ok(Self::of(Measured::Tables(vec![table])))
     }
 
@@ -133,13 +137,29 @@ impl MeasuredBsdf {
         Ok((Array::rows(found.into_flattened(), 3), Array::flat(densities)))
     }
 
+    /// The nearest OpenPBR surface to the front's reflection, by OpenPBR's names: base_color, base_metalness, specular_roughness,
+    /// specular_roughness_anisotropy, specular_ior, the rotation of its wider way in degrees from the tangent, and the residual: the root mean
+    /// square of differences between cube roots of BSDF × cosine, over that of the measured cube roots.
+    fn fit<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let fit = py.detach(|| self.measured.fit()).map_err(|error| table::wrong(&error))?;
+        let found = PyDict::new(py);
+        found.set_item("base_color", fit.base_color)?;
+        found.set_item("base_metalness", fit.base_metalness)?;
+        found.set_item("specular_roughness", fit.specular_roughness)?;
+        found.set_item("specular_roughness_anisotropy", fit.specular_roughness_anisotropy)?;
+        found.set_item("specular_ior", fit.specular_ior)?;
+        found.set_item("rotation_deg", fit.rotation_deg)?;
+        found.set_item("residual", fit.residual)?;
+        Ok(found)
+    }
+
     /// Writes it as .gbsdf: tables as they are; everything else evaluated at `theta` polar angles and `phi` azimuths of a turn.
     #[pyo3(signature = (path, *, title = "", text = false, theta = 46, phi = 72))]
     fn write(&self, py: Python<'_>, path: PathBuf, title: &str, text: bool, theta: usize, phi: usize) -> PyResult<()> {
         let encoding = if text { Encoding::Text } else { Encoding::Binary };
         let grid = Grid { theta, phi, isotropic: self.measured.is_isotropic() };
         py.detach(|| {
-            let bytes = match &self.measured {
+            let bytes = match &*self.measured {
                 Measured::Tables(tables) => gbsdf::write(tables, title, encoding),
                 other => {
                     let tables = other.resampled(grid);
@@ -155,7 +175,12 @@ impl MeasuredBsdf {
 
 impl MeasuredBsdf {
     fn of(measured: Measured) -> Self {
-        Self { measured, table: OnceLock::new() }
+        Self { measured: Arc::new(measured), table: OnceLock::new() }
+    }
+
+    /// What was measured, to be shared with scenes.
+    pub(crate) fn shared(&self) -> Arc<Measured> {
+        self.measured.clone()
     }
 
     fn sampler(&self) -> Sampler<'_> {
