@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands inside a Measured BSDF node for engines that take no measurements: a Principled BSDF fitted to the file, or the shader that is linked.
+"""What a Measured BSDF node holds for engines that take no measurements: a Principled BSDF fitted to the file, or the linked shader.
 
 All nodes share one tree; what is fitted to a node's file are values of its own hidden inputs.
 """
@@ -8,7 +8,7 @@ import bpy
 import gonio
 
 NAME = ".Measured BSDF"
-# Name, kind, default, least and largest value; values of no use are not shown.
+# Name, kind, default, and the least and the largest value; vectors show no value.
 INPUTS = (
     ("Tint", "NodeSocketColor", (1.0, 1.0, 1.0, 1.0), None),
     ("Scale", "NodeSocketFloat", 1.0, (0.0, 1000.0)),

@@ -1,6 +1,6 @@
 """A measured material from a table: written, read, evaluated, sampled and fitted: `python measured_lobes.py measured_lobes.png`.
 
-The picture shows hemispheres of light for three views: the BSDF as brightness (logarithmic), and the samples of light that it is rendered with.
+The picture shows hemispheres of light for three views: the BSDF as brightness (logarithmic), and the samples that it is rendered with.
 """
 
 import sys
@@ -18,7 +18,9 @@ DECADES = 3.0
 def direction(theta_deg, phi_deg):
     """Unit vectors by angles, z along the normal."""
     theta, phi = numpy.radians(theta_deg), numpy.radians(phi_deg)
-    return numpy.stack(numpy.broadcast_arrays(numpy.sin(theta) * numpy.cos(phi), numpy.sin(theta) * numpy.sin(phi), numpy.cos(theta)), axis=-1)
+    return numpy.stack(
+        numpy.broadcast_arrays(numpy.sin(theta) * numpy.cos(phi), numpy.sin(theta) * numpy.sin(phi), numpy.cos(theta)), axis=-1
+    )
 
 
 def brushed(wi, wo):

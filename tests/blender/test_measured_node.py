@@ -142,6 +142,7 @@ def test_nodes_share_one_tree_and_know_their_links(tmp_path):
     tree.links.clear()
     node.update()
     assert node.inputs["Use Fallback"].default_value == 0.0
+    made.use_fake_user = True
     saved = tmp_path / "kept.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(saved))
     bpy.ops.wm.open_mainfile(filepath=str(saved))
@@ -161,11 +162,14 @@ def test_the_node_is_in_the_menu_and_goes_with_the_extension(tmp_path):
     def entries():
         return [draw for draw in menu._dyn_ui_initialize() if draw.__module__.startswith("gonio_extension")]
 
-    assert len(entries()) == 1 and hasattr(bpy.types, "GonioShaderNodeMeasured")
+    def is_known():
+        return bpy.types.Node.bl_rna_get_subclass_py("GonioShaderNodeMeasured") is not None
+
+    assert len(entries()) == 1 and is_known()
     extension.unregister()
-    assert not entries() and not hasattr(bpy.types, "GonioShaderNodeMeasured")
+    assert not entries() and not is_known()
     extension.register()
-    assert len(entries()) == 1
+    assert len(entries()) == 1 and is_known()
 
 
 def sunny_plane(made):

@@ -23,7 +23,7 @@ class Translated:
 
 
 def translate(material, images, measurements, report, version=None, shader_aovs=frozenset()):
-    """The description of a material with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
+    """A material's description with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
     if material is None:
         return Translated(_plain("default", (0.8, 0.8, 0.8)))
     tree = material.node_tree
