@@ -1,10 +1,9 @@
-"""A measured material from a table: written, read, evaluated, sampled and fitted: `python measured_lobes.py measured_lobes.png`.
+"""A measured material from a table: written, read, evaluated, sampled, fitted: `python measured_lobes.py measured_lobes.png brushed.gbsdf`.
 
 The picture shows hemispheres of light for three views: the BSDF as brightness (logarithmic), and the samples that it is rendered with.
 """
 
 import sys
-import tempfile
 from pathlib import Path
 
 import gonio
@@ -33,18 +32,16 @@ def brushed(wi, wo):
     return 0.6 * lobe + 0.05 / numpy.pi
 
 
-def measured():
+def measured(path):
     """The metal as a table over both directions, written to a file and read again."""
     theta, phi = numpy.linspace(0.0, 88.0, 23), numpy.arange(0.0, 360.0, 10.0)
     wi, wo = direction(theta[:, None], phi[None, :]), direction(theta[:, None], phi[None, :])
     values = brushed(wi[:, :, None, None], wo[None, None])
     axes = {"theta_i": theta, "phi_i": phi, "theta_o": theta, "phi_o": phi}
     table = gonio.MeasuredBsdf.from_table(axes, values.astype("f4"), periods={"phi_i": 360.0, "phi_o": 360.0})
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "brushed.gbsdf"
-        table.write(path, title="a brushed metal")
-        print(f"{path.stat().st_size / 1e6:.1f} MB")
-        return gonio.MeasuredBsdf.from_file(path)
+    table.write(path, title="a brushed metal")
+    print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
+    return gonio.MeasuredBsdf.from_file(path)
 
 
 def disk():
@@ -72,7 +69,8 @@ def panel(bsdf, view):
 
 def main() -> None:
     """Prints albedos and the fit, and writes the picture."""
-    bsdf = measured()
+    picture_path, table_path = sys.argv[1:3] if len(sys.argv) > 2 else ("measured_lobes.png", "brushed.gbsdf")
+    bsdf = measured(Path(table_path))
     rng = numpy.random.default_rng(2)
     for view in VIEWS:
         # Sampled as a renderer would: the mean of value over density is the albedo.
@@ -81,7 +79,7 @@ def main() -> None:
         print(f"albedo at {view:.0f}°: {(values[:, 0] / density).mean():.3f}")
     print("nearest OpenPBR surface:", {name: numpy.round(value, 3).tolist() for name, value in bsdf.fit().items()})
     picture = numpy.concatenate([panel(bsdf, view) for view in VIEWS], axis=0)
-    write_png(Path(sys.argv[1] if len(sys.argv) > 1 else "measured_lobes.png"), picture)
+    write_png(Path(picture_path), picture)
 
 
 def write_png(path, grey):

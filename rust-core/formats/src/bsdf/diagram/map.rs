@@ -17,8 +17,8 @@ const HEAD: f64 = 44.0;
 const FOOT: f64 = 56.0;
 
 /// Rings of a disk, and sectors of a turn.
-const RINGS: usize = 45;
-const SECTORS: usize = 120;
+const RINGS: usize = 36;
+const SECTORS: usize = 90;
 
 /// Shades of the colour scale.
 const SHADES: usize = 40;
