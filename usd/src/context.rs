@@ -4,7 +4,7 @@ use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
 use crate::vt::FromValue;
-use gonio::scene::{Goniogram, MaterialId, Origin, Scene, TextureId};
+use gonio::scene::{Goniogram, MaterialId, MeasuredId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};
 use pyo3::prelude::*;
 use std::collections::HashMap;
@@ -48,6 +48,8 @@ pub struct Context<'a, 'py> {
     pub material_ids: HashMap<String, Option<MaterialId>>,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
+    /// Measured BSDFs by the path of their file; `None` for those that could not be read.
+    pub measured_ids: HashMap<String, Option<MeasuredId>>,
     /// Goniograms by a key of their reader's choice; `None` for those that could not be read.
     pub goniograms: HashMap<String, Option<Arc<Goniogram>>>,
     /// Prims met, by type.
@@ -76,6 +78,7 @@ impl<'a, 'py> Context<'a, 'py> {
             up_axis: UpAxis::Y,
             material_ids: HashMap::new(),
             texture_ids: HashMap::new(),
+            measured_ids: HashMap::new(),
             goniograms: HashMap::new(),
             prim_counts: HashMap::new(),
             diagnostics: Vec::new(),

@@ -15,6 +15,8 @@ pub enum Module {
     Ar,
     /// Linear algebra.
     Gf,
+    /// Plug-ins.
+    Plug,
     /// Scene description.
     Sdf,
     /// Diagnostics.
@@ -44,6 +46,7 @@ impl Module {
         match self {
             Self::Ar => "pxr.Ar",
             Self::Gf => "pxr.Gf",
+            Self::Plug => "pxr.Plug",
             Self::Sdf => "pxr.Sdf",
             Self::Tf => "pxr.Tf",
             Self::Usd => "pxr.Usd",
@@ -89,10 +92,26 @@ impl Module {
 /// # Errors
 /// A message with the way to install it.
 pub fn ensure(py: Python<'_>) -> gonio::Result<()> {
-    Module::Usd.import(py).map(|_| ()).map_err(|error| gonio::Error::Setting {
+    Module::Usd.import(py).map_err(|error| gonio::Error::Setting {
         name: "pxr".into(),
         problem: format!("{INSTALL_HINT} (import failed: {})", message_of(py, &error)),
-    })
+    })?;
+    register_schemas(py);
+    Ok(())
+}
+
+/// Makes our schemas known, which lie in the package's `schema` folder. Without them the prims that they describe have no default values.
+fn register_schemas(py: Python<'_>) {
+    static DONE: PyOnceLock<()> = PyOnceLock::new();
+    DONE.get_or_init(py, || {
+        let register = || -> PyResult<()> {
+            let folder: String = py.import("gonio")?.getattr("__path__")?.get_item(0)?.extract()?;
+            let registry = Module::Plug.item(py, "Registry")?.call0()?;
+            registry.call_method1("RegisterPlugins", (format!("{folder}/schema"),)).map(|_| ())
+        };
+        // Nothing is lost where they are registered already, or this is not the installed package.
+        let _ = register();
+    });
 }
 
 /// The text of an exception: on one line, without C++ source places, and never raising itself. `str()` of a `Tf.ErrorException` fails when

@@ -7,6 +7,7 @@ mod binding;
 mod document;
 mod materialx_nodes;
 mod materialx_surfaces;
+mod measured;
 mod network;
 mod preview_surface;
 mod textures;
@@ -66,6 +67,7 @@ fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) ->
 fn convert_surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
     match shader.id.as_str() {
         "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
+        measured::ID => Some(measured::convert(network, shader)),
         _ => materialx_surfaces::convert(network, shader),
     }
 }

@@ -27,7 +27,7 @@ pub(super) struct Base<L: Lanes> {
     pub(super) ends: [Rgb<L>; 2],
 }
 
-impl<L: Lanes> Layers<'_, '_, L> {
+impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Roughness of the base under the coat.
     #[inline(always)]
     pub(super) fn base_roughness(&self) -> F<L> {

@@ -4,6 +4,7 @@ use super::fresnel::Curve;
 use super::fuzz::FuzzLobe;
 use super::glass::Interface;
 use super::lobes::{Normal, Shape, Side, turned};
+use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
@@ -11,7 +12,7 @@ use super::resolve::Layers;
 use super::switches::{Closure, Fuzz};
 use gonio_simd::{Lanes, Rgb};
 
-impl<L: Lanes> Layers<'_, '_, L> {
+impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The lobe that the switches name.
     #[inline(always)]
     fn single(&mut self) {
@@ -35,6 +36,7 @@ impl<L: Lanes> Layers<'_, '_, L> {
                 }
             }
             Closure::Transparent => self.push(Shape::Straight, colour, colour, None, Side::Mirrored, Normal::Base),
+            Closure::Measured => self.measured(colour),
             Closure::Emission | Closure::Layered => {}
         }
     }
@@ -61,6 +63,23 @@ impl<L: Lanes> Layers<'_, '_, L> {
         self.interface(self.weight, Widths::isotropic(roughness * roughness), None, interface);
     }
 
+    /// A measurement, tinted and scaled, under what lies above.
+    #[inline(always)]
+    pub(super) fn measured(&mut self, colour: Rgb<L>) {
+        let Some(bsdf) = &self.surface.measured else { return };
+        let front = bsdf.front(self.l, self.entering);
+        let turn = if self.surface.lobes.turned {
+            // Seen from behind, the tangent turns the other way.
+            let (sin, cos) = self.get(p::ROTATION).sin_cos_turns();
+            Some([cos, front.select(sin, -sin)])
+        } else {
+            None
+        };
+        let weight = self.weight * colour * self.get(p::SPECULAR_SCALE).max(0.0);
+        let lobe = MeasuredLobe::new(bsdf, front);
+        self.push(Shape::Measured(lobe), weight, weight * lobe.albedo(self.specular_wo), turn, Side::Both, Normal::Specular);
+    }
+
     /// Fuzz alone.
     #[inline(always)]
     fn single_fuzz(&mut self, colour: Rgb<L>) {
@@ -76,7 +95,7 @@ impl<L: Lanes> Layers<'_, '_, L> {
 
 /// [`Layers::single`] as a function of its own.
 #[inline(never)]
-pub(super) fn single<L: Lanes>(l: L, layers: &mut Layers<'_, '_, L>) {
+pub(super) fn single<L: Lanes>(l: L, layers: &mut Layers<'_, '_, '_, L>) {
     l.vectorize(
         #[inline(always)]
         || layers.single(),

@@ -3,6 +3,7 @@
 use super::energy;
 use super::fresnel::{self, Curve};
 use super::lobes::{CoatTint, Normal, Shape, Side};
+use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
@@ -10,7 +11,7 @@ use super::resolve::Layers;
 use super::switches::{CoatPath, Distribution};
 use gonio_simd::{F, Lanes, Rgb};
 
-impl<L: Lanes> Layers<'_, '_, L> {
+impl<L: Lanes> Layers<'_, '_, '_, L> {
     #[inline(always)]
     pub(super) fn coat(&mut self) {
         let (l, switches) = (self.l, self.surface.switches);
@@ -50,6 +51,23 @@ impl<L: Lanes> Layers<'_, '_, L> {
     /// Loss to repeated reflection between base and coat (OpenPBR 1.1, coat darkening).
     #[inline(always)]
     pub(super) fn darkening(&self, presence: F<L>, ior: F<L>, coat: &Curve<L>) -> Rgb<L> {
+        let (below, rough_share) = match &self.surface.measured {
+            Some(bsdf) => {
+                let lobe = MeasuredLobe::new(bsdf, bsdf.front(self.l, self.entering));
+                let albedo = lobe.albedo(self.coat_wo) * self.rgb(p::BASE_COLOR) * self.get(p::SPECULAR_SCALE);
+                (albedo.saturate(), self.l.f(lobe.roughness()))
+            }
+            None => self.base_albedo(),
+        };
+        let diffuse = 1.0 - (1.0 - coat.mean(self.l).r) / (ior * ior);
+        let inside = coat.reflectance(self.coat_mu).r.lerp(diffuse, rough_share);
+        let kept = Rgb::grey(1.0 - inside) / (self.white() - below * inside);
+        self.white().lerp(kept, presence * self.get(p::COAT_DARKENING))
+    }
+
+    /// What the base gives back, and how far it spreads it: 0 is a mirror, 1 is diffuse.
+    #[inline(always)]
+    fn base_albedo(&self) -> (Rgb<L>, F<L>) {
         let base = self.rgb(p::BASE_COLOR).saturate();
         let metalness = self.get(p::METALNESS).saturate();
         let passed = self.get(p::TRANSMISSION_WEIGHT).saturate();
@@ -57,10 +75,6 @@ impl<L: Lanes> Layers<'_, '_, L> {
         let below = body.lerp(base * self.get(p::METAL_WEIGHT).saturate(), metalness);
         let roughness = self.get(p::ROUGHNESS).saturate();
         let f0 = fresnel::normal_reflectance(self.get(p::IOR)) * self.get(p::SPECULAR_WEIGHT);
-        let rough_share = self.l.f(1.0).lerp(roughness, f0.saturate()).lerp(roughness, metalness);
-        let diffuse = 1.0 - (1.0 - coat.mean(self.l).r) / (ior * ior);
-        let inside = coat.reflectance(self.coat_mu).r.lerp(diffuse, rough_share);
-        let kept = Rgb::grey(1.0 - inside) / (self.white() - below * inside);
-        self.white().lerp(kept, presence * self.get(p::COAT_DARKENING))
+        (below, self.l.f(1.0).lerp(roughness, f0.saturate()).lerp(roughness, metalness))
     }
 }

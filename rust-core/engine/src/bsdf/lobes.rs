@@ -6,6 +6,7 @@
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
 use super::glass::GlassLobe;
+use super::measured::MeasuredLobe;
 pub(crate) use super::normals::Normal;
 use super::normals::Tilts;
 use super::reflect::ReflectLobe;
@@ -17,7 +18,7 @@ pub const MAXIMUM: usize = 8;
 
 /// The shape of a lobe.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Shape<L: Lanes> {
+pub(crate) enum Shape<'s, L: Lanes> {
     /// Diffuse reflection.
     Diffuse(DiffuseLobe<L>),
     /// Glossy or mirror reflection.
@@ -30,6 +31,8 @@ pub(crate) enum Shape<L: Lanes> {
     Straight,
     /// Into a medium.
     Subsurface(EntryLobe<L>),
+    /// As measured.
+    Measured(MeasuredLobe<'s, L>),
 }
 
 /// Where a lobe sends light.
@@ -45,8 +48,8 @@ pub(crate) enum Side {
 
 /// A lobe in its place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slot<L: Lanes> {
-    pub(crate) shape: Shape<L>,
+pub(crate) struct Slot<'s, L: Lanes> {
+    pub(crate) shape: Shape<'s, L>,
     /// Factor on the lobe's value.
     pub(crate) weight: Rgb<L>,
     /// Share in the choice of lobes, not normalised.
@@ -106,10 +109,10 @@ enum Asked {
     Diffuse,
 }
 
-/// The lobes of a batch of hits.
+/// The lobes of a batch of hits, with the measurements of the surface that they were resolved from.
 #[derive(Clone, Copy, Debug)]
-pub struct Lobes<L: Lanes> {
-    slots: [Option<Slot<L>>; MAXIMUM],
+pub struct Lobes<'s, L: Lanes> {
+    slots: [Option<Slot<'s, L>>; MAXIMUM],
     count: usize,
     total: F<L>,
     albedo: Rgb<L>,
@@ -137,7 +140,7 @@ fn above<L: Lanes>(wi: Vec3<L>) -> (Vec3<L>, M<L>) {
     (wi, wi.z.gt(0.0))
 }
 
-impl<L: Lanes> Slot<L> {
+impl<L: Lanes> Slot<'_, L> {
     /// A direction in the frame that the shape is defined in.
     #[inline(always)]
     fn in_shape_frame(&self, tilts: &Tilts<L>, v: Vec3<L>) -> Vec3<L> {
@@ -172,6 +175,7 @@ impl<L: Lanes> Slot<L> {
                 let (value, pdf) = lobe.eval(wo, wi);
                 (Rgb::grey(value), pdf)
             }
+            Shape::Measured(lobe) => lobe.eval(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => return (Rgb::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
         };
         (value * self.weight, pdf)
@@ -188,6 +192,7 @@ impl<L: Lanes> Slot<L> {
             Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
             Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), wo.x.lanes().m(true)),
             Shape::Subsurface(lobe) => lobe.sample(wo, u),
+            Shape::Measured(lobe) => lobe.sample(wo, u),
         };
         let through = match self.side {
             Side::Reflected => wi.x.lanes().m(false),
@@ -203,7 +208,7 @@ impl<L: Lanes> Slot<L> {
             Shape::Reflect(lobe) => lobe.delta,
             Shape::Glass(lobe) => lobe.delta,
             Shape::Straight => l.m(true),
-            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.m(false),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
         }
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
@@ -214,7 +219,7 @@ impl<L: Lanes> Slot<L> {
             Shape::Reflect(lobe) => (lobe.mirror(wo), l.f(1.0)),
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => (Rgb::grey(l.f(1.0)), l.f(1.0)),
-            Shape::Diffuse(_) | Shape::Fuzz(_) => (Rgb::zero(l), l.f(0.0)),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Measured(_) => (Rgb::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
     }
@@ -225,6 +230,7 @@ impl<L: Lanes> Slot<L> {
             Shape::Reflect(lobe) => lobe.roughness(),
             Shape::Glass(lobe) => lobe.roughness(),
             Shape::Straight => l.f(0.0),
+            Shape::Measured(lobe) => l.f(lobe.roughness()),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
         }
     }
@@ -251,7 +257,7 @@ impl<L: Lanes> CoatTint<L> {
     }
 }
 
-impl<L: Lanes> Lobes<L> {
+impl<'s, L: Lanes> Lobes<'s, L> {
     /// A surface that neither scatters nor emits.
     #[inline(always)]
     pub fn empty(l: L) -> Self {
@@ -285,7 +291,7 @@ impl<L: Lanes> Lobes<L> {
     }
     /// Adds a lobe whose albedo, weight included, is about `albedo`; its share in the choice is the albedo's mean.
     #[inline(always)]
-    pub(crate) fn push(&mut self, mut slot: Slot<L>, albedo: Rgb<L>) {
+    pub(crate) fn push(&mut self, mut slot: Slot<'s, L>, albedo: Rgb<L>) {
         slot.share = albedo.mean().max(0.0).keep_if(slot.weight.is_lit());
         self.total += slot.share;
         self.albedo += albedo;
@@ -295,6 +301,12 @@ impl<L: Lanes> Lobes<L> {
             Shape::Glass(_) => {
                 self.kinds[1] += albedo;
                 self.kinds[2] += albedo;
+            }
+            Shape::Measured(lobe) => {
+                self.kinds[1] += albedo;
+                if lobe.transmits() {
+                    self.kinds[2] += albedo;
+                }
             }
             Shape::Straight => self.kinds[2] += albedo,
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => self.kinds[0] += albedo,
@@ -318,7 +330,7 @@ impl<L: Lanes> Lobes<L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
-            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_)) {
+            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)) {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
@@ -368,12 +380,12 @@ impl<L: Lanes> Lobes<L> {
     }
     /// Fills the lanes `here` with a direction of `slot`, and with value and pdf where it is a delta lobe; returns where it is usable.
     #[inline(always)]
-    fn choose(&self, l: L, wo: Vec3<L>, slot: &Slot<L>, here: M<L>, u: [F<L>; 3], sample: &mut BsdfSample<L>) -> M<L> {
+    fn choose(&self, l: L, wo: Vec3<L>, slot: &Slot<'_, L>, here: M<L>, u: [F<L>; 3], sample: &mut BsdfSample<L>) -> M<L> {
         let (wi, [usable, through]) = slot.sample(&self.tilts, wo, u);
         sample.wi = here.select(wi, sample.wi);
         sample.transmitted |= here & through;
         sample.roughness = here.select(slot.roughness(l), sample.roughness);
-        if !matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Straight) {
+        if !matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Straight | Shape::Measured(_)) {
             sample.diffuse |= here;
         }
         let enters = matches!(slot.shape, Shape::Subsurface(_));
@@ -455,7 +467,7 @@ impl<L: Lanes> Lobes<L> {
 
 /// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
 #[inline(never)]
-fn evaluate<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
+fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || lobes.sum(l, wo, wi, asked),

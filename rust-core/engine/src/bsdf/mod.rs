@@ -16,6 +16,7 @@ mod fresnel;
 mod fuzz;
 mod glass;
 mod lobes;
+mod measured;
 mod microfacet;
 pub mod normals;
 pub mod parameter;
@@ -29,6 +30,7 @@ mod tests;
 mod transmission;
 
 pub use lobes::{BsdfSample, Lobes, MAXIMUM};
+pub use measured::MeasuredBsdf;
 pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};
 pub use switches::{

@@ -38,7 +38,7 @@ macro_rules! block {
 }
 
 block! {
-    /// Colour of the diffuse base and normal reflectance of the metal; OpenPBR's `base_weight` is multiplied in.
+    /// Colour of the diffuse base, normal reflectance of the metal and tint of a measurement; OpenPBR's `base_weight` is multiplied in.
     BASE_COLOR "base_color" [0.8, 0.8, 0.8];
     /// Roughness sigma of the diffuse base, 0 (Lambert) to 1.
     DIFFUSE_ROUGHNESS "diffuse_roughness" [0.0];
@@ -55,7 +55,7 @@ block! {
     /// Factor on the dielectric's normal reflectance; it changes the index that shapes the Fresnel curve. OpenPBR's `specular_weight`,
     /// twice Principled's Specular IOR Level.
     SPECULAR_WEIGHT "specular_weight" [1.0];
-    /// Factor on the dielectric's reflectance at all angles (standard_surface's `specular`).
+    /// Factor on the dielectric's reflectance at all angles (standard_surface's `specular`), and on a measurement.
     SPECULAR_SCALE "specular_scale" [1.0];
     /// Tint of the dielectric's reflection: at normal incidence only or at all angles, by [`Tint`](super::Tint).
     SPECULAR_COLOR "specular_color" [1.0, 1.0, 1.0];

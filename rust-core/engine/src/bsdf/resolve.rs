@@ -12,9 +12,9 @@ use super::switches::{Attenuation, Bump, Closure, EmissionOrder, Fuzz, FuzzAtten
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// The layers' state on the way in.
-pub(super) struct Layers<'a, 'b, L: Lanes> {
+pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) l: L,
-    pub(super) surface: &'a Surface,
+    pub(super) surface: &'s Surface,
     pub(super) values: &'a ParameterValues<'a>,
     pub(super) at: usize,
     pub(super) wo: Vec3<L>,
@@ -29,7 +29,7 @@ pub(super) struct Layers<'a, 'b, L: Lanes> {
     pub(super) weight: Rgb<L>,
     /// Whether a coloured coat stands above.
     pub(super) coated: bool,
-    pub(super) lobes: &'b mut Lobes<L>,
+    pub(super) lobes: &'b mut Lobes<'s, L>,
 }
 
 /// A register of hits to resolve.
@@ -49,7 +49,7 @@ pub struct Hits<'a, L: Lanes> {
 
 /// [`Surface::layers`] as a function of its own, which all that resolve share.
 #[inline(never)]
-fn resolve<L: Lanes>(l: L, surface: &Surface, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+fn resolve<'s, L: Lanes>(l: L, surface: &'s Surface, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
     l.vectorize(
         #[inline(always)]
         || surface.layers(l, hits, lobes),
@@ -59,13 +59,13 @@ fn resolve<L: Lanes>(l: L, surface: &Surface, hits: &Hits<'_, L>, lobes: &mut Lo
 impl Surface {
     /// Makes `lobes` those of some hits. In place, for a list of lobes is long to copy.
     #[inline(always)]
-    pub fn resolve<L: Lanes>(&self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+    pub fn resolve<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
         lobes.clear(l);
         resolve(l, self, hits, lobes);
     }
 
     #[inline(always)]
-    fn layers<L: Lanes>(&self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<L>) {
+    fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
         let Hits { values, at, wo, entering, normals } = *hits;
         if let Some(normals) = normals {
             let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
@@ -126,7 +126,7 @@ impl Surface {
     }
 }
 
-impl<L: Lanes> Layers<'_, '_, L> {
+impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     #[inline(always)]
     pub(super) fn get(&self, offset: usize) -> F<L> {
         self.values.get(self.l, offset, self.at)
@@ -171,6 +171,10 @@ impl<L: Lanes> Layers<'_, '_, L> {
             };
             self.lobes.emission = self.rgb(p::EMISSION_COLOR) * self.weight * tint;
         }
+        if self.surface.measured.is_some() {
+            self.measured(self.rgb(p::BASE_COLOR).max(0.0));
+            return;
+        }
         if set.metal {
             self.metal();
         }
@@ -192,7 +196,15 @@ impl<L: Lanes> Layers<'_, '_, L> {
     }
 
     #[inline(always)]
-    pub(super) fn push(&mut self, shape: Shape<L>, weight: Rgb<L>, albedo: Rgb<L>, turn: Option<[F<L>; 2]>, side: Side, normal: Normal) {
+    pub(super) fn push(
+        &mut self,
+        shape: Shape<'s, L>,
+        weight: Rgb<L>,
+        albedo: Rgb<L>,
+        turn: Option<[F<L>; 2]>,
+        side: Side,
+        normal: Normal,
+    ) {
         let slot = Slot { shape, weight, share: self.l.f(0.0), turn, side, normal, coated: self.coated };
         self.lobes.push(slot, albedo);
     }

@@ -213,7 +213,7 @@ pub(crate) fn medium<L: Lanes>(l: L, method: SubsurfaceMethod, colour: Rgb<L>, r
 
 /// The lobe through which a walk leaves: Lambert, white.
 #[inline(always)]
-pub fn exit<L: Lanes>(l: L) -> Lobes<L> {
+pub fn exit<L: Lanes>(l: L) -> Lobes<'static, L> {
     Lobes::lambert(l, Rgb::grey(l.f(1.0)))
 }
 

@@ -1,8 +1,10 @@
 //! A surface as compiled for a material, and the values of its parameters over a batch of hits.
 
+use super::measured::MeasuredBsdf;
 use super::parameter::{self as p, COUNT};
 use super::switches::{Closure, SubsurfaceMethod, Switches};
 use gonio_simd::{F, Lanes, Rgb};
+use std::sync::Arc;
 
 /// Which lobes and layers of a surface can ever differ from nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -50,6 +52,8 @@ pub struct Surface {
     pub switches: Switches,
     /// What can ever be seen of the surface.
     pub lobes: LobeSet,
+    /// What [`Closure::Measured`] shows, or what lies under the layers.
+    pub measured: Option<Arc<MeasuredBsdf>>,
 }
 
 impl Surface {
@@ -57,7 +61,17 @@ impl Surface {
     pub fn new(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches) -> Self {
         let reach = Reach { constants: &constants, varying };
         let lobes = if switches.closure == Closure::Layered { reach.layered(&switches) } else { reach.single(&switches) };
-        Self { constants, switches, lobes }
+        Self { constants, switches, lobes, measured: None }
+    }
+
+    /// Compiles a surface that shows a measurement: alone, or under the coat and the fuzz of a layered one in place of the base.
+    pub fn measured(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches, measured: Arc<MeasuredBsdf>) -> Self {
+        let over = Self::new(constants, varying, switches);
+        let LobeSet { coat, coat_tint, fuzz, emission, cut_out, .. } = over.lobes;
+        let anisotropic = !measured.is_isotropic();
+        let turned = anisotropic && !(Reach { constants: &constants, varying }).is(p::ROTATION, 0.0);
+        let lobes = LobeSet { coat, coat_tint, fuzz, emission, cut_out, anisotropic, turned, ..LobeSet::default() };
+        Self { lobes, measured: Some(measured), ..over }
     }
 }
 

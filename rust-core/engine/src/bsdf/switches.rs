@@ -194,6 +194,8 @@ pub enum Closure {
     Subsurface,
     /// Nothing but a colour that light takes straight through: base colour.
     Transparent,
+    /// What was measured, times the base colour: specular scale, rotation.
+    Measured,
     /// Emission alone; the other closures emit too if the emission colour says so.
     Emission,
 }

@@ -12,7 +12,7 @@ use super::resolve::Layers;
 use super::switches::{Fresnel, Tint};
 use gonio_simd::{F, Lanes, Rgb};
 
-impl<L: Lanes> Layers<'_, '_, L> {
+impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Widths of the transmission.
     #[inline(always)]
     pub(super) fn transmission_widths(&self, base: &Base<L>) -> (Widths<L>, Option<[F<L>; 2]>) {

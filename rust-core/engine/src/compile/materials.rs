@@ -2,7 +2,7 @@
 
 mod program;
 
-use super::textures::CompiledTextures;
+use super::{measured::CompiledMeasured, textures::CompiledTextures};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
@@ -12,13 +12,14 @@ use crate::{
 };
 use program::{source, steps};
 
-/// Reflectance of surfaces without a material.
+/// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 
 /// Compiles all materials; the default one stands last. Gives their surfaces and mixes.
 pub(super) fn compile(
     scene: &Scene,
     textures: &CompiledTextures,
+    measured: &CompiledMeasured,
     names: &[String],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<MaterialTable> {
@@ -32,7 +33,7 @@ pub(super) fn compile(
             return Err(Error::scene(&material.origin, problem));
         }
         for closure in &material.closures {
-            table.surfaces.push(surface(material, closure, steps.clone(), diagnostics));
+            table.surfaces.push(surface(material, closure, measured, steps.clone(), diagnostics));
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, steps.clone(), first as usize));
@@ -90,8 +91,23 @@ fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMa
     }
 }
 
-fn surface(material: &Material, closure: &Closure, mut program: Program, diagnostics: &mut Vec<Diagnostic>) -> SurfaceMaterial {
+fn surface(
+    material: &Material,
+    closure: &Closure,
+    measured: &CompiledMeasured,
+    mut program: Program,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> SurfaceMaterial {
+    let measured = measured.of(closure);
+    if closure.model == Model::Measured && measured.is_none() {
+        let mut grey = Closure { model: Model::Diffuse, parameters: Vec::new(), ..closure.clone() };
+        grey.set_colour("base_color", DEFAULT_REFLECTANCE);
+        return surface(material, &grey, &CompiledMeasured::default(), program, diagnostics);
+    }
     let mut constants = parameter::DEFAULTS;
+    if measured.is_some() {
+        constants[parameter::BASE_COLOR..parameter::BASE_COLOR + 3].fill(1.0);
+    }
     let mut varying = [false; parameter::COUNT];
     for (name, input) in &closure.parameters {
         let Some(parameter) = parameter::find(name) else {
@@ -113,7 +129,10 @@ fn surface(material: &Material, closure: &Closure, mut program: Program, diagnos
     program.free_normal = switches.bump == Bump::Cycles;
     program.coat_normal = step(closure.coat_normal);
     program.tangent = step(closure.tangent);
-    let surface = Surface::new(constants, &varying, switches);
+    let surface = match measured {
+        Some(measured) => Surface::measured(constants, &varying, switches, measured.clone()),
+        None => Surface::new(constants, &varying, switches),
+    };
     let lobes = surface.lobes;
     SurfaceMaterial {
         transparent: surface.is_see_through(),
@@ -150,7 +169,7 @@ fn switches_of(closure: &Closure) -> Switches {
         Model::Translucent => single(Single::Translucent),
         Model::Subsurface => single(Single::Subsurface),
         Model::Transparent => single(Single::Transparent),
-        Model::Measured => single(Single::Diffuse),
+        Model::Measured => single(Single::Measured),
         Model::Emission | Model::Holdout => single(Single::Emission),
     };
     let distribution = match closure.distribution {

@@ -10,6 +10,7 @@ mod instances;
 mod kept;
 mod lights;
 mod materials;
+mod measured;
 mod primvars;
 mod shader_passes;
 mod textures;
@@ -49,6 +50,7 @@ pub struct CompiledScene {
     trees: Vec<trees::KeptTree>,
     images: kept::KeptImages,
     kept_lights: lights::KeptLights,
+    measured: measured::CompiledMeasured,
 }
 
 /// Sizes and times of a compiled scene.
@@ -80,7 +82,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
     let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
     let names = primvars::used_names(scene);
-    let materials = materials::compile(scene, &textures, &names, &mut diagnostics)?;
+    let none = measured::CompiledMeasured::default();
+    let measured = measured::compile(scene, previous.map_or(&none, |p| &p.measured), &mut diagnostics);
+    let materials = materials::compile(scene, &textures, &measured, &names, &mut diagnostics)?;
     check(cancel)?;
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
     let built = start.elapsed().as_secs_f64();
@@ -130,6 +134,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         trees,
         images: textures.kept,
         kept_lights: lights.kept,
+        measured,
     })
 }
 

@@ -82,7 +82,7 @@ pub(super) fn scatter<L: Lanes>(
     stage: &Stage<'_, L>,
     point: &Point<L>,
     wo: Vec3<L>,
-    lobes: &Lobes<L>,
+    lobes: &Lobes<'_, L>,
     u: [F<L>; 4],
     going_on: M<L>,
     ws: &mut Workspace,

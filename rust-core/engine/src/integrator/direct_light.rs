@@ -16,7 +16,7 @@ pub(super) fn light<L: Lanes>(
     stage: &Stage<'_, L>,
     point: &Point<L>,
     wo: Vec3<L>,
-    lobes: &Lobes<L>,
+    lobes: &Lobes<'_, L>,
     u: [F<L>; 3],
     present: M<L>,
     ws: &mut Workspace,
@@ -43,7 +43,7 @@ pub(super) fn light<L: Lanes>(
 
 /// The diffuse and the glossy share of what all lobes scatter.
 #[inline(always)]
-fn shares<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L>) -> [Rgb<L>; 2] {
+fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L>) -> [Rgb<L>; 2] {
     let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
     // What facets send to the other side is transmitted.
     let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));

@@ -39,7 +39,7 @@ pub(super) fn record_first<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
     point: &Point<L>,
-    lobes: &Lobes<L>,
+    lobes: &Lobes<'_, L>,
     present: M<L>,
     at: usize,
     ws: &mut Workspace,

@@ -32,7 +32,7 @@ pub(super) fn transmittance<L: Lanes>(
 
 /// [`Lobes::eval_diffuse`].
 #[inline(never)]
-pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.eval_diffuse(l, wo, wi),
@@ -41,7 +41,7 @@ pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, wi: Ve
 
 /// [`Lobes::sample`].
 #[inline(never)]
-pub(crate) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+pub(crate) fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.sample(l, wo, u),

@@ -163,7 +163,7 @@ fn shade_lanes<L: Lanes>(
     material: &SurfaceMaterial,
     point: &mut Point<L>,
     wo: Vec3<L>,
-    lobes: &Lobes<L>,
+    lobes: &Lobes<'_, L>,
     at: usize,
     ws: &mut Workspace,
 ) {

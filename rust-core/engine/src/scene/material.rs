@@ -342,7 +342,8 @@ pub struct Closure {
     pub distribution: Distribution,
     /// How subsurface parameters are meant.
     pub subsurface: SubsurfaceMethod,
-    /// What [`Model::Measured`] shows; without it the closure is grey.
+    /// What [`Model::Measured`] shows; without it that is grey. Of [`Model::OpenPbr`] it is the base under coat and fuzz, with the same
+    /// meaning of `base_color`, `specular_scale` and `specular_rotation`.
     pub measured: Option<MeasuredId>,
 }
 

@@ -1,6 +1,7 @@
 //! One axis: knots, and the search for the interval that holds a value.
 
 use gonio_simd::{F, Lanes, U};
+use std::f32::consts::TAU;
 
 /// Up to this many knots the search compares with all of them.
 const COMPARED: usize = 64;
@@ -18,6 +19,19 @@ pub struct Axis {
     reciprocals: [f32; IN_REGISTERS],
     /// For longer axes.
     guide: Option<Guide>,
+    around: Around,
+    nearest: bool,
+}
+
+/// What happens beyond the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Around {
+    /// The ends' values hold.
+    Nothing,
+    /// All repeats after this distance, which the last knot is from the first.
+    Period(f32),
+    /// A turn changes nothing; in the gap between the last knot and the first the nearer one holds.
+    Turn,
 }
 
 /// Where to start searching: for each of many equal cells, the interval that holds the cell's lower end.
@@ -53,7 +67,31 @@ impl Axis {
             [starts[place], reciprocals[place]] = *interval;
         }
         let guide = (knots.len() > COMPARED).then(|| Guide::new(&knots));
-        Some(Self { knots, intervals, starts, reciprocals, guide })
+        Some(Self { knots, intervals, starts, reciprocals, guide, around: Around::Nothing, nearest: false })
+    }
+
+    /// An axis on which all repeats after `period`; the first knot's repetition is added, so that neighbours lie side by side. `None` as for
+    /// [`Self::new`], the repetition included.
+    pub fn periodic(mut knots: Vec<f32>, period: f32) -> Option<Self> {
+        knots.push(knots.first()? + period);
+        Some(Self { around: Around::Period(period), ..Self::new(knots)? })
+    }
+
+    /// The same of angles in radians about something: values are first brought to the knots by whole turns.
+    #[must_use]
+    pub fn turning(self) -> Self {
+        Self { around: Around::Turn, ..self }
+    }
+
+    /// The same with the nearest knot's value everywhere.
+    #[must_use]
+    pub fn nearest(self) -> Self {
+        Self { nearest: true, ..self }
+    }
+
+    /// Whether the last knot is the first one's repetition.
+    pub fn repeats(&self) -> bool {
+        matches!(self.around, Around::Period(_))
     }
 
     /// Knots.
@@ -70,6 +108,7 @@ impl Axis {
     /// The interval of each value; values beyond the ends are taken to the ends.
     #[inline(always)]
     pub fn locate<L: Lanes>(&self, l: L, x: F<L>) -> Place<L> {
+        let x = self.brought(x);
         let index = match &self.guide {
             Some(guide) => self.search_from(l, x, guide),
             None => self.count(l, x),
@@ -80,7 +119,22 @@ impl Axis {
             let [start, reciprocal] = l.gather_pairs(&self.intervals, index << 1);
             (start, reciprocal)
         };
-        Place { index, fraction: ((x - start) * reciprocal).saturate() }
+        let fraction = ((x - start) * reciprocal).saturate();
+        Place { index, fraction: if self.nearest { l.f(1.0).keep_if(fraction.ge(0.5)) } else { fraction } }
+    }
+
+    /// A value brought to the knots by whole periods.
+    #[inline(always)]
+    fn brought<L: Lanes>(&self, x: F<L>) -> F<L> {
+        let [first, last] = self.range();
+        match self.around {
+            Around::Nothing => x,
+            Around::Period(period) => x - ((x - first) * period.recip()).floor() * period,
+            Around::Turn => {
+                let x = x - ((x - first) * TAU.recip()).floor() * TAU;
+                (x - last).gt(first + TAU - x).select(x.lanes().f(first), x)
+            }
+        }
     }
 
     /// How many inner knots do not exceed each value.

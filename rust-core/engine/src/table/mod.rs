@@ -3,8 +3,10 @@
 //! The search never gathers on short axes: comparing with every knot and counting is faster (the paper's branch-free search, one step further).
 
 mod axis;
+mod colours;
 
 pub use axis::{Axis, Place};
+pub use colours::Colours;
 
 use gonio_simd::{F, Lanes, U};
 

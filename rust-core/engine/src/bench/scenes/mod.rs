@@ -3,10 +3,12 @@
 mod build;
 mod car;
 mod glass;
+mod measured;
 mod room;
 mod shapes;
 
 pub(super) use build::{aimed, light, place};
 pub(super) use car::{car, sky};
 pub(super) use glass::glass;
+pub(super) use measured::{glossy_room, measured_room, table};
 pub(super) use room::room;

@@ -4,12 +4,14 @@ use crate::{
     bench::{
         kernel::{Case, Kernel, Outcome},
         numbers::{BATCH, columns3, cube},
+        scenes,
     },
-    bsdf::{Closure, Distribution, Hits, Lobes, ParameterValues, Surface, Switches, parameter as p},
+    bsdf::{Closure, Distribution, Hits, Lobes, MeasuredBsdf, ParameterValues, Surface, Switches, parameter as p},
     error::Result,
     integrator::kernels,
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
+use std::sync::Arc;
 
 /// The view of sampling and evaluation: 40 degrees off the normal.
 const VIEW: [f32; 3] = [0.642_787_6, 0.0, 0.766_044_45];
@@ -75,8 +77,22 @@ pub(super) fn cases() -> Vec<Case> {
         };
         Case::new(format!("{name}: {what}"), "hit", BATCH, kernel)
     };
+    let mut surfaces = surfaces();
+    let measured = scenes::table().and_then(|table| MeasuredBsdf::new(&table).ok()).map(Arc::new);
+    if let Some(measured) = &measured {
+        surfaces.push((
+            "17 × 7 × 17 × 13 table",
+            Surface::measured(p::DEFAULTS, &[false; p::COUNT], Switches::single(Closure::Measured), measured.clone()),
+        ));
+    }
     let tasks = [(Task::Resolve, "resolve"), (Task::Sample, "sample + eval + pdf"), (Task::Evaluate, "eval + pdf")];
-    surfaces().iter().flat_map(|(name, surface)| tasks.map(|(task, what)| case(name, surface, task, what))).collect()
+    let mut cases: Vec<Case> =
+        surfaces.iter().flat_map(|(name, surface)| tasks.map(|(task, what)| case(name, surface, task, what))).collect();
+    if let Some(measured) = measured {
+        let kernel = Lookup { measured, directions: directions(), views: views(), colour: columns3() };
+        cases.push(Case::new("17 × 7 × 17 × 13 table: lookup", "lookup", BATCH, kernel));
+    }
+    cases
 }
 
 /// Directions all over the hemisphere about +z, by equal solid angles.
@@ -89,6 +105,40 @@ fn directions() -> [Column; 3] {
         (directions[0][i], directions[1][i], directions[2][i]) = (ring * turn.cos(), ring * turn.sin(), z);
     }
     directions
+}
+
+/// The same in another order.
+fn views() -> [Column; 3] {
+    let mut views = directions();
+    views.iter_mut().for_each(|column| column.rotate_left(BATCH / 3));
+    views
+}
+
+/// The BSDF between pairs of directions all over the hemisphere, from a table: search and interpolation alone.
+struct Lookup {
+    measured: Arc<MeasuredBsdf>,
+    directions: [Column; 3],
+    views: [Column; 3],
+    colour: [Column; 3],
+}
+
+#[inline(always)]
+fn look_up<L: Lanes>(l: L, job: &mut Lookup) {
+    let Lookup { measured, directions: [x, y, z], views: [a, b, c], colour: [red, green, blue] } = job;
+    for at in (0..BATCH).step_by(L::COUNT) {
+        let (wi, wo) = (Vec3::load(l, [&x[..], &y[..], &z[..]], at), Vec3::load(l, [&a[..], &b[..], &c[..]], at));
+        measured.reflected(l, wi, wo).store([red, green, blue], at);
+    }
+}
+
+impl Kernel for Lookup {
+    fn run(&mut self, execution: Execution) -> Result<()> {
+        dispatch!(execution, l => look_up(l, self));
+        Ok(())
+    }
+    fn outcome(&self) -> Outcome {
+        Outcome::of(self.colour.iter().map(|column| &column[..]))
+    }
 }
 
 #[inline(always)]

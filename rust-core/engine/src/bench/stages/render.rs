@@ -52,7 +52,14 @@ pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>>
     if let Some(path) = &options.scene {
         return Ok(vec![case(&path.file_stem().unwrap_or_default().to_string_lossy(), &load_bundle(path)?)?]);
     }
-    Ok(vec![case("car", &scenes::car())?, case("glass", &scenes::glass())?, case("room", &scenes::room())?])
+    let scenes = [
+        ("car", scenes::car()),
+        ("glass", scenes::glass()),
+        ("room", scenes::room()),
+        ("room all in GGX", scenes::glossy_room()),
+        ("room all in a table", scenes::measured_room()),
+    ];
+    scenes.iter().map(|(name, scene)| case(name, scene)).collect()
 }
 
 impl Kernel for Whole {

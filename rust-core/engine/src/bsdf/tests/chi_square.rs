@@ -8,7 +8,7 @@ const AZIMUTHS: usize = 24;
 const HEIGHTS: usize = 24;
 /// Points of the midpoint rule along each side of a bin.
 const POINTS: usize = 24;
-const SAMPLES: usize = 60_000;
+pub(super) const SAMPLES: usize = 60_000;
 /// Significance of the whole family of tests; each gets its share by Šidák's correction.
 const SIGNIFICANCE: f64 = 1e-3;
 
@@ -67,7 +67,7 @@ fn expected(view: &View) -> Vec<f64> {
 }
 
 /// The p-value, and the densities' integral next to the share of usable samples.
-fn test(view: &View, seed: u64) -> (f64, f64, f64) {
+pub(super) fn test(view: &View, seed: u64) -> (f64, f64, f64) {
     let mut counts = vec![0.0; AZIMUTHS * HEIGHTS];
     let mut usable = 0.0;
     for sample in view.sample(&random(SAMPLES, seed)).iter().filter(|s| s.pdf > 0.0 && !s.delta && !s.entered) {

@@ -48,7 +48,7 @@ struct Job<'a> {
 
 /// [`Lobes::sample`], compiled once for a level.
 #[inline(never)]
-pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.sample(l, wo, u),

@@ -5,6 +5,8 @@ mod cycles;
 mod film;
 mod furnace;
 mod harness;
+mod measured;
+mod measurements;
 mod normals;
 mod rows;
 mod subsurface;

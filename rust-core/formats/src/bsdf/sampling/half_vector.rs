@@ -8,6 +8,7 @@
 //! the sum of both ways to get to a direction, integrates to exactly one.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::thread;
 
 use super::super::direction::{
     Direction, angles_of, azimuth, combination, cosine_direction, dot, elevation, normalized, reflected, spherical, square_of, through,
@@ -88,24 +89,36 @@ impl HalfVectorTable {
     fn lobe(&self, measured: &Measured, luminance: &[f64], pair: Hemispheres, resolution: &Resolution) -> Lobe {
         let nodes = [resolution.columns.max(2), resolution.rows.max(2)];
         let points = resolution.points.max(1);
-        let mut weights = Vec::with_capacity(self.slices[0] * self.slices[1] * nodes[0] * nodes[1]);
-        for slice in 0..self.slices[0] * self.slices[1] {
-            let wo = self.view(slice);
-            for node in 0..nodes[0] * nodes[1] {
-                let place = [node % nodes[0], node / nodes[0]];
-                let scattered = around_node(place, nodes, points).map(|(angles, area)| {
-                    let half = self.normal(angles, wo);
-                    let wi = reflected(wo, half);
-                    if wi[2] <= 0.0 {
-                        return 0.0;
+        let (slices, slice_len) = (self.slices[0] * self.slices[1], nodes[0] * nodes[1]);
+        let mut weights = vec![0.0; slices * slice_len];
+        let share = slices.div_ceil(thread::available_parallelism().map_or(1, usize::from));
+        thread::scope(|scope| {
+            for (number, part) in weights.chunks_mut(share * slice_len).enumerate() {
+                scope.spawn(move || {
+                    for (slice, weights) in part.chunks_exact_mut(slice_len).enumerate() {
+                        let wo = self.view(number * share + slice);
+                        for (node, weight) in weights.iter_mut().enumerate() {
+                            let place = [node % nodes[0], node / nodes[0]];
+                            let scattered = around_node(place, nodes, points)
+                                .map(|(angles, area)| area * self.scattered(measured, luminance, pair, angles, wo));
+                            *weight = (scattered.sum::<f64>() / (points * points) as f64) as f32;
+                        }
                     }
-                    let [wi_side, wo_side] = to_sides(pair, wi, wo);
-                    measured.luminance(luminance, wi_side, wo_side).max(0.0) * area * 4.0 * dot(wo, half)
                 });
-                weights.push((scattered.sum::<f64>() / (points * points) as f64) as f32);
             }
-        }
+        });
         Lobe::new(nodes[0], nodes[1], weights)
+    }
+
+    /// Luminance × cosine of the direction that a normal mirrors the view to, for each solid angle of normals.
+    fn scattered(&self, measured: &Measured, luminance: &[f64], pair: Hemispheres, angles: (f64, f64), wo: Direction) -> f64 {
+        let half = self.normal(angles, wo);
+        let wi = reflected(wo, half);
+        if wi[2] <= 0.0 {
+            return 0.0;
+        }
+        let [wi_side, wo_side] = to_sides(pair, wi, wo);
+        measured.luminance(luminance, wi_side, wo_side).max(0.0) * 4.0 * dot(wo, half)
     }
 
     /// Whether only the difference of azimuths counts.

@@ -1,0 +1,71 @@
+//! `gonio:MeasuredBSDF`: a measured material by asset path.
+//!
+//! Inputs: `file` (asset), `tint` (color3f, white), `scale` (float, 1), `rotation` (float, degrees of the tangent about the normal, 0) and
+//! `normal` (a tangent-space normal).
+
+use super::arithmetic::{binary, constant_scalar, scalar};
+use super::network::{Network, Shader};
+use super::usd_nodes::tangent_normal;
+use super::value::{Source, Value};
+use crate::asset;
+use crate::context::Context;
+use crate::vt::AssetPath;
+use gonio::Error;
+use gonio::scene::{Closure, Input, MeasuredBsdf, MeasuredId, Model, Operation, Origin};
+use gonio_formats::bsdf;
+
+/// The shader's name.
+pub(super) const ID: &str = "gonio:MeasuredBSDF";
+
+/// Converts the surface. Where its file cannot be read it has no measurement, and so is grey.
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+    let mut closure = Closure { model: Model::Measured, measured: file(network, shader), ..Closure::default() };
+    closure.set_input("base_color", network.colour(shader, "tint", [1.0; 3]));
+    closure.set_input("specular_scale", network.scalar(shader, "scale", 1.0));
+    let degrees = network.scalar(shader, "rotation", 0.0);
+    let turns = match constant_scalar(degrees) {
+        Some(degrees) => scalar(degrees / 360.0),
+        None => binary(&mut network.graph, Operation::Divide, degrees, scalar(360.0)),
+    };
+    closure.set_input("specular_rotation", turns);
+    if let Some(normal @ Input::Node(..)) = tangent_normal(network, shader) {
+        closure.normal = Some(network.graph.add(Operation::NormalMap { scale: 1.0, uv: None }, vec![normal]));
+    }
+    closure
+}
+
+/// The measurement in a shader's `file` input; `None`, with a warning, where there is none.
+fn file<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<MeasuredId> {
+    let path = match network.source(shader, "file") {
+        Source::Value(Value::Asset(path), _) if !path.authored.is_empty() => path,
+        _ => {
+            network.warn(shader, "no file of a measured BSDF is named; the surface is grey");
+            return None;
+        }
+    };
+    measurement(network.context, &Origin::new(&shader.path), &path)
+}
+
+/// The measurement of a file, the same one for all shaders that name it.
+fn measurement(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath) -> Option<MeasuredId> {
+    let AssetPath { authored, resolved } = path;
+    let key = if resolved.is_empty() { authored } else { resolved };
+    if let Some(known) = context.measured_ids.get(key) {
+        return *known;
+    }
+    let read = if resolved.is_empty() {
+        Err(format!("the measured BSDF '{authored}' does not exist"))
+    } else {
+        let bytes = asset::bytes(context.py, resolved).map_err(|problem| format!("the measured BSDF '{resolved}' {problem}"));
+        bytes.and_then(|bytes| bsdf::read(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string()))
+    };
+    let id = match read {
+        Ok(data) => Some(context.scene.add_measured(MeasuredBsdf::new(Origin::new(resolved), data))),
+        Err(problem) => {
+            context.warn(origin, format!("{problem}; the surface is grey"));
+            None
+        }
+    };
+    context.measured_ids.insert(key.clone(), id);
+    id
+}
