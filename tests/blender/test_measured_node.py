@@ -224,3 +224,16 @@ def test_cycles_shows_the_fallback(tmp_path):
     tree.links.new(shader.outputs[0], node.inputs["Fallback"])
     node.update()
     assert mean_colour(scene, tmp_path / "linked.exr") == pytest.approx([0.1, 0.2, 0.3], rel=0.02)
+
+
+@pytest.mark.blender
+def test_gonio_shows_the_measurement(tmp_path):
+    from recorder import empty
+
+    empty()
+    made, _, node = measured_material(write_matt(tmp_path))
+    node.inputs["Scale"].default_value = 0.5
+    scene = sunny_plane(made)
+    scene.render.engine = "GONIO"
+    scene.gonio.samples = 16
+    assert mean_colour(scene, tmp_path / "measured.exr") == pytest.approx([0.3, 0.15, 0.05], rel=0.02)
