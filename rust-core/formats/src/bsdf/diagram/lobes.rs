@@ -53,7 +53,7 @@ fn lobe(luminance: &Luminance<'_>, theta_deg: f64) -> Vec<[f64; 2]> {
 /// The view at a signed angle from the lit side's normal.
 fn view(luminance: &Luminance<'_>, angle_deg: f64) -> Direction {
     let (sine, cosine) = angle_deg.to_radians().sin_cos();
-    [sine, 0.0, if luminance.from_front() { cosine } else { -cosine }]
+    [sine, 0.0, if luminance.is_lit_from_front() { cosine } else { -cosine }]
 }
 
 /// The point at a signed angle from the upward normal and a distance from the centre in pixels.

@@ -35,17 +35,17 @@ impl<'a> Luminance<'a> {
     /// Light at an angle from the normal of the side that drawings look at, at azimuth 180° so that its mirror direction is at 0°.
     fn light(&self, theta_deg: f64) -> Direction {
         let up = spherical(theta_deg.to_radians(), core::f64::consts::PI);
-        if self.from_front() { up } else { through(up) }
+        if self.is_lit_from_front() { up } else { through(up) }
     }
 
     /// Whether light comes from the front: it does if anything is done to it there.
-    fn from_front(&self) -> bool {
+    fn is_lit_from_front(&self) -> bool {
         [Hemispheres::ReflectionFront, Hemispheres::TransmissionFront].into_iter().any(|pair| self.measured.has(pair))
     }
 
     /// What is done to that light.
     fn pairs(&self) -> impl Iterator<Item = Hemispheres> {
-        let from_front = self.from_front();
+        let from_front = self.is_lit_from_front();
         Hemispheres::ALL.into_iter().filter(move |pair| pair.is_from_front() == from_front && self.measured.has(*pair))
     }
 }

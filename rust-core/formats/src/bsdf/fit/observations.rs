@@ -81,7 +81,7 @@ fn pair(i: usize) -> [Direction; 2] {
     let step = [0.856_674_9, 0.733_891_9, 0.628_706_7, 0.538_597_3];
     let u = step.map(|step| (0.5 + step * (i + 1) as f64).fract());
     let wo = cosine_direction([0.997 * u[0], u[1]]);
-    if i % 2 == 0 {
+    if i.is_multiple_of(2) {
         return [cosine_direction([0.997 * u[2], u[3]]), wo];
     }
     let (theta, phi) = angles_of([u[2], u[3]]);
