@@ -69,8 +69,8 @@ def main() -> None:
     ball.data.materials.append(measured_material(Path(arguments[0])))
     bpy.ops.mesh.primitive_plane_add(size=20.0)
     bpy.context.object.data.materials.append(plain_material())
-    lamp("Key", (-3.0, -2.5, 4.0), ball.location, 300.0, 0.8)
-    lamp("Rim", (3.5, 1.5, 2.5), ball.location, 120.0, 0.3)
+    lamp("Key", (-3.0, -2.5, 4.0), ball.location, 150.0, 0.8)
+    lamp("Rim", (3.5, 1.5, 2.5), ball.location, 60.0, 0.3)
     camera = bpy.data.cameras.new("Camera")
     camera.lens = 60.0
     holder = bpy.data.objects.new("Camera", camera)
