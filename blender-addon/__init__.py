@@ -4,7 +4,7 @@
 import importlib
 
 # Each rank imports lower ones only; they register in this order and unregister in the opposite one.
-RANKS = ("properties", "operators", "engine", "ui")
+RANKS = ("properties", "nodes", "operators", "engine", "ui")
 
 
 def _modules():

@@ -11,6 +11,7 @@ from .instances import Instances
 from .lights import Lights
 from .material.inputs import RANDOM
 from .materials import Materials
+from .measured import Measurements
 from .meshes import Meshes
 from .slots import Slots
 
@@ -25,7 +26,8 @@ class Exporter:
         self.scene = gonio.Scene()
         self._textures = Slots()
         self._images = Images(self.scene, self._textures)
-        self._materials = Materials(self.scene, Slots(), self._images, report)
+        self._measured = Slots()
+        self._materials = Materials(self.scene, Slots(), self._images, Measurements(self.scene, self._measured), report)
         self._meshes = Meshes(self.scene, Slots(), report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
@@ -34,9 +36,11 @@ class Exporter:
     def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
         """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
         self._textures.begin()
+        self._measured.begin()
         self._materials.shader_aovs = shader_aovs
         self._everything(depsgraph)
         self._textures.sweep()
+        self._measured.sweep()
         self._synced = True
         return self.scene
 

@@ -20,8 +20,8 @@ class Slotted:
 class Materials:
     """Numbers of the scene's materials and what each wants of meshes and placements."""
 
-    def __init__(self, scene, slots, images, report):
-        self._scene, self._slots, self._images, self._report = scene, slots, images, report
+    def __init__(self, scene, slots, images, measurements, report):
+        self._scene, self._slots, self._images, self._measurements, self._report = scene, slots, images, measurements, report
         self._translated, self.any_written = {}, False
         # Within a pass: many objects have the same slots.
         self._slotted = {}
@@ -62,11 +62,11 @@ class Materials:
     def _written(self, material, number):
         """Translates and writes; a material that cannot be translated or that the scene refuses is the default one, with a report line."""
         try:
-            translated = translate(material, self._images, self._report, shader_aovs=self.shader_aovs)
+            translated = translate(material, self._images, self._measurements, self._report, shader_aovs=self.shader_aovs)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
             self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)
-            translated = translate(None, self._images, self._report)
+            translated = translate(None, self._images, self._measurements, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         return translated
 

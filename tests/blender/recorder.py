@@ -12,7 +12,7 @@ class Recorder:
     """Has the methods of `gonio.Scene` that the exporter calls, and its checks of shapes and numbers."""
 
     def __init__(self):
-        self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras = ([] for _ in range(6))
+        self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras, self.measured = ([] for _ in range(7))
         self.settings, self.calls = {}, []
 
     def _put(self, what, thing, index):
@@ -42,6 +42,9 @@ class Recorder:
 
     def put_texture(self, description, index=None, *, data=None, pixels=None):
         return self._put("textures", {**description, "data": data, "pixels": pixels}, index)
+
+    def put_measured(self, measured, *, name, index=None):
+        return self._put("measured", {"measured": measured, "name": name}, index)
 
     def put_light(self, description, index=None):
         return self._put("lights", description, index)
@@ -120,8 +123,9 @@ def material(name="Material"):
 def translated(made):
     """A material's description and the lines of the report."""
     report = module("report").Report()
-    images = module("export.images").Images(Recorder(), module("export.slots").Slots())
-    return module("export.material").translate(made, images, report).description, [line.text for line in report.diagnostics]
+    scene, slots = Recorder(), module("export.slots").Slots
+    images, measurements = module("export.images").Images(scene, slots()), module("export.measured").Measurements(scene, slots())
+    return module("export.material").translate(made, images, measurements, report).description, [line.text for line in report.diagnostics]
 
 
 def evaluated(description, source, primvars):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from . import closures, colour, inputs, maths, principled, textures, vectors  # noqa: F401 (they register their nodes)
+from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
 from .closures import closure, flatten
 from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
@@ -22,15 +22,15 @@ class Translated:
     instance_primvars: set = field(default_factory=set)
 
 
-def translate(material, images, report, version=None, shader_aovs=frozenset()):
-    """The description of a material with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
+def translate(material, images, measurements, report, version=None, shader_aovs=frozenset()):
+    """A material's description with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
     if material is None:
         return Translated(_plain("default", (0.8, 0.8, 0.8)))
     tree = material.node_tree
     # Since 5.0 a material has nodes always, and asking is deprecated.
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
         return Translated(_plain(material.name, tuple(material.diffuse_color)[:3], material.pass_index))
-    t = Translator(material, tree, images, report, version=version)
+    t = Translator(material, tree, images, report, measurements=measurements, version=version)
     end = active_output(tree, "Material")
     if end is None:
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)

@@ -3,7 +3,7 @@
 
 from ...units import LUMENS_PER_WATT
 from .inputs import hit
-from .sockets import follow, input_socket
+from .sockets import follow, group_output, input_socket
 from .translator import CLOSURES, closure_node
 from .vectors import radial_tangent
 
@@ -25,7 +25,7 @@ def flatten(t, socket, context, weight):
     found = follow(socket, context)
     if found is None or found[0] is None:
         return
-    node, _, context = found
+    node, output, context = found
     if len(t.closures) >= MOST_CLOSURES:
         t.say(node, context, f"more than {MOST_CLOSURES} shaders are mixed; the rest is left out")
         return
@@ -37,15 +37,21 @@ def flatten(t, socket, context, weight):
         flatten(t, node.inputs[0], context, weight)
         flatten(t, node.inputs[1], context, weight)
     else:
-        _append(t, node, context, weight)
+        _append(t, node, output, context, weight)
 
 
-def _append(t, node, context, weight):
+def _append(t, node, output, context, weight):
     handler = CLOSURES.get(node.bl_idname)
     if handler is None:
         t.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; a diffuse surface of its colour is used")
         handler = _stand_in
-    for made in handler(t, node, context):
+    closures = handler(t, node, context)
+    if closures is None:
+        inner = group_output(node, output, context)
+        if inner is not None:
+            flatten(t, *inner, weight)
+        return
+    for made in closures:
         share = made.pop("share", None)
         part = weight if share is None else weight * share
         if not part.is_zero():
@@ -67,6 +73,7 @@ def closure(
     thin_walled=False,
     distribution="MultiGgx",
     subsurface="RandomWalk",
+    measured=None,
     **parameters,
 ):
     """A closure of the scene description; parameters are values by the names of the core's parameter block."""
@@ -79,6 +86,7 @@ def closure(
         "thin_walled": thin_walled,
         "distribution": distribution,
         "subsurface": subsurface,
+        "measured": measured,
     }
 
 

@@ -16,7 +16,7 @@ CALLS_A_NODE = 12
 
 # bl_idname of a node -> function(translator, node, context, output socket) -> Value
 VALUES = {}
-# bl_idname of a shader node -> function(translator, node, context) -> list of closures without their weights
+# bl_idname of a shader node -> function(translator, node, context) -> list of closures without their weights; None for what stands inside
 CLOSURES = {}
 
 
@@ -54,9 +54,11 @@ def _room_for_calls():
 class Translator:
     """The state while one node tree is translated."""
 
-    def __init__(self, owner, tree, images, report, *, kind="Material", is_world=False, is_camera_ray=True, version=None):
+    def __init__(
+        self, owner, tree, images, report, *, kind="Material", measurements=None, is_world=False, is_camera_ray=True, version=None
+    ):
         self.version = tuple(version or bpy.app.version)
-        self.owner, self.images, self.report, self.kind = owner, images, report, kind
+        self.owner, self.images, self.report, self.kind, self.measurements = owner, images, report, kind, measurements
         self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
         self.graph = Graph()
         self.root = Context(tree)

@@ -10,5 +10,6 @@ pub mod photometry;
 pub mod weather;
 
 mod error;
+mod svg;
 
 pub use error::{FormatError, Place};

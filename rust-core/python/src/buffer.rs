@@ -48,16 +48,23 @@ pub(crate) fn floats_of_any_width(object: &Bound<'_, PyAny>, name: &str) -> PyRe
     }
 }
 
+/// Numbers of any shape in C order, given as float32 or float64.
+pub(crate) fn doubles(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    let py = object.py();
+    if let Ok(buffer) = PyBuffer::<f64>::get(object) {
+        check_order(&buffer, name)?;
+        return buffer.to_vec(py);
+    }
+    if let Ok(buffer) = PyBuffer::<f32>::get(object) {
+        check_order(&buffer, name)?;
+        return Ok(buffer.to_vec(py)?.into_iter().map(f64::from).collect());
+    }
+    Err(PyTypeError::new_err(format!("{name}: expected a buffer of float32 or float64, found {}", object.get_type().name()?)))
+}
+
 /// Affine maps, given as (N, 4, 4) or flat matrices for column vectors, row by row.
 pub(crate) fn matrices(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[[f64; 4]; 4]>> {
-    let py = object.py();
-    let values: Vec<f64> = if let Ok(buffer) = PyBuffer::<f64>::get(object) {
-        buffer.to_vec(py)?
-    } else if let Ok(buffer) = PyBuffer::<f32>::get(object) {
-        buffer.to_vec(py)?.into_iter().map(f64::from).collect()
-    } else {
-        return Err(PyTypeError::new_err(format!("{name}: expected a buffer of float32 or float64, found {}", object.get_type().name()?)));
-    };
+    let values = doubles(object, name)?;
     if !values.len().is_multiple_of(16) {
         return Err(PyValueError::new_err(format!("{name}: {} numbers were found, expected 16 a matrix", values.len())));
     }
@@ -93,11 +100,7 @@ pub(crate) fn indices(object: &Bound<'_, PyAny>, name: &str, width: usize) -> Py
 
 /// Refuses foreign byte orders and other shapes than (N, width) or flat groups.
 fn check<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str, width: usize) -> PyResult<()> {
-    let format = buffer.format().to_bytes();
-    let foreign = if cfg!(target_endian = "little") { [b'>', b'!'] } else { [b'<', b'<'] };
-    if format.first().is_some_and(|order| foreign.contains(order)) {
-        return Err(PyTypeError::new_err(format!("{name}: the buffer's byte order is not this machine's")));
-    }
+    check_order(buffer, name)?;
     let shape = buffer.shape();
     let fits = match shape {
         [n] => n.is_multiple_of(width),
@@ -109,4 +112,14 @@ fn check<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str, width: usiz
     } else {
         Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (N, {width}) or a flat multiple of {width}")))
     }
+}
+
+/// Refuses foreign byte orders.
+fn check_order<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str) -> PyResult<()> {
+    let format = buffer.format().to_bytes();
+    let foreign = if cfg!(target_endian = "little") { [b'>', b'!'] } else { [b'<', b'<'] };
+    if format.first().is_some_and(|order| foreign.contains(order)) {
+        return Err(PyTypeError::new_err(format!("{name}: the buffer's byte order is not this machine's")));
+    }
+    Ok(())
 }

@@ -1,11 +1,13 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
+mod array;
 mod artist_sky;
 mod buffer;
 mod daylight;
 mod description;
 mod error;
 mod film;
+mod measured;
 #[cfg(unix)]
 mod memory;
 mod mesh;
@@ -14,13 +16,17 @@ mod photometry;
 mod render;
 mod scene;
 mod settings;
+mod table;
 mod usd;
+mod view;
 
 use pyo3::prelude::*;
 
 /// Physically exact rendering on SIMD lanes.
 #[pymodule]
 mod _gonio {
+    #[pymodule_export]
+    use crate::array::Array;
     #[pymodule_export]
     use crate::artist_sky::artist_sky;
     #[pymodule_export]
@@ -29,6 +35,8 @@ mod _gonio {
     use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]
     use crate::film::Film;
+    #[pymodule_export]
+    use crate::measured::MeasuredBsdf;
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]

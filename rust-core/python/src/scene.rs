@@ -5,6 +5,7 @@ use crate::{
     daylight::{self, Daylight},
     description,
     error::exception,
+    measured::MeasuredBsdf,
     mesh::MeshBuffers,
     settings,
 };
@@ -152,14 +153,23 @@ impl Scene {
         description::put(&mut self.scene.textures, "texture", texture, index)
     }
 
+    /// Adds a measured material, or replaces number `index`; gives its number, which closures of the model "Measured" name as `measured`.
+    #[pyo3(signature = (measured, *, name = "measured", index = None))]
+    fn put_measured(&mut self, measured: &Bound<'_, MeasuredBsdf>, name: &str, index: Option<u32>) -> PyResult<u32> {
+        let element = scene::MeasuredBsdf::new(Origin::new(name), measured.get().shared());
+        description::put(&mut self.scene.measured, "measured", element, index)
+    }
+
     /// Keeps the first so many elements of each kind named.
-    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, lights = None, cameras = None))]
+    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, measured = None, lights = None, cameras = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn truncate(
         &mut self,
         meshes: Option<usize>,
         instances: Option<usize>,
         materials: Option<usize>,
         textures: Option<usize>,
+        measured: Option<usize>,
         lights: Option<usize>,
         cameras: Option<usize>,
     ) {
@@ -168,6 +178,7 @@ impl Scene {
         scene.instances.truncate(instances.unwrap_or(usize::MAX));
         scene.materials.truncate(materials.unwrap_or(usize::MAX));
         scene.textures.truncate(textures.unwrap_or(usize::MAX));
+        scene.measured.truncate(measured.unwrap_or(usize::MAX));
         scene.lights.truncate(lights.unwrap_or(usize::MAX));
         scene.cameras.truncate(cameras.unwrap_or(usize::MAX));
     }

@@ -22,6 +22,13 @@ pub(super) enum Command {
     Compare(CompareOptions),
     /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
+    /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it.
+    ///
+    /// Takes MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML of Radiance and WINDOW, Zemax .bsdf and gonio's own .gbsdf; content
+    /// decides, not the name. Front is the side of the normal; 'reflected' and 'transmitted' are shares of the light that arrives from the
+    /// angle named.
+    #[command(after_long_help = BSDF_EXAMPLES)]
+    Bsdf(BsdfOptions),
     /// Measure every stage of rendering at every SIMD level against one lane.
     Bench(BenchOptions),
 }
@@ -253,6 +260,44 @@ pub(super) struct PhotometryOptions {
     /// Turn the luminaire about its vertical axis, from C0 towards C90.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     pub(super) rotate: Option<f64>,
+}
+
+/// The end of `gonio bsdf --help`.
+const BSDF_EXAMPLES: &str = "Examples:
+  gonio bsdf gold.binary                        what the file holds, and what is wrong with it
+  gonio bsdf gold.binary --lobes gold.svg       lobes in the plane of incidence
+  gonio bsdf blind.xml -o blind.gbsdf --text    as a table to read and edit
+  gonio bsdf gold.binary --fit --material gold.usda
+                                                the nearest OpenPBR surface, for a renderer that takes no measurements";
+
+#[derive(Args, Debug)]
+pub(super) struct BsdfOptions {
+    /// The measured material.
+    pub(super) file: PathBuf,
+    /// For machines.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Draw the lobes of light at 0°, 30°, 60° and 75° in the plane of incidence, four decades of 1/sr.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) lobes: Option<PathBuf>,
+    /// Draw the same lobes over whole hemispheres, as colours.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) map: Option<PathBuf>,
+    /// Write it as .gbsdf: tables as they are, everything else evaluated on a grid of angles; how far that is from the file is told.
+    #[arg(long, short = 'o', value_name = "FILE.gbsdf")]
+    pub(super) output: Option<PathBuf>,
+    /// The grid to write: polar angles from 0° to 90°, and azimuths of a turn; for tables, too, if given.
+    #[arg(long, num_args = 2, value_names = ["THETA", "PHI"], value_parser = clap::value_parser!(u32).range(2..=720), requires = "output")]
+    pub(super) grid: Option<Vec<u32>>,
+    /// Write numbers as text instead of binary.
+    #[arg(long, requires = "output")]
+    pub(super) text: bool,
+    /// Fit an OpenPBR surface to the front's reflection: colour, metalness, roughness, anisotropy, index, and the residual.
+    #[arg(long)]
+    pub(super) fit: bool,
+    /// Write the fitted surface as a USD material.
+    #[arg(long, value_name = "FILE.usda")]
+    pub(super) material: Option<PathBuf>,
 }
 
 #[derive(Args, Debug)]

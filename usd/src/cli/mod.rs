@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod bsdf;
 mod compare;
 mod daylight;
 mod file_name;
@@ -41,6 +42,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
         Command::Photometry(options) => photometry::photometry(&options),
+        Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
     };
     match result {

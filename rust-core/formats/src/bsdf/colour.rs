@@ -51,6 +51,19 @@ impl Channels {
         }
     }
 
+    /// Its name for people.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Luminance => "luminance".into(),
+            Self::Rgb => "linear RGB".into(),
+            Self::Xyz => "XYZ".into(),
+            Self::Bands { wavelengths_nm } => {
+                let [first, last] = [wavelengths_nm.first(), wavelengths_nm.last()].map(|w| w.copied().unwrap_or(0.0));
+                format!("{} bands from {first} to {last} nm", wavelengths_nm.len())
+            }
+        }
+    }
+
     /// Bands at wavelengths, nm.
     ///
     /// # Errors

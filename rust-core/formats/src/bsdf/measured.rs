@@ -2,12 +2,13 @@
 
 use super::colour::Channels;
 use super::direction::Direction;
+use super::format::Format;
 use super::gbsdf;
 use super::hemispheres::Hemispheres;
 use super::patches::Patches;
 use super::rgl::Rgl;
 use super::table::Table;
-use super::tensor_file::{self, TensorFile};
+use super::tensor_file::TensorFile;
 use super::tree::TensorTree;
 use super::{merl, pbrdf, utia, xml, zemax};
 use crate::error::{FormatError, Result};
@@ -31,30 +32,15 @@ pub enum Measured {
 /// When the bytes are none of the formats, or not a sound file of theirs.
 pub fn read(bytes: &[u8], name: &str) -> Result<Measured> {
     let table = |table: Table| Measured::Tables(vec![table]);
-    if bytes.starts_with(tensor_file::MAGIC) {
-        let file = TensorFile::read(bytes)?;
-        return match file.find("M") {
-            Some(_) => pbrdf::from_tensor_file(&file).map(table),
-            None => Rgl::from_tensor_file(&file).map(|rgl| Measured::Rgl(Box::new(rgl))),
-        };
-    }
-    if bytes.starts_with(gbsdf::MAGIC.as_bytes()) {
-        return gbsdf::read(bytes).map(Measured::Tables);
-    }
-    if merl::shape(bytes).is_some() {
-        return merl::read(bytes).map(table);
-    }
-    if bytes.len() == utia::SIZE {
-        return utia::read(bytes).map(table);
-    }
-    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-    if start.starts_with(b"<") {
-        return xml::read(bytes);
-    }
-    match core::str::from_utf8(bytes) {
-        Ok(text) if zemax::is_zemax(text) => zemax::read(text).map(table),
-        _ if name.to_ascii_lowercase().ends_with(".binary") => merl::read(bytes).map(table),
-        _ => Err(FormatError::whole(
+    match Format::of(bytes, name) {
+        Some(Format::Rgl) => Rgl::from_tensor_file(&TensorFile::read(bytes)?).map(|rgl| Measured::Rgl(Box::new(rgl))),
+        Some(Format::Pbrdf) => pbrdf::from_tensor_file(&TensorFile::read(bytes)?).map(table),
+        Some(Format::Gbsdf) => gbsdf::read(bytes).map(Measured::Tables),
+        Some(Format::Merl) => merl::read(bytes).map(table),
+        Some(Format::Utia) => utia::read(bytes).map(table),
+        Some(Format::Xml) => xml::read(bytes),
+        Some(Format::Zemax) => zemax::read(&String::from_utf8_lossy(bytes)).map(table),
+        None => Err(FormatError::whole(
             "not a measured material that we know: MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML, Zemax .bsdf or .gbsdf",
         )),
     }
@@ -109,12 +95,27 @@ impl Measured {
         out.iter_mut().for_each(|value| *value *= wi[2].abs());
     }
 
+    /// Whether a turn of both directions about the normal changes nothing, as the kind of data says; matrices over patches may always be
+    /// anisotropic.
+    pub fn is_isotropic(&self) -> bool {
+        match self {
+            Self::Tables(tables) => tables.iter().all(|table| table.layout().is_isotropic()),
+            Self::Rgl(rgl) => rgl.is_isotropic(),
+            Self::Patches(_) => false,
+            Self::Tree(tree) => tree.components().iter().all(|component| component.tree.rank == 3),
+        }
+    }
+
     /// [`Measured::eval`] in linear Rec.709 (see [`Channels`] for how).
     pub fn eval_rgb(&self, wi: Direction, wo: Direction) -> [f64; 3] {
-        let weights = self.channels().rgb_weights();
+        self.rgb(&self.channels().rgb_weights(), wi, wo)
+    }
+
+    /// Linear Rec.709 by weights that the caller keeps, because those of spectra take long to find.
+    pub(crate) fn rgb(&self, weights: &[[f64; 3]], wi: Direction, wo: Direction) -> [f64; 3] {
         let mut values = vec![0.0; weights.len()];
         self.eval(wi, wo, &mut values);
-        [0, 1, 2].map(|c| values.iter().zip(&weights).map(|(v, w)| v * w[c]).sum())
+        [0, 1, 2].map(|c| values.iter().zip(weights).map(|(v, w)| v * w[c]).sum())
     }
 
     /// [`Measured::eval`] as luminance.

@@ -45,23 +45,28 @@ impl Measured {
     /// Hemispherical reflectance and transmittance of light from `wi`. Exact for matrices; for everything else by a quadrature that resolves
     /// lobes down to about half a degree.
     pub fn albedo(&self, wi: Direction) -> Albedo {
+        self.albedo_by(wi, STRATA)
+    }
+
+    /// [`Measured::albedo`] by a quadrature of another fineness.
+    pub(crate) fn albedo_by(&self, wi: Direction, strata: usize) -> Albedo {
         let count = self.channels().count();
         let mut albedo = Albedo { reflected: vec![0.0; count], transmitted: vec![0.0; count] };
         for pair in Hemispheres::ALL.into_iter().filter(|pair| pair.is_from_front() == (wi[2] > 0.0) && self.has(*pair)) {
             let sum = if pair.is_reflection() { &mut albedo.reflected } else { &mut albedo.transmitted };
             match self {
                 Self::Patches(patches) => patches.albedo(pair, wi, sum),
-                _ => self.integrate(pair, wi, sum),
+                _ => self.integrate(pair, wi, strata, sum),
             }
         }
         albedo
     }
 
     /// The integral of BSDF × cosine of `wo` into one hemisphere.
-    fn integrate(&self, pair: Hemispheres, wi: Direction, sum: &mut [f64]) {
+    fn integrate(&self, pair: Hemispheres, wi: Direction, strata: usize, sum: &mut [f64]) {
         let mut values = vec![0.0; sum.len()];
         let up = if wi[2] < 0.0 { through(wi) } else { wi };
-        for node in quadrature(up, STRATA) {
+        for node in quadrature(up, strata) {
             let is_up = pair.is_from_front() == pair.is_reflection();
             let wo = if is_up { node.direction } else { through(node.direction) };
             self.eval(wi, wo, &mut values);

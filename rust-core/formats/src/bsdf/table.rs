@@ -39,6 +39,20 @@ pub struct Table {
 }
 
 impl Layout {
+    /// Whether only the difference of azimuths counts.
+    pub fn is_isotropic(&self) -> bool {
+        match self.coordinates {
+            Coordinates::Isotropic | Coordinates::HalfDifference => true,
+            Coordinates::Anisotropic => false,
+            Coordinates::Specular => self.axes.first().is_some_and(|rotation| rotation.knots().len() == 1),
+        }
+    }
+
+    /// The directions (wi, wo) of a cell, both taken for the front's; one is below the surface where the coordinates reach there.
+    pub(crate) fn directions(&self, cell: usize) -> (Direction, Direction) {
+        self.coordinates.directions(&place(&self.axes, cell))
+    }
+
     /// Cells times channels.
     ///
     /// # Errors
@@ -91,7 +105,7 @@ impl Table {
         let count = layout.value_count()?;
         let mut values = vec![f32::NAN; count];
         for (cell, channels) in values.chunks_exact_mut(layout.channels.count()).enumerate() {
-            let (wi, wo) = layout.coordinates.directions(&place(&layout.axes, cell));
+            let (wi, wo) = layout.directions(cell);
             if wi[2] >= 0.0 && wo[2] >= 0.0 {
                 value(wi, wo, channels);
             }

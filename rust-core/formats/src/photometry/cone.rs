@@ -1,7 +1,7 @@
 //! The cone diagram: illuminance on the axis and the beam's width by distance.
 
 use super::Goniogram;
-use super::svg::{Anchor, Canvas, short};
+use crate::svg::{Anchor, Canvas, short};
 
 /// Distances in metres.
 const DISTANCES: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];

@@ -22,7 +22,6 @@ mod lookup;
 mod modify;
 mod opening;
 mod polar;
-mod svg;
 mod symmetry;
 pub(crate) mod text;
 

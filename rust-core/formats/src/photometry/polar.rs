@@ -1,7 +1,7 @@
 //! The polar diagram: intensity as a radius, nadir down.
 
 use super::Goniogram;
-use super::svg::{Anchor, Canvas, short};
+use crate::svg::{Anchor, Canvas, short};
 
 /// Page, centre and radius of the outermost ring in pixels.
 const PAGE: [f64; 2] = [520.0, 580.0];

@@ -1,11 +1,13 @@
 """Physically exact rendering on SIMD lanes, with answers in cd/m² and lux."""
 
 from ._gonio import (
+    Array,
     Cancelled,
     Daylight,
     Error,
     Film,
     FormatError,
+    MeasuredBsdf,
     Pass,
     Progress,
     Render,
@@ -24,11 +26,13 @@ from ._gonio import (
 )
 
 __all__ = [
+    "Array",
     "Cancelled",
     "Daylight",
     "Error",
     "Film",
     "FormatError",
+    "MeasuredBsdf",
     "Pass",
     "Progress",
     "Render",

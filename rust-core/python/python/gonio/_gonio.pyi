@@ -18,7 +18,9 @@ __all__ = [
     "SceneError",
     "SettingError",
     "UnsupportedError",
+    "Array",
     "Film",
+    "MeasuredBsdf",
     "Pass",
     "Progress",
     "Render",
@@ -54,6 +56,44 @@ class Pass:
     def tobytes(self) -> bytes: ...
     if sys.version_info >= (3, 12):
         def __buffer__(self, flags: int, /) -> memoryview: ...
+
+@final
+class Array:
+    @property
+    def shape(self) -> list[int]: ...
+    if sys.version_info >= (3, 12):
+        def __buffer__(self, flags: int, /) -> memoryview: ...
+
+@final
+class MeasuredBsdf:
+    @staticmethod
+    def from_file(path: str | PathLike[str]) -> MeasuredBsdf: ...
+    @staticmethod
+    def from_bytes(data: bytes, name: str = "bytes") -> MeasuredBsdf: ...
+    @staticmethod
+    def from_table(
+        axes: Mapping[str, Sequence[float]],
+        values: Buffer,
+        *,
+        side: str = "reflection-front",
+        periods: Mapping[str, float] | None = None,
+        nearest: Sequence[str] | None = None,
+        wavelengths: Sequence[float] | None = None,
+        xyz: bool = False,
+        reciprocal: bool = False,
+        bilateral: bool = False,
+    ) -> MeasuredBsdf: ...
+    @property
+    def channels(self) -> list[str]: ...
+    @property
+    def isotropic(self) -> bool: ...
+    @property
+    def sides(self) -> list[str]: ...
+    def eval(self, wi: Buffer, wo: Buffer, *, rgb: bool = False) -> Array: ...
+    def pdf(self, wi: Buffer, wo: Buffer) -> Array: ...
+    def sample(self, wo: Buffer, u: Buffer) -> tuple[Array, Array]: ...
+    def fit(self) -> dict[str, Any]: ...
+    def write(self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int = 46, phi: int = 72) -> None: ...
 
 @final
 class Film:
@@ -149,6 +189,7 @@ class Scene:
         data: tuple[str, bytes] | None = None,
         pixels: Buffer | None = None,
     ) -> int: ...
+    def put_measured(self, measured: MeasuredBsdf, *, name: str = "measured", index: int | None = None) -> int: ...
     def truncate(
         self,
         *,
@@ -156,6 +197,7 @@ class Scene:
         instances: int | None = None,
         materials: int | None = None,
         textures: int | None = None,
+        measured: int | None = None,
         lights: int | None = None,
         cameras: int | None = None,
     ) -> None: ...

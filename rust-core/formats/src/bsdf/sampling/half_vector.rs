@@ -42,6 +42,11 @@ impl Resolution {
 
     /// Of an anisotropic material.
     pub const ANISOTROPIC: Self = Self { phi: 16, ..Self::ISOTROPIC };
+
+    /// What suits a measurement.
+    pub fn of(measured: &Measured) -> Self {
+        if measured.is_isotropic() { Self::ISOTROPIC } else { Self::ANISOTROPIC }
+    }
 }
 
 /// The least share of a lobe that is there: its density never vanishes where it scatters.

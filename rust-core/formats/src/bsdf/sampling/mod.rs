@@ -6,6 +6,8 @@ mod lobe;
 pub use half_vector::{HalfVectorTable, Resolution};
 pub use lobe::Lobe;
 
+use std::borrow::Cow;
+
 use super::direction::Direction;
 use super::measured::Measured;
 
@@ -22,7 +24,7 @@ pub struct Sample {
 #[derive(Clone, Debug)]
 pub struct Sampler<'a> {
     measured: &'a Measured,
-    table: Option<HalfVectorTable>,
+    table: Option<Cow<'a, HalfVectorTable>>,
 }
 
 impl<'a> Sampler<'a> {
@@ -30,14 +32,19 @@ impl<'a> Sampler<'a> {
     pub fn new(measured: &'a Measured, resolution: &Resolution) -> Self {
         let table = match measured {
             Measured::Rgl(_) | Measured::Patches(_) => None,
-            Measured::Tables(_) | Measured::Tree(_) => Some(HalfVectorTable::new(measured, resolution)),
+            Measured::Tables(_) | Measured::Tree(_) => Some(Cow::Owned(HalfVectorTable::new(measured, resolution))),
         };
         Self { measured, table }
     }
 
+    /// The sampler of a measurement whose tables, where it needs them, were built before.
+    pub fn with_table(measured: &'a Measured, table: Option<&'a HalfVectorTable>) -> Self {
+        Self { measured, table: table.map(Cow::Borrowed) }
+    }
+
     /// The tables over half vectors, where the measurement needs them.
     pub fn table(&self) -> Option<&HalfVectorTable> {
-        self.table.as_ref()
+        self.table.as_deref()
     }
 
     /// A direction that light comes from to leave to `wo`, from three uniform numbers in [0, 1); none if nothing leaves to there, or where

@@ -3,10 +3,12 @@
 mod bad_input;
 mod chi_square;
 mod colours;
+mod fit;
 mod formats;
 mod klems;
 mod models;
 mod real_files;
+mod report;
 mod rgl;
 mod sampling;
 mod tables;

@@ -1,16 +1,16 @@
-//! The little of SVG that diagrams need.
+//! The little of SVG that the diagrams of goniograms and of measured materials need.
 
 use std::fmt::Write;
 
 /// A drawing that grows.
 #[derive(Debug)]
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     text: String,
 }
 
 /// Where a text stands against its point.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -18,7 +18,7 @@ pub(super) enum Anchor {
 
 impl Canvas {
     /// A white page of a size in pixels.
-    pub(super) fn new(width: f64, height: f64) -> Self {
+    pub(crate) fn new(width: f64, height: f64) -> Self {
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
              font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"
@@ -31,29 +31,32 @@ impl Canvas {
         let _ = writeln!(self.text, "{element}");
     }
 
-    pub(super) fn line(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], colour: &str) {
+    pub(crate) fn line(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], colour: &str) {
         self.add(format_args!("<line x1=\"{x0:.2}\" y1=\"{y0:.2}\" x2=\"{x1:.2}\" y2=\"{y1:.2}\" stroke=\"{colour}\"/>"));
     }
 
-    pub(super) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+    /// A thin line through points.
+    pub(crate) fn path(&mut self, points: &[[f64; 2]], colour: &str) {
+        self.add(format_args!("<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\"/>", joined(points)));
+    }
+
+    pub(crate) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
         self.add(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"none\" stroke=\"{colour}\"/>"));
     }
 
     /// A line through points; `dashes` as in `stroke-dasharray`, empty for none.
-    pub(super) fn curve(&mut self, points: &[[f64; 2]], colour: &str, dashes: &str) {
-        let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-        let points = points.join(" ");
+    pub(crate) fn curve(&mut self, points: &[[f64; 2]], colour: &str, dashes: &str) {
+        let points = joined(points);
         self.add(format_args!(
             "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dashes}\"/>"
         ));
     }
 
-    pub(super) fn area(&mut self, points: &[[f64; 2]], colour: &str) {
-        let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-        self.add(format_args!("<polygon points=\"{}\" fill=\"{colour}\"/>", points.join(" ")));
+    pub(crate) fn area(&mut self, points: &[[f64; 2]], colour: &str) {
+        self.add(format_args!("<polygon points=\"{}\" fill=\"{colour}\"/>", joined(points)));
     }
 
-    pub(super) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
+    pub(crate) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -63,10 +66,16 @@ impl Canvas {
         self.add(format_args!("<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{text}</text>"));
     }
 
-    pub(super) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
+}
+
+/// Points as SVG lists them.
+fn joined(points: &[[f64; 2]]) -> String {
+    let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+    points.join(" ")
 }
 
 /// A text as XML holds it; control characters, which XML forbids, become blanks.
@@ -86,7 +95,7 @@ fn escape(text: &str) -> String {
 }
 
 /// A number for a reader: three significant digits, whole ones from 100 on.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let digits = if value.abs() > 0.0 { (2 - value.abs().log10().floor() as i32).clamp(0, 6) } else { 0 };
     let text = format!("{value:.*}", digits as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }

@@ -1,0 +1,45 @@
+//! Results of evaluations as buffers that numpy and memoryview read without a copy.
+
+use crate::view::View;
+use pyo3::{ffi, prelude::*};
+use std::ffi::c_int;
+
+/// Numbers: native float64, one dimension or two, read only.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct Array {
+    values: Vec<f64>,
+    view: View,
+}
+
+impl Array {
+    /// Rows of `width` numbers.
+    pub(crate) fn rows(values: Vec<f64>, width: usize) -> Self {
+        let view = View::new(&[values.len() / width.max(1), width], 8, c"d");
+        Self { values, view }
+    }
+
+    /// One number after the other.
+    pub(crate) fn flat(values: Vec<f64>) -> Self {
+        let view = View::new(&[values.len()], 8, c"d");
+        Self { values, view }
+    }
+}
+
+#[pymethods]
+impl Array {
+    /// Rows, and columns if there are.
+    #[getter]
+    fn shape(&self) -> Vec<isize> {
+        self.view.shape().to_vec()
+    }
+    /// The buffer protocol.
+    ///
+    /// # Safety
+    ///
+    /// Python calls it with a view to fill.
+    unsafe fn __getbuffer__(slf: Bound<'_, Self>, view: *mut ffi::Py_buffer, flags: c_int) -> PyResult<()> {
+        let array = slf.get();
+        // SAFETY: the array is frozen, so that its values stay where they are; the view is Python's.
+        unsafe { array.view.fill(slf.as_any().clone(), array.values.as_ptr().cast(), view, flags) }
+    }
+}

@@ -1,0 +1,82 @@
+//! Measured materials as `.gbsdf`.
+
+use super::BsdfOptions;
+use gonio::{Error, Result};
+use gonio_formats::bsdf::{
+    Direction, Grid, Measured,
+    gbsdf::{self, Encoding},
+};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Angles of the grid that isotropic and anisotropic materials are evaluated on when none is asked for: polar ones, azimuths.
+const ISOTROPIC: [u32; 2] = [46, 72];
+const ANISOTROPIC: [u32; 2] = [19, 36];
+
+/// More numbers than that do not go into a file: one gigabyte of them.
+const MOST_VALUES: u128 = 1 << 28;
+
+/// Pairs of directions that a resampled file is compared with its source at.
+const PAIRS: u32 = 2000;
+
+/// Writes the file; tables as they are unless a grid was asked for, everything else evaluated on one. Says how.
+pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, path: &Path) -> Result<Value> {
+    let encoding = if options.text { Encoding::Text } else { Encoding::Binary };
+    let (tables, report) = match (measured, &options.grid) {
+        (Measured::Tables(tables), None) => (tables.clone(), json!({ "resampled": false })),
+        (_, grid) => {
+            let grid = grid_of(measured, grid.as_deref())?;
+            let tables = measured.resampled(grid).map_err(|error| Error::Setting { name: "grid".into(), problem: error.problem })?;
+            let difference = mean_difference(measured, &Measured::Tables(tables.clone()));
+            (tables, json!({ "resampled": true, "theta": grid.theta, "phi": grid.phi, "mean_difference": difference }))
+        }
+    };
+    super::write(path, &gbsdf::write(&tables, title, encoding))?;
+    Ok(report)
+}
+
+/// The grid that was asked for, or the usual one.
+fn grid_of(measured: &Measured, asked: Option<&[u32]>) -> Result<Grid> {
+    let isotropic = measured.is_isotropic();
+    let usual = if isotropic { ISOTROPIC } else { ANISOTROPIC };
+    let [theta, phi] = asked.and_then(|asked| asked.try_into().ok()).unwrap_or(usual);
+    let cells = u128::from(theta).pow(2) * u128::from(phi).pow(if isotropic { 1 } else { 2 });
+    let values = cells * measured.channels().count() as u128;
+    if values > MOST_VALUES {
+        let problem = format!("{theta} × {phi} angles make {values} numbers a side, expected {MOST_VALUES} at most");
+        return Err(Error::Setting { name: "grid".into(), problem });
+    }
+    Ok(Grid { theta: theta as usize, phi: phi as usize, isotropic })
+}
+
+/// How far the one is from the other: the sum of differences of luminance over the sum of luminances, at directions spread evenly over both
+/// hemispheres (Roberts' R₄).
+fn mean_difference(source: &Measured, copy: &Measured) -> f64 {
+    let direction = |u: f64, v: f64| -> Direction {
+        let z = 2.0 * u - 1.0;
+        let (sine, phi) = ((1.0 - z * z).max(0.0).sqrt(), std::f64::consts::TAU * v);
+        [sine * phi.cos(), sine * phi.sin(), z]
+    };
+    let (mut difference, mut sum) = (0.0, f64::MIN_POSITIVE);
+    for i in 1..=PAIRS {
+        let u = [0.856_674_9, 0.733_891_9, 0.628_706_7, 0.538_597_3].map(|step: f64| (step * f64::from(i)).fract());
+        let (wi, wo) = (direction(u[0], u[1]), direction(u[2], u[3]));
+        let luminance = source.eval_luminance(wi, wo);
+        difference += (copy.eval_luminance(wi, wo) - luminance).abs();
+        sum += luminance;
+    }
+    difference / sum
+}
+
+/// The conversion in a line.
+pub(super) fn as_text(report: &Value) -> Option<String> {
+    let difference = report["mean_difference"].as_f64();
+    match report["resampled"].as_bool()? {
+        false => Some("converted: the file's own tables".into()),
+        true => {
+            let difference = 100.0 * difference.unwrap_or(0.0);
+            let (theta, phi) = (&report["theta"], &report["phi"]);
+            Some(format!("converted: evaluated at {theta} polar angles and {phi} azimuths, {difference:.2} % of difference on average"))
+        }
+    }
+}
