@@ -134,7 +134,7 @@ fn angles_are_brought_to_the_knots() {
         assert!(near(place(&periodic, x), expected), "{x}: {:?} for {expected:?}", place(&periodic, x));
     }
     let turning = Axis::new(vec![-0.5, 1.5]).expect("increasing knots").turning();
-    for (x, expected) in [(0.5, (0, 0.5)), (6.0, (0, 0.108_407_35)), (2.0, (0, 1.0)), (5.0, (0, 0.0)), (-5.0, (0, 0.891_592_65))] {
+    for (x, expected) in [(0.5, (0, 0.5)), (6.0, (0, 0.108_407_35)), (2.0, (0, 1.0)), (5.0, (0, 0.0)), (-5.0, (0, 0.891_592_6))] {
         assert!(near(place(&turning, x), expected), "{x}: {:?} for {expected:?}", place(&turning, x));
     }
     let nearest = Axis::new(vec![0.0, 1.0, 2.0]).expect("increasing knots").nearest();
@@ -152,7 +152,7 @@ fn colour<L: Lanes>(l: L, table: &Colours<2>, place: [f32; 2], out: &mut [f32; 4
 fn unknown_cells_weigh_nothing() {
     let axes = [Axis::new(vec![0.0, 1.0]).expect("increasing knots"), Axis::periodic(vec![0.0, 1.0], 2.0).expect("increasing knots")];
     // Cells (0, 0), (0, 1), (1, 0), (1, 1); the last is unknown.
-    let table = Colours::new(axes, |cell| (cell < 3).then(|| [cell as f32, 1.0, 2.0 * cell as f32])).expect("a small table");
+    let table = Colours::new(axes, |cell| (cell < 3).then_some([cell as f32, 1.0, 2.0 * cell as f32])).expect("a small table");
     assert!(table.has_gaps());
     let expected = [
         ([0.0, 0.5], [0.5, 1.0, 1.0, 1.0]),
