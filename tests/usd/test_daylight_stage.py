@@ -113,7 +113,7 @@ def test_what_is_wrong_is_told_with_the_prim(tmp_path, body, words):
 
 def test_a_place_without_latitude_is_told(tmp_path):
     path = tmp_path / "stage.usda"
-    path.write_text(HEAD.format(up="Z") + 'def Xform "Sky" { double gonio:daylight:longitude = 16 }\n')
+    path.write_text(HEAD.format(up="Z") + 'def Xform "Sky"\n{\n    double gonio:daylight:longitude = 16\n}\n')
     scene = gonio.load_usd(str(path), neutral_dome=False)
     assert any("latitude: NaN" in message for _, message in scene.diagnostics), scene.diagnostics
 
