@@ -22,7 +22,7 @@ def lights(world, images, report):
         return []
     turn = world.gonio.north
     north, east = np.array([sin(turn), cos(turn), 0.0]), np.array([cos(turn), -sin(turn), 0.0])
-    number = images.baked(("daylight", world.original.session_uid), world.name, np.array(daylight.image()))
+    number = images.changing(("daylight", world.original.session_uid), world.name, np.array(daylight.image()))
     # The picture has the zenith on top and south in the middle.
     axes = np.stack([east, [0.0, 0.0, 1.0], -north], axis=1)
     found = [at_infinity(world.name, {"Dome": {"format": "LatLong"}}, np.ones(3), axes, texture=number)]

@@ -32,6 +32,8 @@ class Images:
 
     def __init__(self, scene, slots):
         self._scene, self._slots = scene, slots
+        # Owner of a picture that changes -> what its pixels were, and which of its two places they have.
+        self._changing = {}
 
     def texture(self, image, user, report):
         """The number of an image as it is at this frame; None, with a report line, where there is nothing to show."""
@@ -51,6 +53,21 @@ class Images:
         key = ("baked", *owner, hash(pixels.tobytes()))
         number, is_new = self._slots.take(key)
         if is_new:
+            description = {"origin": {"name": name, "file": ""}, "colour_space": "raw"}
+            self._slots.place(self._scene.put_texture, number, description, pixels=pixels)
+        return number
+
+    def changing(self, owner, name, pixels):
+        """The number of a picture that is computed anew as its owner is edited: (rows, columns, 4), linear, the top row first.
+
+        It has two places in turn: what shows it is seen to change by the number, and no picture is left behind.
+        """
+        mark = hash(pixels.tobytes())
+        before, turn = self._changing.get(owner, (mark, 0))
+        turn = turn if before == mark else 1 - turn
+        self._changing[owner] = (mark, turn)
+        number, is_new = self._slots.take(("changing", *owner, turn))
+        if is_new or before != mark:
             description = {"origin": {"name": name, "file": ""}, "colour_space": "raw"}
             self._slots.place(self._scene.put_texture, number, description, pixels=pixels)
         return number

@@ -49,8 +49,8 @@ class WorldTranslator(Translator):
 
     def sky(self, picture, towards, uv):
         """The value of a sky that was drawn: as an environment texture's, and its sun is remembered."""
-        key = (self.owner.original.session_uid, picture.name, self.is_camera_ray, len(self.environments))
-        number = self.images.baked(("sky", *key), picture.name, picture.pixels)
+        key = (self.owner.original.session_uid, self.is_camera_ray, len(self.environments))
+        number = self.images.changing(("sky", *key), picture.name, picture.pixels)
         fields = {"image": f"{picture.name} {number}", "closest": False, "repeat": True}
         value = self.graph.add({"Lookup": fields}, uv, kind="RGBA")
         picture = replace(picture, name=fields["image"])

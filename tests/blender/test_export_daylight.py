@@ -105,6 +105,26 @@ def test_the_hour_follows_keyframes(tmp_path):
         assert sun["transform"]["columns"][2] == pytest.approx(expected, abs=1e-4)
 
 
+@pytest.mark.blender
+def test_edits_leave_no_pictures_behind(tmp_path):
+    import bpy
+    from recorder import Recorder, empty, module
+
+    empty()
+    world = bpy.data.worlds.new("World")
+    world.gonio.use_daylight, world.gonio.sky = True, "OVERCAST"
+    scene, report = Recorder(), module("report").Report()
+    images, domes = module("export.images").Images(scene, module("export.slots").Slots()), module("export.world").domes
+    found = []
+    for hour in (9.0, 10.0, 10.0, 11.0, 12.0):
+        world.gonio.hour = hour
+        (dome,) = domes(world, images, report)
+        found.append((dome["texture"], float(scene.textures[dome["texture"]]["pixels"][0, 0, 1])))
+    # Another hour is another number, and a brighter sky.
+    assert [number for number, _ in found] == [0, 1, 1, 0, 1] and len(scene.textures) == 2
+    assert [value for _, value in found] == sorted(value for _, value in found) and scene.calls.count("textures") == 4
+
+
 def _curves(world):
     action = world.animation_data.action
     if hasattr(action, "fcurves"):
