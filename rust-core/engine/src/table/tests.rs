@@ -1,6 +1,6 @@
 //! Tables against a plain search and plain interpolation.
 
-use super::{Axis, Table};
+use super::{Axis, Colours, Table};
 use gonio_simd::{Column, Execution, Lanes, dispatch};
 
 /// Uniform numbers in [0, 1): a counter through a 64-bit mixer (SplitMix64).
@@ -113,6 +113,59 @@ fn values_are_linear_between_uneven_knots() {
                 let expected = multilinear(&axes, &values, [0, 1, 2, 3].map(|k| places[k][i]));
                 assert!((f64::from(out[i]) - expected).abs() < 2e-5, "{sizes:?} {i}: {} for {expected}", out[i]);
             }
+        }
+    }
+}
+
+/// Where single values are found, at the scalar level: interval and fraction.
+fn place(axis: &Axis, x: f32) -> (u32, f32) {
+    let mut values = Column::new(16);
+    values.fill(x);
+    let (mut index, mut fraction) = (Column::<u32>::new(16), Column::new(16));
+    dispatch!(Execution::Scalar, l => locate(l, axis, &values, &mut index, &mut fraction));
+    (index[0], fraction[0])
+}
+
+#[test]
+fn angles_are_brought_to_the_knots() {
+    let near = |found: (u32, f32), expected: (u32, f32)| found.0 == expected.0 && (found.1 - expected.1).abs() < 1e-5;
+    let periodic = Axis::periodic(vec![0.0, 1.0, 2.5], 4.0).expect("increasing knots");
+    for (x, expected) in [(-0.5, (2, 2.0 / 3.0)), (0.25, (0, 0.25)), (3.25, (2, 0.5)), (8.5, (0, 0.5)), (-4.0, (0, 0.0))] {
+        assert!(near(place(&periodic, x), expected), "{x}: {:?} for {expected:?}", place(&periodic, x));
+    }
+    let turning = Axis::new(vec![-0.5, 1.5]).expect("increasing knots").turning();
+    for (x, expected) in [(0.5, (0, 0.5)), (6.0, (0, 0.108_407_35)), (2.0, (0, 1.0)), (5.0, (0, 0.0)), (-5.0, (0, 0.891_592_6))] {
+        assert!(near(place(&turning, x), expected), "{x}: {:?} for {expected:?}", place(&turning, x));
+    }
+    let nearest = Axis::new(vec![0.0, 1.0, 2.0]).expect("increasing knots").nearest();
+    assert!(place(&nearest, 0.4) == (0, 0.0) && place(&nearest, 0.6) == (0, 1.0) && place(&nearest, 1.7) == (1, 1.0));
+    assert!(Axis::periodic(vec![0.0, 4.0], 4.0).is_none() && Axis::periodic(Vec::new(), 1.0).is_none());
+}
+
+#[inline(always)]
+fn colour<L: Lanes>(l: L, table: &Colours<2>, place: [f32; 2], out: &mut [f32; 4]) {
+    let (value, known) = table.value(l, [l.f(place[0]), l.f(place[1])]);
+    *out = [value.r, value.g, value.b, known].map(|x| x.to_array()[0]);
+}
+
+#[test]
+fn unknown_cells_weigh_nothing() {
+    let axes = [Axis::new(vec![0.0, 1.0]).expect("increasing knots"), Axis::periodic(vec![0.0, 1.0], 2.0).expect("increasing knots")];
+    // Cells (0, 0), (0, 1), (1, 0), (1, 1); the last is unknown.
+    let table = Colours::new(axes, |cell| (cell < 3).then_some([cell as f32, 1.0, 2.0 * cell as f32])).expect("a small table");
+    assert!(table.has_gaps());
+    let expected = [
+        ([0.0, 0.5], [0.5, 1.0, 1.0, 1.0]),
+        ([0.5, 0.0], [1.0, 1.0, 2.0, 1.0]),
+        // Of the four corners the three known ones.
+        ([0.5, 1.5], [1.0, 1.0, 2.0, 0.75]),
+        ([1.0, 1.0], [0.0; 4]),
+    ];
+    for execution in Execution::all() {
+        for (place, expected) in expected {
+            let mut found = [0.0; 4];
+            dispatch!(execution, l => colour(l, &table, place, &mut found));
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5), "{place:?}: {found:?} for {expected:?}");
         }
     }
 }

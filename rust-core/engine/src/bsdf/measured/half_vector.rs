@@ -67,7 +67,7 @@ impl HalfVectors {
         let y = (turn - turn.floor()) * rows as f32;
         let near = y.to_i32().min(rows - 1);
         let s = y - near.i32_to_float();
-        let far = near.eq(rows - 1).select(near * 0, near + 1);
+        let far = near.eq(rows - 1).select(near.lanes().u(0), near + 1);
         let (near, far) = (near * columns + low, far * columns + low);
         Blend {
             slice: [near, near + 1, far, far + 1],

@@ -42,9 +42,9 @@ pub struct MeasuredBsdf {
 
 #[derive(Clone, Debug)]
 enum Scattering {
-    Tables([[Option<BsdfTable>; 2]; 2], HalfVectors),
-    Trees([[Option<ColourTree>; 2]; 2], HalfVectors),
-    Patches(PatchMatrices),
+    Tables(Box<[[Option<BsdfTable>; 2]; 2]>, Box<HalfVectors>),
+    Trees(Box<[[Option<ColourTree>; 2]; 2]>, Box<HalfVectors>),
+    Patches(Box<PatchMatrices>),
     Adaptive(Box<Adaptive>),
 }
 
@@ -84,10 +84,9 @@ impl MeasuredBsdf {
     /// What a table has for two directions at the front, 1/sr; zero of what is no table.
     #[inline(always)]
     pub(crate) fn reflected<L: Lanes>(&self, l: L, wi: Vec3<L>, wo: Vec3<L>) -> Rgb<L> {
-        match &self.scattering {
-            Scattering::Tables([[Some(table), _], _], _) => table.value(l, wi, wo),
-            _ => Rgb::zero(l),
-        }
+        let Scattering::Tables(tables, _) = &self.scattering else { return Rgb::zero(l) };
+        let Some(table) = &tables[0][0] else { return Rgb::zero(l) };
+        table.value(l, wi, wo)
     }
 
     /// BSDF × cosine and density between directions on the viewer's side, transmission mirrored there.
@@ -95,11 +94,13 @@ impl MeasuredBsdf {
     fn eval_side<L: Lanes>(&self, l: L, side: usize, transmitted: bool, wi: Vec3<L>, wo: Vec3<L>) -> (Rgb<L>, F<L>) {
         match &self.scattering {
             Scattering::Tables(tables, half_vectors) => {
-                let value = tables[side][usize::from(transmitted)].as_ref().map_or(Rgb::zero(l), |table| table.value(l, wi, wo));
+                let Some(table) = &tables[side][usize::from(transmitted)] else { return (Rgb::zero(l), l.f(0.0)) };
+                let value = table.value(l, wi, wo);
                 (value * wi.z, half_vectors.pdf(l, side, transmitted, wi, wo))
             }
             Scattering::Trees(trees, half_vectors) => {
-                let value = trees[side][usize::from(transmitted)].as_ref().map_or(Rgb::zero(l), |tree| tree.value(l, wi, wo));
+                let Some(tree) = &trees[side][usize::from(transmitted)] else { return (Rgb::zero(l), l.f(0.0)) };
+                let value = tree.value(l, wi, wo);
                 (value * wi.z, half_vectors.pdf(l, side, transmitted, wi, wo))
             }
             Scattering::Patches(patches) => {
@@ -136,7 +137,7 @@ fn is_isotropic(measured: &Measured) -> bool {
 }
 
 fn scattering(measured: &Measured, sampler: &Sampler<'_>) -> Option<Scattering> {
-    let half_vectors = || HalfVectors::new(sampler.table()?);
+    let half_vectors = || HalfVectors::new(sampler.table()?).map(Box::new);
     Some(match measured {
         Measured::Tables(tables) => {
             let mut sides = [[None, None], [None, None]];
@@ -146,10 +147,13 @@ fn scattering(measured: &Measured, sampler: &Sampler<'_>) -> Option<Scattering> 
                     *place = Some(BsdfTable::new(found)?);
                 }
             }
-            Scattering::Tables(sides, half_vectors()?)
+            Scattering::Tables(Box::new(sides), half_vectors()?)
         }
-        Measured::Tree(tree) => Scattering::Trees(PAIRS.map(|pairs| pairs.map(|pair| ColourTree::new(tree, pair))), half_vectors()?),
-        Measured::Patches(patches) => Scattering::Patches(PatchMatrices::new(patches)?),
+        Measured::Tree(tree) => {
+            let sides = PAIRS.map(|pairs| pairs.map(|pair| ColourTree::new(tree, pair)));
+            Scattering::Trees(Box::new(sides), half_vectors()?)
+        }
+        Measured::Patches(patches) => Scattering::Patches(Box::new(PatchMatrices::new(patches)?)),
         Measured::Rgl(rgl) => Scattering::Adaptive(Box::new(Adaptive::new(rgl)?)),
     })
 }

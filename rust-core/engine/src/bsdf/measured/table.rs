@@ -18,9 +18,9 @@ pub(super) struct BsdfTable {
 #[derive(Clone, Debug)]
 enum Cells {
     /// Isotropic and half/difference coordinates.
-    Three(Colours<3>),
+    Three(Box<Colours<3>>),
     /// Anisotropic and specular ones.
-    Four(Colours<4>),
+    Four(Box<Colours<4>>),
 }
 
 impl BsdfTable {
@@ -38,9 +38,9 @@ impl BsdfTable {
             axes.push(axis(knots, is_azimuth(layout.coordinates, number))?);
         }
         let cells = if axes.len() == 3 {
-            Cells::Three(Colours::new(axes.try_into().ok()?, colour)?)
+            Cells::Three(Box::new(Colours::new(axes.try_into().ok()?, colour)?))
         } else {
-            Cells::Four(Colours::new(axes.try_into().ok()?, colour)?)
+            Cells::Four(Box::new(Colours::new(axes.try_into().ok()?, colour)?))
         };
         Some(Self { coordinates: layout.coordinates, bilateral: layout.bilateral, reciprocal: layout.reciprocal, cells })
     }

@@ -55,12 +55,14 @@ fn is_one_sided(measured: &Measured) -> bool {
     Hemispheres::ALL.into_iter().all(|pair| measured.has(pair) == (pair == Hemispheres::ReflectionFront))
 }
 
+fn is_isotropic(surface: &Surface) -> bool {
+    surface.measured.as_ref().is_some_and(|laid_out| laid_out.is_isotropic())
+}
+
 /// Evaluations that differ from the reference: their share, and the largest difference of the others.
-fn differences(measured: &Measured, surface: &Surface, execution: Execution) -> (f64, f64) {
+fn differences(measured: &Measured, sampler: &Sampler<'_>, surface: &Surface, execution: Execution) -> (f64, f64) {
     const VIEWS: u64 = 60;
     const LIGHTS: u64 = 64;
-    let isotropic = surface.measured.as_ref().is_some_and(|laid_out| laid_out.is_isotropic());
-    let sampler = Sampler::new(measured, &if isotropic { Resolution::ISOTROPIC } else { Resolution::ANISOTROPIC });
     let (mut odd, mut largest) = (0, 0.0_f64);
     for number in 0..VIEWS {
         let mut wo = any_direction(900_000 + number);
@@ -91,8 +93,9 @@ fn differences(measured: &Measured, surface: &Surface, execution: Execution) -> 
 fn lanes_agree_with_the_reference() {
     let mut failures = Vec::new();
     for (name, measured, surface) in ALL.iter() {
+        let sampler = Sampler::new(measured, &if is_isotropic(surface) { Resolution::ISOTROPIC } else { Resolution::ANISOTROPIC });
         for execution in Execution::all() {
-            let (odd, largest) = differences(measured, surface, execution);
+            let (odd, largest) = differences(measured, &sampler, surface, execution);
             // Where cells are constant, rounding may choose the one beside.
             let allowed = if matches!(measured, Measured::Patches(_) | Measured::Tree(_)) { 2e-3 } else { 5e-4 };
             if odd > allowed {
@@ -131,7 +134,7 @@ fn samples_follow_their_density() {
 
 /// The share of light that leaves to a view, from the reference.
 fn reference_albedo(measured: &Measured, wo: Direction) -> [f64; 3] {
-    const ROWS: usize = 240;
+    const ROWS: usize = 160;
     let mut sum = [0.0; 3];
     for row in 0..2 * ROWS {
         let z = (row as f64 + 0.5) / ROWS as f64 - 1.0;
@@ -159,11 +162,9 @@ fn a_furnace_loses_what_the_measurement_loses() {
                     failures.push(format!("{name} at {angle}, channel {channel}: {found:.4} for {:.4}", expected[channel]));
                 }
             }
-            // What the choice of lobes and the albedo pass know is the mean over azimuths.
+            // What the choice of lobes and the albedo pass know is the mean over azimuths, linear between some views.
             let estimate = view.summary().albedo[1];
-            if surface.measured.as_ref().is_some_and(|laid_out| laid_out.is_isotropic())
-                && (f64::from(estimate) / expected[1] - 1.0).abs() > 3e-2
-            {
+            if is_isotropic(surface) && (f64::from(estimate) / expected[1] - 1.0).abs() > 6e-2 {
                 failures.push(format!("{name} at {angle}: estimate {estimate:.4} for {:.4}", expected[1]));
             }
         }
@@ -203,6 +204,35 @@ fn tint_scale_and_turn_are_as_asked() {
     for channel in 0..3 {
         let factor = [1.0, 2.0, 0.5][channel];
         assert!((found[channel] - factor * expected[channel]).abs() < 1e-3 * expected[channel], "{found:?} for {expected:?}");
+    }
+}
+
+/// The same in all directions.
+fn lambert(albedo: f64) -> Measured {
+    let axis = |last: f64| Axis::uniform(0.0, last, 2, Mode::Linear).expect("increasing");
+    let layout = Layout {
+        coordinates: Coordinates::Isotropic,
+        axes: vec![axis(1.5), axis(1.5), axis(PI)],
+        channels: Channels::Luminance,
+        hemispheres: Hemispheres::ReflectionFront,
+        reciprocal: true,
+        bilateral: true,
+    };
+    let table = Table::from_function(layout, |_, _, out| out[0] = (albedo / PI) as f32).expect("a value for each cell");
+    Measured::Tables(vec![table])
+}
+
+#[test]
+fn a_coat_lies_over_a_measurement_as_over_a_base() {
+    let coat: rows::Values =
+        &[(p::BASE_COLOR, &[1.0; 3]), (p::SPECULAR_WEIGHT, &[0.0]), (p::COAT_WEIGHT, &[1.0]), (p::COAT_ROUGHNESS, &[0.3])];
+    let over_base = surface(Switches::default(), coat);
+    let laid_out = Arc::new(MeasuredBsdf::new(&lambert(1.0)).expect("a small measurement"));
+    let over_measured = Surface::measured(over_base.constants, &[false; p::COUNT], Switches::default(), laid_out);
+    for angle in [10.0_f32, 60.0] {
+        let albedo = |surface: &Surface| View::new(surface, angle, true).albedo(1 << 15)[0][1];
+        let (found, expected) = (albedo(&over_measured), albedo(&over_base));
+        assert!((found / expected - 1.0).abs() < 1e-2, "at {angle}: {found:.4} for {expected:.4}");
     }
 }
 
