@@ -23,18 +23,18 @@ def direction(theta_deg, phi_deg):
 
 
 def brushed(wi, wo):
-    """A brushed metal, Ward's model (1992) with the widths 0.12 and 0.4: what a gonioreflectometer would have given, 1/sr."""
+    """A brushed metal, Ward's model (1992) with the widths 0.18 and 0.45: what a gonioreflectometer would have given, 1/sr."""
     half = wi + wo
     half = half / numpy.linalg.norm(half, axis=-1, keepdims=True)
-    slope = (half[..., 0] / 0.12) ** 2 + (half[..., 1] / 0.4) ** 2
+    slope = (half[..., 0] / 0.18) ** 2 + (half[..., 1] / 0.45) ** 2
     cosines = numpy.maximum(wi[..., 2] * wo[..., 2], 1e-3)
-    lobe = numpy.exp(-slope / half[..., 2] ** 2) / (4.0 * numpy.pi * 0.12 * 0.4 * numpy.sqrt(cosines))
+    lobe = numpy.exp(-slope / half[..., 2] ** 2) / (4.0 * numpy.pi * 0.18 * 0.45 * numpy.sqrt(cosines))
     return 0.6 * lobe + 0.05 / numpy.pi
 
 
 def measured(path):
     """The metal as a table over both directions, written to a file and read again."""
-    theta, phi = numpy.linspace(0.0, 88.0, 23), numpy.arange(0.0, 360.0, 10.0)
+    theta, phi = numpy.linspace(0.0, 88.0, 23), numpy.arange(0.0, 360.0, 5.0)
     wi, wo = direction(theta[:, None], phi[None, :]), direction(theta[:, None], phi[None, :])
     values = brushed(wi[:, :, None, None], wo[None, None])
     axes = {"theta_i": theta, "phi_i": phi, "theta_o": theta, "phi_o": phi}
