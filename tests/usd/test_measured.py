@@ -52,7 +52,8 @@ def Camera "Camera"
 TYPED = """import sys, gonio
 print(gonio.load_usd(sys.argv[1]).to_dict()["materials"][0]["closures"][0]["model"])
 from pxr import Usd
-print(Usd.Stage.Open(sys.argv[1]).GetPrimAtPath("/Paint/S").GetAttribute("inputs:scale").Get())
+stage = Usd.Stage.Open(sys.argv[1])
+print(stage.GetPrimAtPath("/Paint/S").GetAttribute("inputs:scale").Get())
 """
 
 
