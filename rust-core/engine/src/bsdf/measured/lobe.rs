@@ -19,10 +19,12 @@ impl<'s, L: Lanes> MeasuredLobe<'s, L> {
         Self { bsdf, front }
     }
     /// Whether some light may pass through.
+    #[inline(always)]
     pub(crate) fn transmits(&self) -> bool {
         self.bsdf.scatters.iter().any(|side| side[1])
     }
     /// Roughness r that spreads light about as far as the measurement.
+    #[inline(always)]
     pub(crate) fn roughness(&self) -> f32 {
         self.bsdf.albedos.roughness()
     }

@@ -52,6 +52,12 @@ pub(super) fn place(position: [f32; 3], per_metre: f32) -> [u32; 2] {
     hashed(Vec3::splat(One, position), per_metre).map(|word| word.0)
 }
 
+/// A number in `[0, 1)` again after it was spread.
+#[inline(always)]
+fn below_one<L: Lanes>(u: F<L>) -> F<L> {
+    u.clamp(0.0, 1.0 - f32::EPSILON)
+}
+
 impl KnownLights {
     #[inline(always)]
     fn cell<L: Lanes>(&self, l: L, p: Vec3<L>) -> Cell<L> {
@@ -77,11 +83,10 @@ impl KnownLights {
         let cell = self.cell(l, p);
         let among_known = u.lt(cell.share);
         let rest = l.f(1.0) - cell.share;
-        let spread = |part: F<L>| part.clamp(0.0, 1.0 - f32::EPSILON);
         let (mut light, mut probability) = (l.u(0), l.f(0.0));
         if among_known.any() {
             let (weights, total) = cell.weigh(l, tree, p, n);
-            let drawn = draw(l, &weights, total, spread(u / cell.share.max(f32::MIN_POSITIVE)));
+            let drawn = draw(l, &weights, total, below_one(u / cell.share.max(f32::MIN_POSITIVE)));
             let mut leaf = cell.leaves[0];
             for (number, other) in cell.leaves.iter().enumerate().skip(1) {
                 leaf = drawn.index.eq(number as u32).select(*other, leaf);
@@ -92,7 +97,7 @@ impl KnownLights {
         if !(!among_known).any() {
             return (light, probability);
         }
-        let u = spread((u - cell.share) / rest);
+        let u = below_one((u - cell.share) / rest);
         let unknown = !among_known;
         let (other, chance) =
             if unknown.count() <= FEW { tree.choose_each(l, rows, p, n, u, unknown) } else { tree.choose(l, rows, p, n, u) };
