@@ -19,7 +19,9 @@ impl Blas {
             let corners = corners(positions, triangle)?;
             Some((corners, triangle_bounds(&corners)?))
         };
-        if triangles.par_iter().filter_map(placed).count() != self.triangles {
+        // Where all are in the tree, none can enter, and one that leaves is found below.
+        let all = self.triangles == triangles.len();
+        if !all && triangles.par_iter().filter_map(placed).count() != self.triangles {
             return None;
         }
         let fitted = |block: &TriangleBlock| fitted(block, |triangle| placed(&triangles[triangle]));
