@@ -32,7 +32,7 @@ def main() -> int:
 
     bpy.ops.wm.read_factory_settings()
     addon = Path(os.environ.get("GONIO_ADDON", ROOT / "blender-addon"))
-    sys.path.insert(0, str(file.parent))
+    sys.path[:0] = [str(file.parent), str(ROOT / "tests" / "validate")]
     extension = load(PACKAGE, addon / "__init__.py", addon)
     extension.register()
     try:

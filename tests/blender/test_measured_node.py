@@ -3,26 +3,13 @@
 import math
 
 import pytest
-
-MATT = """gbsdf 1
-table reflection-front isotropic
-channels rgb
-axis theta_i linear 2
-0 90
-axis theta_o linear 2
-0 90
-axis delta_phi nearest 1
-0
-values text
-{values}
-end
-"""
+from measured_files import matt_text
 
 
 def write_matt(folder, reflectance=(0.6, 0.3, 0.1)):
     """A Lambertian measurement."""
     path = folder / "matt.gbsdf"
-    path.write_text(MATT.format(values=" ".join(str(share / math.pi) for share in reflectance * 4)))
+    path.write_text(matt_text(reflectance))
     return path
 
 

@@ -5,29 +5,14 @@ import math
 import xml.etree.ElementTree as ET
 
 import pytest
-from measured_files import ggx, merl_bytes
-
-MATT = """gbsdf 1
-title a matt surface
-table reflection-front isotropic
-channels rgb
-axis theta_i linear 2
-0 90
-axis theta_o linear 2
-0 90
-axis delta_phi nearest 1
-0
-values text
-{values}
-end
-"""
+from measured_files import MATT, ggx, matt_text, merl_bytes
 
 
 @pytest.fixture
 def matt(tmp_path):
     """A Lambertian surface of 50 %, 30 % and 10 %."""
     path = tmp_path / "matt.gbsdf"
-    path.write_text(MATT.format(values=" ".join(str(share / math.pi) for share in (0.5, 0.3, 0.1) * 4)))
+    path.write_text(matt_text((0.5, 0.3, 0.1)))
     return path
 
 

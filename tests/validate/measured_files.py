@@ -1,5 +1,7 @@
 """Measured materials with known answers, written by the tests: a GGX surface with a matt part, in MERL's and in our own format."""
 
+import math
+
 import numpy
 
 
@@ -77,3 +79,24 @@ def merl_bytes(bins, brdf):
     cells[above] = brdf(wi[above], wo[above])
     stored = numpy.where(numpy.isnan(cells), -1.0, cells / MERL_SCALE)
     return numpy.array(bins, "<i4").tobytes() + numpy.moveaxis(stored, -1, 0).astype("<f8").tobytes(), cells
+
+
+MATT = """gbsdf 1
+title a matt surface
+table reflection-front isotropic
+channels rgb
+axis theta_i linear 2
+0 90
+axis theta_o linear 2
+0 90
+axis delta_phi nearest 1
+0
+values text
+{values}
+end
+"""
+
+
+def matt_text(reflectance):
+    """A Lambertian surface of three reflectances, in our own format as text."""
+    return MATT.format(values=" ".join(str(share / math.pi) for share in reflectance * 4))

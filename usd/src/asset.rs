@@ -1,6 +1,9 @@
 //! Files that asset-valued attributes name, wherever the asset system has them.
 
 use crate::pxr::{self, Module};
+use crate::vt::AssetPath;
+use gonio::Error;
+use gonio_formats::FormatError;
 use pyo3::{intern, prelude::*};
 
 /// The bytes behind a resolved path: a file, or a part of a package. The message says what is wrong without naming the place.
@@ -18,4 +21,19 @@ pub fn bytes(py: Python<'_>, place: &str) -> Result<Vec<u8>, String> {
         Ok(None) => Err("cannot be opened".to_owned()),
         Err(error) => Err(format!("cannot be opened: {}", pxr::message_of(py, &error))),
     }
+}
+
+/// What a reader makes of the file that an attribute names. The message names the file and says what it is, and what is wrong with it.
+pub fn read<T>(
+    py: Python<'_>,
+    path: &AssetPath,
+    what: &str,
+    reader: impl FnOnce(&[u8], &str) -> Result<T, FormatError>,
+) -> Result<T, String> {
+    let AssetPath { authored, resolved } = path;
+    if resolved.is_empty() {
+        return Err(format!("the {what} '{authored}' does not exist"));
+    }
+    let bytes = bytes(py, resolved).map_err(|problem| format!("the {what} '{resolved}' {problem}"))?;
+    reader(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string())
 }

@@ -37,17 +37,10 @@ pub(crate) fn goniogram<'py>(
 }
 
 fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {
-    let AssetPath { authored, resolved } = path;
-    let found = if resolved.is_empty() {
-        Err(format!("the light distribution '{authored}' does not exist"))
-    } else {
-        let bytes = asset::bytes(context.py, resolved).map_err(|problem| format!("the light distribution '{resolved}' {problem}"));
-        bytes.and_then(|bytes| photometry::read(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string()))
-    };
-    match found {
+    match asset::read(context.py, path, "light distribution", photometry::read) {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {
-                context.note(origin, Error::in_file(resolved, warning).to_string());
+                context.note(origin, Error::in_file(&path.resolved, warning).to_string());
             }
             Some(goniogram)
         }

@@ -65,10 +65,17 @@ impl Error {
     pub fn io(path: impl Into<PathBuf>, source: std::io::Error) -> Self {
         Self::Io { path: path.into(), source }
     }
-    /// What a reader found wrong with a file's content, with the file.
+    /// What a reader found wrong with a file's content, with the file; a byte is told in the problem's words.
     pub fn in_file(path: impl Into<PathBuf>, error: &FormatError) -> Self {
-        let line = if let Some(Place::Line(line)) = error.place { Some(line) } else { None };
-        Self::Format { path: path.into(), line, problem: error.problem.clone() }
+        let (line, problem) = match error.place {
+            Some(Place::Line(line)) => (Some(line), error.problem.clone()),
+            _ => (None, error.to_string()),
+        };
+        Self::Format { path: path.into(), line, problem }
+    }
+    /// A setting's problem.
+    pub fn setting(name: &str, problem: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), problem: problem.into() }
     }
     /// A scene element's problem.
     pub fn scene(origin: &Origin, problem: impl Into<String>) -> Self {

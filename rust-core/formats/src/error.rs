@@ -35,13 +35,6 @@ impl FormatError {
     pub fn byte(byte: u64, problem: impl Into<String>) -> Self {
         Self { place: Some(Place::Byte(byte)), problem: problem.into() }
     }
-    /// The same with a byte told in the problem's words, for hosts that know lines alone.
-    pub fn by_lines(&self) -> Self {
-        match self.place {
-            Some(Place::Byte(_)) => Self::whole(self.to_string()),
-            _ => self.clone(),
-        }
-    }
 }
 
 impl std::fmt::Display for Place {

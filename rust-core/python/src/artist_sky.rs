@@ -42,7 +42,7 @@ pub(crate) fn artist_sky(
         }
         other => {
             let expected = "preetham, hosek-wilkie, single-scattering or multiple-scattering";
-            Err(gonio::Error::Setting { name: "model".into(), problem: format!("'{other}' was found, expected {expected}") })
+            Err(gonio::Error::setting("model", format!("'{other}' was found, expected {expected}")))
         }
     });
     let (image, sun) = drawn.map_err(exception)?;

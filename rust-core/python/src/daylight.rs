@@ -1,6 +1,9 @@
 //! Daylight by place, time and weather.
 
-use crate::{error::exception, pass::Pass};
+use crate::{
+    error::{exception, setting},
+    pass::Pass,
+};
 use gonio::sky::{self, Air, Frame, Irradiance, Moment, Place, SkyModel, SunTimes, UpAxis};
 use gonio_formats::weather;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
@@ -25,7 +28,7 @@ pub(crate) fn up_axis(name: &str) -> PyResult<UpAxis> {
     match name {
         "Y" | "y" => Ok(UpAxis::Y),
         "Z" | "z" => Ok(UpAxis::Z),
-        other => Err(exception(gonio::Error::Setting { name: "up".into(), problem: format!("'{other}' was found, expected Y or Z") })),
+        other => Err(setting("up", format!("'{other}' was found, expected Y or Z"))),
     }
 }
 
@@ -182,8 +185,7 @@ impl Daylight {
 /// How the sky stands over a scene.
 pub(crate) fn frame(up: &str, north: f64) -> PyResult<Frame> {
     if !north.is_finite() {
-        let problem = format!("{north} was found, expected degrees");
-        return Err(exception(gonio::Error::Setting { name: "north".into(), problem }));
+        return Err(setting("north", format!("{north} was found, expected degrees")));
     }
     Ok(Frame { up_axis: up_axis(up)?, north_deg: north })
 }

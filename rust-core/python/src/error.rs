@@ -11,6 +11,11 @@ create_exception!(gonio, SettingError, Error, "A setting is out of its range.");
 create_exception!(gonio, UnsupportedError, Error, "A feature that gonio does not have.");
 create_exception!(gonio, Cancelled, Error, "The caller asked to stop.");
 
+/// The exception for a setting's problem.
+pub(crate) fn setting(name: &str, problem: impl Into<String>) -> PyErr {
+    exception(EngineError::setting(name, problem))
+}
+
 /// The exception for an engine's error.
 pub(crate) fn exception(error: EngineError) -> PyErr {
     let message = error.to_string();

@@ -32,7 +32,7 @@ impl MeasuredBsdf {
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let found = py.detach(|| {
             let bytes = std::fs::read(&path).map_err(|error| Error::io(&path, error))?;
-            read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(&path, &error.by_lines()))
+            read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(&path, &error))
         });
         found.map(Self::of).map_err(exception)
     }
@@ -41,7 +41,7 @@ impl MeasuredBsdf {
     #[staticmethod]
     #[pyo3(signature = (data, name = "bytes"))]
     fn from_bytes(py: Python<'_>, data: &[u8], name: &str) -> PyResult<Self> {
-        let found = py.detach(|| read(data, name).map_err(|error| Error::in_file(name, &error.by_lines())));
+        let found = py.detach(|| read(data, name).map_err(|error| Error::in_file(name, &error)));
         found.map(Self::of).map_err(exception)
     }
 
@@ -163,7 +163,7 @@ impl MeasuredBsdf {
                 Measured::Tables(tables) => gbsdf::write(tables, title, encoding),
                 other => {
                     let tables = other.resampled(grid);
-                    let tables = tables.map_err(|error| Error::Setting { name: "theta, phi".into(), problem: error.problem })?;
+                    let tables = tables.map_err(|error| Error::setting("theta, phi", error.problem))?;
                     gbsdf::write(&tables, title, encoding)
                 }
             };

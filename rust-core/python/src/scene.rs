@@ -4,7 +4,7 @@ use crate::{
     buffer::{floats_of_any_width, matrices},
     daylight::{self, Daylight},
     description,
-    error::exception,
+    error::{exception, setting},
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
     settings,
@@ -37,10 +37,6 @@ fn transform(matrix: Option<&Bound<'_, PyAny>>) -> PyResult<Transform> {
         return Err(PyValueError::new_err("transform: expected a 4 by 4 matrix"));
     }
     Ok(Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| rows[row][column])) })
-}
-
-fn setting(name: &str, problem: String) -> PyErr {
-    exception(gonio::Error::Setting { name: name.into(), problem })
 }
 
 #[pymethods]
@@ -194,7 +190,7 @@ impl Scene {
                 continue;
             }
             let known = gonio::bsdf::parameter::find(&key);
-            let parameter = known.ok_or_else(|| setting(&key, "the surface has no parameter of this name".into()))?;
+            let parameter = known.ok_or_else(|| setting(&key, "the surface has no parameter of this name"))?;
             let numbers: Vec<f32> =
                 if let Ok(number) = value.extract::<f32>() { vec![number; parameter.width()] } else { value.extract()? };
             if numbers.len() != parameter.width() {

@@ -1,15 +1,11 @@
 //! Tables of measured materials as Python describes them.
 
-use crate::error::exception;
+use crate::error::setting;
 use gonio_formats::{
     FormatError,
     bsdf::{Axis, Channels, Coordinates, Hemispheres, Mode},
 };
 use pyo3::{prelude::*, types::PyDict};
-
-fn setting(name: &str, problem: String) -> PyErr {
-    exception(gonio::Error::Setting { name: name.into(), problem })
-}
 
 /// What is wrong with a table.
 pub(crate) fn wrong(error: &FormatError) -> PyErr {

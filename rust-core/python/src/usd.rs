@@ -1,6 +1,9 @@
 //! USD stages and the command line.
 
-use crate::{error::exception, scene::Scene};
+use crate::{
+    error::{exception, setting},
+    scene::Scene,
+};
 use gonio_usd::{
     Complexity, Purpose, SampleTime, StageOptions,
     camera::primary_camera_name,
@@ -25,7 +28,6 @@ pub(crate) fn load_usd(
     neutral_dome: bool,
     strict: bool,
 ) -> PyResult<Scene> {
-    let setting = |name: &str, problem: String| exception(gonio::Error::Setting { name: name.into(), problem });
     let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)

@@ -89,6 +89,11 @@ impl<L: Lanes> F<L> {
     pub fn clamp(self, low: impl ToF<L>, high: impl ToF<L>) -> Self {
         self.max(low).min(high)
     }
+    /// The part that the value is of a whole, 0 where there is none.
+    #[inline(always)]
+    pub fn share_of(self, whole: Self) -> Self {
+        (self / whole.max(f32::MIN_POSITIVE)).keep_if(whole.gt(0.0))
+    }
     /// The value held in `[0, 1]`.
     #[inline(always)]
     pub fn saturate(self) -> Self {

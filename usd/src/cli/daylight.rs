@@ -1,11 +1,10 @@
 //! `gonio render --sun`.
 
-use super::{arguments::DaylightArguments, say};
+use super::{arguments::DaylightArguments, file, say};
 use crate::{Loaded, daylight::up_axis};
 use gonio::sky::{DEFAULT_ROWS, Daylight, Frame, Irradiance, Moment, Place, SkyModel};
 use gonio::{Error, Result};
 use gonio_formats::weather;
-use std::{fs::File, io::Read, path::Path};
 
 /// The longest weather file in bytes: ten times a year in steps of a minute.
 const LONGEST: u64 = 1 << 30;
@@ -15,7 +14,7 @@ pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_quiet: 
     let Some(text) = &arguments.sun else { return Ok(()) };
     let daylight = read(arguments, text)?;
     if !arguments.north.is_finite() {
-        return Err(setting("north", format!("{} was found, expected degrees", arguments.north)));
+        return Err(Error::setting("north", format!("{} was found, expected degrees", arguments.north)));
     }
     let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: arguments.north };
     let sky = daylight.add_to(&mut loaded.scene, &frame, DEFAULT_ROWS)?;
@@ -34,7 +33,7 @@ pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_quiet: 
 fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
     let parts: Vec<&str> = text.splitn(3, ',').collect();
     let [latitude, longitude, time] = parts[..] else {
-        return Err(setting("sun", format!("'{text}' was found, expected latitude, longitude and time, separated by commas")));
+        return Err(Error::setting("sun", format!("'{text}' was found, expected latitude, longitude and time, separated by commas")));
     };
     let place =
         Place { latitude_deg: number("sun", latitude)?, longitude_deg: number("sun", longitude)?, elevation_m: arguments.elevation };
@@ -45,7 +44,7 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
     daylight.is_coloured = !arguments.white;
     if let Some(text) = &arguments.irradiance {
         let problem = || {
-            setting(
+            Error::setting(
                 "irradiance",
                 format!("'{text}' was found, expected direct normal and diffuse horizontal irradiance, separated by a comma"),
             )
@@ -55,25 +54,14 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
             Some(Irradiance { direct_normal: number("irradiance", direct)?, diffuse_horizontal: number("irradiance", diffuse)? });
     }
     if let Some(path) = &arguments.weather {
-        let bytes = bytes(path)?;
+        let bytes = file::read(path, LONGEST, "weather file")?;
         let found = weather::read(&bytes).map_err(|error| Error::in_file(path, &error))?;
         daylight.take_weather(&found).map_err(|error| Error::Format { path: path.clone(), line: None, problem: error.to_string() })?;
     }
     Ok(daylight)
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>> {
-    let file = File::open(path).map_err(|error| Error::io(path, error))?;
-    let mut bytes = Vec::new();
-    let _ = file.take(LONGEST).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
-    Ok(bytes)
-}
-
 fn number(name: &str, text: &str) -> Result<f64> {
     let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
-    value.ok_or_else(|| setting(name, format!("'{text}' was found, expected a number")))
-}
-
-fn setting(name: &str, problem: String) -> Error {
-    Error::Setting { name: name.into(), problem }
+    value.ok_or_else(|| Error::setting(name, format!("'{text}' was found, expected a number")))
 }

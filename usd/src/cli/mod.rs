@@ -5,6 +5,7 @@ mod bench;
 mod bsdf;
 mod compare;
 mod daylight;
+mod file;
 mod file_name;
 mod frames;
 mod info;

@@ -1,14 +1,17 @@
 //! `gonio photometry`.
 
-use super::{arguments::PhotometryOptions, print};
+use super::{
+    arguments::PhotometryOptions,
+    file::{self, check_ending, ending},
+    print,
+};
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::photometry::{
     Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt,
     polar_diagram, read,
 };
 use serde_json::{Value, json};
-use std::fs::File;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// The longest file in bytes: hundreds of times the longest luminaire's.
@@ -45,29 +48,10 @@ fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &
     all.into_iter().filter_map(|(option, path, endings)| Some((option, path.as_deref()?, endings)))
 }
 
-fn ending(path: &Path) -> String {
-    path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
-}
-
-fn check_ending(option: &str, path: &Path, endings: &[&str]) -> Result<()> {
-    let found = ending(path);
-    if endings.contains(&found.as_str()) {
-        return Ok(());
-    }
-    let problem = format!("{}: the ending is '{found}', expected {}", path.display(), endings.join(" or "));
-    Err(Error::Setting { name: option.into(), problem })
-}
-
 /// The file's goniogram, for the lamps and with the turn that were asked for.
 fn load(options: &PhotometryOptions) -> Result<Goniogram> {
     let path = &options.file;
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|error| Error::io(path, error))?;
-    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
-    if bytes.len() as u64 > LONGEST {
-        let problem = format!("more than {LONGEST} bytes: no luminaire's file");
-        return Err(Error::Format { path: path.clone(), line: None, problem });
-    }
+    let bytes = file::read(path, LONGEST, "luminaire's file")?;
     let mut goniogram = read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(path, &error))?;
     if let Some(number) = options.lamp_set {
         let chosen = goniogram.with_lamp_set(number as usize - 1);

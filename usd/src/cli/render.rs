@@ -78,13 +78,12 @@ fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
 
 /// What of the stage is read, from the command line.
 pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> {
-    let setting = |name: &str, problem: String| Error::Setting { name: name.into(), problem };
     let purpose = |token: &String| {
-        let problem = || setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
+        let problem = || Error::setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
         Purpose::from_token(token).ok_or_else(problem)
     };
     let variant = |text: &String| {
-        let problem = || setting("variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
+        let problem = || Error::setting("variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
         VariantSelection::parse(text).ok_or_else(problem)
     };
     Ok(StageOptions {

@@ -10,7 +10,6 @@ use super::value::{Source, Value};
 use crate::asset;
 use crate::context::Context;
 use crate::vt::AssetPath;
-use gonio::Error;
 use gonio::scene::{Closure, Input, MeasuredBsdf, MeasuredId, Model, Operation, Origin};
 use gonio_formats::bsdf;
 
@@ -48,19 +47,12 @@ fn file<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option
 
 /// The measurement of a file, the same one for all shaders that name it.
 fn measurement(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath) -> Option<MeasuredId> {
-    let AssetPath { authored, resolved } = path;
-    let key = if resolved.is_empty() { authored } else { resolved };
+    let key = if path.resolved.is_empty() { &path.authored } else { &path.resolved };
     if let Some(known) = context.measured_ids.get(key) {
         return *known;
     }
-    let read = if resolved.is_empty() {
-        Err(format!("the measured BSDF '{authored}' does not exist"))
-    } else {
-        let bytes = asset::bytes(context.py, resolved).map_err(|problem| format!("the measured BSDF '{resolved}' {problem}"));
-        bytes.and_then(|bytes| bsdf::read(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string()))
-    };
-    let id = match read {
-        Ok(data) => Some(context.scene.add_measured(MeasuredBsdf::new(Origin::new(resolved), data))),
+    let id = match asset::read(context.py, path, "measured BSDF", bsdf::read) {
+        Ok(data) => Some(context.scene.add_measured(MeasuredBsdf::new(Origin::new(&path.resolved), data))),
         Err(problem) => {
             context.warn(origin, format!("{problem}; the surface is grey"));
             None

@@ -17,7 +17,8 @@ const OUTLINE: usize = 32;
 pub struct Blas {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<TriangleBlock>,
-    pub(super) bounds: Bounds,
+    /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
+    pub(super) outline: Vec<Bounds>,
     pub(super) triangles: usize,
     /// What rays may expect to meet (`refit.rs`), as it was built.
     pub(super) looseness: f32,
@@ -57,21 +58,8 @@ impl Blas {
         let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
         let looseness = looseness(&tree.nodes, &bounds);
-        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, bounds, triangles: boxes.len(), looseness })
-    }
-
-    /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
-    pub(super) fn outline(&self) -> Vec<Bounds> {
-        let mut outline = vec![(self.bounds, ChildRef::ROOT)];
-        let area = |(bounds, _): &(Bounds, ChildRef)| bounds.half_area();
-        while outline.len() + WIDTH <= OUTLINE {
-            let opened =
-                (0..outline.len()).filter(|i| outline[*i].1.is_inner()).max_by(|a, b| area(&outline[*a]).total_cmp(&area(&outline[*b])));
-            let Some(opened) = opened else { break };
-            let node = &self.nodes[outline.swap_remove(opened).1.index()];
-            outline.extend((0..WIDTH).map(|slot| (node.bounds_of(slot), node.children[slot])).filter(|(bounds, _)| !bounds.is_empty()));
-        }
-        outline.into_iter().map(|(bounds, _)| bounds).filter(|bounds| !bounds.is_empty()).collect()
+        let outline = outline(&tree.nodes, bounds);
+        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, outline, triangles: boxes.len(), looseness })
     }
 
     /// The bytes of the tree.
@@ -82,6 +70,19 @@ impl Blas {
             triangles: self.triangles,
         }
     }
+}
+
+/// The boxes of some nodes that hold all triangles of a tree in these bounds.
+pub(super) fn outline(nodes: &[Node], bounds: Bounds) -> Vec<Bounds> {
+    let mut outline = vec![(bounds, ChildRef::ROOT)];
+    let area = |(bounds, _): &(Bounds, ChildRef)| bounds.half_area();
+    while outline.len() + WIDTH <= OUTLINE {
+        let inner = (0..outline.len()).filter(|i| outline[*i].1.is_inner());
+        let Some(opened) = inner.max_by(|a, b| area(&outline[*a]).total_cmp(&area(&outline[*b]))) else { break };
+        let node = &nodes[outline.swap_remove(opened).1.index()];
+        outline.extend((0..WIDTH).map(|slot| (node.bounds_of(slot), node.children[slot])).filter(|(bounds, _)| !bounds.is_empty()));
+    }
+    outline.into_iter().map(|(bounds, _)| bounds).filter(|bounds| !bounds.is_empty()).collect()
 }
 
 /// A triangle's points, if the mesh has them all.

@@ -1,6 +1,6 @@
 //! The tree of a mesh whose points moved, fitted to them rather than built anew.
 
-use super::blas::{Blas, corners, triangle_bounds};
+use super::blas::{Blas, corners, outline, triangle_bounds};
 use super::node::{Bounds, ChildRef, Node, WIDTH};
 use super::ray::NONE;
 use super::triangle_block::TriangleBlock;
@@ -29,7 +29,8 @@ impl Blas {
         let boxes: Vec<Bounds> = boxes.into_iter().collect::<Option<_>>()?;
         let (nodes, bounds) = fit_nodes(&self.nodes, &boxes);
         let fitting = looseness(&nodes, &bounds) <= self.looseness * LOOSEST;
-        fitting.then_some(Blas { nodes, blocks, bounds, triangles: self.triangles, looseness: self.looseness })
+        let outline = outline(&nodes, bounds);
+        fitting.then_some(Blas { nodes, blocks, outline, triangles: self.triangles, looseness: self.looseness })
     }
 }
 

@@ -28,9 +28,8 @@ impl SceneBvh {
     pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
         let mut boxes = Vec::with_capacity(instances.len());
         let mut records = Vec::with_capacity(instances.len());
-        let outlines: Vec<Vec<Bounds>> = meshes.iter().map(|mesh| mesh.outline()).collect();
         for (id, instance) in instances.iter().enumerate() {
-            if let Some((bounds, record)) = placed(&outlines, instance, id as u32) {
+            if let Some((bounds, record)) = placed(&meshes, instance, id as u32) {
                 boxes.push(bounds);
                 records.push(record);
             }
@@ -66,10 +65,10 @@ impl SceneBvh {
 const MANY_INSTANCES: usize = 10_000;
 
 /// The world box and the record of an instance, if rays can hit it.
-fn placed(outlines: &[Vec<Bounds>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
+fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
     let shape_bounds;
     let outline: &[Bounds] = match instance.geometry {
-        Geometry::Mesh(index) => outlines.get(index as usize)?,
+        Geometry::Mesh(index) => &meshes.get(index as usize)?.outline,
         Geometry::Shape(shape) => {
             shape_bounds = [shape.bounds()];
             &shape_bounds

@@ -99,12 +99,6 @@ pub(super) fn lifted<L: Lanes>(l: L, n: Vec3<L>, cosine: F<L>) -> F<L> {
     n.length_squared().lt(0.5).select(l.f(1.0), cosine.clamp(RECEIVER_FLOOR, 1.0))
 }
 
-/// A part over the whole, 0 where there is none.
-#[inline(always)]
-pub(super) fn proportion<L: Lanes>(part: F<L>, whole: F<L>) -> F<L> {
-    (part / whole.max(f32::MIN_POSITIVE)).keep_if(whole.gt(0.0))
-}
-
 /// How lights are chosen.
 #[derive(Clone, Debug)]
 pub(crate) enum Choice {
@@ -159,7 +153,7 @@ impl LightTable {
                 }
                 let light = light.min(self.count as u32 - 1);
                 let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
-                (light, proportion(chosen, total))
+                (light, chosen.share_of(total))
             }
         }
     }
@@ -174,7 +168,7 @@ impl LightTable {
             (Choice::Weighed, _) => {
                 let total = self.total_estimate(l, p, n);
                 let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
-                proportion(chosen, total)
+                chosen.share_of(total)
             }
         }
     }

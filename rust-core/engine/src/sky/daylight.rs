@@ -2,10 +2,9 @@
 
 use super::{
     Air, CieSky, Clearness, HosekWilkie, Irradiance, Moment, PerezSky, Place, SkyModel, SunPosition, clear_sky_irradiance, colour,
-    diffuse_efficacy, direct_efficacy, distribution::Distribution, extraterrestrial_irradiance, relative_air_mass, setting, sun_position,
-    within,
+    diffuse_efficacy, direct_efficacy, distribution::Distribution, extraterrestrial_irradiance, relative_air_mass, sun_position, within,
 };
-use crate::Result;
+use crate::{Error, Result};
 use gonio_formats::weather::Weather;
 use std::f64::consts::PI;
 
@@ -61,7 +60,8 @@ impl Daylight {
     /// The file does not have the day.
     pub fn take_weather(&mut self, weather: &Weather) -> Result<()> {
         let Moment { month, day, hour, .. } = self.moment.checked()?.with_offset(weather.utc_offset_h);
-        let found = weather.at(month, day, hour).ok_or_else(|| setting("weather", format!("there is no hour of the {day}.{month}.")))?;
+        let found =
+            weather.at(month, day, hour).ok_or_else(|| Error::setting("weather", format!("there is no hour of the {day}.{month}.")))?;
         self.irradiance = Some(Irradiance { direct_normal: found.direct_normal, diffuse_horizontal: found.diffuse_horizontal });
         self.dew_point_c = found.dew_point_c.unwrap_or(USUAL_DEW_POINT_C);
         Ok(())
@@ -101,7 +101,7 @@ impl Daylight {
         let distribution = match self.model {
             SkyModel::Perez => Distribution::Perez(PerezSky::new(&clearness, zenith_angle)),
             SkyModel::HosekWilkie => Distribution::HosekWilkie(blue),
-            SkyModel::Cie(kind) => Distribution::Cie(CieSky::new(kind, zenith_angle).ok_or_else(|| setting("sky", "no such type"))?),
+            SkyModel::Cie(kind) => Distribution::Cie(CieSky::new(kind, zenith_angle).ok_or_else(|| Error::setting("sky", "no such type"))?),
         };
         let unscaled = distribution.horizontal(zenith_angle);
         let [direct_lux, diffuse_lux] = self.illuminances(&irradiance, &clearness, zenith_angle, unscaled);

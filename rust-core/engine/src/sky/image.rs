@@ -1,8 +1,8 @@
 //! The sky as a picture and as lights of a scene.
 
-use super::{Daylight, Frame, SUN_ANGLE_DEG, Sky, setting, within};
-use crate::Result;
+use super::{Daylight, Frame, SUN_ANGLE_DEG, Sky, within};
 use crate::scene::{DomeFormat, Emission, Light, LightShape, Origin, Scene, Texture, TextureSource};
+use crate::{Error, Result};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ pub fn draw_by_angle(elevation_deg: f64, rows: u32, radiance: impl Fn(f64, f64) 
 /// A picture of a radiance by direction (east, north, up), at the middle of every pixel.
 pub(super) fn drawn(rows: u32, radiance: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Result<SkyImage> {
     if !rows.is_multiple_of(2) || !(2..=MOST_ROWS).contains(&rows) {
-        return Err(setting("rows", format!("{rows} was found, expected an even number from 2 to {MOST_ROWS}")));
+        return Err(Error::setting("rows", format!("{rows} was found, expected an even number from 2 to {MOST_ROWS}")));
     }
     let columns = 2 * rows;
     let line = |row: u32| -> Vec<f32> {

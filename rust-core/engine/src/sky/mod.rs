@@ -40,15 +40,10 @@ mod tests;
 
 use crate::{Error, Result};
 
-/// An error about a setting of the daylight.
-fn setting(name: &str, problem: impl Into<String>) -> Error {
-    Error::Setting { name: name.into(), problem: problem.into() }
-}
-
 /// The number, if it is within the range.
 fn within(name: &str, unit: &str, value: f64, range: std::ops::RangeInclusive<f64>) -> Result<f64> {
     if range.contains(&value) {
         return Ok(value);
     }
-    Err(setting(name, format!("{value} was found, expected {} to {}{unit}", range.start(), range.end())))
+    Err(Error::setting(name, format!("{value} was found, expected {} to {}{unit}", range.start(), range.end())))
 }

@@ -1,7 +1,7 @@
 //! Names of the skies.
 
-use super::{CIE_TYPES, setting};
-use crate::Result;
+use super::CIE_TYPES;
+use crate::{Error, Result};
 use std::fmt;
 
 /// How luminance is spread over the sky.
@@ -30,7 +30,7 @@ impl SkyModel {
         let numbered =
             || name.strip_prefix("cie").and_then(|number| number.parse().ok()).filter(|kind| CIE_TYPES.contains(kind)).map(Self::Cie);
         let problem = || format!("'{name}' was found, expected perez, hosek-wilkie, overcast, clear, or cie1 to cie16");
-        known.or_else(numbered).ok_or_else(|| setting("sky", problem()))
+        known.or_else(numbered).ok_or_else(|| Error::setting("sky", problem()))
     }
 
     /// Whether clouds hide the sun.

@@ -1,7 +1,7 @@
 //! Dates and times of day with their offset from universal time.
 
-use super::{setting, within};
-use crate::Result;
+use super::within;
+use crate::{Error, Result};
 use std::fmt;
 
 /// A date and a time of day on clocks that are `utc_offset_h` ahead of universal time (proleptic Gregorian calendar).
@@ -26,8 +26,9 @@ impl Moment {
     /// # Errors
     /// What is wrong with the text, or a date that does not exist.
     pub fn parse(text: &str) -> Result<Self> {
-        let wrong =
-            |what: &str| setting("time", format!("'{text}': {what}, expected ISO 8601 with an offset, such as 2003-10-17T12:30-07:00"));
+        let wrong = |what: &str| {
+            Error::setting("time", format!("'{text}': {what}, expected ISO 8601 with an offset, such as 2003-10-17T12:30-07:00"))
+        };
         let (date, rest) = text.trim().split_once(['T', 't', ' ']).ok_or_else(|| wrong("there is no time of day"))?;
         let (clock, offset) = split_offset(rest.trim()).ok_or_else(|| wrong("there is no offset from UTC"))?;
         let (sign, date) = date.strip_prefix('-').map_or((1, date), |date| (-1, date));

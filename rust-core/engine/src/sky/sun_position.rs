@@ -1,6 +1,6 @@
 //! Where the sun stands: the Solar Position Algorithm of NREL (Reda and Andreas, TP-560-34302), refraction included.
 
-use super::{Moment, setting, within};
+use super::{Moment, within};
 use crate::{Error, Result};
 use solar_positioning::{Horizon, Location, RefractionCorrection, SolarEvents, SolarPositions, delta_t, time::JulianDate};
 
@@ -123,5 +123,5 @@ fn seconds_of_delta_t(moment: &Moment) -> Result<f64> {
 }
 
 fn unusable(error: &solar_positioning::Error) -> Error {
-    setting("sun", error.to_string())
+    Error::setting("sun", error.to_string())
 }

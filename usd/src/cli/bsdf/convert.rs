@@ -26,7 +26,7 @@ pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, p
         (Measured::Tables(tables), None) => (tables.clone(), json!({ "resampled": false })),
         (_, grid) => {
             let grid = grid_of(measured, grid.as_deref())?;
-            let tables = measured.resampled(grid).map_err(|error| Error::Setting { name: "grid".into(), problem: error.problem })?;
+            let tables = measured.resampled(grid).map_err(|error| Error::setting("grid", error.problem))?;
             let difference = mean_difference(measured, &Measured::Tables(tables.clone()));
             (tables, json!({ "resampled": true, "theta": grid.theta, "phi": grid.phi, "mean_difference": difference }))
         }
@@ -44,7 +44,7 @@ fn grid_of(measured: &Measured, asked: Option<&[u32]>) -> Result<Grid> {
     let values = cells * measured.channels().count() as u128;
     if values > MOST_VALUES {
         let problem = format!("{theta} × {phi} angles make {values} numbers a side, expected {MOST_VALUES} at most");
-        return Err(Error::Setting { name: "grid".into(), problem });
+        return Err(Error::setting("grid", problem));
     }
     Ok(Grid { theta: theta as usize, phi: phi as usize, isotropic })
 }

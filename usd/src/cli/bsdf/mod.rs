@@ -4,12 +4,15 @@ mod convert;
 mod describe;
 mod fit;
 
-use super::{arguments::BsdfOptions, print};
+use super::{
+    arguments::BsdfOptions,
+    file::{self, check_ending},
+    print,
+};
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::bsdf::{Format, Measured, lobe_diagram, lobe_map, read};
 use serde_json::Value;
-use std::fs::File;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// The longest file in bytes: a spectral anisotropic measurement of RGL takes 100 MB.
@@ -30,7 +33,7 @@ pub(super) fn bsdf(options: &BsdfOptions) -> Result<i32> {
         ("material", &options.material, "usda"),
     ];
     for (option, path, expected) in outputs {
-        path.as_deref().map_or(Ok(()), |path| check_ending(option, path, expected))?;
+        path.as_deref().map_or(Ok(()), |path| check_ending(option, path, &[expected]))?;
     }
     let loaded = load(&options.file)?;
     let name = options.file.file_name().unwrap_or_default().to_string_lossy();
@@ -68,29 +71,14 @@ fn as_text(description: &Value) -> Vec<String> {
     lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
 }
 
-fn check_ending(option: &str, path: &Path, expected: &str) -> Result<()> {
-    let found = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    if found == expected {
-        return Ok(());
-    }
-    let problem = format!("{}: the ending is '{found}', expected {expected}", path.display());
-    Err(Error::Setting { name: option.into(), problem })
-}
-
 fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     write_atomically(path, true, |file| file.write_all(bytes))
 }
 
 fn load(path: &Path) -> Result<Loaded> {
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|error| Error::io(path, error))?;
-    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
-    if bytes.len() as u64 > LONGEST {
-        let problem = format!("more than {LONGEST} bytes: no measured material's file");
-        return Err(Error::Format { path: path.into(), line: None, problem });
-    }
+    let bytes = file::read(path, LONGEST, "measured material's file")?;
     let name = path.to_string_lossy();
-    let measured = read(&bytes, &name).map_err(|error| Error::in_file(path, &error.by_lines()))?;
+    let measured = read(&bytes, &name).map_err(|error| Error::in_file(path, &error))?;
     let format = Format::of(&bytes, &name).unwrap_or(Format::Gbsdf);
     Ok(Loaded { measured, format })
 }

@@ -1,5 +1,6 @@
 //! Angles of directions on lanes.
 
+use crate::bsdf::lobes::turned as in_turned_frame;
 use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use gonio_simd::{F, Lanes, Vec3};
 
@@ -29,8 +30,8 @@ pub(super) fn azimuth<L: Lanes>(d: Vec3<L>) -> [F<L>; 2] {
 
 /// `d` turned about the normal by minus an azimuth of this cosine and sine.
 #[inline(always)]
-pub(super) fn unturned<L: Lanes>(d: Vec3<L>, [cos, sin]: [F<L>; 2]) -> Vec3<L> {
-    Vec3::new(cos.mul_add(d.x, sin * d.y), cos.mul_add(d.y, -(sin * d.x)), d.z)
+pub(super) fn unturned<L: Lanes>(d: Vec3<L>, azimuth: [F<L>; 2]) -> Vec3<L> {
+    in_turned_frame(d, Some(azimuth))
 }
 
 /// [`unturned`] undone.
@@ -59,14 +60,6 @@ pub(super) fn normal_of<L: Lanes>(square: [F<L>; 2]) -> Vec3<L> {
 #[inline(always)]
 pub(super) fn solid_angle_per_square<L: Lanes>(u: F<L>, sine: F<L>) -> F<L> {
     u * sine * (2.0 * PI * PI)
-}
-
-/// The direction that a place in the unit square gives when directions are spread in proportion to the cosine.
-#[inline(always)]
-pub(super) fn cosine_direction<L: Lanes>(u: [F<L>; 2]) -> Vec3<L> {
-    let radius = u[0].sqrt();
-    let (sin, cos) = u[1].sin_cos_turns();
-    Vec3::new(radius * cos, radius * sin, (1.0 - u[0]).safe_sqrt())
 }
 
 /// `d` on the other side of the surface.

@@ -2,8 +2,9 @@
 //!
 //! Directions are those of the front; transmission is mirrored in the surface.
 
-use super::angles::{azimuth, cosine_direction, elevation, normal_of, sine, solid_angle_per_square, square_of, through, turned, unturned};
+use super::angles::{azimuth, elevation, normal_of, sine, solid_angle_per_square, square_of, through, turned, unturned};
 use super::warp::{Blend, MOST_SLICES, Warp};
+use crate::bsdf::diffuse::DiffuseLobe;
 use core::f32::consts::{FRAC_1_PI, FRAC_2_PI, TAU};
 use gonio_formats::bsdf::{HalfVectorTable, Lobe};
 use gonio_simd::{F, Lanes, M, Vec3};
@@ -101,7 +102,7 @@ impl HalfVectors {
             transmitted = rest.ge(share);
             rest = transmitted.select((rest - share) / (1.0 - share).max(1e-6), rest / share.max(1e-6));
         }
-        let mut wi = cosine_direction([u[1], u[2]]);
+        let mut wi = DiffuseLobe::sample([u[1], u[2]]);
         let by_half = rest.ge(self.cosine_share);
         for (lobe, chosen) in [(reflecting, l.m(true).and_not(transmitted)), (transmitting, transmitted)] {
             let Some(lobe) = lobe else { continue };

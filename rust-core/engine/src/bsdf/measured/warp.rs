@@ -210,7 +210,8 @@ impl Warp {
         let before = self.along(l, [patch.row, patch.column], patch.y, blend);
         let x = segment_integral(patch.x, left, right).mul_add(((columns - 1) as f32).recip(), before);
         let y = segment_integral(patch.y, r0, r1).mul_add(((rows - 1) as f32).recip(), self.marginal(l, patch.row, blend));
-        ([share(x, r0.lerp(r1, patch.y)), share(y, self.marginal(l, l.u(rows - 1), blend))], left.lerp(right, patch.x))
+        let whole = [r0.lerp(r1, patch.y), self.marginal(l, l.u(rows - 1), blend)];
+        ([x.share_of(whole[0]).saturate(), y.share_of(whole[1]).saturate()], left.lerp(right, patch.x))
     }
 
     /// The integral at a place between a row and the next, over the first columns of patches.
@@ -243,12 +244,6 @@ fn last_below<L: Lanes>(l: L, last: u32, steps: u32, x: F<L>, sum: impl Fn(U<L>)
         found = below.select(next, found);
     }
     found
-}
-
-/// A part of a whole; nothing of nothing.
-#[inline(always)]
-fn share<L: Lanes>(part: F<L>, whole: F<L>) -> F<L> {
-    (part / whole.max(f32::MIN_POSITIVE)).saturate().keep_if(whole.gt(0.0))
 }
 
 /// The integral from 0 to `x` of a linear function with these ends.

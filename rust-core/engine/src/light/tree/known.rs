@@ -3,8 +3,7 @@
 //! Space is divided into cells, and a few paths before the render tell which lights arrive in each. There most draws are among those, and
 //! the others among all lights by the tree, which lose what is known already: each light is drawn in one way, and its probability is simple.
 
-use super::{Below, LightTree, NONE, Node, draw};
-use crate::light::choice::proportion;
+use super::{Below, LightTree, NONE, Node, below_one, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Most lights known in a cell.
@@ -50,12 +49,6 @@ fn hashed<L: Lanes>(p: Vec3<L>, per_metre: f32) -> [U<L>; 2] {
 /// The same for one point.
 pub(super) fn place(position: [f32; 3], per_metre: f32) -> [u32; 2] {
     hashed(Vec3::splat(One, position), per_metre).map(|word| word.0)
-}
-
-/// A number in `[0, 1)` again after it was spread.
-#[inline(always)]
-fn below_one<L: Lanes>(u: F<L>) -> F<L> {
-    u.clamp(0.0, 1.0 - f32::EPSILON)
 }
 
 impl KnownLights {
@@ -116,7 +109,7 @@ impl KnownLights {
         if known.any() {
             let (weights, total) = cell.weigh(l, tree, p, n);
             for (other, weight) in cell.leaves.iter().zip(&weights) {
-                probability = other.eq(leaf).select(proportion(*weight, total) * cell.share, probability);
+                probability = other.eq(leaf).select(weight.share_of(total) * cell.share, probability);
             }
         }
         if !(!known).any() {

@@ -10,7 +10,7 @@ mod learn;
 mod node;
 mod single;
 
-use super::choice::{Estimate, proportion};
+use super::choice::Estimate;
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
@@ -48,6 +48,12 @@ struct Drawn<L: Lanes> {
     rest: F<L>,
 }
 
+/// A number in `[0, 1)` again after it was spread.
+#[inline(always)]
+fn below_one<L: Lanes>(u: F<L>) -> F<L> {
+    u.clamp(0.0, 1.0 - f32::EPSILON)
+}
+
 /// Draws one of the weights that add up to `total`.
 #[inline(always)]
 fn draw<L: Lanes>(l: L, weights: &[F<L>], total: F<L>, u: F<L>) -> Drawn<L> {
@@ -60,8 +66,8 @@ fn draw<L: Lanes>(l: L, weights: &[F<L>], total: F<L>, u: F<L>) -> Drawn<L> {
         before = reached.select(sum, before);
         sum += *weight;
     }
-    let rest = ((target - before) / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0 - f32::EPSILON);
-    Drawn { index, probability: proportion(own, total), rest }
+    let rest = below_one((target - before) / own.max(f32::MIN_POSITIVE));
+    Drawn { index, probability: own.share_of(total), rest }
 }
 
 impl LightTree {
@@ -118,7 +124,7 @@ impl LightTree {
         let (node, share) = self.climb(receiver, leaf, near);
         let weight = if near.any() { Node::gather(l, &self.nodes.words, node).illuminance(l, p, n) * share } else { l.f(0.0) };
         let weight = near.select(weight, Estimate::gather(&Reader::new(l, rows, light)).illuminance(l, p, n));
-        proportion(weight, total)
+        weight.share_of(total)
     }
 
     /// Estimates of the children of each lane's node, zero beyond the last, and their sum.
@@ -175,7 +181,7 @@ impl LightTree {
             }
             let (_, total) = self.children(receiver, Below::gather(l, &self.nodes.words, parent), below);
             let own = Node::gather(l, &self.nodes.words, node).illuminance(l, p, n);
-            let share = proportion(own, total);
+            let share = own.share_of(total);
             probability = below.select(probability * share, probability);
             node = below.select(parent, node);
         }
@@ -206,6 +212,6 @@ impl LightTree {
             own = reached.select(weight, own);
             sum += weight;
         }
-        (light, proportion(own, total))
+        (light, own.share_of(total))
     }
 }

@@ -1,34 +1,22 @@
 //! One point's way through the tree, with nodes in the lanes instead of points: for the few points of a register that need it.
 
-use super::{Below, LightTree, Node, Receiver, TOP};
+use super::{Below, Drawn, LightTree, Node, Receiver, TOP, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
-
-/// One of several weights, drawn.
-#[derive(Clone, Copy, Debug)]
-struct Drawn {
-    index: usize,
-    probability: f32,
-    /// The number that drew it, spread over `[0, 1)` again.
-    rest: f32,
-}
-
-/// Draws one of the weights; the last that has any stands for what rounding leaves.
-fn draw(weights: &[f32], u: f32) -> Drawn {
-    let total: f32 = weights.iter().sum();
-    let target = u * total;
-    let (mut index, mut own, mut before, mut sum) = (0, 0.0, 0.0, 0.0);
-    for (number, weight) in weights.iter().enumerate() {
-        if sum <= target && *weight > 0.0 {
-            (index, own, before) = (number, *weight, sum);
-        }
-        sum += weight;
-    }
-    let rest = ((target - before) / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0 - f32::EPSILON);
-    Drawn { index, probability: if total > 0.0 { own / total } else { 0.0 }, rest }
-}
 
 /// Room for the estimates of the top and of the lights at infinity, written a register at a time.
 const ROOM: usize = 1 + TOP + 16;
+
+/// Draws one of the weights.
+#[inline(always)]
+fn draw_one(weights: &[f32], u: F<One>) -> Drawn<One> {
+    let mut lanes = [F(0.0); ROOM];
+    let mut total = F(0.0);
+    for (lane, weight) in lanes.iter_mut().zip(weights) {
+        *lane = F(*weight);
+        total += *lane;
+    }
+    draw(One, &lanes[..weights.len()], total, u)
+}
 
 impl LightTree {
     /// [`Self::choose`] for the points of a mask, one after the other; the other lanes are left at zero.
@@ -53,22 +41,22 @@ impl LightTree {
         let mut weights = [0.0; ROOM];
         weights[0] = self.infinity(rows, receiver).to_array()[0];
         self.weigh(receiver, 0, self.top.len(), &mut weights[1..]);
-        let drawn = draw(&weights[..=self.top.len()], u);
-        if drawn.index == 0 {
-            let (light, share) = self.draw_far(rows, receiver, receiver.l.f(drawn.rest));
-            return (light.to_array()[0], share.to_array()[0] * drawn.probability);
+        let drawn = draw_one(&weights[..=self.top.len()], F(u));
+        if drawn.index.0 == 0 {
+            let (light, share) = self.draw_far(rows, receiver, receiver.l.f(drawn.rest.0));
+            return (light.to_array()[0], share.to_array()[0] * drawn.probability.0);
         }
         let (mut probability, mut rest) = (drawn.probability, drawn.rest);
-        let mut node = drawn.index - 1;
+        let mut node = drawn.index.0 - 1;
         loop {
-            let below = Below::gather(One, &self.nodes.words, U(node as u32));
+            let below = Below::gather(One, &self.nodes.words, U(node));
             if below.is_leaf().0 {
-                return (below.index().0, probability);
+                return (below.index().0, probability.0);
             }
-            let (first, count) = (below.index().0 as usize, below.count().0 as usize);
-            self.weigh(receiver, first, count, &mut weights);
-            let drawn = draw(&weights[..count], rest);
-            node = first + drawn.index;
+            let (first, count) = (below.index().0, below.count().0 as usize);
+            self.weigh(receiver, first as usize, count, &mut weights);
+            let drawn = draw_one(&weights[..count], rest);
+            node = first + drawn.index.0;
             probability *= drawn.probability;
             rest = drawn.rest;
         }

@@ -3,8 +3,8 @@
 mod multiple;
 mod single;
 
-use super::{SkyImage, colour, setting, within};
-use crate::Result;
+use super::{SkyImage, colour, within};
+use crate::{Error, Result};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -72,7 +72,7 @@ impl Atmosphere {
         within("altitude", " m", self.altitude_m, 0.0..=59_999.0)?;
         for (name, amount) in [("air", self.air), ("dust", self.dust), ("ozone", self.ozone)] {
             if !(amount.is_finite() && (0.0..=1000.0).contains(&amount)) {
-                return Err(setting(name, format!("{amount} was found, expected 0 to 1000")));
+                return Err(Error::setting(name, format!("{amount} was found, expected 0 to 1000")));
             }
         }
         Ok(match self.scattering {
