@@ -2,7 +2,7 @@
 
 use gonio::{
     measure::{Measurements, Reading, Watch, measure},
-    scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, MeshId, Meter, Origin, Scene, Transform},
+    scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, MeshId, Meter, Origin, Scene, Transform, Visibility},
 };
 use gonio_simd::Execution;
 use gonio_tests::scenes::{add_quad, add_triangles, facing_down, floor, light};
@@ -96,6 +96,7 @@ fn everything_under_a_uniform_sky() {
     for measurand in [Measurand::Illuminance, Measurand::Cylindrical, Measurand::Semicylindrical] {
         assert_near(reading(&scene, meter([3.0, 1.0, 2.0], measurand)), 50.0 * PI);
     }
+    scene.lights[0].visibility = Visibility::default();
     assert_near(reading(&scene, meter([0.0; 3], Measurand::Luminance)), 50.0);
 }
 

@@ -45,7 +45,7 @@ pub struct SensorTable {
 
 /// Logarithm of a tile's side.
 const TILE_LOG2: u32 = TILE.trailing_zeros();
-/// Logarithm of the smallest block's side: 16 pixels tell how far the mean may be off.
+/// Logarithm of the smallest block's side: the spread of 16 pixels tells how far their mean may be off.
 const LEAST_SIDE_LOG2: u32 = 2;
 
 impl SensorTable {

@@ -2,6 +2,7 @@
 
 mod csv;
 mod daylight_factor;
+pub mod glare;
 mod outline;
 mod picture;
 mod points;

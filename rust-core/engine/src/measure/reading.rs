@@ -8,7 +8,7 @@ use crate::scene::{Grid, Measurand, Meter, Origin};
 pub struct Reading {
     /// The mean of all samples.
     pub value: f64,
-    /// By the spread of the means of 16 or more parts of the samples. Parts share one well-spread sequence, so that the true error is rather less.
+    /// By the spread of the means of 16 parts of the samples. Parts share one well-spread sequence, so that the true error is rather less.
     pub standard_error: f64,
 }
 

@@ -100,11 +100,18 @@ pub(super) fn sense(
     Ok(probes.iter().zip(blocks).map(|(probe, block)| pooled(&image, probe, block, side)).collect())
 }
 
+/// Parts of a block along its side; each is a net of the sampler's sequence itself.
+const PARTS: usize = 4;
+
 /// The reading of a block of pixels.
 fn pooled(image: &Image, probe: &Probe, [left, top]: [usize; 2], side: usize) -> Reading {
     let aov = if probe.looks { Aov::Luminance } else { Aov::Illuminance };
     let values = image.layer(aov).map_or(&[][..], |layer| &layer.values);
-    let width = image.size()[0];
-    let rows = (top..top + side).flat_map(|row| values.get(row * width + left..row * width + left + side));
-    Reading::of_parts(rows.flatten().map(|value| f64::from(*value)))
+    let (width, part) = (image.size()[0], side / PARTS);
+    let mean = |number: usize| {
+        let [first_x, first_y] = [left + number % PARTS * part, top + number / PARTS * part];
+        let rows = (first_y..first_y + part).filter_map(|row| values.get(row * width + first_x..row * width + first_x + part));
+        rows.flatten().map(|value| f64::from(*value)).sum::<f64>() / (part * part) as f64
+    };
+    Reading::of_parts((0..PARTS * PARTS).map(mean))
 }
