@@ -133,7 +133,7 @@ impl GridReading {
     #[pyo3(signature = (*, max = None, steps = 10, log = None, contours = true, legend = true))]
     fn picture(&self, max: Option<f32>, steps: u32, log: Option<f32>, contours: bool, legend: bool) -> PyResult<Picture> {
         let style = picture::style(&self.grid.values(), max, steps, log, self.unit(), [contours, legend], 0)?;
-        Ok(Picture::of(measure::value_picture(&self.grid, &style)))
+        Ok(Picture::of(measure::value_picture(&self.grid, &style), style))
     }
 }
 

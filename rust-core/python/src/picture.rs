@@ -12,11 +12,12 @@ use std::{io::Write, path::PathBuf};
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct Picture {
     canvas: Canvas,
+    style: FalseColour,
 }
 
 impl Picture {
-    pub(crate) fn of(canvas: Canvas) -> Self {
-        Self { canvas }
+    pub(crate) fn of(canvas: Canvas, style: FalseColour) -> Self {
+        Self { canvas, style }
     }
 }
 
@@ -26,6 +27,10 @@ impl Picture {
     #[getter]
     fn size(&self) -> (usize, usize) {
         self.canvas.size.into()
+    }
+    /// The legend alone, for a picture of a height in pixels.
+    fn legend(&self, height: usize) -> Self {
+        Self::of(self.style.legend(height), self.style.clone())
     }
     /// Four bytes a pixel.
     fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
@@ -76,7 +81,8 @@ pub(crate) fn false_colour(
     let size = side_lengths(values, "values")?;
     let values = flat(values, "values")?;
     let style = style(&values, max, steps, log, unit, [contours, legend], smoothing)?;
-    Ok(Picture::of(py.detach(|| style.draw(&values, size))))
+    let canvas = py.detach(|| style.draw(&values, size));
+    Ok(Picture::of(canvas, style))
 }
 
 /// The numbers of a float buffer of any shape.
