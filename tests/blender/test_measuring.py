@@ -71,7 +71,7 @@ def test_the_viewport_shows_false_colour():
 
     scene = scenes.lit_floor()
     scene.gonio.preview_samples = 4
-    scene.gonio.display, scene.gonio.false_color_max, scene.gonio.false_color_steps = "ILLUMINANCE", 1000.0, 5
+    scene.gonio.display, scene.gonio.false_color_max, scene.gonio.false_color_steps = "ILLUMINANCE", 1500.0, 5
     scene.gonio.use_false_color_contours = False
     view = Viewport(Matrix.Translation((0, 0, 4)))
     try:

@@ -125,7 +125,7 @@ def test_what_cannot_be_measured_is_one_line(run, stage):
         assert ended.returncode == 1 and words in ended.stderr and len(ended.stderr.splitlines()) == 1, (arguments, ended.stderr)
 
 
-FISHEYE = """
+VIEW = """
 def Camera "Eye" {
     float horizontalAperture = 20
     float verticalAperture = 20
@@ -138,7 +138,7 @@ def Camera "Eye" {
 
 def test_false_colour_of_a_picture(run, stage, tmp_path):
     image = tmp_path / "a.exr"
-    run("render", stage(more=FISHEYE), "-o", image, "--res", 64, 48, "--spp", 4, "--aov", "color,luminance,illuminance", "--quiet")
+    run("render", stage(more=VIEW), "-o", image, "--res", 64, 48, "--spp", 4, "--aov", "color,luminance,illuminance", "--quiet")
     for number, arguments in enumerate(
         (("--quantity", "illuminance", "--max", 100, "--steps", 5, "--contours"), ("--log", 3), ("--lines",), ("--no-legend",))
     ):
@@ -174,3 +174,41 @@ def test_glare_of_a_disk(run, tmp_path):
     from_python = gonio.glare(luminance)
     assert from_python.ugr == pytest.approx(found["ugr"]) and from_python.dgp == pytest.approx(found["dgp"])
     assert run("glare", path, "--fov", 120, check=False).returncode == 1
+
+
+EYE = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Camera "Eye" {
+    double gonio:fisheye = 180
+    double3 xformOp:rotateXYZ = (90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+def SphereLight "Lamp" {
+    float inputs:radius = 0.1
+    float inputs:intensity = 5000
+    double3 xformOp:translate = (0, 1, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "Surroundings" {
+    float inputs:intensity = 30
+}
+"""
+
+
+def test_glare_of_a_stage(run, tmp_path):
+    """A sphere of 0.1 m straight ahead at 1 m: sin of the half angle 0.1."""
+    stage, image = tmp_path / "eye.usda", tmp_path / "eye.exr"
+    stage.write_text(EYE)
+    arguments = ("--res", 400, 400, "--spp", 16, "--filter", "box", "--filter-width", 1, "--aov", "luminance")
+    assert run("render", stage, "-o", image, *arguments, "--quiet").returncode == 0
+    found = json.loads(run("glare", image, "--json").stdout)
+    half = math.asin(0.1)
+    of_disk = math.pi * math.sin(half) ** 2
+    background = 30 * (1 - of_disk / math.pi)
+    ugr = 8 * math.log10(0.25 / background * 5000**2 * 2 * math.pi * (1 - math.cos(half)))
+    # The rim's pixels are darker than the disk and counted with it: a pixel of 26 across is 0.3 in 8 log10.
+    assert found["ugr"] == pytest.approx(ugr, abs=0.3)
+    assert found["eye_illuminance_lx"] == pytest.approx(of_disk * 5000 + math.pi * background, rel=0.01)

@@ -194,8 +194,10 @@ pub(crate) fn measure_scene(
         stop.store(!goes_on, Ordering::Relaxed);
         goes_on
     };
-    let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
-    let found = py.detach(|| measure::measure(&description, Execution::detect(), &mut watch));
+    let found = py.detach(|| {
+        let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
+        measure::measure(&description, Execution::detect(), &mut watch)
+    });
     match (found, raised) {
         (_, Some(error)) => Err(error),
         (Ok(found), None) => Ok(Measurements { found }),

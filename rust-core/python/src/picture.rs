@@ -1,9 +1,6 @@
 //! False colour.
 
-use crate::{
-    buffer::side_lengths,
-    error::exception,
-};
+use crate::{buffer::side_lengths, error::exception};
 use gonio::output::{self, Canvas, FalseColour, FalseColourScale};
 use pyo3::{prelude::*, types::PyBytes};
 use std::{io::Write, path::PathBuf};

@@ -13,8 +13,8 @@ use crate::{
 use gonio::{
     Diagnostic,
     scene::{
-        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId, Meter, Origin, Primvar,
-        PrimvarInterpolation, Transform, Visibility,
+        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId,
+        Meter, Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, pybacked::PyBackedBytes, types::PyDict};

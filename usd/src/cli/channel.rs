@@ -21,7 +21,8 @@ impl Picture {
         let by_part = || channels.iter().position(|(name, _)| name.split('.').any(|part| part.eq_ignore_ascii_case(quantity)));
         let missing = || {
             let names: Vec<&str> = channels.iter().map(|(name, _)| name.as_str()).collect();
-            let problem = format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity}); the file has {}", names.join(", "));
+            let known = names.join(", ");
+            let problem = format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity}); the file has {known}");
             Error::Format { path: path.to_owned(), line: None, problem }
         };
         let chosen = by_name.or_else(by_part).ok_or_else(missing)?;

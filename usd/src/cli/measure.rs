@@ -157,7 +157,12 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     let [along, across] = grid.spacing;
     let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2} {unit} ± {:.2}", reading.value, reading.standard_error);
     vec![
-        format!("{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart", grid.origin, grid.measurand.name(), summary.points),
+        format!(
+            "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
+            grid.origin,
+            grid.measurand.name(),
+            summary.points
+        ),
         figure("average", &summary.average),
         figure("least", &summary.min),
         figure("greatest", &summary.max),

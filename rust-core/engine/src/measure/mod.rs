@@ -74,7 +74,10 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     });
     let meters: Vec<Meter> = scene.meters.iter().cloned().chain(at_grids).collect();
     if meters.len() > MOST_POINTS {
-        return Err(Error::setting("grids", format!("{} points in all, expected at most {MOST_POINTS}; take a wider spacing", meters.len())));
+        return Err(Error::setting(
+            "grids",
+            format!("{} points in all, expected at most {MOST_POINTS}; take a wider spacing", meters.len()),
+        ));
     }
     let mut diagnostics = Vec::new();
     let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;

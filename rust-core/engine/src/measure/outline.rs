@@ -8,7 +8,7 @@ use crate::{
     error::{Error, Result},
     scene::{Grid, Mesh, Transform},
 };
-use std::collections::HashMap;
+use std::{cmp::Ordering, collections::HashMap};
 
 /// The mean normal of a surface is shorter the more it turns; below this share it has no side.
 const LEAST_FLATNESS: f64 = 0.5;
@@ -34,8 +34,9 @@ impl Outline {
         let sum = corners.iter().map(twice_area).fold([0.0; 3], add);
         let total: f64 = corners.iter().map(|t| length(twice_area(t))).sum();
         let normal = unit(sum).filter(|_| length(sum) >= LEAST_FLATNESS * total);
-        let curved = || Error::scene(&grid.origin, "a grid wants a surface with one side, such as a floor or a table's top; this one has no area or turns back on itself");
-        let normal = normal.ok_or_else(curved)?;
+        let problem =
+            "a grid wants a surface with one side, such as a floor or a table's top; this one has no area or turns back on itself";
+        let normal = normal.ok_or_else(|| Error::scene(&grid.origin, problem))?;
         let [u, v] = axes(normal, longest_border(&corners));
         let flat = |p: Vector| ([dot(p, u), dot(p, v)], dot(p, normal));
         // What faces the other way is the underside of something.
@@ -102,7 +103,8 @@ impl Lattice {
             let [low, high] = [along().fold(f64::INFINITY, f64::min) - widened, along().fold(f64::NEG_INFINITY, f64::max) + widened];
             let number = |at: f64| (at - self.first[axis]) / self.spacing[axis];
             // Casts hold numbers to the lattice.
-            (number(low).floor().max(0.0) as usize).min(self.size[axis])..((number(high).ceil() + 1.0).max(0.0) as usize).min(self.size[axis])
+            (number(low).floor().max(0.0) as usize).min(self.size[axis])
+                ..((number(high).ceil() + 1.0).max(0.0) as usize).min(self.size[axis])
         };
         let (columns, rows, across) = (range(0), range(1), self.size[0]);
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
@@ -152,7 +154,10 @@ fn longest_border(triangles: &[[Vector; 3]]) -> Vector {
         let first = v.iter().copied().find(|x| x.abs() > 1e-9 * length(v)).unwrap_or(1.0);
         scaled(v, first.signum())
     };
-    let longer = |a: &Vector, b: &Vector| (length(*a) * 1e6).round().total_cmp(&(length(*b) * 1e6).round()).then(a[0].total_cmp(&b[0])).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]));
+    // To the micrometre, then by direction: of a rectangle's equal edges always the same.
+    let rank = |v: &Vector| [(length(*v) * 1e6).round(), v[0], v[1], v[2]];
+    let longer =
+        |a: &Vector, b: &Vector| rank(a).iter().zip(rank(b)).map(|(a, b)| a.total_cmp(&b)).find(|o| o.is_ne()).unwrap_or(Ordering::Equal);
     edges.into_iter().map(along).max_by(longer).unwrap_or([1.0, 0.0, 0.0])
 }
 

@@ -34,7 +34,8 @@ impl Probe {
     /// # Errors
     /// Positions and directions that are not finite or have no length.
     pub(super) fn new(meter: &Meter) -> Result<Self> {
-        let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, format!("the meter's {what} is {v:?}, expected finite numbers and a direction"));
+        let problem = |what: &str, v: [f64; 3]| format!("the meter's {what} is {v:?}, expected finite numbers and a direction");
+        let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, problem(what, v));
         let position = Some(meter.position).filter(|p| p.iter().all(|x| x.is_finite())).ok_or_else(|| wrong("position", meter.position))?;
         let direction = |what, v: [f64; 3]| unit(v).ok_or_else(|| wrong(what, v));
         let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, looks };

@@ -14,7 +14,16 @@ fn floor(points: &[[f32; 3]], triangles: &[[u32; 3]], transform: Transform) -> (
 
 /// An L of three square metres.
 fn corner_room() -> (Scene, Grid) {
-    let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let points = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 1.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [1.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+    ];
     floor(&points, &[[0, 7, 3], [0, 3, 6], [7, 1, 2], [7, 2, 3], [6, 3, 4], [6, 4, 5]], Transform::IDENTITY)
 }
 
@@ -65,7 +74,8 @@ fn mirrored_placements_keep_their_face() {
 
 #[test]
 fn areas_without_a_side_are_errors_that_name_the_grid() {
-    let (there_and_back, mut grid) = floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 1]], Transform::IDENTITY);
+    let (there_and_back, mut grid) =
+        floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 1]], Transform::IDENTITY);
     let mut complain = |change: &dyn Fn(&mut Grid)| {
         change(&mut grid);
         GridPoints::new(&there_and_back, &grid).expect_err("no grid").to_string()
@@ -78,7 +88,12 @@ fn areas_without_a_side_are_errors_that_name_the_grid() {
 #[test]
 fn figures_are_those_of_the_points() {
     let reading = |value| Reading { value, standard_error: 3.0 };
-    let points = GridPoints { size: [3, 1], spacing: [1.0; 2], positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])], normal: [0.0, 0.0, 1.0] };
+    let points = GridPoints {
+        size: [3, 1],
+        spacing: [1.0; 2],
+        positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])],
+        normal: [0.0, 0.0, 1.0],
+    };
     let grid = GridReading::new(&Grid::default(), points, &[reading(100.0), reading(300.0)]);
     assert_eq!((grid.summary.average.value, grid.summary.min.value, grid.summary.max.value), (200.0, 100.0, 300.0));
     assert_eq!((grid.summary.uniformity(), grid.summary.diversity()), (0.5, 1.0 / 3.0));

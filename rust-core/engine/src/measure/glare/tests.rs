@@ -44,7 +44,8 @@ fn a_disk_ahead_gives_the_hand_computed_ugr_and_dgp() {
     let (half, elevation, bright, dim) = (5f64.to_radians(), 20.0, 20_000.0, 50.0);
     for projection in [FisheyeProjection::Equidistant, FisheyeProjection::Equisolid] {
         let view = view(projection);
-        let glare = Glare::new(&picture(&view, up(elevation), 5.0, bright as f32, dim as f32), &view, &GlareOptions::default()).expect("a picture");
+        let glare =
+            Glare::new(&picture(&view, up(elevation), 5.0, bright as f32, dim as f32), &view, &GlareOptions::default()).expect("a picture");
         let [source] = glare.sources[..] else { panic!("{} sources", glare.sources.len()) };
         let solid_angle = 2.0 * PI * (1.0 - half.cos());
         assert!((source.solid_angle / solid_angle - 1.0).abs() < 5e-3, "{projection:?}: {}", source.solid_angle);

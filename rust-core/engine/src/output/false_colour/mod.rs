@@ -159,7 +159,12 @@ mod tests {
         for (edge, expected) in log.edges().iter().zip([1.0, 10.0, 100.0, 1000.0]) {
             assert!((edge / expected - 1.0).abs() < 1e-5, "{edge}");
         }
-        for wrong in [FalseColourScale::new(0.0, 5, None), FalseColourScale::new(f32::NAN, 5, None), FalseColourScale::new(1.0, 0, None), FalseColourScale::new(1.0, 5, Some(-1.0))] {
+        for wrong in [
+            FalseColourScale::new(0.0, 5, None),
+            FalseColourScale::new(f32::NAN, 5, None),
+            FalseColourScale::new(1.0, 0, None),
+            FalseColourScale::new(1.0, 5, Some(-1.0)),
+        ] {
             assert!(wrong.is_err());
         }
         assert_eq!([0.9, 430.0, 1000.0].map(|high| FalseColourScale::round_max(&[high; 7])), [1.0, 500.0, 1000.0]);
@@ -195,7 +200,9 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, text) in [(0.0, "0"), (500.0, "500"), (0.25, "0.25"), (12.5, "12.5"), (1234.0, "1234"), (1e9, "1e9"), (0.0333, "0.0333")] {
+        for (value, text) in
+            [(0.0, "0"), (500.0, "500"), (0.25, "0.25"), (12.5, "12.5"), (1234.0, "1234"), (1e9, "1e9"), (0.0333, "0.0333")]
+        {
             assert_eq!(short_number(value), text);
         }
     }
