@@ -8,7 +8,7 @@ import gonio
 
 from .. import report
 from ..export import Exporter
-from . import status
+from . import false_color, status
 from .frame import Frame
 from .passes import COMBINED, read_flat
 from .view import frame_of, settings_of
@@ -35,6 +35,8 @@ class Picture:
     height: int
     pixels: object
     frame: Frame
+    # In false colour the pixels are what the screen shows, and this stands beside them.
+    legend: false_color.Shown | None = None
 
 
 @dataclass
@@ -48,6 +50,7 @@ class _Stage:
     is_first: bool
     is_last: bool
     samples: int
+    source: str
     started: float
     shown: float
 
@@ -67,6 +70,8 @@ class ViewportSession:
         self._settings: tuple | None = None
         self._pixel_size = 1
         self._exposure = 1.0
+        self._false_color: false_color.Style | None = None
+        self._source = COMBINED.source
         self._is_stale = True
         self._stage: _Stage | None = None
         self._is_running = False
@@ -98,6 +103,8 @@ class ViewportSession:
         if (settings, pixel_size) != (self._settings, self._pixel_size):
             self._settings, self._pixel_size, self._is_stale = settings, pixel_size, True
             self._exposure = depsgraph.scene.gonio.film_exposure
+            self._false_color = false_color.Style.of(depsgraph.scene.gonio)
+            self._source = self._false_color.source if self._false_color else COMBINED.source
 
     def advance(self, depsgraph) -> None:
         """Starts what has to be started and takes over a new picture if there is one."""
@@ -149,7 +156,7 @@ class ViewportSession:
     def _begin(self, depsgraph, factor: int, *, is_first: bool) -> None:
         is_last = factor <= self._pixel_size
         frame = self._frame.reduced(factor)
-        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=["color"])
+        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=[self._source])
         wanted = depsgraph.scene.gonio.preview_samples
         self.exporter.scene.set(samples=(wanted or MOST_SAMPLES) if is_last else 1)
         previous = self._stage.render if self._stage is not None else None
@@ -158,7 +165,7 @@ class ViewportSession:
         self._is_running = False
         render = self._start(self.exporter.scene, previous=previous)
         now = self._now()
-        self._stage = _Stage(render, self._frame, frame, factor, is_first, is_last, wanted, now, now)
+        self._stage = _Stage(render, self._frame, frame, factor, is_first, is_last, wanted, self._source, now, now)
         self._is_running = True
 
     def _collect(self, depsgraph) -> None:
@@ -186,9 +193,13 @@ class ViewportSession:
     def _show(self, stage: _Stage) -> None:
         film = stage.render.film()
         width, height = film.size
-        pixels = read_flat(film, "color", COMBINED.factor(self._exposure, 1))
         number = self.picture.number + 1 if self.picture else 0
-        self.picture = Picture(number, width, height, pixels, stage.view)
+        if stage.source == COMBINED.source:
+            pixels = read_flat(film, COMBINED.source, COMBINED.factor(self._exposure, 1))
+            self.picture = Picture(number, width, height, pixels, stage.view)
+        else:
+            shown, legend = false_color.paint(film, self._false_color, stage.view.height)
+            self.picture = Picture(number, width, height, shown.pixels, stage.view, legend)
         stage.shown = self._now()
 
     def _learn(self, stage: _Stage) -> None:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import film, light, light_paths, material, object_visibility, passes, performance, report, sampling, simplify, stock, world
+from . import film, light, light_paths, material, measure, object_visibility, passes, performance, report, sampling, simplify, stock, world
 
 PANELS = (
     *sampling.PANELS,
@@ -17,6 +17,7 @@ PANELS = (
     *world.PANELS,
     *material.PANELS,
     *object_visibility.PANELS,
+    *measure.PANELS,
 )
 
 

@@ -16,6 +16,7 @@ pub mod light;
 pub mod material;
 pub mod memory_limit;
 pub mod mesh;
+mod meter;
 pub mod model;
 mod nesting;
 pub mod options;

@@ -65,6 +65,8 @@ pub enum Kind {
     Light,
     /// A camera prim.
     Camera,
+    /// A prim at which light is measured, with its surface if it is one.
+    Measured(Option<MeshId>),
     /// Other models.
     Group(Group),
 }

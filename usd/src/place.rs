@@ -4,8 +4,8 @@ use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
 use crate::options::Purpose;
 use crate::prim::Prim;
-use crate::{camera, daylight, light, material, primvar};
-use gonio::scene::{Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
+use crate::{camera, daylight, light, material, meter, primvar};
+use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -86,6 +86,7 @@ impl<'py> Placer<'_, '_, 'py> {
                 Kind::Shape(shape) => self.shape(element, shape, placement)?,
                 Kind::Light => self.lights(element, placement),
                 Kind::Camera => self.cameras(element, placement),
+                Kind::Measured(mesh) => self.meters(element, *mesh, placement),
             }
         }
         Ok(())
@@ -244,6 +245,14 @@ impl<'py> Placer<'_, '_, 'py> {
         }
     }
 
+    fn meters(&mut self, element: &Element, mesh: Option<MeshId>, placement: &Placement) {
+        let path = placement.path(&element.path);
+        let Some(prim) = self.context.prim_at(&path).filter(|_| mesh.is_none_or(|mesh| !self.failed.contains(&mesh))) else { return };
+        for transform in self.transforms(element, placement) {
+            meter::add(self.context, &prim, mesh, &transform);
+        }
+    }
+
     fn finish(self) {
         let Self { context, failed, gathered, .. } = self;
         let instances = gathered.into_iter().map(|Gathered { mut instances, names, values }| {
@@ -291,6 +300,11 @@ fn drop_meshes(context: &mut Context<'_, '_>, failed: &HashSet<MeshId>) {
     });
     for instances in &mut context.scene.instances {
         instances.mesh = MeshId(numbers[instances.mesh.index()]);
+    }
+    for grid in &mut context.scene.grids {
+        if let GridArea::Mesh { mesh, .. } = &mut grid.area {
+            *mesh = MeshId(numbers[mesh.index()]);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, instancer, light, material, mesh, primvar, quadrics, skeleton};
+use crate::{daylight, instancer, light, material, mesh, meter, primvar, quadrics, skeleton};
 use gonio::mesh::Interpolation;
 use gonio::scene::{Mesh, MeshId, Origin, Transform};
 use gonio::{Error, Result};
@@ -243,6 +243,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
                 if daylight::is_daylight(prim) {
                     push(model, prim, branch, Kind::Light);
                 }
+                if meter::is_measured(prim) {
+                    push(model, prim, branch, Kind::Measured(None));
+                }
                 self.report_draw_mode(prim);
             }
             PrimKind::SkelRoot => skeleton::bake(self.context, prim),
@@ -264,6 +267,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
         let is_light = light::is_geometry_light(prim);
         let shape = Shape { mesh: self.submit(source)?, slots: vec![Slot::Unbound; slot_prims.len()], slot_prims, has_opacity, is_light };
+        if meter::is_measured(prim) {
+            push(model, prim, branch, Kind::Measured(Some(shape.mesh)));
+        }
         // A binding may stand on a subset alone.
         let is_bound = branch.is_bound || shape.slot_prims.len() > 1;
         push(model, prim, &Branch { is_bound, ..branch.clone() }, Kind::Shape(shape));
@@ -286,6 +292,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         }
         let own: Vec<Inherited> = own.iter().filter(|primvar| primvar.place_count() == 1).filter_map(single).collect();
         let has_opacity = own.iter().any(|inherited| inherited.name == "displayOpacity");
+        if meter::is_measured(prim) {
+            push(model, prim, branch, Kind::Measured(Some(mesh)));
+        }
         let is_light = light::is_geometry_light(prim);
         let shape = Shape { mesh, slots: vec![Slot::Unbound], slot_prims: vec![prim.path()], has_opacity, is_light };
         let branch = Branch { primvars: primvar::merged(&own, &branch.primvars), ..branch.clone() };

@@ -16,6 +16,7 @@ pub mod geometry;
 pub mod graph;
 pub mod integrator;
 pub mod light;
+pub mod measure;
 pub mod mesh;
 pub mod output;
 pub mod render;

@@ -123,3 +123,12 @@ fn check_order<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str) -> Py
     }
     Ok(())
 }
+
+/// Width and height of a buffer of shape (height, width) or (height, width, 1).
+pub(crate) fn side_lengths(object: &Bound<'_, PyAny>, name: &str) -> PyResult<[usize; 2]> {
+    let shape: Vec<usize> = object.getattr("shape")?.extract()?;
+    match shape[..] {
+        [height, width] | [height, width, 1] => Ok([width, height]),
+        _ => Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (height, width) or (height, width, 1)"))),
+    }
+}

@@ -7,12 +7,15 @@ mod daylight;
 mod description;
 mod error;
 mod film;
+mod glare;
+mod measure;
 mod measured;
 #[cfg(unix)]
 mod memory;
 mod mesh;
 mod pass;
 mod photometry;
+mod picture;
 mod render;
 mod scene;
 mod settings;
@@ -36,11 +39,17 @@ mod _gonio {
     #[pymodule_export]
     use crate::film::Film;
     #[pymodule_export]
+    use crate::glare::{Glare, GlareSource, glare};
+    #[pymodule_export]
+    use crate::measure::{GridReading, Measurements, Reading, measure_scene};
+    #[pymodule_export]
     use crate::measured::MeasuredBsdf;
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]
     use crate::photometry::read_goniogram;
+    #[pymodule_export]
+    use crate::picture::{Picture, false_colour};
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile};
     #[pymodule_export]

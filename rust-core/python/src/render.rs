@@ -55,6 +55,10 @@ pub(crate) struct Render {
 }
 
 impl Render {
+    /// The compiled scene, while the render is open.
+    pub(crate) fn compiled(&self) -> Option<Arc<CompiledScene>> {
+        self.compiled.clone()
+    }
     fn running(&self) -> PyResult<&render::Render> {
         self.running.as_ref().ok_or_else(|| PyRuntimeError::new_err("the render has been closed"))
     }
@@ -84,7 +88,7 @@ impl Render {
     #[pyo3(signature = (scene, previous = None, *, cancelled = None))]
     fn new(py: Python<'_>, scene: &Scene, previous: Option<&Self>, cancelled: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let description = scene.scene.clone();
-        let before = previous.and_then(|render| render.compiled.clone());
+        let before = previous.and_then(Self::compiled);
         let stop = Arc::new(AtomicBool::new(false));
         let (send, started) = crossbeam_channel::bounded(1);
         let asked = stop.clone();

@@ -5,6 +5,7 @@ use crate::{
     daylight::{self, Daylight},
     description,
     error::{exception, setting},
+    measure::measurand,
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
     settings,
@@ -12,8 +13,8 @@ use crate::{
 use gonio::{
     Diagnostic,
     scene::{
-        self, Camera, Closure, DomeFormat, Emission, Input, Instances, Light, LightShape, Material, MaterialId, MeshId, Origin, Primvar,
-        PrimvarInterpolation, Transform, Visibility,
+        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId,
+        Meter, Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, pybacked::PyBackedBytes, types::PyDict};
@@ -157,7 +158,7 @@ impl Scene {
     }
 
     /// Keeps the first so many elements of each kind named.
-    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, measured = None, lights = None, cameras = None))]
+    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, measured = None, lights = None, cameras = None, meters = None, grids = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn truncate(
         &mut self,
@@ -168,6 +169,8 @@ impl Scene {
         measured: Option<usize>,
         lights: Option<usize>,
         cameras: Option<usize>,
+        meters: Option<usize>,
+        grids: Option<usize>,
     ) {
         let scene = &mut self.scene;
         scene.meshes.truncate(meshes.unwrap_or(usize::MAX));
@@ -177,6 +180,8 @@ impl Scene {
         scene.measured.truncate(measured.unwrap_or(usize::MAX));
         scene.lights.truncate(lights.unwrap_or(usize::MAX));
         scene.cameras.truncate(cameras.unwrap_or(usize::MAX));
+        scene.meters.truncate(meters.unwrap_or(usize::MAX));
+        scene.grids.truncate(grids.unwrap_or(usize::MAX));
     }
 
     /// Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers or triples; gives its number.
@@ -270,6 +275,41 @@ impl Scene {
         let (frame, daylight) = (daylight::frame(up, north)?, daylight.daylight);
         py.detach(|| daylight.add_to(&mut self.scene, &frame, rows)).map_err(exception)?;
         Ok(())
+    }
+
+    /// Adds a meter at a point in metres; gives its number. quantity: illuminance (of the plane across `normal`), cylindrical or semicylindrical (`normal`
+    /// is the axis), daylight-factor, or luminance (towards `facing`).
+    #[pyo3(signature = (position, *, normal = [0.0, 0.0, 1.0], facing = [0.0, 1.0, 0.0], quantity = "illuminance", name = "meter"))]
+    fn add_meter(&mut self, position: [f64; 3], normal: [f64; 3], facing: [f64; 3], quantity: &str, name: &str) -> PyResult<u32> {
+        let meter = Meter { origin: Origin::new(name), position, normal, facing, measurand: measurand(quantity)? };
+        description::put(&mut self.scene.meters, "meter", meter, None)
+    }
+
+    /// Adds a calculation grid over a parallelogram (`corner` and two `edges`, metres) or over mesh number `mesh` placed by `transform`, shown or not;
+    /// gives its number. spacing: metres from point to point, 0 as EN 12464-1 has it; margin: metres left out along the edges; height: metres above
+    /// the area; the rest as a meter's.
+    #[pyo3(signature = (*, corner = [0.0; 3], edges = None, mesh = None, transform = None, spacing = 0.0, margin = 0.0, height = 0.0, facing = [0.0, 1.0, 0.0], quantity = "illuminance", name = "grid"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn add_grid(
+        &mut self,
+        corner: [f64; 3],
+        edges: Option<[[f64; 3]; 2]>,
+        mesh: Option<u32>,
+        transform: Option<&Bound<'_, PyAny>>,
+        spacing: f64,
+        margin: f64,
+        height: f64,
+        facing: [f64; 3],
+        quantity: &str,
+        name: &str,
+    ) -> PyResult<u32> {
+        let area = match (edges, mesh) {
+            (Some(edges), None) => GridArea::Rectangle { corner, edges },
+            (None, Some(mesh)) => GridArea::Mesh { mesh: MeshId(mesh), transform: self::transform(transform)? },
+            _ => return Err(PyValueError::new_err("a grid wants either edges or a mesh")),
+        };
+        let grid = Grid { origin: Origin::new(name), area, spacing, margin, height, facing, measurand: measurand(quantity)? };
+        description::put(&mut self.scene.grids, "grid", grid, None)
     }
 
     /// Adds a camera looking along −z of its transform, y up; makes it the one that renders.

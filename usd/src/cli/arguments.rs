@@ -29,6 +29,15 @@ pub(super) enum Command {
     /// angle named.
     #[command(after_long_help = BSDF_EXAMPLES)]
     Bsdf(BsdfOptions),
+    /// Measure light at points and on calculation grids of a USD stage, in lux, cd/m² or per cent of the daylight outside.
+    ///
+    /// Measures what the stage's gonio:grid and gonio:meter attributes ask for, the prims that --grid names, and the points of --at.
+    #[command(after_long_help = MEASURE_EXAMPLES)]
+    Measure(Box<MeasureOptions>),
+    /// Draw the luminance or the illuminance of an EXR file in fixed steps with a legend, or as isolines over the picture.
+    Falsecolor(FalsecolorOptions),
+    /// Rate glare in a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
+    Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.
     Bench(BenchOptions),
 }
@@ -187,6 +196,144 @@ pub(super) struct DaylightArguments {
     /// White sun and sky with the same luminances.
     #[arg(long = "white-daylight", requires = "sun")]
     pub(super) white: bool,
+}
+
+/// The end of `gonio measure --help`.
+const MEASURE_EXAMPLES: &str = "Examples:
+  gonio measure office.usda --grid /Office/Floor --height 0.75 --margin 0.5 -o plane.png --csv plane.csv
+  gonio measure office.usda --at 2,3,1.2 --quantity cylindrical
+  gonio measure office.usda --grid /Office/Floor --quantity daylight-factor --sun 48.21,16.37,2025-03-21T12:00+01:00 --sky overcast";
+
+#[derive(Args, Debug)]
+pub(super) struct MeasureOptions {
+    #[command(flatten)]
+    pub(super) stage: StageArguments,
+    /// The frame to measure.
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    pub(super) frame: Option<f64>,
+    /// Lay a grid over this prim's surface; may be given several times.
+    #[arg(long, value_name = "PRIMPATH")]
+    pub(super) grid: Vec<String>,
+    /// Metres from point to point of these grids; without it as EN 12464-1 has it.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
+    pub(super) spacing: f64,
+    /// Metres along the edges that these grids leave out.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
+    pub(super) margin: f64,
+    /// Metres from the surface to these grids.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true, requires = "grid")]
+    pub(super) height: f64,
+    /// Measure at this point of the world, in metres; may be given several times.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub(super) at: Vec<String>,
+    /// The normal of the plane that these points measure, or the axis of their cylinders; without it up.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
+    pub(super) normal: Option<String>,
+    /// Where half cylinders and luminance meters at these points face; without it +Y where Z is up, -Z where Y is up.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
+    pub(super) facing: Option<String>,
+    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²).
+    #[arg(long, value_name = "QUANTITY", default_value = "illuminance")]
+    pub(super) quantity: String,
+    /// Draw the grid in false colour with its values; with several grids the prim's name is put before the ending.
+    #[arg(long, short = 'o', value_name = "FILE.png")]
+    pub(super) output: Option<PathBuf>,
+    /// Write every point with its value and standard error.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) csv: Option<PathBuf>,
+    /// For machines.
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) scale: ScaleArguments,
+    /// Samples a point.
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(super) spp: u32,
+    /// Bounces after the first surface.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(super) max_bounces: Option<u32>,
+    /// The light transport: full global illumination, or direct light alone.
+    #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
+    pub(super) integrator: IntegratorArgument,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub(super) seed: u32,
+    /// Worker threads; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    pub(super) threads: u32,
+    /// Write nothing but answers and errors.
+    #[arg(long, short = 'q')]
+    pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) daylight: DaylightArguments,
+}
+
+/// The steps of a false-colour picture.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "False colour")]
+pub(super) struct ScaleArguments {
+    /// The upper end of the scale; without it a round number that nearly all values stay below.
+    #[arg(long, value_name = "VALUE")]
+    pub(super) max: Option<f32>,
+    /// Steps of the scale.
+    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    pub(super) steps: u32,
+    /// Steps that are even in the logarithm, over so many decades.
+    #[arg(long, value_name = "DECADES")]
+    pub(super) log: Option<f32>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct FalsecolorOptions {
+    /// The EXR file.
+    pub(super) image: PathBuf,
+    /// The picture to write.
+    #[arg(long, short = 'o', value_name = "FILE.png")]
+    pub(super) output: PathBuf,
+    /// What is shown: luminance, illuminance, or the name of any channel.
+    #[arg(long, value_name = "QUANTITY", default_value = "luminance")]
+    pub(super) quantity: String,
+    #[command(flatten)]
+    pub(super) scale: ScaleArguments,
+    /// Draw lines where steps meet.
+    #[arg(long)]
+    pub(super) contours: bool,
+    /// Draw the lines in colour over the tone-mapped picture instead of filling the steps.
+    #[arg(long)]
+    pub(super) lines: bool,
+    /// Pixels to each side over which values are averaged before lines are drawn.
+    #[arg(long, value_name = "PIXELS", default_value_t = 3)]
+    pub(super) smooth: usize,
+    /// No legend.
+    #[arg(long = "no-legend")]
+    pub(super) no_legend: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct GlareArguments {
+    /// The fisheye picture: an EXR file with luminances in cd/m², seen from the eye along its line of sight.
+    pub(super) image: PathBuf,
+    /// How the picture was projected: equidistant, equisolid, hemispherical.
+    #[arg(long, value_name = "PROJECTION", default_value = "equidistant")]
+    pub(super) projection: String,
+    /// Full field of view in degrees; the circle touches the picture's edges.
+    #[arg(long, value_name = "DEGREES", default_value_t = 180.0)]
+    pub(super) fov: f64,
+    /// The channel that holds the luminances.
+    #[arg(long, value_name = "QUANTITY", default_value = "luminance")]
+    pub(super) quantity: String,
+    /// Luminance in cd/m² from which on a pixel glares; without it five times the picture's mean.
+    #[arg(long, value_name = "LUMINANCE")]
+    pub(super) threshold: Option<f64>,
+    /// Radians within which sources count as one.
+    #[arg(long, value_name = "RADIANS", default_value_t = 0.2)]
+    pub(super) radius: f64,
+    /// For machines.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Draw the sources, each in a colour of its own.
+    #[arg(long, short = 'o', value_name = "FILE.png")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -3,12 +3,16 @@
 mod arguments;
 mod bench;
 mod bsdf;
+mod channel;
 mod compare;
 mod daylight;
+mod falsecolor;
 mod file;
 mod file_name;
 mod frames;
+mod glare;
 mod info;
+mod measure;
 mod output;
 mod photometry;
 mod progress;
@@ -44,6 +48,9 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Compare(options) => compare::compare(&options),
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
+        Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
+        Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
+        Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
     };
     match result {

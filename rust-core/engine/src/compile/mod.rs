@@ -19,6 +19,7 @@ mod view;
 
 pub use bounds::Bounds;
 pub use view::View;
+pub(crate) use view::transport;
 
 use crate::{
     accel::{Blas, SceneBvh},

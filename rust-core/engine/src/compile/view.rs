@@ -47,32 +47,37 @@ impl View {
             return Err(Error::scene(&camera.origin, "the camera's transform is not finite"));
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
-        let transport = Transport {
-            execution,
-            max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
-            kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
-            shows_surroundings: settings.background != Background::Transparent,
-            surroundings_cover: settings.background == Background::Covering,
-            passes: FirstPasses {
-                shader: shader_passes::programs(&scene.tables.materials, settings),
-                uv: settings.aovs.contains(&Aov::Uv),
-                mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
-                    start: settings.mist.start,
-                    depth: settings.mist.depth,
-                    falloff: settings.mist.falloff,
-                }),
-                numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
-            },
-            measure: settings.aovs.contains(&Aov::Illuminance),
-            clamps: [settings.clamp_direct, settings.clamp_indirect],
-            eye: table.position,
-            forward: table.axes[2].map(|x| -x),
-            seed: settings.seed,
-            samples: settings.samples,
-            known: None,
-        };
+        let transport = transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x));
         let filter = FilterTable::new(settings.filter, settings.filter_width.clamp(0.0, 16.0));
         Ok(Self { camera: table, filter, transport, exposure: camera.exposure.0, window })
+    }
+}
+
+/// The light transport that settings ask for; `eye` and `forward` are the camera's, rebased world space.
+pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: Execution, eye: [f32; 3], forward: [f32; 3]) -> Transport {
+    Transport {
+        execution,
+        max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
+        kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
+        shows_surroundings: settings.background != Background::Transparent,
+        surroundings_cover: settings.background == Background::Covering,
+        passes: FirstPasses {
+            shader: shader_passes::programs(&scene.tables.materials, settings),
+            uv: settings.aovs.contains(&Aov::Uv),
+            mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
+                start: settings.mist.start,
+                depth: settings.mist.depth,
+                falloff: settings.mist.falloff,
+            }),
+            numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
+        },
+        measure: settings.aovs.contains(&Aov::Illuminance),
+        clamps: [settings.clamp_direct, settings.clamp_indirect],
+        eye,
+        forward,
+        seed: settings.seed,
+        samples: settings.samples,
+        known: None,
     }
 }
 

@@ -8,6 +8,7 @@ use super::{
     kernels,
     material::Tables,
     measure::measure,
+    sensors::{SensorTable, place},
     shade::{Stage, shade_chunk},
     shader_passes::ShaderPasses,
     shadow::trace_shadows,
@@ -93,15 +94,22 @@ pub(super) struct SampleContext {
     pub(super) depth: u32,
 }
 
+/// Where paths start.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// At a camera, through a pixel filter.
+    Camera(&'a CameraTable, &'a FilterTable),
+    /// At sensors; depth 1 is their first rays'.
+    Sensors(&'a SensorTable),
+}
+
 /// Traces batches of one view of a scene.
 #[derive(Debug)]
 pub struct Tracer<'a> {
     /// The scene.
     pub tables: &'a Tables,
-    /// The camera.
-    pub camera: &'a CameraTable,
-    /// The pixel filter.
-    pub filter: &'a FilterTable,
+    /// Where paths start.
+    pub start: Start<'a>,
     /// What does not change.
     pub transport: Transport,
 }
@@ -116,9 +124,19 @@ impl Tracer<'_> {
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
         let area = TileArea { min, max };
         let mut time = Instant::now();
-        dispatch!(execution, l => generate(l, self.camera, self.filter, &sampler, area, sample, &mut ws.paths));
+        let first = match self.start {
+            Start::Camera(camera, filter) => {
+                dispatch!(execution, l => generate(l, camera, filter, &sampler, area, sample, &mut ws.paths));
+                0
+            }
+            Start::Sensors(sensors) => {
+                dispatch!(execution, l => place(l, sensors, &sampler, area, sample, ws));
+                self.light_sensors(&SampleContext { sampler, sample, depth: 0 }, ws);
+                1
+            }
+        };
         time = ws.statistics.spent(0, time);
-        for depth in 0..MOST_DEPTH {
+        for depth in first..MOST_DEPTH {
             if ws.paths.count == 0 || cancelled() {
                 break;
             }
@@ -141,6 +159,15 @@ impl Tracer<'_> {
             ws.paths.set_masks();
             catcher::narrow(self.tables, &mut ws.paths);
         }
+    }
+
+    /// Lights the sensors and starts their paths.
+    fn light_sensors(&self, context: &SampleContext, ws: &mut Workspace) {
+        dispatch!(self.transport.execution, l => measure(l, self.tables, &self.transport, context, ws));
+        trace_shadows(self.tables, &self.transport, true, ws);
+        std::mem::swap(&mut ws.paths, &mut ws.next);
+        ws.paths.set_masks();
+        catcher::narrow(self.tables, &mut ws.paths);
     }
 
     /// Shades all surface hits, material by material, a chunk at a time.

@@ -1,14 +1,16 @@
-//! Files: EXR with all passes, PNG and JPEG for looking at, and comparing images.
+//! Files: EXR with all passes, PNG and JPEG for looking at, false colour, and comparing images.
 
 mod atomic;
 mod compare;
 mod exr;
+mod false_colour;
 mod picture;
 mod tone_map;
 
 pub use atomic::write_atomically;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, read_exr, write_exr};
+pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS, short_number};
 pub use picture::{encode_png, write_picture};
 pub use tone_map::{ToneMap, display};
 pub(crate) use tone_map::{WHITE, map_lanes};

@@ -2,7 +2,7 @@
 
 use crate::{
     compile::{CompiledScene, View},
-    integrator::{TILE, Tracer, Workspace},
+    integrator::{Start, TILE, Tracer, Workspace},
     light::KnownLights,
     scene::{Aov, Settings},
 };
@@ -28,7 +28,7 @@ pub(super) fn learn(
         return None;
     }
     let View { camera, filter, transport, window, .. } = View::new(scene, &reduced(settings), execution).ok()?;
-    let tracer = Tracer { tables: &scene.tables, camera: &camera, filter: &filter, transport };
+    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport };
     let mut workspace = Workspace::default();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     workspace.arrivals = Some(Vec::new());

@@ -3,21 +3,23 @@
 mod learn;
 mod progress;
 mod schedule;
+mod source;
 mod worker;
 
 pub use progress::Progress;
 pub use schedule::TileReady;
 
 use crate::{
-    compile::{CompiledScene, View},
+    compile::{CompiledScene, View, transport},
     error::{Error, Result},
     film::Film,
-    integrator::Statistics,
+    integrator::{SensorTable, Statistics, Transport},
     light::KnownLights,
-    scene::Settings,
+    scene::{Crop, Settings},
     threads::available_threads,
 };
 use schedule::Schedule;
+use source::Source;
 use std::{
     sync::{
         Arc, OnceLock,
@@ -39,7 +41,7 @@ pub struct Render {
 #[derive(Debug)]
 pub(crate) struct Shared {
     pub(crate) scene: Arc<CompiledScene>,
-    pub(crate) view: View,
+    pub(crate) source: Source,
     pub(crate) settings: Settings,
     /// What the first worker learns.
     pub(crate) known: OnceLock<Option<Arc<KnownLights>>>,
@@ -54,12 +56,24 @@ impl Render {
     /// Starts rendering; settings are those of the compiled view.
     pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
         let view = View::new(&scene, settings, execution)?;
-        let film = Film::new(settings, view.window, view.exposure, !scene.tables.geometry.set_catcher.is_empty());
+        let (window, exposure) = (view.window, view.exposure);
+        Ok(Self::run(scene, settings, Source::View(view), window, exposure))
+    }
+
+    /// Starts measuring at sensors, whose picture has the resolution of the settings.
+    pub(crate) fn sense(scene: Arc<CompiledScene>, sensors: SensorTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
+        let transport = Transport { measure: false, ..transport(&scene, settings, execution, [0.0; 3], [0.0; 3]) };
+        let window = Crop { min: [0; 2], max: settings.resolution };
+        Self::run(scene, settings, Source::Sensors { sensors, transport }, window, 1.0)
+    }
+
+    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, window: Crop, exposure: f32) -> Self {
+        let film = Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty());
         let schedule = Schedule::new(film.tile_count(), settings.samples, settings.time_limit_s);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let shared = Arc::new(Shared {
             scene,
-            view,
+            source,
             settings: settings.clone(),
             known: OnceLock::new(),
             film,
@@ -74,7 +88,7 @@ impl Render {
             std::thread::spawn(move || worker::work(&shared, &send))
         };
         let workers = (0..threads.max(1)).map(spawn).collect();
-        Ok(Self { shared, workers, ready })
+        Self { shared, workers, ready }
     }
 
     /// The next tile with new samples; `None` when the time is out or the render has ended (see [`Render::is_finished`]).

@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Shared, TileReady, learn::learn, schedule::Work};
+use super::{Shared, TileReady, learn::learn, schedule::Work, source::Source};
 use crate::{
     film::Block,
     integrator::{Tracer, Transport, Workspace},
@@ -32,10 +32,14 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let tables = &shared.scene.tables;
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let execution = shared.view.transport.execution;
-    let known = shared.known.get_or_init(|| learn(&shared.scene, &shared.settings, execution, &cancelled)).clone();
-    let transport = Transport { known, ..shared.view.transport.clone() };
-    let tracer = Tracer { tables, camera: &shared.view.camera, filter: &shared.view.filter, transport };
+    let learned = || match &shared.source {
+        Source::View(view) => learn(&shared.scene, &shared.settings, view.transport.execution, &cancelled),
+        // Sensors have no view to learn from.
+        Source::Sensors { .. } => None,
+    };
+    let known = shared.known.get_or_init(learned).clone();
+    let transport = Transport { known, ..shared.source.transport().clone() };
+    let tracer = Tracer { tables, start: shared.source.start(), transport };
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
     for sample in work.samples.clone() {
         tracer.trace(area.min, area.max, sample, workspace, &cancelled);
@@ -47,7 +51,7 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
     let samples = work.samples.end - work.samples.start;
     let origin = shared.scene.tables.origin;
-    let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.view.exposure, origin);
+    let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.source.exposure(), origin);
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished_one();
     shared.film.add(work.tile, work.block, block, |samples| {

@@ -12,6 +12,7 @@ mod light;
 mod material;
 mod measured;
 mod mesh;
+mod meter;
 mod origin;
 mod settings;
 mod texture;
@@ -28,6 +29,7 @@ pub use material::{
 };
 pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
+pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
@@ -84,6 +86,12 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Cameras; [`Settings::camera`] chooses one.
     pub cameras: Vec<Camera>,
+    /// Points at which light is measured.
+    #[serde(default)]
+    pub meters: Vec<Meter>,
+    /// Calculation grids.
+    #[serde(default)]
+    pub grids: Vec<Grid>,
     /// How it is rendered.
     pub settings: Settings,
 }

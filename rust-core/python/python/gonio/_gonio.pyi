@@ -20,6 +20,15 @@ __all__ = [
     "UnsupportedError",
     "Array",
     "Film",
+    "Glare",
+    "GlareSource",
+    "GridReading",
+    "Measurements",
+    "Picture",
+    "Reading",
+    "false_colour",
+    "glare",
+    "measure",
     "MeasuredBsdf",
     "Pass",
     "Progress",
@@ -94,6 +103,129 @@ class MeasuredBsdf:
     def sample(self, wo: Buffer, u: Buffer) -> tuple[Array, Array]: ...
     def fit(self) -> dict[str, Any]: ...
     def write(self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int | None = None, phi: int | None = None) -> None: ...
+
+@final
+class Reading:
+    @property
+    def value(self) -> float: ...
+    @property
+    def standard_error(self) -> float: ...
+    def __float__(self) -> float: ...
+
+@final
+class GridReading:
+    @property
+    def name(self) -> str: ...
+    @property
+    def quantity(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    @property
+    def spacing(self) -> tuple[float, float]: ...
+    @property
+    def average(self) -> Reading: ...
+    @property
+    def min(self) -> Reading: ...
+    @property
+    def max(self) -> Reading: ...
+    @property
+    def uniformity(self) -> float: ...
+    @property
+    def diversity(self) -> float: ...
+    @property
+    def values(self) -> Array: ...
+    @property
+    def standard_errors(self) -> Array: ...
+    @property
+    def positions(self) -> Array: ...
+    def picture(
+        self,
+        *,
+        max: float | None = None,
+        steps: int = 10,
+        log: float | None = None,
+        contours: bool = True,
+        legend: bool = True,
+    ) -> Picture: ...
+
+@final
+class Measurements:
+    @property
+    def meters(self) -> list[Reading]: ...
+    @property
+    def grids(self) -> list[GridReading]: ...
+    @property
+    def diagnostics(self) -> list[tuple[str, str]]: ...
+    def csv(self) -> str: ...
+
+def measure(
+    scene: Scene,
+    *,
+    samples: int = 4096,
+    previous: Render | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Measurements: ...
+
+@final
+class Picture:
+    @property
+    def size(self) -> tuple[int, int]: ...
+    def legend(self, height: int) -> Picture: ...
+    def tobytes(self) -> bytes: ...
+    def write(self, path: str | PathLike[str]) -> None: ...
+
+def false_colour(
+    values: Buffer,
+    *,
+    max: float | None = None,
+    steps: int = 10,
+    log: float | None = None,
+    unit: str = "",
+    contours: bool = False,
+    smoothing: int = 3,
+    legend: bool = True,
+) -> Picture: ...
+
+@final
+class GlareSource:
+    @property
+    def luminance(self) -> float: ...
+    @property
+    def solid_angle(self) -> float: ...
+    @property
+    def direction(self) -> tuple[float, float, float]: ...
+    @property
+    def position_index(self) -> float: ...
+    @property
+    def illuminance(self) -> float: ...
+
+@final
+class Glare:
+    @property
+    def ugr(self) -> float | None: ...
+    @property
+    def dgp(self) -> float: ...
+    @property
+    def dgp_low_light(self) -> float: ...
+    @property
+    def eye_illuminance(self) -> float: ...
+    @property
+    def background_luminance(self) -> float: ...
+    @property
+    def threshold(self) -> float: ...
+    @property
+    def sources(self) -> list[GlareSource]: ...
+
+def glare(
+    luminance: Buffer,
+    *,
+    projection: str = "equidistant",
+    fov: float = 180.0,
+    threshold: float | None = None,
+    radius: float = 0.2,
+) -> Glare: ...
 
 @final
 class Film:
@@ -200,7 +332,32 @@ class Scene:
         measured: int | None = None,
         lights: int | None = None,
         cameras: int | None = None,
+        meters: int | None = None,
+        grids: int | None = None,
     ) -> None: ...
+    def add_meter(
+        self,
+        position: Sequence[float],
+        *,
+        normal: Sequence[float] = (0.0, 0.0, 1.0),
+        facing: Sequence[float] = (0.0, 1.0, 0.0),
+        quantity: str = "illuminance",
+        name: str = "meter",
+    ) -> int: ...
+    def add_grid(
+        self,
+        *,
+        corner: Sequence[float] = (0.0, 0.0, 0.0),
+        edges: Sequence[Sequence[float]] | None = None,
+        mesh: int | None = None,
+        transform: Sequence[Sequence[float]] | None = None,
+        spacing: float = 0.0,
+        margin: float = 0.0,
+        height: float = 0.0,
+        facing: Sequence[float] = (0.0, 1.0, 0.0),
+        quantity: str = "illuminance",
+        name: str = "grid",
+    ) -> int: ...
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int: ...
     def add_instance(
         self, mesh: int, materials: Sequence[int] = ..., *, transform: Sequence[Sequence[float]] | None = None, name: str = "instance"

@@ -1,0 +1,41 @@
+//! Readings as comma-separated values (RFC 4180).
+
+use super::Measurements;
+use crate::scene::{Measurand, Origin};
+use std::fmt::Write;
+
+/// One line a point, meters first: name, row and column in the grid (empty for meters), position in metres, what was measured, its value with the
+/// standard error, and the unit.
+pub fn csv(measurements: &Measurements) -> String {
+    let mut out = String::from("name,row,column,x_m,y_m,z_m,quantity,value,standard_error,unit\r\n");
+    for meter in &measurements.meters {
+        let place = (meter.meter.position, meter.reading);
+        line(&mut out, &meter.meter.origin, None, place, meter.meter.measurand);
+    }
+    for grid in &measurements.grids {
+        for (index, point) in grid.points.iter().enumerate() {
+            let Some(point) = point else { continue };
+            line(&mut out, &grid.origin, Some([index / grid.size[0], index % grid.size[0]]), *point, grid.measurand);
+        }
+    }
+    out
+}
+
+fn line(
+    out: &mut String,
+    origin: &Origin,
+    place: Option<[usize; 2]>,
+    ([x, y, z], reading): ([f64; 3], super::Reading),
+    measurand: Measurand,
+) {
+    let place = place.map_or_else(|| ",".to_owned(), |[row, column]| format!("{row},{column}"));
+    let (quantity, unit) = (measurand.name(), measurand.unit().replace('²', "2"));
+    let (value, error) = (reading.value, reading.standard_error);
+    // Writing to a string does not fail.
+    let _ = write!(out, "{},{place},{x:.6},{y:.6},{z:.6},{quantity},{value:.6},{error:.6},{unit}\r\n", quoted(&origin.name));
+}
+
+/// A text as a field: in quotes where it holds what has a meaning.
+fn quoted(text: &str) -> String {
+    if text.contains(['"', ',', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}

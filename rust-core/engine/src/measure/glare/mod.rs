@@ -1,0 +1,111 @@
+//! Glare from a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
+
+mod position;
+mod source;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+pub use position::position_index;
+pub use source::{GlareSource, Threshold};
+pub use view::{FisheyeProjection, FisheyeView, PixelView};
+
+use crate::error::{Error, Result};
+use std::f64::consts::PI;
+
+/// How sources are told from what surrounds them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GlareOptions {
+    /// From which luminance on a pixel glares.
+    pub threshold: Threshold,
+    /// Radians within which sources count as one; evalglare's is 0.2.
+    pub radius: f64,
+}
+
+impl Default for GlareOptions {
+    /// As evalglare does where nothing is said: five times the mean, 0.2 radians.
+    fn default() -> Self {
+        Self { threshold: Threshold::TimesMean(5.0), radius: 0.2 }
+    }
+}
+
+/// What a picture says about glare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Glare {
+    /// The sources, those with the most light first.
+    pub sources: Vec<GlareSource>,
+    /// Each pixel's source, from 1, or 0.
+    pub source_of: Vec<u32>,
+    /// Luminance from which on pixels glared, cd/m².
+    pub threshold: f64,
+    /// Mean luminance of the picture by solid angle, cd/m².
+    pub mean_luminance: f64,
+    /// Illuminance at the eye across the line of sight, lx.
+    pub eye_illuminance: f64,
+    /// Luminance of what is no source: its illuminance at the eye over π, cd/m².
+    pub background_luminance: f64,
+}
+
+impl Glare {
+    /// Finds the sources in luminances (cd/m², rows from the top). Values that are not finite or below 0 count as 0.
+    ///
+    /// # Errors
+    /// Another number of values than the view has pixels, or a view of less than a hemisphere.
+    pub fn new(luminance: &[f32], view: &FisheyeView, options: &GlareOptions) -> Result<Self> {
+        let [width, height] = view.size();
+        if luminance.len() != width * height {
+            return Err(Error::setting("luminance", format!("{} values were found, expected {width} × {height}", luminance.len())));
+        }
+        if !view.covers_hemisphere() {
+            let problem = "the picture shows less than a hemisphere, so that the light at the eye is not known; expected 180° or more";
+            return Err(Error::setting("fov", problem));
+        }
+        let known: Vec<f32> = luminance.iter().map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 }).collect();
+        let (mut light, mut solid_angle, mut eye_illuminance) = (0.0, 0.0, 0.0);
+        for (index, value) in known.iter().enumerate() {
+            if let Some(pixel) = view.pixel([index % width, index / width]) {
+                let own = f64::from(*value) * pixel.solid_angle;
+                light += own;
+                solid_angle += pixel.solid_angle;
+                eye_illuminance += own * pixel.direction[2].max(0.0);
+            }
+        }
+        let mean_luminance = light / solid_angle;
+        let threshold = match options.threshold {
+            Threshold::Luminance(luminance) => luminance,
+            Threshold::TimesMean(factor) => factor * mean_luminance,
+        };
+        // Everything would glare in the dark.
+        let (sources, source_of) = source::find(&known, view, threshold.max(f64::MIN_POSITIVE), options.radius);
+        let of_sources: f64 = sources.iter().map(|source| source.illuminance).sum();
+        let background_luminance = (eye_illuminance - of_sources).max(0.0) / PI;
+        Ok(Self { sources, source_of, threshold, mean_luminance, eye_illuminance, background_luminance })
+    }
+
+    /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources ahead. None without sources, or where all but them is
+    /// black.
+    pub fn ugr(&self) -> Option<f64> {
+        let sum = self.weighted_sum();
+        (sum > 0.0 && self.background_luminance > 0.0).then(|| 8.0 * (0.25 / self.background_luminance * sum).log10())
+    }
+
+    /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1.
+    /// Made for 380 lx and more at the eye and values from 0.2 to 0.8.
+    pub fn dgp(&self) -> f64 {
+        let of_sources = if self.eye_illuminance > 0.0 { self.weighted_sum() / self.eye_illuminance.powf(1.87) } else { 0.0 };
+        (5.87e-5 * self.eye_illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0)
+    }
+
+    /// The same with Wienold's correction for little light, as evalglare has it below 1000 lx: times e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)).
+    pub fn dgp_low_light(&self) -> f64 {
+        let exponential = (0.024 * self.eye_illuminance.min(1000.0) - 4.0).exp();
+        if self.eye_illuminance < 1000.0 { self.dgp() * exponential / (1.0 + exponential) } else { self.dgp() }
+    }
+
+    /// Σ L² ω / P² over the sources before the eye.
+    fn weighted_sum(&self) -> f64 {
+        let ahead = self.sources.iter().filter(|source| source.direction[2] > 0.0);
+        ahead.map(|source| source.luminance.powi(2) * source.solid_angle / source.position_index.powi(2)).sum()
+    }
+}

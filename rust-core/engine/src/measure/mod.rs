@@ -1,0 +1,127 @@
+//! Answers in numbers: meters at points and calculation grids, evaluated by the path tracer without a camera.
+
+mod csv;
+mod daylight_factor;
+pub mod glare;
+mod outline;
+mod picture;
+mod points;
+mod reading;
+mod sense;
+mod vector;
+
+#[cfg(test)]
+mod tests;
+
+pub use csv::csv;
+pub use picture::value_picture;
+pub use points::{GridPoints, MOST_POINTS};
+pub use reading::{GridReading, MeterReading, Reading, Summary};
+
+use crate::{
+    compile::{CompiledScene, compile},
+    error::{Diagnostic, Error, Result},
+    render::Progress,
+    scene::{Measurand, Meter, Scene},
+};
+use daylight_factor::{ExteriorSky, under_domes};
+use gonio_simd::Execution;
+use sense::Probe;
+use std::sync::{Arc, atomic::AtomicBool};
+
+/// What all meters and grids of a scene show.
+#[derive(Clone, Debug, Default)]
+pub struct Measurements {
+    /// In the scene's order.
+    pub meters: Vec<MeterReading>,
+    /// In the scene's order.
+    pub grids: Vec<GridReading>,
+    /// What differs from what was asked for.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What stands around a measurement.
+pub struct Watch<'a> {
+    /// Lends what did not change.
+    pub previous: Option<&'a CompiledScene>,
+    /// Ends compiling.
+    pub cancel: &'a AtomicBool,
+    /// Is told how far it is, now and then; false ends it.
+    pub progress: &'a mut dyn FnMut(&Progress) -> bool,
+}
+
+impl std::fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Watch").field("previous", &self.previous.is_some()).field("cancel", self.cancel).finish_non_exhaustive()
+    }
+}
+
+/// Evaluates a scene's meters and grids with the scene's settings, `samples` of them a point; cameras and passes do not matter.
+///
+/// # Errors
+/// Grids that cannot be laid out, meters without a direction, more than [`MOST_POINTS`] points, what compiling finds, cancellation, and for
+/// daylight factors a scene without domes.
+pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Result<Measurements> {
+    let grids = scene.grids.iter().map(|grid| GridPoints::new(scene, grid)).collect::<Result<Vec<_>>>()?;
+    let at_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| {
+        points.known().map(|position| Meter {
+            origin: grid.origin.clone(),
+            position,
+            normal: points.normal,
+            facing: grid.facing,
+            measurand: grid.measurand,
+        })
+    });
+    let meters: Vec<Meter> = scene.meters.iter().cloned().chain(at_grids).collect();
+    if meters.len() > MOST_POINTS {
+        return Err(Error::setting(
+            "grids",
+            format!("{} points in all, expected at most {MOST_POINTS}; take a wider spacing", meters.len()),
+        ));
+    }
+    let mut diagnostics = Vec::new();
+    let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;
+    let (single, mut rest) = readings.split_at(scene.meters.len());
+    let meters = scene.meters.iter().zip(single).map(|(meter, reading)| MeterReading { meter: meter.clone(), reading: *reading }).collect();
+    let mut of_grid = |(grid, points): (&crate::scene::Grid, GridPoints)| {
+        let (own, others) = rest.split_at(points.known().count());
+        rest = others;
+        GridReading::new(grid, points, own)
+    };
+    let grids = scene.grids.iter().zip(grids).map(&mut of_grid).collect();
+    Ok(Measurements { meters, grids, diagnostics })
+}
+
+/// Readings of all meters: those under all lights in one go, daylight factors in another.
+fn read(
+    scene: &Scene,
+    meters: &[Meter],
+    execution: Execution,
+    watch: &mut Watch<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Vec<Reading>> {
+    let mut readings = vec![Reading::default(); meters.len()];
+    let (daylit, lit): (Vec<usize>, Vec<usize>) = (0..meters.len()).partition(|i| meters[*i].measurand == Measurand::DaylightFactor);
+    let chosen = |numbers: &[usize]| numbers.iter().map(|i| Probe::new(&meters[*i])).collect::<Result<Vec<_>>>();
+    let (daylit_probes, lit_probes) = (chosen(&daylit)?, chosen(&lit)?);
+    let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
+        let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
+        diagnostics.extend(compiled.diagnostics.iter().cloned());
+        sense::sense(compiled, probes, &scene.settings, execution, watch.progress)
+    };
+    if !lit.is_empty() {
+        let values = sense(scene, &lit_probes, diagnostics)?;
+        lit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading);
+    }
+    if let Some(first) = daylit.first() {
+        let sky = under_domes(scene, &meters[*first].origin)?;
+        let exterior = ExteriorSky::new(&sky)?;
+        let outside = sense(&exterior.scene, &[exterior.probe], &mut Vec::new())?[0];
+        if outside.value <= 0.0 {
+            return Err(Error::scene(&meters[*first].origin, "a daylight factor wants a sky that shines; the scene's domes are dark"));
+        }
+        let values = sense(&sky, &daylit_probes, diagnostics)?;
+        daylit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.percent_of(&outside));
+    }
+    Ok(readings)
+}

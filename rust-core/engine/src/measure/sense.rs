@@ -1,0 +1,118 @@
+//! From meters to sensors, and from their pixels to readings.
+
+use super::{
+    reading::Reading,
+    vector::{across, cross, unit},
+};
+use crate::{
+    compile::CompiledScene,
+    error::{Error, Result},
+    film::Image,
+    integrator::{Sensor, SensorTable},
+    render::{Progress, Render},
+    scene::{Aov, Background, Measurand, Meter, Settings},
+};
+use gonio_simd::Execution;
+use std::{f64::consts::PI, sync::Arc, time::Duration};
+
+/// How often progress is told.
+const TELL_EVERY: Duration = Duration::from_millis(50);
+/// Rounding errors of a position by its coordinates: that of the rebased point and that of the surface it may lie on.
+const POSITION_ERROR: f32 = 8.0 * f32::EPSILON;
+
+/// A meter in unit vectors, world space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Probe {
+    position: [f64; 3],
+    normal: [f64; 3],
+    side: [f64; 3],
+    turn: f64,
+    looks: bool,
+}
+
+impl Probe {
+    /// # Errors
+    /// Positions and directions that are not finite or have no length.
+    pub(super) fn new(meter: &Meter) -> Result<Self> {
+        let problem = |what: &str, v: [f64; 3]| format!("the meter's {what} is {v:?}, expected finite numbers and a direction");
+        let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, problem(what, v));
+        let position = Some(meter.position).filter(|p| p.iter().all(|x| x.is_finite())).ok_or_else(|| wrong("position", meter.position))?;
+        let direction = |what, v: [f64; 3]| unit(v).ok_or_else(|| wrong(what, v));
+        let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, looks };
+        Ok(match meter.measurand {
+            Measurand::Illuminance | Measurand::DaylightFactor => plane(direction("normal", meter.normal)?, false),
+            Measurand::Luminance => plane(direction("facing", meter.facing)?, true),
+            Measurand::Cylindrical | Measurand::Semicylindrical => {
+                let axis = direction("axis", meter.normal)?;
+                let normal = across(axis, meter.facing);
+                let turn = if meter.measurand == Measurand::Cylindrical { PI } else { 0.5 * PI };
+                Self { position, normal, side: cross(axis, normal), turn, looks: false }
+            }
+        })
+    }
+
+    fn sensor(&self, origin: [f64; 3]) -> Sensor {
+        let position = [0, 1, 2].map(|i| (self.position[i] - origin[i]) as f32);
+        let largest = position.iter().fold(0.0f32, |most, x| most.max(x.abs()));
+        let single = |v: [f64; 3]| v.map(|x| x as f32);
+        Sensor {
+            position,
+            error: largest * POSITION_ERROR,
+            normal: single(self.normal),
+            side: single(self.side),
+            turn: self.turn as f32,
+            looks: self.looks,
+        }
+    }
+}
+
+/// Measures at all probes; `settings.samples` a point, rounded up to what a block of pixels has room for.
+pub(super) fn sense(
+    scene: Arc<CompiledScene>,
+    probes: &[Probe],
+    settings: &Settings,
+    execution: Execution,
+    progress: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Vec<Reading>> {
+    let origin = scene.tables.origin;
+    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(origin)).collect();
+    let table = SensorTable::new(&sensors);
+    let side = table.side();
+    let blocks: Vec<[usize; 2]> = (0..probes.len()).map(|sensor| table.block(sensor)).collect();
+    let settings = Settings {
+        resolution: table.resolution(),
+        crop: None,
+        samples: settings.samples.div_ceil((side * side) as u32).max(1),
+        aovs: vec![Aov::Luminance, Aov::Illuminance],
+        shader_passes: Vec::new(),
+        background: Background::Seen,
+        ..settings.clone()
+    };
+    let mut render = Render::sense(scene, table, &settings, execution);
+    while !render.is_finished() {
+        // Which tile it was does not matter; waiting for one keeps the loop quiet.
+        let _ = render.next_tile(TELL_EVERY);
+        if !progress(&render.progress()) {
+            render.cancel();
+        }
+    }
+    render.finish()?;
+    let image = render.film().develop();
+    Ok(probes.iter().zip(blocks).map(|(probe, block)| pooled(&image, probe, block, side)).collect())
+}
+
+/// Parts of a block along its side; each is a net of the sampler's sequence itself.
+const PARTS: usize = 4;
+
+/// The reading of a block of pixels.
+fn pooled(image: &Image, probe: &Probe, [left, top]: [usize; 2], side: usize) -> Reading {
+    let aov = if probe.looks { Aov::Luminance } else { Aov::Illuminance };
+    let values = image.layer(aov).map_or(&[][..], |layer| &layer.values);
+    let (width, part) = (image.size()[0], side / PARTS);
+    let mean = |number: usize| {
+        let [first_x, first_y] = [left + number % PARTS * part, top + number / PARTS * part];
+        let rows = (first_y..first_y + part).filter_map(|row| values.get(row * width + first_x..row * width + first_x + part));
+        rows.flatten().map(|value| f64::from(*value)).sum::<f64>() / (part * part) as f64
+    };
+    Reading::of_parts((0..PARTS * PARTS).map(mean))
+}

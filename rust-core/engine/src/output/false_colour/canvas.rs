@@ -1,0 +1,73 @@
+//! A picture under construction.
+
+use super::font;
+
+/// 8-bit RGBA, rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Canvas {
+    /// Four bytes a pixel.
+    pub rgba: Vec<u8>,
+    /// Columns and rows.
+    pub size: [usize; 2],
+}
+
+impl Canvas {
+    /// A canvas of one colour.
+    pub fn new(size: [usize; 2], colour: [u8; 4]) -> Self {
+        Self { rgba: colour.repeat(size[0] * size[1]), size }
+    }
+
+    /// Sets a pixel; those outside do not matter.
+    pub fn set(&mut self, [x, y]: [usize; 2], colour: [u8; 4]) {
+        if x < self.size[0] && y < self.size[1] {
+            let at = 4 * (y * self.size[0] + x);
+            self.rgba[at..at + 4].copy_from_slice(&colour);
+        }
+    }
+
+    /// Copies another canvas to a place; what lies outside does not matter.
+    pub fn put(&mut self, other: &Self, [left, top]: [usize; 2]) {
+        let width = other.size[0].min(self.size[0].saturating_sub(left));
+        for y in 0..other.size[1].min(self.size[1].saturating_sub(top)) {
+            let (from, to) = (4 * y * other.size[0], 4 * ((top + y) * self.size[0] + left));
+            self.rgba[to..to + 4 * width].copy_from_slice(&other.rgba[from..from + 4 * width]);
+        }
+    }
+
+    /// Fills a rectangle.
+    pub fn fill(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], colour: [u8; 4]) {
+        (top..top + height).for_each(|y| (left..left + width).for_each(|x| self.set([x, y], colour)));
+    }
+
+    /// Lays a colour over a rectangle by its alpha.
+    pub fn shade(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], [r, g, b, alpha]: [u8; 4]) {
+        let mixed = |below: u8, above: u8| ((u32::from(below) * u32::from(255 - alpha) + u32::from(above) * u32::from(alpha)) / 255) as u8;
+        for y in top..(top + height).min(self.size[1]) {
+            for x in left..(left + width).min(self.size[0]) {
+                let at = 4 * (y * self.size[0] + x);
+                let pixel = &mut self.rgba[at..at + 4];
+                pixel.copy_from_slice(&[mixed(pixel[0], r), mixed(pixel[1], g), mixed(pixel[2], b), pixel[3]]);
+            }
+        }
+    }
+
+    /// Writes a text, a dot of the font being so many pixels wide.
+    pub fn write(&mut self, text: &str, [left, top]: [usize; 2], dot: usize, colour: [u8; 4]) {
+        font::draw(text, |x, y| self.fill([left + x * dot, top + y * dot], [dot; 2], colour));
+    }
+
+    /// Pixels across a text and down it.
+    pub fn text_size(text: &str, dot: usize) -> [usize; 2] {
+        [font::width(text) * dot, font::SIZE[1] * dot]
+    }
+}
+
+/// A number as a legend shows it: three digits that count, without zeros behind the point.
+pub fn short_number(value: f32) -> String {
+    if !(1e-4..1e7).contains(&value.abs()) {
+        return if value == 0.0 { "0".into() } else { format!("{value:.0e}") };
+    }
+    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

@@ -1,0 +1,84 @@
+//! Steps of a quantity, their edges and colours.
+
+use crate::error::{Error, Result};
+
+/// Most steps of a scale: more cannot be told apart.
+pub const MOST_STEPS: u32 = 64;
+
+/// Even steps from 0 to a value, or even in the logarithm below it; what lies beyond takes the last step's colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FalseColourScale {
+    /// Edges between steps, ascending: one more than steps.
+    edges: Vec<f32>,
+}
+
+/// The viridis ramp (Smith and van der Walt, public domain) at even places: it grows evenly lighter, also in print and to the colour-blind.
+const RAMP: [[u8; 3]; 10] = [
+    [68, 1, 84],
+    [72, 40, 120],
+    [62, 74, 137],
+    [49, 104, 142],
+    [38, 130, 142],
+    [31, 158, 137],
+    [53, 183, 121],
+    [109, 205, 89],
+    [180, 222, 44],
+    [253, 231, 37],
+];
+
+impl FalseColourScale {
+    /// Steps up to `max`, even from 0, or even in the logarithm over so many `decades`.
+    ///
+    /// # Errors
+    /// A greatest value or decades that are not above 0, or no steps or too many.
+    pub fn new(max: f32, steps: u32, decades: Option<f32>) -> Result<Self> {
+        if !(max > 0.0 && max.is_finite()) {
+            return Err(Error::setting("max", format!("{max} was found, expected a number above 0")));
+        }
+        if steps == 0 || steps > MOST_STEPS {
+            return Err(Error::setting("steps", format!("{steps} was found, expected 1 to {MOST_STEPS}")));
+        }
+        let part = |step: u32| step as f32 / steps as f32;
+        let edges = match decades {
+            None => (0..=steps).map(|step| max * part(step)).collect(),
+            Some(decades) if decades > 0.0 && decades <= 20.0 => {
+                (0..=steps).map(|step| max * 10f32.powf(decades * (part(step) - 1.0))).collect()
+            }
+            Some(decades) => return Err(Error::setting("log", format!("{decades} decades were found, expected above 0 and at most 20"))),
+        };
+        Ok(Self { edges })
+    }
+
+    /// A round greatest value (1, 2 or 5 times a power of ten) that 99.5 % of the values do not exceed.
+    pub fn round_max(values: &[f32]) -> f32 {
+        let mut known: Vec<f32> = values.iter().copied().filter(|value| value.is_finite() && *value > 0.0).collect();
+        known.sort_by(f32::total_cmp);
+        let Some(high) = known.get((known.len() as f64 * 0.995) as usize).or(known.last()) else { return 1.0 };
+        let power = 10f32.powf(high.log10().floor());
+        [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|max| *max >= *high * 0.999).unwrap_or(10.0 * power)
+    }
+
+    /// Edges between steps, ascending: one more than steps.
+    pub fn edges(&self) -> &[f32] {
+        &self.edges
+    }
+
+    /// Steps.
+    pub fn steps(&self) -> usize {
+        self.edges.len() - 1
+    }
+
+    /// The step of a value; what is not a number has none.
+    pub fn step(&self, value: f32) -> Option<usize> {
+        let above = self.edges[1..].partition_point(|edge| *edge <= value);
+        (!value.is_nan()).then(|| above.min(self.steps() - 1))
+    }
+
+    /// The colour of a step, 8-bit sRGB.
+    pub fn colour(&self, step: usize) -> [u8; 3] {
+        let place = if self.steps() > 1 { step as f32 / (self.steps() - 1) as f32 } else { 1.0 } * (RAMP.len() - 1) as f32;
+        let low = (place as usize).min(RAMP.len() - 2);
+        let part = place - low as f32;
+        std::array::from_fn(|c| (f32::from(RAMP[low][c]) * (1.0 - part) + f32::from(RAMP[low + 1][c]) * part + 0.5) as u8)
+    }
+}

@@ -1,0 +1,46 @@
+//! What a render starts from.
+
+use crate::{
+    compile::View,
+    integrator::{SensorTable, Start, Transport},
+};
+
+/// A camera's view, or sensors.
+#[derive(Debug)]
+pub(crate) enum Source {
+    /// A picture.
+    View(View),
+    /// Measurements.
+    Sensors {
+        /// Where.
+        sensors: SensorTable,
+        /// How.
+        transport: Transport,
+    },
+}
+
+impl Source {
+    /// Where paths start.
+    pub(crate) fn start(&self) -> Start<'_> {
+        match self {
+            Self::View(view) => Start::Camera(&view.camera, &view.filter),
+            Self::Sensors { sensors, .. } => Start::Sensors(sensors),
+        }
+    }
+
+    /// The light transport.
+    pub(crate) fn transport(&self) -> &Transport {
+        match self {
+            Self::View(view) => &view.transport,
+            Self::Sensors { transport, .. } => transport,
+        }
+    }
+
+    /// Factor on the colour pass.
+    pub(crate) fn exposure(&self) -> f32 {
+        match self {
+            Self::View(view) => view.exposure,
+            Self::Sensors { .. } => 1.0,
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Where light is measured: meters at points, and calculation grids.
+
+use super::{MeshId, Origin, Transform};
+use serde::{Deserialize, Serialize};
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Measurand {
+    /// Of a plane, lx: E = ∫ L cos θ dω over the normal's hemisphere.
+    #[default]
+    Illuminance,
+    /// Mean over the curved surface of a small cylinder about the normal, lx: (1/π) ∫ L sin θ dω (EN 12464-1).
+    Cylindrical,
+    /// The same of the half that faces `facing`, lx: (1/π) ∫ L sin θ (1 + cos φ) dω (EN 13201-3).
+    Semicylindrical,
+    /// Illuminance by domes alone over that of level ground under nothing else than them, per cent.
+    DaylightFactor,
+    /// Towards `facing`, cd/m².
+    Luminance,
+}
+
+impl Measurand {
+    /// All with their names.
+    pub const NAMES: [(Self, &'static str); 5] = [
+        (Self::Illuminance, "illuminance"),
+        (Self::Cylindrical, "cylindrical"),
+        (Self::Semicylindrical, "semicylindrical"),
+        (Self::DaylightFactor, "daylight-factor"),
+        (Self::Luminance, "luminance"),
+    ];
+
+    /// The name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
+    }
+    /// What has the name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(_, known)| *known == name).map(|(measurand, _)| *measurand)
+    }
+    /// The unit's sign.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Illuminance | Self::Cylindrical | Self::Semicylindrical => "lx",
+            Self::DaylightFactor => "%",
+            Self::Luminance => "cd/m²",
+        }
+    }
+}
+
+/// A measurement at one point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Meter {
+    /// Where it came from.
+    pub origin: Origin,
+    /// World space, metres.
+    pub position: [f64; 3],
+    /// The plane's normal, or the cylinder's axis; any length.
+    pub normal: [f64; 3],
+    /// Where half a cylinder or a luminance meter faces; any length. Cylinders take what stands across their axis of it.
+    pub facing: [f64; 3],
+    /// What is measured.
+    pub measurand: Measurand,
+}
+
+impl Default for Meter {
+    /// A level luxmeter at the origin, facing +y.
+    fn default() -> Self {
+        Self {
+            origin: Origin::default(),
+            position: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            facing: [0.0, 1.0, 0.0],
+            measurand: Measurand::default(),
+        }
+    }
+}
+
+/// The surface that a grid measures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum GridArea {
+    /// A parallelogram, world space, metres; its normal is the first edge × the second.
+    Rectangle {
+        /// Where both edges start.
+        corner: [f64; 3],
+        /// The edges: along a row, and from row to row.
+        edges: [[f64; 3]; 2],
+    },
+    /// What a mesh of the scene covers, seen along its mean normal, whether or not the mesh is shown.
+    Mesh {
+        /// Which.
+        mesh: MeshId,
+        /// Local to world, metres.
+        transform: Transform,
+    },
+}
+
+/// A calculation grid: points at the middles of equal cells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Grid {
+    /// Where it came from.
+    pub origin: Origin,
+    /// What it covers.
+    pub area: GridArea,
+    /// Metres from point to point, about: cells fill the area evenly. 0 is that of EN 12464-1.
+    pub spacing: f64,
+    /// Metres along the area's edges that are left out.
+    pub margin: f64,
+    /// Metres by which the points lie above the area, along its normal.
+    pub height: f64,
+    /// As a meter's.
+    pub facing: [f64; 3],
+    /// What is measured.
+    pub measurand: Measurand,
+}
+
+impl Default for Grid {
+    /// A square metre of level ground.
+    fn default() -> Self {
+        Self {
+            origin: Origin::default(),
+            area: GridArea::Rectangle { corner: [0.0; 3], edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] },
+            spacing: 0.0,
+            margin: 0.0,
+            height: 0.0,
+            facing: [0.0, 1.0, 0.0],
+            measurand: Measurand::default(),
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Meters and calculation grids.
+
+use crate::{
+    array::Array,
+    error::{exception, setting},
+    picture::{self, Picture},
+    render::Render,
+    scene::Scene,
+};
+use gonio::{
+    measure::{self, Summary, Watch},
+    scene::{Measurand, Scene as Description},
+};
+use gonio_simd::Execution;
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The quantity of a name.
+pub(crate) fn measurand(name: &str) -> PyResult<Measurand> {
+    let expected = || Measurand::NAMES.map(|(_, name)| name).join(", ");
+    Measurand::by_name(name).ok_or_else(|| setting("quantity", format!("'{name}' was found, expected one of {}", expected())))
+}
+
+/// A value with its standard error, in the quantity's unit.
+#[pyclass(frozen, get_all, module = "gonio")]
+pub(crate) struct Reading {
+    /// The mean of all samples.
+    value: f64,
+    /// By the spread of parts of the samples; an upper estimate.
+    standard_error: f64,
+}
+
+impl Reading {
+    fn of(reading: measure::Reading) -> Self {
+        Self { value: reading.value, standard_error: reading.standard_error }
+    }
+}
+
+#[pymethods]
+impl Reading {
+    fn __float__(&self) -> f64 {
+        self.value
+    }
+    fn __repr__(&self) -> String {
+        format!("<gonio.Reading: {} ± {}>", self.value, self.standard_error)
+    }
+}
+
+/// What a grid shows. Arrays have the grid's rows and columns, and nan where the area does not reach.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct GridReading {
+    grid: measure::GridReading,
+}
+
+impl GridReading {
+    fn summary(&self) -> &Summary {
+        &self.grid.summary
+    }
+    fn rows(&self, value: impl Fn(&([f64; 3], measure::Reading)) -> f64) -> Array {
+        let values = self.grid.points.iter().map(|point| point.as_ref().map_or(f64::NAN, &value)).collect();
+        Array::rows(values, self.grid.size[0])
+    }
+}
+
+#[pymethods]
+impl GridReading {
+    /// The grid's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.grid.origin.name
+    }
+    /// What was measured.
+    #[getter]
+    fn quantity(&self) -> &'static str {
+        self.grid.measurand.name()
+    }
+    /// The unit's sign.
+    #[getter]
+    fn unit(&self) -> &'static str {
+        self.grid.measurand.unit()
+    }
+    /// Points in a row, and rows.
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        self.grid.size.into()
+    }
+    /// Metres from point to point, along a row and from row to row.
+    #[getter]
+    fn spacing(&self) -> (f64, f64) {
+        self.grid.spacing.into()
+    }
+    /// Mean of all points.
+    #[getter]
+    fn average(&self) -> Reading {
+        Reading::of(self.summary().average)
+    }
+    /// The least point.
+    #[getter]
+    fn min(&self) -> Reading {
+        Reading::of(self.summary().min)
+    }
+    /// The greatest point.
+    #[getter]
+    fn max(&self) -> Reading {
+        Reading::of(self.summary().max)
+    }
+    /// U₀: least over average.
+    #[getter]
+    fn uniformity(&self) -> f64 {
+        self.summary().uniformity()
+    }
+    /// U_d: least over greatest.
+    #[getter]
+    fn diversity(&self) -> f64 {
+        self.summary().diversity()
+    }
+    /// The values.
+    #[getter]
+    fn values(&self) -> Array {
+        self.rows(|(_, reading)| reading.value)
+    }
+    /// Their standard errors.
+    #[getter]
+    fn standard_errors(&self) -> Array {
+        self.rows(|(_, reading)| reading.standard_error)
+    }
+    /// Positions of the points that were measured, metres: (N, 3).
+    #[getter]
+    fn positions(&self) -> Array {
+        Array::rows(self.grid.points.iter().flatten().flat_map(|(position, _)| *position).collect(), 3)
+    }
+    /// False colour with isolines, the values at their points, and a legend; `max` is the upper end of the scale, a round number without it.
+    #[pyo3(signature = (*, max = None, steps = 10, log = None, contours = true, legend = true))]
+    fn picture(&self, max: Option<f32>, steps: u32, log: Option<f32>, contours: bool, legend: bool) -> PyResult<Picture> {
+        let style = picture::style(&self.grid.values(), max, steps, log, self.unit(), [contours, legend], 0)?;
+        Ok(Picture::of(measure::value_picture(&self.grid, &style), style))
+    }
+}
+
+/// What all meters and grids of a scene show.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct Measurements {
+    found: measure::Measurements,
+}
+
+#[pymethods]
+impl Measurements {
+    /// Readings of the meters, in the scene's order.
+    #[getter]
+    fn meters(&self) -> Vec<Reading> {
+        self.found.meters.iter().map(|meter| Reading::of(meter.reading)).collect()
+    }
+    /// Readings of the grids, in the scene's order.
+    #[getter]
+    fn grids(&self) -> Vec<GridReading> {
+        self.found.grids.iter().map(|grid| GridReading { grid: grid.clone() }).collect()
+    }
+    /// What is not as asked for, as (origin, message).
+    #[getter]
+    fn diagnostics(&self) -> Vec<(String, String)> {
+        self.found.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+    }
+    /// All points as comma-separated values, one a line.
+    fn csv(&self) -> String {
+        measure::csv(&self.found)
+    }
+}
+
+/// Evaluates the scene's meters and grids with `samples` a point; `previous` lends the trees and images of what did not change, and `cancelled`, a
+/// function that says whether to stop, is asked every 50 ms.
+#[pyfunction]
+#[pyo3(name = "measure", signature = (scene, *, samples = 4096, previous = None, cancelled = None))]
+pub(crate) fn measure_scene(
+    py: Python<'_>,
+    scene: &Scene,
+    samples: u32,
+    previous: Option<&Render>,
+    cancelled: Option<Py<PyAny>>,
+) -> PyResult<Measurements> {
+    let mut description: Description = scene.scene.clone();
+    description.settings.samples = samples.max(1);
+    let before = previous.and_then(Render::compiled);
+    let stop = AtomicBool::new(false);
+    let mut raised: Option<PyErr> = None;
+    let mut progress = |_: &gonio::render::Progress| {
+        let goes_on = Python::attach(|py| -> PyResult<bool> {
+            py.check_signals()?;
+            cancelled.as_ref().map_or(Ok(true), |cancelled| Ok(!cancelled.bind(py).call0()?.is_truthy()?))
+        });
+        let goes_on = goes_on.unwrap_or_else(|error| {
+            raised = Some(error);
+            false
+        });
+        stop.store(!goes_on, Ordering::Relaxed);
+        goes_on
+    };
+    let found = py.detach(|| {
+        let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
+        measure::measure(&description, Execution::detect(), &mut watch)
+    });
+    match (found, raised) {
+        (_, Some(error)) => Err(error),
+        (Ok(found), None) => Ok(Measurements { found }),
+        (Err(error), None) => Err(exception(error)),
+    }
+}

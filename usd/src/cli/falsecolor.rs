@@ -1,0 +1,69 @@
+//! `gonio falsecolor`.
+
+use super::{
+    arguments::{FalsecolorOptions, ScaleArguments},
+    channel::Picture,
+    file::check_ending,
+    print,
+};
+use gonio::{
+    Error, Result,
+    film::{Image, Layer},
+    output::{Canvas, FalseColour, FalseColourScale, ToneMap, display, encode_png, write_atomically},
+    scene::{Aov, Crop},
+};
+use gonio_simd::Execution;
+use std::{io::Write, path::Path};
+
+/// Draws the picture.
+pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
+    check_ending("output", &options.output, &["png"])?;
+    let picture = Picture::read(&options.image, &options.quantity)?;
+    let style = FalseColour {
+        scale: scale(&options.scale, picture.values())?,
+        unit: Picture::unit(&options.quantity).into(),
+        contours: options.contours || options.lines,
+        smoothing: options.smooth,
+        legend: !options.no_legend,
+    };
+    let canvas = if options.lines {
+        style.draw_over(picture.values(), tone_mapped(&picture, &options.image)?)
+    } else {
+        style.draw(picture.values(), picture.size)
+    };
+    write(&options.output, &canvas)?;
+    print(&options.output.display().to_string());
+    Ok(0)
+}
+
+/// The steps that were asked for, up to what the values ask for where nothing is said.
+pub(super) fn scale(arguments: &ScaleArguments, values: &[f32]) -> Result<FalseColourScale> {
+    let max = arguments.max.unwrap_or_else(|| FalseColourScale::round_max(values));
+    FalseColourScale::new(max, arguments.steps, arguments.log)
+}
+
+/// Writes a canvas as PNG.
+pub(super) fn write(path: &Path, canvas: &Canvas) -> Result<()> {
+    let [width, height] = canvas.size.map(|side| side as u32);
+    let bytes = encode_png(&canvas.rgba, width, height).map_err(|error| Error::io(path, error))?;
+    write_atomically(path, true, |file| file.write_all(&bytes))
+}
+
+/// The colour channels as the eye would see them, opaque.
+fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
+    let colour = |name: &str| {
+        let found = picture.channels.iter().find(|(known, _)| known == name || known.ends_with(&format!("Combined.{name}")));
+        let problem = || format!("--lines wants the colour channels R, G and B under the lines; there is no {name}");
+        found.map(|(_, values)| values).ok_or_else(|| Error::Format { path: path.to_owned(), line: None, problem: problem() })
+    };
+    let [red, green, blue] = [colour("R")?, colour("G")?, colour("B")?];
+    let values = red.iter().zip(green).zip(blue).flat_map(|((r, g), b)| [*r, *g, *b, 1.0]).collect();
+    let resolution = picture.size.map(|side| side as u32);
+    let image = Image {
+        resolution,
+        window: Crop { min: [0; 2], max: resolution },
+        layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
+        samples: 1,
+    };
+    Ok(Canvas { rgba: display(&image, ToneMap::Photographic, 0.0, Execution::detect()), size: picture.size })
+}

@@ -1,0 +1,105 @@
+//! `gonio glare`.
+
+use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print};
+use gonio::{
+    Error, Result,
+    measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions, GlareSource, Threshold},
+    output::{Canvas, FalseColourScale},
+};
+use serde_json::{Value, json};
+
+/// Colours that sources take in turn.
+const COLOURS: u32 = 8;
+
+/// Finds the sources and rates them.
+pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
+    if let Some(path) = &options.output {
+        check_ending("output", path, &["png"])?;
+    }
+    let projection = FisheyeProjection::by_name(&options.projection).ok_or_else(|| {
+        let expected = FisheyeProjection::NAMES.map(|(_, name)| name).join(", ");
+        Error::setting("projection", format!("'{}' was found, expected one of {expected}", options.projection))
+    })?;
+    let picture = Picture::read(&options.image, &options.quantity)?;
+    let view = FisheyeView::new(projection, options.fov, picture.size)?;
+    let found = Glare::new(picture.values(), &view, &glare_options(options)?)?;
+    if let Some(path) = &options.output {
+        write(path, &drawn(&picture, &found)?)?;
+    }
+    if options.json {
+        print(&as_json(&found).to_string());
+    } else {
+        as_text(&found).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+fn glare_options(options: &GlareArguments) -> Result<GlareOptions> {
+    let positive = |name: &str, value: f64| {
+        let problem = || Error::setting(name, format!("{value} was found, expected a number not below 0"));
+        Some(value).filter(|value| *value >= 0.0 && value.is_finite()).ok_or_else(problem)
+    };
+    let default = GlareOptions::default();
+    let threshold = options.threshold.map(|luminance| positive("threshold", luminance)).transpose()?;
+    Ok(GlareOptions { threshold: threshold.map_or(default.threshold, Threshold::Luminance), radius: positive("radius", options.radius)? })
+}
+
+/// Degrees to the right and up.
+fn angles(source: &GlareSource) -> [f64; 2] {
+    let [right, up, ahead] = source.direction;
+    [right.atan2(ahead).to_degrees(), up.clamp(-1.0, 1.0).asin().to_degrees()]
+}
+
+fn as_json(glare: &Glare) -> Value {
+    let source = |source: &GlareSource| {
+        json!({
+            "luminance_cd_m2": source.luminance,
+            "solid_angle_sr": source.solid_angle,
+            "position_index": source.position_index,
+            "eye_illuminance_lx": source.illuminance,
+            "direction_deg": angles(source),
+        })
+    };
+    json!({
+        "ugr": glare.ugr(),
+        "dgp": glare.dgp(),
+        "dgp_low_light": glare.dgp_low_light(),
+        "eye_illuminance_lx": glare.eye_illuminance,
+        "background_luminance_cd_m2": glare.background_luminance,
+        "mean_luminance_cd_m2": glare.mean_luminance,
+        "threshold_cd_m2": glare.threshold,
+        "sources": glare.sources.iter().map(source).collect::<Vec<_>>(),
+    })
+}
+
+fn as_text(glare: &Glare) -> Vec<String> {
+    let mut lines = vec![
+        glare.ugr().map_or("UGR: no source of glare".to_owned(), |ugr| format!("UGR: {ugr:.1}")),
+        format!("DGP: {:.3} ({:.3} with the correction for little light)", glare.dgp(), glare.dgp_low_light()),
+        format!("at the eye: {:.1} lx", glare.eye_illuminance),
+        format!("background: {:.2} cd/m², mean: {:.2} cd/m²", glare.background_luminance, glare.mean_luminance),
+        format!("sources from {:.0} cd/m²: {}", glare.threshold, glare.sources.len()),
+    ];
+    lines.extend(glare.sources.iter().map(|source| {
+        let [right, up] = angles(source);
+        let (luminance, solid_angle, index) = (source.luminance, source.solid_angle, source.position_index);
+        format!("  {luminance:.0} cd/m², {solid_angle:.5} sr, {right:.1}° right, {up:.1}° up, position index {index:.2}")
+    }));
+    lines
+}
+
+/// The picture in grey with the sources in colours.
+fn drawn(picture: &Picture, glare: &Glare) -> Result<Canvas> {
+    let colours = FalseColourScale::new(1.0, COLOURS, None)?;
+    let white = 4.0 * glare.mean_luminance.max(f64::MIN_POSITIVE);
+    let mut canvas = Canvas::new(picture.size, [0, 0, 0, 255]);
+    for (index, value) in picture.values().iter().enumerate() {
+        let grey = (255.0 * (f64::from(*value).max(0.0) / white).min(1.0).powf(1.0 / 2.2)) as u8;
+        let [r, g, b] = match glare.source_of[index] {
+            0 => [grey; 3],
+            source => colours.colour(((source - 1) % COLOURS) as usize),
+        };
+        canvas.set([index % picture.size[0], index / picture.size[0]], [r, g, b, 255]);
+    }
+    Ok(canvas)
+}
