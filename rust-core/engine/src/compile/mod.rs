@@ -11,7 +11,9 @@ mod kept;
 mod lights;
 mod materials;
 mod measured;
+mod openings;
 mod primvars;
+mod quantity;
 mod shader_passes;
 mod textures;
 mod trees;
@@ -146,3 +148,6 @@ fn instanced_triangles(scene: &Scene) -> u64 {
 fn check(cancel: &AtomicBool) -> Result<()> {
     if cancel.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests;

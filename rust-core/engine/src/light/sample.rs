@@ -5,6 +5,7 @@ use super::disk::Disk;
 use super::emitter::{Aim, Emitter};
 use super::facing_disk::{self, FacingDisk};
 use super::portal::Portals;
+use super::projected_area::per_area;
 use super::record::LightKind;
 use super::rectangle::Rectangle;
 use super::row::{Reader, field, flag};
@@ -246,9 +247,9 @@ impl LightTable {
 
     /// Radiance sent against `wi`, with shaping and texture.
     #[inline(always)]
-    fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
+    pub(super) fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
         let plain = light.colour(field::RADIANCE);
-        let shaped = plain * shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi);
+        let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi) * per_area(l, light, -wi));
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);
         if !textured.any() {

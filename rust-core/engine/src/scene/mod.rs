@@ -9,9 +9,11 @@ mod camera;
 mod goniogram;
 mod instance;
 mod light;
+mod light_quantity;
 mod material;
 mod measured;
 mod mesh;
+mod opening;
 mod origin;
 mod settings;
 mod texture;
@@ -22,12 +24,14 @@ pub use camera::{Camera, CameraExposure, Projection};
 pub use goniogram::{Goniogram, PhotometricType};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
+pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use material::{
     Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, ShaderOutput, Space,
     SubsurfaceMethod,
 };
 pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
+pub use opening::{Opening, OpeningShape};
 pub use origin::Origin;
 pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
