@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import film, light, light_paths, material, object_visibility, passes, performance, report, sampling, simplify, stock, world
+from . import film, light, light_paths, material, object_visibility, passes, performance, polar_picture, report, sampling, simplify, stock, world
 
 PANELS = (
     *sampling.PANELS,
@@ -22,6 +22,7 @@ PANELS = (
 
 def register() -> None:
     stock.register()
+    polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
 
@@ -29,4 +30,5 @@ def register() -> None:
 def unregister() -> None:
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
+    polar_picture.unregister()
     stock.unregister()

@@ -19,6 +19,7 @@ pub mod mesh;
 pub mod model;
 mod nesting;
 pub mod options;
+mod photometry;
 pub mod place;
 pub mod prim;
 pub mod primvar;

@@ -7,6 +7,7 @@ mod daylight;
 mod description;
 mod error;
 mod film;
+mod light;
 mod measured;
 #[cfg(unix)]
 mod memory;
@@ -40,7 +41,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]
-    use crate::photometry::read_goniogram;
+    use crate::photometry::{goniogram_figures, read_goniogram};
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile};
     #[pymodule_export]

@@ -4,6 +4,7 @@ use super::{
     geometry::slots_of,
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
+    light_groups::GroupNames,
     openings::{self, Part},
     quantity,
     textures::CompiledTextures,
@@ -12,7 +13,7 @@ use crate::{
     accel::{Geometry, Instance, Shape},
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    integrator::{MaterialTable, ray_mask},
+    integrator::{LightGroups, MaterialTable, ray_mask},
     light::{Goniogram, LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
 };
@@ -50,6 +51,7 @@ pub(super) struct CompiledLights {
     pub(super) instances: Vec<Instance>,
     pub(super) instance_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
+    pub(super) groups: LightGroups,
 }
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
@@ -66,6 +68,7 @@ pub(super) fn compile(
     let mut instances = Vec::new();
     let mut instance_light = Vec::new();
     let mut goniograms = CompiledGoniograms::default();
+    let mut groups = GroupNames::default();
     for (number, light) in scene.lights.iter().enumerate() {
         let goniogram = goniograms.number(light, diagnostics);
         let first = records.len();
@@ -78,14 +81,17 @@ pub(super) fn compile(
             }
             records.push(LightRecord { goniogram, opening: part.opening, ..plain });
         }
+        let group = groups.number(&light.group);
+        groups.of_light.resize(records.len(), group);
         quantity::apply(light, &mut records[first..], &mut goniograms, diagnostics);
     }
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
+    let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
     let table = previous.table(&records, &images, &goniograms);
     let kept = KeptLights { records, images, goniograms, table: Some(table.clone()) };
-    CompiledLights { table, kept, instances, instance_light, triangle_lights }
+    CompiledLights { table, kept, instances, instance_light, triangle_lights, groups }
 }
 
 /// What the light is made of, in the rebased world.

@@ -8,6 +8,7 @@ mod geometry;
 mod goniograms;
 mod instances;
 mod kept;
+mod light_groups;
 mod lights;
 mod materials;
 mod measured;
@@ -123,6 +124,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         instance_light: lights.instance_light,
         triangle_lights: lights.triangle_lights,
         object_lights,
+        groups: lights.groups,
         any_transparent,
         any_absorbing,
         origin,

@@ -164,6 +164,9 @@ pub struct Light {
     /// A spot's cone.
     #[serde(default)]
     pub spot: Option<Spot>,
+    /// The light group that it belongs to; the nameless ones are together in [`super::OTHER_LIGHTS`].
+    #[serde(default)]
+    pub group: String,
     /// Measured factors by direction; lights at infinity have no use for them.
     #[serde(default)]
     pub goniogram: Option<Arc<Goniogram>>,
@@ -195,6 +198,7 @@ impl Default for Light {
             dimming: undimmed(),
             shaping: Shaping::default(),
             spot: None,
+            group: String::new(),
             goniogram: None,
             spread_deg: lambertian_deg(),
             portal: false,
@@ -222,7 +226,7 @@ mod tests {
         let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
         let mut json = serde_json::to_value(&light).expect("plain data");
         let fields = json.as_object_mut().expect("a structure");
-        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming"] {
+        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group"] {
             assert!(fields.remove(name).is_some(), "{name}");
         }
         let older: Light = serde_json::from_value(json).expect("older form");

@@ -33,7 +33,7 @@ pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use opening::{Opening, OpeningShape};
 pub use origin::Origin;
-pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
+pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, OTHER_LIGHTS, ScatteringKind, Settings, ShaderValue};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 
@@ -93,6 +93,19 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Names of the light groups, that of all lights that are in none the last one.
+    pub fn light_groups(&self) -> Vec<String> {
+        let named = self.lights.iter().map(|light| &light.group).chain(self.instances.iter().map(|set| &set.light_group));
+        let mut names: Vec<String> = Vec::new();
+        for name in named.filter(|name| !name.is_empty() && *name != OTHER_LIGHTS) {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        names.push(OTHER_LIGHTS.to_owned());
+        names
+    }
+
     /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);
