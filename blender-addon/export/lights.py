@@ -40,6 +40,7 @@ def describe(group, matrix, images, report):
         "spread_deg": 180.0,
         "portal": False,
         "goniogram": distribution,
+        "group": group.source.lightgroup,
         **extra,
     }
     if luminaire.is_photometric(lamp):

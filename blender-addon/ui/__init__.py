@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import film, light, light_paths, material, object_visibility, passes, performance, polar_picture, report, sampling, simplify, stock, world
+from . import film, light, light_group, light_paths, material, object_visibility, passes, performance, polar_picture, report, sampling, simplify, stock, world
 
 PANELS = (
     *sampling.PANELS,
@@ -15,6 +15,7 @@ PANELS = (
     *passes.PANELS,
     *light.PANELS,
     *world.PANELS,
+    *light_group.PANELS,
     *material.PANELS,
     *object_visibility.PANELS,
 )

@@ -138,3 +138,34 @@ def test_the_polar_diagram_is_drawn(tmp_path: Path):
     assert abs((middle.max() - middle.min()) - 118) < 6
     assert rows.max() < 134
     assert picture.icon_of(lamp) != 0
+
+
+@pytest.mark.blender
+def test_light_groups_are_passes_that_sum_up(tmp_path: Path):
+    import bpy
+    import numpy
+    import scenes
+
+    scene = scenes.lit_floor(samples=16)
+    layer = scene.view_layers[0]
+    lamp = next(thing for thing in scene.objects if thing.type == "LIGHT")
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.3, 0.5, 1.0)
+    for name in ("Lamps", "Sky", "other"):
+        group = layer.lightgroups.add()
+        group.name = name
+    lamp.lightgroup, scene.world.lightgroup = "Lamps", "Sky"
+    bpy.ops.mesh.primitive_plane_add(size=0.5, location=(0.3, 0, 0.5))
+    glow = bpy.data.materials.new("Glow")
+    glow.use_nodes = True
+    tree = glow.node_tree
+    tree.nodes.clear()
+    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    bpy.context.object.data.materials.append(glow)
+    scenes.render(tmp_path / "a.exr")
+    channels = scenes.read(tmp_path / "a.exr")
+    for colour in "RGB":
+        parts = [channels[f"ViewLayer.Combined_{name}.{colour}"] for name in ("Lamps", "Sky", "other")]
+        assert all(part.max() > 0.0 for part in parts), colour
+        combined = channels[f"ViewLayer.Combined.{colour}"]
+        assert numpy.abs(sum(parts) - combined).max() <= 1e-5 * combined.max()

@@ -28,6 +28,7 @@ def Camera "Camera"
     token projection = "orthographic"
     float horizontalAperture = 0.1
     float verticalAperture = 0.1
+    float2 clippingRange = (0.01, 100000)
     double3 xformOp:translate = (0, 0, {eye})
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }}
