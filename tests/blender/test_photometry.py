@@ -6,7 +6,7 @@ import pytest
 
 IES = """IESNA:LM-63-2002
 TILT=NONE
-1 1000 1 3 1 1 2 {size}
+1 2000 1 3 1 1 2 {size}
 1 1 10
 0 90 180
 0
@@ -22,6 +22,7 @@ def test_lux_under_lamps_in_all_units(tmp_path: Path):
 
     scene = scenes.lit_floor(samples=64)
     scene.view_layers[0].gonio.use_pass_illuminance = True
+    scene.camera.data.ortho_scale = 0.02
     lamp = next(thing for thing in scene.objects if thing.type == "LIGHT")
     data, settings = lamp.data, lamp.data.gonio
     settings.use_photometry = True
@@ -65,6 +66,7 @@ def test_luminaires_and_their_openings(tmp_path: Path):
     (tmp_path / "lamp.ies").write_text(IES.format(size="0.05 0.1 0"))
     scene = scenes.lit_floor(samples=256)
     scene.view_layers[0].gonio.use_pass_illuminance = True
+    scene.camera.data.ortho_scale = 0.02
     lamp = next(thing for thing in scene.objects if thing.type == "LIGHT")
     lamp.scale = (3.0, 3.0, 3.0)
     settings = lamp.data.gonio
@@ -95,7 +97,7 @@ def test_luminaires_and_their_openings(tmp_path: Path):
     settings.opening, settings.rotation = "FILE", math.radians(90)
     columns = numpy.array(exported()["transform"]["columns"])
     assert numpy.allclose(columns[:3], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], atol=1e-6)
-    settings.unit, settings.quantity = "LAMP_LUMEN", 500.0
+    settings.unit, settings.quantity = "LAMP_LUMEN", 1000.0
     assert math.isclose(lux(), 50.0, rel_tol=0.01)
     settings.unit, settings.quantity = "LUMEN", 400.0 * math.pi
     assert math.isclose(lux(), 100.0, rel_tol=0.01)
@@ -137,7 +139,6 @@ def test_the_polar_diagram_is_drawn(tmp_path: Path):
     middle = numpy.nonzero(red[127:129].any(axis=0))[0]
     assert abs((middle.max() - middle.min()) - 118) < 6
     assert rows.max() < 134
-    assert picture.icon_of(lamp) != 0
 
 
 @pytest.mark.blender
