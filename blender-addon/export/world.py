@@ -101,8 +101,10 @@ def _uses_nodes(world):
 
 
 def _with_visibility(world, descriptions):
-    """Takes Cycles' ray switches of the world over."""
+    """Takes Cycles' ray switches of the world over, and its light group."""
     switches = getattr(world, "cycles_visibility", None)
+    for dome in descriptions:
+        dome["group"] = world.lightgroup
     for dome in descriptions if switches is not None else ():
         for ray in ("camera", "diffuse", "glossy", "transmission"):
             dome["visibility"][ray] &= bool(getattr(switches, ray, True))

@@ -3,7 +3,23 @@
 
 import bpy
 
-from . import film, light, light_paths, material, measure, object_visibility, passes, performance, report, sampling, simplify, stock, world
+from . import (
+    film,
+    light,
+    light_group,
+    light_paths,
+    material,
+    measure,
+    object_visibility,
+    passes,
+    performance,
+    polar_picture,
+    report,
+    sampling,
+    simplify,
+    stock,
+    world,
+)
 
 PANELS = (
     *sampling.PANELS,
@@ -15,6 +31,7 @@ PANELS = (
     *passes.PANELS,
     *light.PANELS,
     *world.PANELS,
+    *light_group.PANELS,
     *material.PANELS,
     *object_visibility.PANELS,
     *measure.PANELS,
@@ -23,6 +40,7 @@ PANELS = (
 
 def register() -> None:
     stock.register()
+    polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
 
@@ -30,4 +48,5 @@ def register() -> None:
 def unregister() -> None:
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
+    polar_picture.unregister()
     stock.unregister()

@@ -5,7 +5,7 @@ use crate::{SampleTime, load_stage};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
-    scene::{Light, LightShape, Scene},
+    scene::{Light, LightShape, Opening, Scene},
 };
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -87,13 +87,14 @@ fn describe(light: &Light) -> String {
         LightShape::Sphere { radius } => format!("sphere of radius {radius} units"),
         LightShape::FacingDisk { radius } => format!("facing disk of radius {radius} units"),
         LightShape::Point => "point".to_owned(),
+        LightShape::Opening(Opening { shape, size: [x, y, z], .. }) => format!("luminaire's opening, {shape:?} {x} x {y} x {z} units"),
         LightShape::Cylinder { radius, length } => format!("cylinder of radius {radius}, length {length} units"),
         LightShape::Distant { angle_deg } => format!("distant, {angle_deg} degrees"),
         LightShape::Dome { .. } => "dome".to_owned(),
     };
     let unit = match (light.emission.normalized, light.shape) {
         (true, LightShape::Distant { .. }) => "lx on a facing surface",
-        (_, LightShape::Point) => "cd",
+        (_, LightShape::Point | LightShape::Opening(_)) => "cd",
         (true, LightShape::Dome { .. }) | (false, _) => "cd/m²",
         (true, _) => "cd/m² times its area in square units",
     };

@@ -16,6 +16,7 @@ mod measure;
 mod output;
 mod photometry;
 mod progress;
+mod relight;
 mod render;
 
 use arguments::{Arguments, Command};
@@ -46,6 +47,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Render(options) => render::render(py, &options, &INTERRUPTED),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
+        Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),

@@ -7,6 +7,7 @@ use super::{
     direct_light::light,
     first_surface::{append_measure, covered, record_first},
     kernels::{self, LightHit},
+    light_groups::add_of_surfaces,
     light_sums::code,
     material::{SurfaceMaterial, Tables},
     path::{SampleContext, Transport},
@@ -235,5 +236,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
         }
     }
     let value = clamped(value, transport.clamp(context.depth));
-    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, present & value.is_lit());
+    let arrives = present & value.is_lit();
+    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
+    add_of_surfaces(l, tables, &transport.passes.groups, at, point.slot, value, arrives, ws);
 }

@@ -86,7 +86,7 @@ fn unit(aov: Aov) -> Option<&'static str> {
         Aov::Luminance => Some("cd/m2"),
         Aov::Illuminance => Some("lx"),
         Aov::Depth | Aov::P => Some("m"),
-        Aov::Color => Some("linear Rec.709, luminance in cd/m2 times exposure"),
+        Aov::Color | Aov::LightGroup(_) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
         _ => None,
     }
 }
@@ -129,6 +129,14 @@ fn columns(values: &[f32], channels: usize) -> Vec<Vec<f32>> {
 fn column<const CHANNELS: usize>(values: &[f32], channel: usize) -> Vec<f32> {
     let (pixels, _) = values.as_chunks::<CHANNELS>();
     pixels.iter().map(|pixel| pixel[channel]).collect()
+}
+
+/// The exposure that a file's colour was multiplied by, as [`write_exr`] notes it; 1 where nothing is noted.
+pub fn exposure_of_exr(path: &Path) -> Result<f32> {
+    let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
+    let meta = exr::meta::MetaData::read_from_file(path, false).map_err(failed)?;
+    let white = meta.headers.first().and_then(|header| header.own_attributes.white_luminance);
+    Ok(white.filter(|white| *white > 0.0 && white.is_finite()).map_or(1.0, f32::recip))
 }
 
 /// Values of channels by name.

@@ -37,6 +37,7 @@ __all__ = [
     "Scene",
     "_main",
     "load_usd",
+    "goniogram_figures",
     "read_goniogram",
     "__version__",
     "simd_level",
@@ -308,6 +309,7 @@ class Scene:
         visibility: Mapping[str, bool] | None = None,
         primvars: Mapping[str, Buffer] | None = None,
         pass_index: int = 0,
+        light_group: str = "",
         index: int | None = None,
     ) -> int: ...
     def put_material(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
@@ -375,6 +377,19 @@ class Scene:
         angle: float = 0.53,
         visible: bool = True,
         name: str = "light",
+        lumens: float | None = None,
+        lamp_lumens: float | None = None,
+        candela: float | None = None,
+        lux: float | tuple[float, float] | None = None,
+        nits: float | None = None,
+        watts: float | None = None,
+        temperature: float | None = None,
+        dimming: float = 1.0,
+        goniogram: Mapping[str, Any] | None = None,
+        opening: Mapping[str, Any] | None = None,
+        cosine_power: float = 0.0,
+        spot: tuple[float, float] | None = None,
+        group: str = "",
     ) -> int: ...
     def add_daylight(self, daylight: Daylight, *, up: str = "Z", north: float = 0.0, rows: int = 512) -> None: ...
     def add_camera(self, transform: Sequence[Sequence[float]] | None = None, *, fov: float = 40.0, name: str = "camera") -> None: ...
@@ -403,6 +418,8 @@ class Scene:
         time_limit: float | None = ...,
         passes: Sequence[str] | None = ...,
     ) -> None: ...
+    @property
+    def light_groups(self) -> list[str]: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -471,6 +488,7 @@ def artist_sky(
     rows: int = 512,
 ) -> tuple[Pass, list[float]]: ...
 def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
+def goniogram_figures(data: bytes, name: str) -> dict[str, Any]: ...
 def read_goniogram(data: bytes, name: str) -> tuple[dict[str, Any], list[str]]: ...
 def load_usd(
     path: str | PathLike[str],
