@@ -3,7 +3,23 @@
 
 import bpy
 
-from . import film, light, light_group, light_paths, material, object_visibility, passes, performance, polar_picture, report, sampling, simplify, stock, world
+from . import (
+    film,
+    light,
+    light_group,
+    light_paths,
+    material,
+    object_visibility,
+    passes,
+    performance,
+    photometry,
+    polar_picture,
+    report,
+    sampling,
+    simplify,
+    stock,
+    world,
+)
 
 PANELS = (
     *sampling.PANELS,
@@ -13,7 +29,9 @@ PANELS = (
     *performance.PANELS,
     *report.PANELS,
     *passes.PANELS,
-    *light.PANELS,
+    *light.PANELS[:1],
+    *photometry.PANELS,
+    *light.PANELS[1:],
     *world.PANELS,
     *light_group.PANELS,
     *material.PANELS,
