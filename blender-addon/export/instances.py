@@ -66,7 +66,8 @@ class Instances:
             if group.kept is not None and not self._leave_out(group):
                 continue
             values = _values(group, wanted) if wanted else NO_VALUES
-            self._put(number, Entry(mesh, materials, group.name, group.visibility, group.pass_index, group.source.lightgroup, wanted, group.matrices, values))
+            of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
+            self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
             number += 1
         if number < len(self._written):
             self.any_written = True

@@ -13,9 +13,9 @@ from .tag import tag_data
 UNITS = (
     ("FILE", "As Measured", "The intensities of the luminaire's file, in cd", 0),
     ("LUMEN", "Flux (lm)", "Luminous flux of all the light that leaves", 1),
-    ("LAMP_LUMEN", "Lamp Flux (lm)", "Luminous flux of the lamps in the luminaire of the file, in the place of those that were measured", 2),
+    ("LAMP_LUMEN", "Lamp Flux (lm)", "Luminous flux of the lamps in the luminaire of the file, in the place of those measured", 2),
     ("CANDELA", "Intensity (cd)", "The greatest luminous intensity", 3),
-    ("LUX", "Illuminance (lx)", "Illuminance of a surface that faces the light, where it is strongest, at a distance; of a sun anywhere", 4),
+    ("LUX", "Illuminance (lx)", "Illuminance of a surface that faces the light where it is strongest, at a distance", 4),
     ("NIT", "Luminance (cd/m²)", "The greatest luminance of the surface that shines", 5),
     ("WATT", "Radiant Flux (W)", "Radiant flux of all the light that leaves, at 177.83 lm/W", 6),
 )
@@ -59,11 +59,12 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         update=tag_data,
     )
     file: StringProperty(
-        name="File", description="A luminaire's IES or EULUMDAT file. Nadir is the light's -Z, C0 its +X", subtype="FILE_PATH", update=tag_data
+        name="File",
+        description="A luminaire's IES or EULUMDAT file. Nadir is the light's -Z, C0 its +X",
+        subtype="FILE_PATH",
+        update=tag_data,
     )
-    opening: EnumProperty(
-        name="Opening", description="What of the luminaire shines", items=OPENINGS, default="FILE", update=tag_data
-    )
+    opening: EnumProperty(name="Opening", description="What of the luminaire shines", items=OPENINGS, default="FILE", update=tag_data)
     rotation: FloatProperty(
         name="C0",
         description="Turns the luminaire about its vertical axis, C0 towards C90",

@@ -20,7 +20,8 @@ DOWN = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]
 def lux(shape: str, **keywords) -> float:
     """Illuminance one metre straight under a light."""
     scene = gonio.Scene()
-    floor = scene.add_mesh(np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], np.float32), np.array([[0, 1, 2], [0, 2, 3]], np.int32))
+    corners = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], np.float32)
+    floor = scene.add_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], np.int32))
     scene.add_instance(floor, [scene.add_material(base_color=0.5)])
     scene.add_light(shape, transform=DOWN, visible=False, **keywords)
     scene.add_camera([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.5], [0, 0, 0, 1]], fov=0.5)

@@ -1,6 +1,6 @@
 //! Light groups: radiance by the group of the light that it comes from.
 
-use super::{light_sums::LightSums, material::Tables, state::Workspace};
+use super::{light_sums::LightSums, shade::Stage, state::Workspace};
 use gonio_simd::{Lanes, M, Rgb, U};
 use std::sync::Arc;
 
@@ -56,16 +56,9 @@ pub(super) fn add_of_lights<L: Lanes>(
 
 /// Adds what the surfaces at `at` of the chunk emit to the sums of their groups.
 #[inline(always)]
-pub(super) fn add_of_surfaces<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    passes: &GroupPasses,
-    at: usize,
-    slot: U<L>,
-    value: Rgb<L>,
-    chosen: M<L>,
-    ws: &mut Workspace,
-) {
+pub(super) fn add_of_surfaces<L: Lanes>(stage: &Stage<'_, L>, at: usize, slot: U<L>, value: Rgb<L>, chosen: M<L>, ws: &mut Workspace) {
+    let Stage { l, tables, transport, .. } = *stage;
+    let passes = &transport.passes.groups;
     if passes.wanted() && chosen.any() {
         let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at).keep_if(chosen));
         let group = l.gather_integers(&passes.of_set, set);

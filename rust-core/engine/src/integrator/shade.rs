@@ -238,5 +238,5 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
     let value = clamped(value, transport.clamp(context.depth));
     let arrives = present & value.is_lit();
     add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
-    add_of_surfaces(l, tables, &transport.passes.groups, at, point.slot, value, arrives, ws);
+    add_of_surfaces(stage, at, point.slot, value, arrives, ws);
 }
