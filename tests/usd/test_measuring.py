@@ -10,7 +10,7 @@ import pytest
 gonio = pytest.importorskip("gonio")
 pytest.importorskip("pxr")
 
-# A floor of 4 m by 4 m in centimetres, under a small sphere of 1 m² · sr: I = π r² L.
+# A floor of 4 m by 4 m in centimetres, 2 m under a sphere of 1 cm: I = π r² L.
 STAGE = """#usda 1.0
 (
     metersPerUnit = 0.01
@@ -62,7 +62,7 @@ def test_a_grid_on_a_prim_of_the_command_line(run, stage, tmp_path):
     arguments = ("--grid", "/Floor", "--spacing", 0.5, "--margin", 0.5, "--height", 1.0, "--integrator", "direct", "--spp", 256)
     found = measured(run, stage(), *arguments, "--csv", table, "-o", picture)["grids"][0]
     assert (found["name"], found["columns"], found["rows"], found["points"], found["unit"]) == ("/Floor", 6, 6, 36, "lx")
-    rows = list(csv.DictReader(table.open(newline="")))
+    rows = list(csv.DictReader(table.read_text().splitlines()))
     assert len(rows) == 36
     for row in rows:
         expected = under_lamp(float(row["x_m"]), float(row["y_m"]), height=1.0)
@@ -183,6 +183,7 @@ EYE = """#usda 1.0
 )
 def Camera "Eye" {
     double gonio:fisheye = 180
+    float2 clippingRange = (0.01, 100)
     double3 xformOp:rotateXYZ = (90, 0, 0)
     uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
 }
