@@ -1,10 +1,9 @@
 """Illuminance of points by Lambertian emitters of luminance 1, in closed forms."""
 
 import math
+from typing import Any
 
 import numpy
-
-from typing import Any
 
 
 def polygon(corners: numpy.ndarray, points: numpy.ndarray, normal: numpy.ndarray) -> numpy.ndarray:
@@ -17,7 +16,6 @@ def polygon(corners: numpy.ndarray, points: numpy.ndarray, normal: numpy.ndarray
         length = numpy.linalg.norm(across, axis=-1)
         angle = numpy.arctan2(length, (a * b).sum(axis=-1))
         total += angle * (across @ normal) / numpy.maximum(length, 1e-300)
-    # A front is seen clockwise from the points it lights.
     return numpy.maximum(-0.5 * total, 0.0)
 
 
@@ -55,6 +53,7 @@ def line(width: float, first: Any, second: Any, points: numpy.ndarray, normal: n
     foot = first - points - ((first - points) @ axis)[..., None] * axis
     p = numpy.linalg.norm(foot, axis=-1)
     start, end = (first - points) @ axis, (second - points) @ axis
+
     # With t along the axis from the foot, r² = p² + t², sin α = p / r and cos θ = (foot · n + t axis · n) / r.
     def upright(t: numpy.ndarray) -> numpy.ndarray:
         return t / (2 * p**2 * (p**2 + t**2)) + numpy.arctan(t / p) / (2 * p**3)
