@@ -3,6 +3,7 @@
 import math
 
 import confidence
+import figures
 import numpy
 import pytest
 from rooms import Room, box_faces, facing
@@ -57,3 +58,24 @@ def test_a_black_box_gets_the_flux(name, shape, lumens, changes):
     room.add(*box_faces(SIZE))
     room.light(shape, 1000.0 / lumens, PLACE, AXES, **changes)
     confidence.hold(SECTION, f"{name}, 1000 lm", "closed form", flux_on_faces(room)[:, None], numpy.array([1000.0]), LIMIT)
+
+
+@pytest.mark.parametrize("shape", [{"Rectangle": {"width": 0.8, "height": 0.3}}, {"Disk": {"radius": 0.25}}], ids=["rectangle", "disk"])
+def test_a_light_flush_with_the_ceiling(shape):
+    """In the ceiling's own plane it loses nothing to it."""
+    room = Room()
+    room.add(*box_faces(SIZE))
+    area = 0.24 if "Rectangle" in shape else math.pi * 0.0625
+    room.light(shape, 1000.0 / (math.pi * area), (0.4, -0.5, SIZE[2] / 2))
+    case = f"{next(iter(shape)).lower()} flush with the ceiling, 1000 lm"
+    confidence.hold(SECTION, case, "closed form", flux_on_faces(room)[:, None], numpy.array([1000.0]), LIMIT)
+
+
+def test_no_light_leaks_in():
+    """Six rectangles that share nothing but their edges, in the sun and under a sky."""
+    room = Room()
+    room.add(*box_faces(SIZE))
+    room.light({"Distant": {"angle_deg": 0.5}}, 1e9, axes=AXES)
+    room.light({"Dome": {"format": "LatLong"}}, 1e4)
+    inside = max(float(room.illuminance(face, (64, 64), 64, [1], averaged=True).max()) for face in box_faces(SIZE))
+    figures.check(figures.Row(SECTION, "closed box in the sun and under a sky, of the sky's illuminance", "no light", 6 * 64 * 64, inside / (math.pi * 1e4), 0.0))
