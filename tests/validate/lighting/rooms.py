@@ -97,9 +97,15 @@ class Room:
         self, plane: Plane, grid: tuple[int, int], samples: int, seeds: Any = SEEDS, *, averaged: bool = False, bounces: int = 0
     ) -> numpy.ndarray:
         """Lux at the middles of a grid's cells (columns, rows), or averaged over the cells: (seeds, rows, columns)."""
+        return self.measured("illuminance", plane, grid, samples, seeds, averaged=averaged, bounces=bounces)
+
+    def measured(
+        self, quantity: str, plane: Plane, grid: tuple[int, int], samples: int, seeds: Any = SEEDS, *, averaged: bool = True, bounces: int = 0
+    ) -> numpy.ndarray:
+        """The same of a pass, illuminance or luminance."""
         self.look_at(plane)
         self.scene.set(width=grid[0], height=grid[1], filter="box", filter_width=1.0 if averaged else 0.0)
-        return self.rendered(samples, seeds, bounces)
+        return self.rendered(quantity, samples, seeds, bounces)
 
     def look_at(self, plane: Plane) -> None:
         """Puts the camera before a plane, which fills its picture."""
@@ -109,15 +115,15 @@ class Room:
         transform = {"columns": [column.tolist() for column in columns]}
         self.scene.put_camera({**self.camera, "projection": "Orthographic", "aperture": lengths, "transform": transform}, 0)
 
-    def rendered(self, samples: int, seeds: Any, bounces: int) -> numpy.ndarray:
-        """The illuminance pass with each seed."""
+    def rendered(self, quantity: str, samples: int, seeds: Any, bounces: int) -> numpy.ndarray:
+        """A pass of the camera's picture with each seed."""
         pictures, previous = [], None
-        self.scene.set(samples=samples, passes=["illuminance"], max_bounces=bounces)
+        self.scene.set(samples=samples, passes=[quantity], max_bounces=bounces)
         for seed in seeds:
             self.scene.set(seed=seed)
             with gonio.Render(self.scene, previous) as render:
                 assert render.wait()
-                pictures.append(numpy.asarray(render.film()["illuminance"])[..., 0].astype(float))
+                pictures.append(numpy.asarray(render.film()[quantity])[..., 0].astype(float))
                 previous = render
         return numpy.array(pictures)
 

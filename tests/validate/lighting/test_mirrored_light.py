@@ -33,7 +33,7 @@ def test_a_light_and_its_image(case, shape):
     room.add(FLOOR)
     room.add(MIRROR, material=silver(room))
     room.light(shape, NITS, PLACE, AXES)
-    found = room.illuminance(FLOOR, GRID, 16384, bounces=1)
+    found = room.illuminance(FLOOR, GRID, 32768, bounces=1)
     points, up = FLOOR.points(*GRID), FLOOR.normal
     if case == "sphere":
         expected = sum(form_factors.sphere(0.25, place, points, up) for place in (numpy.array(PLACE), image(numpy.array(PLACE))))
@@ -53,7 +53,7 @@ def test_a_finite_mirror():
     panel = Plane((6.0, 0, 2.0), (0, -60, 0), (0, 0, 60))
     lamp = room.scene.add_material("lamp", base_color=(0, 0, 0), specular_weight=0.0, emission_color=(NITS,) * 3)
     room.add(panel, material=lamp)
-    found = room.illuminance(FLOOR, GRID, 16384, bounces=1)
+    found = room.illuminance(FLOOR, GRID, 32768, bounces=1)
     points, up = FLOOR.points(*GRID), FLOOR.normal
     upper = panel.corners.copy()
     # What of the panel is above the floor's plane.
