@@ -17,6 +17,7 @@ SECTIONS = {
     "Glass": "A sheet of glass of index 1.52 between a light and a floor (CIE 171, 5.5); both polarisations are followed in the reference.",
     "Diffuse reflection": "Sunlit matt plates onto planes in the shade (CIE 171, 5.6), and past an obstruction (5.7).",
     "Interreflection": "Closed rooms with walls of one reflectance, mean illuminance of all faces (CIE 171, 5.8).",
+    "Mirrors": "A floor with a perfect mirror beside it, against the source's image.",
     "Sky through openings": "Points of the floor of a black room of 4 m × 4 m × 3 m (CIE 171, 5.9 to 5.14); the sun itself does not shine.",
     "Photometric files": "IES and EULUMDAT files against a second, independent reader.",
     "Flux of photometric files": (
@@ -83,7 +84,9 @@ def main() -> int:
     rows = figures.recorded()
     strangers = {row.section for row in rows} - SECTIONS.keys()
     if not rows or strangers:
-        sys.exit(f"no figures under {figures.FOLDER}: run make validation" if not rows else f"sections without a place on the page: {strangers}")
+        sys.exit(
+            f"no figures under {figures.FOLDER}: run make validation" if not rows else f"sections without a place on the page: {strangers}"
+        )
     PAGE.write_text(page(rows))
     print(f"{PAGE.relative_to(ROOT)}: {len(rows)} cases, {sum(row.holds for row in rows)} hold")
     return 0

@@ -90,7 +90,8 @@ class Room:
         # Cameras close to a plane must not look through a light's shape.
         description["visibility"]["camera"] = False
         for name, value in changes.items():
-            description[name] = {**description[name], **value} if isinstance(description[name], dict) else value
+            known = description.get(name)
+            description[name] = {**known, **value} if isinstance(known, dict) else value
         self.scene.put_light(description)
 
     def illuminance(
@@ -100,7 +101,15 @@ class Room:
         return self.measured("illuminance", plane, grid, samples, seeds, averaged=averaged, bounces=bounces)
 
     def measured(
-        self, quantity: str, plane: Plane, grid: tuple[int, int], samples: int, seeds: Any = SEEDS, *, averaged: bool = True, bounces: int = 0
+        self,
+        quantity: str,
+        plane: Plane,
+        grid: tuple[int, int],
+        samples: int,
+        seeds: Any = SEEDS,
+        *,
+        averaged: bool = True,
+        bounces: int = 0,
     ) -> numpy.ndarray:
         """The same of a pass, illuminance or luminance."""
         self.look_at(plane)

@@ -66,7 +66,9 @@ def test_a_shining_mesh():
     material = room.scene.add_material("lamp", base_color=(0, 0, 0), specular_weight=0.0, emission_color=(NITS,) * 3)
     room.add(lamp, material=material)
     # Triangles are drawn by their area, not by solid angle.
-    hold("shining mesh 1.2 m × 0.6 m", "Lambert's formula", room, lambda p, n: form_factors.polygon(lamp.corners, p, n), samples=16 * SAMPLES)
+    hold(
+        "shining mesh 1.2 m × 0.6 m", "Lambert's formula", room, lambda p, n: form_factors.polygon(lamp.corners, p, n), samples=16 * SAMPLES
+    )
 
 
 @pytest.mark.parametrize("radius", [0.05, 0.5])

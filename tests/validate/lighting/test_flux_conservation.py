@@ -33,7 +33,12 @@ LIGHTS = [
     ("|cos⁵| about an axis", "Point", 4 * math.pi / 6, {"shaping": {"focus": 5.0}}),
     ("cos⁵ about an axis, half space", "Point", 2 * math.pi / 6, {"shaping": {"focus": 5.0, "cone_angle_deg": 90.0}}),
     ("cone of 30°", "Point", 2 * math.pi * (1 - math.cos(math.radians(30))), {"shaping": {"cone_angle_deg": 30.0}}),
-    ("spot of 70°, soft", "Point", spot_solid_angle(math.radians(35), 0.4), {"spot": {"angle_deg": 70.0, "blend": 0.4, "stretch": [1.0, 1.0]}}),
+    (
+        "spot of 70°, soft",
+        "Point",
+        spot_solid_angle(math.radians(35), 0.4),
+        {"spot": {"angle_deg": 70.0, "blend": 0.4, "stretch": [1.0, 1.0]}},
+    ),
     ("rectangle", {"Rectangle": {"width": 0.8, "height": 0.3}}, math.pi * 0.24, {}),
     ("rectangle with a spread of 60°", {"Rectangle": {"width": 0.8, "height": 0.3}}, math.pi * 0.24, {"spread_deg": 60.0}),
     ("disk", {"Disk": {"radius": 0.25}}, math.pi * math.pi * 0.0625, {}),
@@ -78,4 +83,13 @@ def test_no_light_leaks_in():
     room.light({"Distant": {"angle_deg": 0.5}}, 1e9, axes=AXES)
     room.light({"Dome": {"format": "LatLong"}}, 1e4)
     inside = max(float(room.illuminance(face, (64, 64), 64, [1], averaged=True).max()) for face in box_faces(SIZE))
-    figures.check(figures.Row(SECTION, "closed box in the sun and under a sky, of the sky's illuminance", "no light", 6 * 64 * 64, inside / (math.pi * 1e4), 0.0))
+    figures.check(
+        figures.Row(
+            SECTION,
+            "closed box in the sun and under a sky, of the sky's illuminance",
+            "no light",
+            6 * 64 * 64,
+            inside / (math.pi * 1e4),
+            0.0,
+        )
+    )

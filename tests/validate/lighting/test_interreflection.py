@@ -52,7 +52,9 @@ def sphere(rows):
     """Points and triangles of a sphere of 1 m with twice as many columns as rows."""
     polar = numpy.pi * numpy.arange(rows + 1) / rows
     around = numpy.pi * numpy.arange(2 * rows) / rows
-    points = numpy.stack([numpy.outer(numpy.sin(polar), f(around)) for f in (numpy.cos, numpy.sin)] + [numpy.outer(numpy.cos(polar), around * 0 + 1)], -1)
+    points = numpy.stack(
+        [numpy.outer(numpy.sin(polar), f(around)) for f in (numpy.cos, numpy.sin)] + [numpy.outer(numpy.cos(polar), around * 0 + 1)], -1
+    )
     first = numpy.arange(rows)[:, None] * 2 * rows + numpy.arange(2 * rows)
     second = numpy.arange(rows)[:, None] * 2 * rows + (numpy.arange(2 * rows) + 1) % (2 * rows)
     upper = numpy.stack([first, first + 2 * rows, second + 2 * rows], -1)[: rows - 1]
@@ -95,10 +97,12 @@ def radiosity(parts):
         normals.append(face.normal)
         reflectances.append(numpy.full(len(at), reflectance))
     patches = numpy.concatenate(corners)
-    forms = numpy.concatenate([
-        numpy.stack([form_factors.polygon(patch, at, normal) for patch in patches], axis=1) / math.pi
-        for at, normal in zip(middles, normals, strict=True)
-    ])
+    forms = numpy.concatenate(
+        [
+            numpy.stack([form_factors.polygon(patch, at, normal) for patch in patches], axis=1) / math.pi
+            for at, normal in zip(middles, normals, strict=True)
+        ]
+    )
     places, facing = numpy.concatenate(middles), numpy.repeat(normals, parts**2, axis=0)
     to = numpy.array(LAMP) - places
     direct = LUMENS / (4 * math.pi) * (to * facing).sum(axis=1) / numpy.linalg.norm(to, axis=1) ** 3

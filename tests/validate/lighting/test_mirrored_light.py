@@ -27,7 +27,9 @@ def silver(room):
     return room.scene.add_material("silver", base_color=(1, 1, 1), metalness=1.0, specular_roughness=0.0)
 
 
-@pytest.mark.parametrize(("case", "shape"), [("sphere", {"Sphere": {"radius": 0.25}}), ("rectangle", {"Rectangle": {"width": 0.8, "height": 0.5}})])
+@pytest.mark.parametrize(
+    ("case", "shape"), [("sphere", {"Sphere": {"radius": 0.25}}), ("rectangle", {"Rectangle": {"width": 0.8, "height": 0.5}})]
+)
 def test_a_light_and_its_image(case, shape):
     room = Room()
     room.add(FLOOR)

@@ -63,7 +63,9 @@ def test_spot():
     hold("spot of 70° with a soft edge", room, intensity, 1e-4)
 
 
-@pytest.mark.parametrize("name", ["luminaires/sample1.ldt", "luminaires/sample3.ldt", "shapes/ldt/no_symmetry.ldt", "shapes/ies95/point_opening.ies"])
+@pytest.mark.parametrize(
+    "name", ["luminaires/sample1.ldt", "luminaires/sample3.ldt", "shapes/ldt/no_symmetry.ldt", "shapes/ies95/point_opening.ies"]
+)
 def test_measured_intensities(name, shared):
     path = shared("photometry", *name.split("/"))
     table = photometric_file.read(path)

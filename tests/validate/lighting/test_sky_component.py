@@ -46,10 +46,11 @@ def frame(plane, opening):
     offset = numpy.asarray(opening.middle) - plane.middle
     a, b = offset @ u / (u @ u), offset @ v / (v @ v)
     half_a, half_b = (abs(numpy.dot(opening.u, edge) + numpy.dot(opening.v, edge)) / (edge @ edge) / 2 for edge in (u, v))
-    parts = [(-0.5, a - half_a, -0.5, 0.5), (a + half_a, 0.5, -0.5, 0.5), (a - half_a, a + half_a, -0.5, b - half_b), (a - half_a, a + half_a, b + half_b, 0.5)]
+    left, right, low, high = a - half_a, a + half_a, b - half_b, b + half_b
+    parts = [(-0.5, left, -0.5, 0.5), (right, 0.5, -0.5, 0.5), (left, right, -0.5, low), (left, right, high, 0.5)]
     return [
-        Plane(tuple(plane.middle + u * (low + high) / 2 + v * (bottom + top) / 2), tuple(u * (high - low)), tuple(v * (top - bottom)))
-        for low, high, bottom, top in parts
+        Plane(tuple(plane.middle + u * (start + end) / 2 + v * (bottom + top) / 2), tuple(u * (end - start)), tuple(v * (top - bottom)))
+        for start, end, bottom, top in parts
     ]
 
 
@@ -93,7 +94,8 @@ def through(opening, luminance, points, normal, outside=(), pane=False):
     """Illuminance of points by what they see through an opening of a sky `luminance(direction)`."""
     # The edge of a mask cuts through cells.
     x, w = numpy.polynomial.legendre.leggauss(500 if outside else 96)
-    targets = (opening.middle + 0.5 * x[:, None, None] * numpy.asarray(opening.u) + 0.5 * x[:, None] * numpy.asarray(opening.v)).reshape(-1, 3)
+    u, v = (0.5 * numpy.asarray(edge, float) for edge in (opening.u, opening.v))
+    targets = (opening.middle + x[:, None, None] * u + x[:, None] * v).reshape(-1, 3)
     weights = (w[:, None] * w).ravel() * opening.area / 4
 
     def at(point):

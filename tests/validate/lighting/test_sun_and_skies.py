@@ -111,14 +111,16 @@ def from_sun(day):
 
 def test_perez_s_spread_of_luminance():
     largest, count = 0.0, 0
-    for clearness, (height, brightness, _, _, day) in ((clearness, weather) for clearness in perez.CLASSES for weather in weathers(clearness)):
-        zenith = math.radians(90 - height)
-        expected = perez.relative(clearness, brightness, zenith, directions()[:, 2], from_sun(day))
-        # The model is not meant for weather that would make it negative.
-        if expected.min() > 0:
-            expected = expected / perez.relative(clearness, brightness, zenith, 1.0, zenith)
-            largest, count = max(largest, float(numpy.abs(luminances(day) / expected - 1).max())), count + len(expected)
-    figures.check(figures.Row(SECTION, "Perez, luminances over the zenith's, the same weathers", "the paper's formula", count, largest, 0.01))
+    for clearness in perez.CLASSES:
+        for height, brightness, _, _, day in weathers(clearness):
+            zenith = math.radians(90 - height)
+            expected = perez.relative(clearness, brightness, zenith, directions()[:, 2], from_sun(day))
+            # The model is not meant for weather that would make it negative.
+            if expected.min() > 0:
+                expected = expected / perez.relative(clearness, brightness, zenith, 1.0, zenith)
+                largest, count = max(largest, float(numpy.abs(luminances(day) / expected - 1).max())), count + len(expected)
+    case = "Perez, luminances over the zenith's, the same weathers"
+    figures.check(figures.Row(SECTION, case, "the paper's formula", count, largest, 0.01))
 
 
 def test_the_general_skies_luminances():
@@ -153,7 +155,8 @@ def hosek_wilkie(elevation, turbidity, albedo, up, angle):
         mean = sum(weight * (bezier @ means[colour, ground, cell]) for ground, cell, weight in corners)
         cosine = numpy.cos(angle)
         mie = (1 + cosine**2) / (1 + h * h - 2 * h * cosine) ** 1.5
-        rgb.append(mean * (1 + a * numpy.exp(b / (up + 0.01))) * (c + d * numpy.exp(e * angle) + f * cosine**2 + g * mie + i * numpy.sqrt(up)))
+        graded = 1 + a * numpy.exp(b / (up + 0.01))
+        rgb.append(mean * graded * (c + d * numpy.exp(e * angle) + f * cosine**2 + g * mie + i * numpy.sqrt(up)))
     return 683.0 * (LUMINANCE @ numpy.array(rgb))
 
 
@@ -183,6 +186,5 @@ def test_level_ground_in_the_open(clearness):
     found = room.illuminance(ground, (16, 16), 256).mean(axis=(1, 2))
     sun = direct * perez.direct_efficacy(clearness, brightness, zenith) * math.cos(zenith)
     expected = diffuse * perez.diffuse_efficacy(clearness, brightness, zenith) + sun
-    confidence.hold(
-        SECTION, f"level ground under Perez's sky and sun, 30° high, clearness {clearness}", "irradiances × efficacies", found[:, None], numpy.array([expected])
-    )
+    case = f"level ground under Perez's sky and sun, 30° high, clearness {clearness}"
+    confidence.hold(SECTION, case, "irradiances × efficacies", found[:, None], numpy.array([expected]))
