@@ -188,3 +188,16 @@ def test_level_ground_in_the_open(clearness):
     expected = diffuse * perez.diffuse_efficacy(clearness, brightness, zenith) + sun
     case = f"level ground under Perez's sky and sun, 30° high, clearness {clearness}"
     confidence.hold(SECTION, case, "irradiances × efficacies", found[:, None], numpy.array([expected]))
+
+
+def test_the_penumbra_of_an_edge():
+    """Under half a plane 10 m up: the share of an even disc of 0.533° that is past the edge, by its segment's area."""
+    height, half = 10.0, math.tan(math.radians(0.533 / 2))
+    room, ground = Room(), Plane((0, 0, 0), (0.1, 0, 0), (0, 0.01, 0))
+    room.add(ground, Plane((-50, 0, height), (100, 0, 0), (0, 100, 0)))
+    lux = 1e5
+    room.light({"Distant": {"angle_deg": 0.533}}, lux, emission={"normalized": True})
+    found = room.illuminance(ground, (25, 1), 16384)
+    s = numpy.clip(ground.points(25, 1)[..., 0] / (height * half), -1, 1)
+    expected = lux * (0.5 + (s * numpy.sqrt(1 - s * s) + numpy.arcsin(s)) / math.pi)
+    confidence.hold(SECTION, "penumbra of a straight edge 10 m above the ground", "area of a disc's segment", found, expected)
