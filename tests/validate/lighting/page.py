@@ -32,6 +32,8 @@ INTRODUCTION = """# Validation
 Illuminances that gonio renders against closed forms and against integrals in double precision that share no code with it. `make validation` runs the
 tests in `tests/validate/lighting` and writes this page; every figure is a measured one.
 
+The cases are of the kind of CIE 171:2006, computed anew; the report's own tables are not used.
+
 - *largest*: the largest relative deviation of a point from its reference, and what it may be. Where light is random it is that of the mean of
   eight renders with different seeds. Points darker than a hundredth of the brightest are measured by that.
 - *mean*: the mean deviation of all points, ± half of its interval of 99.9 % confidence by Student's distribution over the eight renders and 0.01 %
