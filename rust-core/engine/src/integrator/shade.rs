@@ -208,7 +208,8 @@ fn shade_lanes<L: Lanes>(
         light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
-    scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], going_on, ws);
+    let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
+    scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], [going_on, ending], ws);
 }
 
 /// Opacity after the cut-out threshold.
