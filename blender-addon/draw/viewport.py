@@ -13,8 +13,9 @@ class ViewportDrawing:
         self._texture = None
         self._legend = None
 
-    def draw(self, engine, scene, picture, width: int, height: int) -> None:
-        """Draws a picture over a viewport of `width` × `height` pixels: scene-linear through Blender's display transform, false colour as it is."""
+    def draw(self, engine, scene, picture, width: int, height: int, covered: int) -> None:
+        """Draws a picture over a viewport of `width` × `height` pixels, of which the sidebar covers some columns: scene-linear through Blender's
+        display transform, false colour as it is with its legend."""
         if picture.number != self._number:
             self._texture = _texture(picture)
             self._legend = _texture(picture.legend) if picture.legend is not None else None
@@ -27,7 +28,8 @@ class ViewportDrawing:
         try:
             if self._legend is not None:
                 draw_texture_2d(self._texture, *place)
-                draw_texture_2d(self._legend, (width - picture.legend.width, 0), picture.legend.width, picture.legend.height)
+                left = width - covered - picture.legend.width
+                draw_texture_2d(self._legend, (left, 0), picture.legend.width, picture.legend.height)
                 return
             engine.bind_display_space_shader(scene)
             try:

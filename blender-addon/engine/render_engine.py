@@ -87,7 +87,9 @@ class GonioRenderEngine(bpy.types.RenderEngine):
             session.look(depsgraph, context.space_data, context.region_data, region.width, region.height, pixel_size)
             session.advance(depsgraph)
             if session.picture is not None:
-                self.drawing.draw(self, depsgraph.scene, session.picture, region.width, region.height)
+                sidebar = next((each for each in context.area.regions if each.type == "UI"), None)
+                covered = sidebar.width if sidebar is not None and sidebar.width > 1 else 0
+                self.drawing.draw(self, depsgraph.scene, session.picture, region.width, region.height, covered)
             self.update_stats("", session.status)
 
     def _viewport(self) -> ViewportSession:

@@ -10,11 +10,18 @@ import numpy
 SOURCES = {"LUMINANCE": ("luminance", "cd/m²"), "ILLUMINANCE": ("illuminance", "lx")}
 # Pixels over which values are averaged before contours are drawn.
 SMOOTHING = 4
+# Height of the legend over the viewport's.
+LEGEND = 0.6
+
+
+# What the screen is given is encoded by Blender: sRGB's curve is taken off before (IEC 61966-2-1).
+_BYTE = numpy.arange(256, dtype=numpy.float32) / 255.0
+_LINEAR = numpy.where(_BYTE <= 0.04045, _BYTE / 12.92, ((_BYTE + 0.055) / 1.055) ** 2.4).astype(numpy.float32)
 
 
 @dataclass(frozen=True)
 class Shown:
-    """Display values: flat RGBA float32, rows from the bottom."""
+    """What the screen shows, linear: flat RGBA float32, rows from the bottom."""
 
     width: int
     height: int
@@ -40,8 +47,8 @@ class Style:
         return cls(source, unit, settings.false_color_max or None, settings.false_color_steps, settings.use_false_color_contours)
 
 
-def paint(film, style: Style, legend_height: int) -> tuple[Shown, Shown]:
-    """The film in false colour, and the legend beside it."""
+def paint(film, style: Style, height: int) -> tuple[Shown, Shown]:
+    """The film in false colour, and a legend for a viewport of a height in pixels."""
     picture = gonio.false_colour(
         numpy.asarray(film[style.source]),
         max=style.max,
@@ -51,10 +58,12 @@ def paint(film, style: Style, legend_height: int) -> tuple[Shown, Shown]:
         smoothing=SMOOTHING,
         legend=False,
     )
-    return _shown(picture), _shown(picture.legend(legend_height))
+    return _shown(picture), _shown(picture.legend(int(height * LEGEND)))
 
 
 def _shown(picture) -> Shown:
     width, height = picture.size
     pixels = numpy.frombuffer(picture.tobytes(), numpy.uint8).reshape(height, width, 4)[::-1]
-    return Shown(width, height, numpy.ascontiguousarray(pixels, numpy.float32).ravel() / 255.0)
+    linear = _LINEAR[pixels]
+    linear[..., 3] = _BYTE[pixels[..., 3]]
+    return Shown(width, height, linear.ravel())
