@@ -14,14 +14,9 @@ SMOOTHING = 4
 LEGEND = 0.6
 
 
-# What the screen is given is encoded by Blender: sRGB's curve is taken off before (IEC 61966-2-1).
-_BYTE = numpy.arange(256, dtype=numpy.float32) / 255.0
-_LINEAR = numpy.where(_BYTE <= 0.04045, _BYTE / 12.92, ((_BYTE + 0.055) / 1.055) ** 2.4).astype(numpy.float32)
-
-
 @dataclass(frozen=True)
 class Shown:
-    """What the screen shows, linear: flat RGBA float32, rows from the bottom."""
+    """Display values: flat RGBA float32, rows from the bottom."""
 
     width: int
     height: int
@@ -64,6 +59,4 @@ def paint(film, style: Style, height: int) -> tuple[Shown, Shown]:
 def _shown(picture) -> Shown:
     width, height = picture.size
     pixels = numpy.frombuffer(picture.tobytes(), numpy.uint8).reshape(height, width, 4)[::-1]
-    linear = _LINEAR[pixels]
-    linear[..., 3] = _BYTE[pixels[..., 3]]
-    return Shown(width, height, linear.ravel())
+    return Shown(width, height, numpy.ascontiguousarray(pixels, numpy.float32).ravel() / 255.0)
