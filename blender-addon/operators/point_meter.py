@@ -40,7 +40,9 @@ class GONIO_OT_point_meter(bpy.types.Operator):
         if event.type in {"ESC", "RIGHTMOUSE"}:
             return self._end(context, {"CANCELLED"})
         at = (event.mouse_x - self._region.x, event.mouse_y - self._region.y)
-        inside = 0 <= at[0] < self._region.width and 0 <= at[1] < self._region.height
+        # The sidebar and the tools lie over the view.
+        over = [each.type for each in context.area.regions if _holds(each, event)]
+        inside = over == ["WINDOW"]
         if event.type == "MOUSEMOVE" and inside:
             self._read(context, at, self.MOVING_SAMPLES)
             context.area.tag_redraw()
@@ -68,6 +70,12 @@ class GONIO_OT_point_meter(bpy.types.Operator):
         context.window.cursor_modal_restore()
         context.area.tag_redraw()
         return result
+
+
+def _holds(region, event) -> bool:
+    """Whether the cursor is over a region that is shown."""
+    x, y = event.mouse_x - region.x, event.mouse_y - region.y
+    return region.width > 1 and region.height > 1 and 0 <= x < region.width and 0 <= y < region.height
 
 
 def reading_along(meter, depsgraph, scene, origin, direction, samples) -> tuple[str, ...]:

@@ -117,9 +117,7 @@ class GonioSceneSettings(bpy.types.PropertyGroup):
         default=0.0,
         update=tag_data,
     )
-    false_color_steps: IntProperty(
-        name="Steps", description="Steps of the false-colour scale", min=1, max=64, default=10, update=tag_data
-    )
+    false_color_steps: IntProperty(name="Steps", description="Steps of the false-colour scale", min=1, max=64, default=10, update=tag_data)
     use_false_color_contours: BoolProperty(
         name="Contours", description="Lines where steps of the false-colour scale meet", default=True, update=tag_data
     )

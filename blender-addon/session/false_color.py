@@ -10,6 +10,8 @@ import numpy
 SOURCES = {"LUMINANCE": ("luminance", "cd/m²"), "ILLUMINANCE": ("illuminance", "lx")}
 # Pixels over which values are averaged before contours are drawn.
 SMOOTHING = 4
+# Height of the legend over the viewport's.
+LEGEND = 0.6
 
 
 @dataclass(frozen=True)
@@ -40,8 +42,8 @@ class Style:
         return cls(source, unit, settings.false_color_max or None, settings.false_color_steps, settings.use_false_color_contours)
 
 
-def paint(film, style: Style, legend_height: int) -> tuple[Shown, Shown]:
-    """The film in false colour, and the legend beside it."""
+def paint(film, style: Style, height: int) -> tuple[Shown, Shown]:
+    """The film in false colour, and a legend for a viewport of a height in pixels."""
     picture = gonio.false_colour(
         numpy.asarray(film[style.source]),
         max=style.max,
@@ -51,7 +53,7 @@ def paint(film, style: Style, legend_height: int) -> tuple[Shown, Shown]:
         smoothing=SMOOTHING,
         legend=False,
     )
-    return _shown(picture), _shown(picture.legend(legend_height))
+    return _shown(picture), _shown(picture.legend(int(height * LEGEND)))
 
 
 def _shown(picture) -> Shown:

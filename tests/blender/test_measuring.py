@@ -1,5 +1,7 @@
 """Lux and cd/m² under the cursor, calculation grids, and the viewport in false colour."""
 
+from pathlib import Path
+
 import pytest
 
 
@@ -77,7 +79,7 @@ def test_the_viewport_shows_false_colour():
     try:
         picture = view.finish()
         pixels = numpy.asarray(picture.pixels).reshape(-1, 4)
-        assert picture.legend is not None and picture.legend.height >= picture.height // 2
+        assert picture.legend is not None and picture.legend.height > picture.height // 2
         assert len(numpy.unique((pixels[:, :3] * 255).round(), axis=0)) == 5
         scene.gonio.display = "COLOR"
         bpy.context.view_layer.update()
@@ -85,3 +87,49 @@ def test_the_viewport_shows_false_colour():
         assert view.finish().legend is None
     finally:
         view.close()
+
+
+@pytest.mark.blender
+def test_glare_in_a_panoramic_camera(tmp_path: Path):
+    import json
+    import math
+    import subprocess
+    import sys
+
+    import bpy
+    import pytest
+    import scenes
+
+    # A sphere of 0.1 m straight ahead at 1 m, of 40 W/(m² sr), before a world of 0.2.
+    scene = scenes.empty(width=400, height=400, samples=16)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.2, 0.2, 1)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32, radius=0.1, location=(0, 1, 0))
+    material = bpy.data.materials.new("Glow")
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    emission.inputs["Strength"].default_value = 40.0
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    bpy.context.object.data.materials.append(material)
+    bpy.ops.object.camera_add(location=(0, 0, 0), rotation=(math.radians(90), 0, 0))
+    scene.camera = bpy.context.object
+    lens = scene.camera.data
+    lens.type, lens.clip_start = "PANO", 0.01
+    panorama = lens if hasattr(lens, "panorama_type") else lens.cycles
+    panorama.panorama_type, panorama.fisheye_fov = "FISHEYE_EQUIDISTANT", math.pi
+    scene.gonio.pixel_filter_type, scene.gonio.filter_width = "BOX", 1.0
+    scene.view_layers[0].gonio.use_pass_luminance = True
+    scenes.render(tmp_path / "eye.exr")
+    run = [sys.executable, "-m", "gonio.cli"]
+    ended = subprocess.run([*run, "glare", str(tmp_path / "eye.exr"), "--json"], capture_output=True, text=True, check=True)
+    found = json.loads(ended.stdout)
+    bright, dim, half = 40.0 * scenes.LUMENS_PER_WATT, 0.2 * scenes.LUMENS_PER_WATT, math.asin(0.1)
+    of_disk = math.pi * math.sin(half) ** 2
+    background = dim * (1 - of_disk / math.pi)
+    ugr = 8 * math.log10(0.25 / background * bright**2 * 2 * math.pi * (1 - math.cos(half)))
+    # The rim's pixels count with the disk though they are darker.
+    assert found["ugr"] == pytest.approx(ugr, abs=0.3)
+    assert found["eye_illuminance_lx"] == pytest.approx(of_disk * bright + math.pi * background, rel=0.01)
+    shown = [*run, "falsecolor", str(tmp_path / "eye.exr"), "-o", str(tmp_path / "eye.png"), "--contours"]
+    subprocess.run(shown, capture_output=True, check=True)
