@@ -23,6 +23,12 @@ def apply(description, lamp, colour, matrix, report):
     settings = lamp.gonio
     description["emission"]["radiance"] = [float(x) for x in colour]
     description["dimming"] = settings.dimming * settings.maintenance
+    if lamp.type == "AREA" and settings.is_tube:
+        ((_, sides),) = description["shape"].items()
+        description["shape"] = {"Cylinder": {"radius": 0.5 * sides["height"], "length": sides["width"]}}
+        description["spread_deg"] = 180.0
+    if lamp.type in ("POINT", "SPOT") and settings.cosine_power > 0.0:
+        description["shaping"].update(focus=settings.cosine_power, cone_angle_deg=90.0)
     _luminaire(description, lamp, np.asarray(matrix, dtype=float), report)
     description["quantity"] = _quantity(settings, report, lamp)
 
@@ -69,6 +75,9 @@ def _own_opening(shape):
     if kind in ("Rectangle", "Ellipse"):
         form = "Rectangle" if kind == "Rectangle" else "Disk"
         return {"shape": form, "size": [fields["width"], fields["height"], 0.0], "heights": [0.0] * 4}
+    if kind == "Cylinder":
+        across = 2.0 * fields["radius"]
+        return {"shape": "CylinderAlongX", "size": [fields["length"], across, across], "heights": [across] * 4}
     return {"shape": "Ellipsoid", "size": [2.0 * fields["radius"]] * 3, "heights": [2.0 * fields["radius"]] * 4}
 
 

@@ -74,5 +74,15 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         subtype="ANGLE",
         update=tag_data,
     )
+    cosine_power: FloatProperty(
+        name="Cosine Power",
+        description="Exponent n of an intensity I = I0 cos^n to the front alone; 0 leaves the light as it is",
+        default=0.0,
+        min=0.0,
+        max=1000.0,
+        soft_max=50.0,
+        update=tag_data,
+    )
+    is_tube: switch("Tube", "The area light is a tube along its X axis, as thick as its Y", tag_data)
     dimming: _factor("Dimming", "Share of its full strength that the light is dimmed to")
     maintenance: _factor("Maintenance", "Share of the strength that is left between cleanings and replacements (CIE 97)")

@@ -26,6 +26,10 @@ class GONIO_LIGHT_PT_photometry(LightPanel, Panel):
         settings = light.gonio
         layout.active = settings.use_photometry
         _draw_strength(layout.column(align=True), light)
+        if light.type == "AREA":
+            layout.prop(settings, "is_tube")
+        elif light.type != "SUN":
+            layout.prop(settings, "cosine_power")
         if light.type != "SUN":
             _draw_luminaire(layout, light)
         factors = layout.column(align=True)

@@ -50,9 +50,19 @@ def test_lux_under_lamps_in_all_units(tmp_path: Path):
     settings = lamp.data.gonio
     check(31.83, unit="LUMEN", quantity=100.0)
     check(1000.0 * 1e-4, unit="NIT", quantity=1000.0)
+    settings.is_tube = True
+    # A tube's intensity across its axis is its flux over pi squared.
+    check(100.0 / math.pi**2, relative=0.02, unit="LUMEN", quantity=100.0)
+    lamp.data.type = "POINT"
+    settings = lamp.data.gonio
+    check(100.0 * 4.0 / (2.0 * math.pi), unit="LUMEN", quantity=100.0, cosine_power=3.0)
     lamp.data.type = "SUN"
     settings = lamp.data.gonio
     check(5000.0, unit="LUX", quantity=5000.0)
+    settings.quantity = 0.0
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    scene.world.gonio.use_luminance, scene.world.gonio.luminance = True, 500.0
+    check(500.0 * math.pi, relative=0.01)
 
 
 @pytest.mark.blender

@@ -44,7 +44,7 @@ def lux(shape: str, **keywords) -> float:
         ("point", {"lux": 30.0}, 30.0),
         ("point", {"lux": (30.0, 3.0)}, 270.0),
         ("point", {"candela": 30.0, "cosine_power": 4.0}, 30.0),
-        ("point", {"lumens": 100.0, "cosine_power": 4.0}, 100.0 * 5 / (4 * math.pi)),
+        ("point", {"lumens": 100.0, "cosine_power": 4.0}, 100.0 * 5 / (2 * math.pi)),
         ("point", {"lumens": 100.0, "spot": (60.0, 0.0)}, 100.0 / (2 * math.pi * (1 - math.cos(math.radians(30))))),
         ("distant", {"lux": 1000.0}, 1000.0),
         ("dome", {"nits": 100.0}, 100.0 * math.pi),

@@ -71,11 +71,16 @@ impl Photometry {
             quantity: self.quantity.or(measured),
             dimming: self.dimming.unwrap_or(1.0),
             goniogram: self.goniogram.map(Arc::new),
-            shaping: Shaping { focus: self.cosine_power, ..light.shaping },
+            shaping: directed(self.cosine_power),
             spot: self.spot.map(|[angle_deg, blend]| Spot { angle_deg, blend, stretch: [1.0; 2] }),
             ..light
         }
     }
+}
+
+/// I = I₀ · cosⁿ θ, to the front alone; a power of 0 leaves the light as it is.
+fn directed(power: f32) -> Shaping {
+    if power > 0.0 { Shaping { focus: power, cone_angle_deg: Some(90.0), ..Shaping::default() } } else { Shaping::default() }
 }
 
 fn quantity(key: &str, value: &Bound<'_, PyAny>) -> PyResult<LightQuantity> {
