@@ -254,7 +254,7 @@ pub(super) struct MeasureOptions {
     /// Samples a point.
     #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) spp: u32,
-    /// Bounces after the first surface.
+    /// Limit of the bounces; without one all count that matter.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(super) max_bounces: Option<u32>,
     /// The light transport: full global illumination, or direct light alone.

@@ -11,7 +11,7 @@ use super::{
 use crate::{Loaded, SampleTime, Stage, context::UpAxis};
 use gonio::{
     Error, Result,
-    measure::{GridReading, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
+    measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
     output::{FalseColour, write_atomically},
     scene::{Integrator, Measurand, Meter, Origin, Scene},
 };
@@ -90,7 +90,7 @@ fn evaluated(scene: &Scene, mut reporter: Reporter, interrupted: &AtomicBool) ->
 fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
     let settings = &mut scene.settings;
     settings.samples = options.spp;
-    settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
+    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
     settings.integrator = match options.integrator {
         IntegratorArgument::Path => Integrator::Path,
         IntegratorArgument::Direct => Integrator::Direct,

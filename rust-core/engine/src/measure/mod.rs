@@ -29,6 +29,9 @@ use gonio_simd::Execution;
 use sense::Probe;
 use std::sync::{Arc, atomic::AtomicBool};
 
+/// Bounces of measurements that no limit was asked for: in white rooms the late ones are many lux together, and roulette ends what does not matter.
+pub const MOST_BOUNCES: u32 = 255;
+
 /// What all meters and grids of a scene show.
 #[derive(Clone, Debug, Default)]
 pub struct Measurements {

@@ -1,6 +1,7 @@
 //! From meters to sensors, and from their pixels to readings.
 
 use super::{
+    MOST_BOUNCES,
     reading::Reading,
     vector::{across, cross, unit},
 };
@@ -83,6 +84,8 @@ pub(super) fn sense(
         resolution: table.resolution(),
         crop: None,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
+        // Limits by kind are for pictures' sake.
+        kind_bounces: [MOST_BOUNCES; 4],
         aovs: vec![Aov::Luminance, Aov::Illuminance],
         shader_passes: Vec::new(),
         background: Background::Seen,
