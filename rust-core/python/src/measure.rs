@@ -169,17 +169,17 @@ impl Measurements {
 /// Evaluates the scene's meters and grids with `samples` a point and, unlike pictures, as many bounces as matter, or `max_bounces`; `previous` lends the trees and images of what did not change, and `cancelled`, a
 /// function that says whether to stop, is asked every 50 ms.
 #[pyfunction]
-#[pyo3(name = "measure", signature = (scene, *, samples = 4096, max_bounces = measure::MOST_BOUNCES, previous = None, cancelled = None))]
+#[pyo3(name = "measure", signature = (scene, *, samples = 4096, max_bounces = None, previous = None, cancelled = None))]
 pub(crate) fn measure_scene(
     py: Python<'_>,
     scene: &Scene,
     samples: u32,
-    max_bounces: u32,
+    max_bounces: Option<u32>,
     previous: Option<&Render>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Measurements> {
     let mut description: Description = scene.scene.clone();
-    (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces);
+    (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(measure::MOST_BOUNCES));
     let before = previous.and_then(Render::compiled);
     let stop = AtomicBool::new(false);
     let mut raised: Option<PyErr> = None;

@@ -165,7 +165,7 @@ def measure(
     scene: Scene,
     *,
     samples: int = 4096,
-    max_bounces: int = 255,
+    max_bounces: int | None = None,
     previous: Render | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurements: ...
