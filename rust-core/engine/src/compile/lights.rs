@@ -6,7 +6,7 @@ use super::{
     instances::{rebased, rows},
     light_groups::GroupNames,
     openings::{self, Part},
-    quantity,
+    quantity::{self, FarFields},
     textures::CompiledTextures,
 };
 use crate::{
@@ -68,6 +68,7 @@ pub(super) fn compile(
     let mut instances = Vec::new();
     let mut instance_light = Vec::new();
     let mut goniograms = CompiledGoniograms::default();
+    let mut far_fields = FarFields::default();
     let mut groups = GroupNames::default();
     for (number, light) in scene.lights.iter().enumerate() {
         let goniogram = goniograms.number(light, diagnostics);
@@ -83,7 +84,7 @@ pub(super) fn compile(
         }
         let group = groups.number(&light.group);
         groups.of_light.resize(records.len(), group);
-        quantity::apply(light, &mut records[first..], &mut goniograms, diagnostics);
+        quantity::apply(light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
     }
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);

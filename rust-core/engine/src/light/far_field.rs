@@ -6,6 +6,7 @@ use super::projected_area::ProjectedArea;
 use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::field;
 use super::table::LightTable;
+use super::vector::{dot, widen};
 use gonio_simd::{Lanes, One, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -44,7 +45,10 @@ impl FarField {
             None => [vec![0.0, TAU], beam_edges(records.first())],
         };
         let angular_type = goniogram.map_or(AngularType::C, |goniogram| goniogram.angular_type());
-        Self { table, areas, frame, breaks, angular_type, most: if is_plain { PLAIN } else { SHAPED } }
+        let [across, down] = if is_plain { PLAIN } else { SHAPED };
+        // What looks the same all around is looked at from one side.
+        let across = if goniogram.is_none() && records.iter().all(is_round) { TAU } else { across };
+        Self { table, areas, frame, breaks, angular_type, most: [across, down] }
     }
 
     /// Luminous intensity in cd, and the greatest luminance of an emitter in cd/m² (0 for points), towards a direction in the luminaire's frame.
@@ -96,6 +100,21 @@ impl FarField {
 fn is_measured_alone(record: &LightRecord) -> bool {
     let spreads_intensity = record.opening.is_some() || record.kind == LightKind::Point;
     spreads_intensity && record.goniogram.is_some() && record.spot.is_none() && record.shaping == super::Shaping::default()
+}
+
+/// Whether a light sends the same all around its beam's axis.
+fn is_round(record: &LightRecord) -> bool {
+    let is_shape = match record.kind {
+        LightKind::Point | LightKind::FacingDisk => true,
+        LightKind::Sphere => {
+            let [x, y, z, _] = record.to_world.map(widen);
+            let [xx, yy, zz] = [dot(x, x), dot(y, y), dot(z, z)];
+            let skew = dot(x, y).abs() + dot(y, z).abs() + dot(z, x).abs();
+            (xx - yy).abs() + (xx - zz).abs() + skew < 1e-5 * xx
+        }
+        _ => false,
+    };
+    is_shape && record.opening.is_none() && record.spot.is_none_or(|spot| spot.stretch[0] == spot.stretch[1])
 }
 
 /// Polar angles where a beam begins or ends.
