@@ -24,6 +24,21 @@ def test_meters(floor):
     assert gonio.measure(scene).meters == []
 
 
+def test_limits_of_pictures_do_not_hold(floor):
+    scene = floor()
+    scene.add_meter((0, 1, 0), normal=(0, -1, 0))
+    expected = gonio.measure(scene).meters[0].value
+    scene.set(clamp_direct=1e-3, clamp_indirect=1e-3, max_bounces=0)
+    assert expected > 0 and gonio.measure(scene).meters[0].value == expected
+
+
+def test_half_cylinders_face_somewhere(floor):
+    scene = floor()
+    scene.add_meter((0, 1, 0), normal=(0, 1, 0), facing=(0, 1, 0), quantity="semicylindrical")
+    with pytest.raises(gonio.SceneError, match="along its own axis"):
+        gonio.measure(scene)
+
+
 def test_grids(floor, tmp_path):
     scene = floor()
     mesh = scene.add_mesh(FLOOR, QUAD, name="plane")

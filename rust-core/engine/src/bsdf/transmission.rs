@@ -79,11 +79,16 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let path = cos.recip();
         let through = Rgb::new(colour.r.pow(path), colour.g.pow(path), colour.b.pow(path));
         let normal = fresnel::normal_reflectance(eta);
+        // Films are those of unpolarised light.
+        let film = match self.film(self.l.f(1.0)) {
+            Some(film) => Some((film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight)),
+            None => None,
+        };
         let (mut reflected, mut passed) = (Rgb::zero(self.l), Rgb::zero(self.l));
         for reflectance in fresnel::dielectric_polarised(self.specular_mu, eta) {
             let mut first = base.ends[0].lerp(base.ends[1], (reflectance - normal) / (1.0 - normal)).saturate();
-            if let Some(film) = self.film(self.l.f(1.0)) {
-                first = first.lerp(film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight);
+            if let Some((coloured, weight)) = film {
+                first = first.lerp(coloured, weight);
             }
             let entered = self.white() - first;
             let inner = first * through;

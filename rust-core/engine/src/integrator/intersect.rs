@@ -149,10 +149,9 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
         let direction = gather3(l, &ws.paths.direction, path);
         let pdf = l.gather(&ws.paths.pdf, path);
-        let seen =
-            |only: Option<u32>| kernels::surroundings(l, tables, transport.known.as_deref(), from, direction, pdf, [camera, delta], only);
+        let (known, first) = (transport.known.as_deref(), [camera, delta]);
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
-        let unclamped = seen(None) * throughput;
+        let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
         let value = clamped(unclamped, transport.clamp(depth));
         let arrives = alive & value.is_lit();
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
@@ -160,7 +159,7 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
             for light in tables.lights.at_infinity() {
-                let part = seen(Some(light)) * throughput * share;
+                let part = kernels::surroundings(l, tables, known, from, direction, pdf, first, Some(light)) * throughput * share;
                 add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.first_hit.groups);
             }
         }

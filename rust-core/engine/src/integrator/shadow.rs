@@ -87,9 +87,11 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
         let (slot, code) = (l.load_integers(&rays.slot, at), l.load_integers(&rays.code, at));
         let [diffuse, glossy] = &rays.shares;
         let shares = if ws.first_hit.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None };
-        let light = l.load_integers(&rays.light, at);
         add_sampled(&mut ws.first_hit, code, slot, value, shares, arrived);
-        add_of_lights(l, &transport.passes.groups, light, slot, value, arrived, &mut ws.first_hit.groups);
+        if transport.passes.groups.wanted() {
+            let light = l.load_integers(&ws.shadows.light, at);
+            add_of_lights(l, &transport.passes.groups, light, slot, value, arrived, &mut ws.first_hit.groups);
+        }
     }
 }
 

@@ -49,12 +49,13 @@ impl GridPoints {
     }
 }
 
-/// Metres from point to point by EN 12464-1: 0.2 · 5^(log10 d), at most 10, where d is the longer side, or the shorter where that is half of it or
-/// less.
+/// Metres from point to point by EN 12464-1: d over the whole number next to d / p with p = 0.2 · 5^(log10 d), at most 10, where d is the longer
+/// side, or the shorter where that is less than half.
 fn standard_spacing(sides: [f64; 2]) -> f64 {
     let (long, short) = (sides[0].max(sides[1]), sides[0].min(sides[1]));
     let d = if long >= 2.0 * short { short } else { long };
-    (0.2 * 5f64.powf(d.log10())).min(10.0)
+    let most = (0.2 * 5f64.powf(d.log10())).min(10.0);
+    d / (d / most).round().max(1.0)
 }
 
 /// Points and metres from one to the next along sides of a length.

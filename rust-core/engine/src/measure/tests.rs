@@ -52,6 +52,14 @@ fn spacing_without_a_wish_is_the_standards() {
 }
 
 #[test]
+fn the_first_sides_whole_points_decide_the_others() {
+    let area = GridArea::Rectangle { corner: [0.0; 3], edges: [[4.0, 0.0, 0.0], [0.0, 9.7, 0.0]] };
+    let points = GridPoints::new(&Scene::default(), &Grid { area, ..Grid::default() }).expect("a grid");
+    // d = 4 m: p = 0.527 m, 8 points of 0.5 m, and 9.7 m / 0.5 m next to 19.
+    assert_eq!(points.size, [8, 19]);
+}
+
+#[test]
 fn grids_on_meshes_follow_the_outline() {
     let (scene, grid) = corner_room();
     let grid = Grid { spacing: 0.25, height: 0.8, ..grid };
