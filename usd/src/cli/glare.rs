@@ -67,9 +67,19 @@ fn as_json(glare: &Glare) -> Value {
     })
 }
 
+/// The rating, or why there is none.
+fn ugr_line(glare: &Glare) -> String {
+    let is_ahead = |source: &GlareSource| source.direction[2] > 0.0;
+    match glare.ugr() {
+        Some(ugr) => format!("UGR: {ugr:.1}"),
+        None if glare.sources.iter().any(is_ahead) => "UGR: not defined, the background is black".to_owned(),
+        None => "UGR: no source of glare ahead".to_owned(),
+    }
+}
+
 fn as_text(glare: &Glare) -> Vec<String> {
     let mut lines = vec![
-        glare.ugr().map_or("UGR: no source of glare".to_owned(), |ugr| format!("UGR: {ugr:.1}")),
+        ugr_line(glare),
         format!("DGP: {:.3} ({:.3} with the correction for little light)", glare.dgp(), glare.dgp_low_light()),
         format!("at the eye: {:.1} lx", glare.eye_illuminance),
         format!("background: {:.2} cd/m², mean: {:.2} cd/m²", glare.background_luminance, glare.mean_luminance),
