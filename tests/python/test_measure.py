@@ -116,3 +116,5 @@ def test_false_colour():
     assert np.flatnonzero(changed[0]).tolist() == [24, 49, 74]
     with pytest.raises(gonio.SettingError, match="steps"):
         gonio.false_colour(values, steps=0)
+    with pytest.raises(gonio.SettingError, match="height"):
+        picture.legend(10**9)

@@ -115,6 +115,9 @@ def test_what_cannot_be_measured_is_one_line(run, stage):
         ((), "--grid"),
         (("--grid", "/Nothing"), "/Nothing"),
         (("--at", "1,2"), "three numbers"),
+        (("--at", "1,2,3,foo"), "'foo'"),
+        (("--at", "1,,2,3"), "expected a number"),
+        (("--at", "1,2,nan,3"), "'nan'"),
         (("--at", "0,0,1", "--quantity", "loudness"), "semicylindrical"),
         (("--at", "0,0,1", "--quantity", "daylight-factor"), "dome"),
         (("--at", "0,0,1", "--facing", "0,0,0", "--quantity", "luminance"), "direction"),
@@ -138,7 +141,7 @@ def Camera "Eye" {
 
 def test_false_colour_of_a_picture(run, stage, tmp_path):
     image = tmp_path / "a.exr"
-    run("render", stage(more=VIEW), "-o", image, "--res", 64, 48, "--spp", 4, "--aov", "color,luminance,illuminance", "--quiet")
+    run("render", stage(more=VIEW), "-o", image, "--res", 64, 48, "--spp", 4, "--aov", "color,luminance,illuminance,normal", "--quiet")
     for number, arguments in enumerate(
         (("--quantity", "illuminance", "--max", 100, "--steps", 5, "--contours"), ("--log", 3), ("--lines",), ("--no-legend",))
     ):
@@ -147,6 +150,8 @@ def test_false_colour_of_a_picture(run, stage, tmp_path):
         assert picture.read_bytes().startswith(b"\x89PNG")
     ended = run("falsecolor", image, "-o", tmp_path / "x.png", "--quantity", "depth", check=False)
     assert ended.returncode == 1 and "--aov depth" in ended.stderr
+    ended = run("falsecolor", image, "-o", tmp_path / "x.png", "--quantity", "normal", check=False)
+    assert ended.returncode == 1 and "normal.X, normal.Y, normal.Z" in ended.stderr
 
 
 def test_glare_of_a_disk(run, tmp_path):

@@ -146,25 +146,35 @@ def test_what_makes_no_sense_is_told(tmp_path):
     assert "opening is 'gap'" in told("SphereLight", gap)
 
 
-def test_mesh_lights(tmp_path):
-    body = """prepend apiSchemas = ["MeshLightAPI"]"""
+def mesh_light(tmp_path, attributes):
     text = f"""#usda 1.0
 (
     metersPerUnit = 1
     upAxis = "Z"
 )
-def Mesh "Panel" ({body})
+def Mesh "Panel" (prepend apiSchemas = ["MeshLightAPI"])
 {{
     point3f[] points = [(-0.01, -0.01, 0), (-0.01, 0.01, 0), (0.01, 0.01, 0), (0.01, -0.01, 0)]
     int[] faceVertexCounts = [4]
     int[] faceVertexIndices = [0, 1, 2, 3]
     uniform token subdivisionScheme = "none"
-    {LUMENS}
+    {attributes}
 }}
 """
     path = tmp_path / "mesh.usda"
     path.write_text(text)
-    scene = gonio.load_usd(str(path)).to_dict()
+    return gonio.load_usd(str(path))
+
+
+def test_mesh_lights(tmp_path):
+    scene = mesh_light(tmp_path, LUMENS).to_dict()
     glow = [m for m in scene["materials"] if "emission_color" in str(m)]
     values = dict(glow[-1]["closures"][0]["parameters"])["emission_color"]["Constant"]
     assert values[:3] == pytest.approx([100.0 / (math.pi * 0.0004)] * 3, rel=1e-4)
+
+
+def test_what_makes_no_sense_of_mesh_lights_is_told(tmp_path):
+    told = lambda attributes: " ".join(str(line) for line in mesh_light(tmp_path, attributes).diagnostics)  # noqa: E731
+    assert "dimming is -1" in told(f"{LUMENS}\n    float gonio:photometry:dimming = -1")
+    assert "maintenanceFactor is NaN" in told(f"{LUMENS}\n    float gonio:photometry:maintenanceFactor = nan")
+    assert "keeps its intensity" in told("double gonio:photometry:quantity = -100")

@@ -42,7 +42,15 @@ pub(crate) fn photometry<'py>(
     let opening = opening(context, prim, shape, goniogram.as_deref());
     let is_luminaire = opening.is_some();
     let quantity = quantity(context, prim).or(is_luminaire.then_some(LightQuantity::Measured));
-    let factor = |context: &mut Context<'_, 'py>, name: &str| {
+    let dimming = dimming(context, prim);
+    let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
+    let placed = is_luminaire.then(|| luminaire_place(transform, context.metres_per_unit, rotation));
+    Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
+}
+
+/// Dimming times maintenance.
+fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
+    let mut factor = |name: &str| {
         let found: f32 = attribute(context, prim, name).unwrap_or(1.0);
         if found.is_finite() && found >= 0.0 {
             return found;
@@ -50,10 +58,7 @@ pub(crate) fn photometry<'py>(
         context.warn(&prim.origin(), format!("{PREFIX}{name} is {found}, expected a number of zero or more; 1 is used"));
         1.0
     };
-    let dimming = factor(context, "dimming") * factor(context, "maintenanceFactor");
-    let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
-    let placed = is_luminaire.then(|| luminaire_place(transform, context.metres_per_unit, rotation));
-    Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
+    factor("dimming") * factor("maintenanceFactor")
 }
 
 fn file<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<Goniogram>> {
@@ -119,8 +124,6 @@ fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Lig
 pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, area: Option<f64>) -> Option<f64> {
     use std::f64::consts::PI;
     let area = area.filter(|area| *area > 0.0);
-    let dimming =
-        attribute::<f64>(context, prim, "dimming").unwrap_or(1.0) * attribute::<f64>(context, prim, "maintenanceFactor").unwrap_or(1.0);
     let luminance = match (quantity(context, prim)?, area) {
         (LightQuantity::Nits(luminance), _) => luminance,
         (LightQuantity::Lumens(flux), Some(area)) => flux / (PI * area),
@@ -130,5 +133,12 @@ pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, are
             return None;
         }
     };
-    (luminance.is_finite() && luminance >= 0.0).then_some(luminance * dimming)
+    if !(luminance.is_finite() && luminance >= 0.0) {
+        context.warn(
+            &prim.origin(),
+            format!("{PREFIX}quantity gives {luminance} cd/m², expected zero or more; the light keeps its intensity"),
+        );
+        return None;
+    }
+    Some(luminance * f64::from(dimming(context, prim)))
 }

@@ -1,9 +1,15 @@
 //! False colour.
 
-use crate::{buffer::side_lengths, error::exception};
+use crate::{
+    buffer::side_lengths,
+    error::{exception, setting},
+};
 use gonio::output::{self, Canvas, FalseColour, FalseColourScale};
 use pyo3::{prelude::*, types::PyBytes};
 use std::{io::Write, path::PathBuf};
+
+/// Most pixels of a legend's height.
+const TALLEST: usize = 65_536;
 
 /// A picture for looking at: 8-bit RGBA, rows from the top.
 #[pyclass(frozen, module = "gonio")]
@@ -25,9 +31,12 @@ impl Picture {
     fn size(&self) -> (usize, usize) {
         self.canvas.size.into()
     }
-    /// The legend alone, for a picture of a height in pixels.
-    fn legend(&self, height: usize) -> Self {
-        Self::of(self.style.legend(height), self.style.clone())
+    /// The legend alone, for a picture of a height in pixels, at most 65,536.
+    fn legend(&self, height: usize) -> PyResult<Self> {
+        if height > TALLEST {
+            return Err(setting("height", format!("{height} was found, expected at most {TALLEST} pixels")));
+        }
+        Ok(Self::of(self.style.legend(height), self.style.clone()))
     }
     /// Four bytes a pixel.
     fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {

@@ -111,7 +111,7 @@ fn points(options: &MeasureOptions, measurand: Measurand, axis: UpAxis) -> Resul
 }
 
 fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
-    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f64| x.is_finite()).collect();
+    let numbers = text.split(',').map(|part| daylight::number(name, part)).collect::<Result<Vec<f64>>>()?;
     let wrong = |_| Error::setting(name, format!("'{text}' was found, expected three numbers separated by commas"));
     numbers.try_into().map_err(wrong)
 }

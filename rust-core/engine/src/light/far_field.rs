@@ -1,5 +1,6 @@
 //! A light as it looks from far away: its intensity by direction, and what that sums up to.
 
+use super::beam::SMALLEST_SPREAD;
 use super::build::Geometry;
 use super::goniogram::{AngularType, Goniogram};
 use super::projected_area::ProjectedArea;
@@ -117,13 +118,21 @@ fn is_round(record: &LightRecord) -> bool {
     is_shape && record.opening.is_none() && record.spot.is_none_or(|spot| spot.stretch[0] == spot.stretch[1])
 }
 
-/// Polar angles where a beam begins or ends.
+/// Where the power of a focus' cosine falls to a 4096th, in steps of √½, angles are looked at no closer.
+const FOCUS_STEPS: u32 = 24;
+
+/// Polar angles where a beam begins or ends, or where a focus takes a step.
 fn beam_edges(record: Option<&LightRecord>) -> Vec<f64> {
     let mut edges = vec![0.0, FRAC_PI_2, PI];
     if let Some(record) = record {
         let shaping = &record.shaping;
         edges.extend([shaping.cone_angle, shaping.cone_angle * (1.0 - shaping.softness)].map(f64::from));
         edges.extend(record.spot.iter().map(|spot| f64::from(spot.angle) / 2.0));
+        edges.extend((record.kind.is_flat() && record.spread < PI as f32).then(|| f64::from(record.spread.max(SMALLEST_SPREAD)) / 2.0));
+        let focus = f64::from(shaping.focus);
+        let steps = (1..=FOCUS_STEPS).filter(|_| focus > 0.0).map(|k| 0.5_f64.powf(0.5 * f64::from(k) / focus).acos());
+        // The power is that of the cosine's size: behind as before.
+        edges.extend(steps.flat_map(|angle| [angle, PI - angle]));
     }
     edges.retain(|edge| (0.0..=PI).contains(edge));
     edges.sort_by(f64::total_cmp);

@@ -121,19 +121,16 @@ fn world_triangles(mesh: &Mesh, transform: &Transform) -> Vec<[Vector; 3]> {
     mesh.triangles.iter().filter_map(placed).filter(|t| t.iter().flatten().all(|x| x.is_finite())).collect()
 }
 
-/// A point's coordinates to single precision: corners that do not share a point meet there.
-fn key(p: &[f64]) -> Vec<u32> {
-    // Adding zero makes both zeros one.
-    p.iter().map(|x| (*x as f32 + 0.0).to_bits()).collect()
-}
-
-/// Edges of one triangle alone, by their ends' keys.
-fn lone_edges<P: Copy>(triangles: impl Iterator<Item = [P; 3]>, coordinates: impl Fn(&P) -> Vec<f64>) -> Vec<[P; 2]> {
-    let mut edges: HashMap<[Vec<u32>; 2], (usize, [P; 2])> = HashMap::new();
+/// Edges of one triangle alone. Corners that do not share a point meet where their coordinates are the same to single precision.
+fn lone_edges<const N: usize>(triangles: &[[[f64; N]; 3]]) -> Vec<[[f64; N]; 2]> {
+    let Some([start, ..]) = triangles.first() else { return Vec::new() };
+    // From the first corner on: far from the world's origin single precision is coarser than a table. Adding zero makes both zeros one.
+    let key = |end: &[f64; N]| std::array::from_fn(|k| ((end[k] - start[k]) as f32 + 0.0).to_bits());
+    let mut edges: HashMap<[[u32; N]; 2], (usize, [[f64; N]; 2])> = HashMap::new();
     for triangle in triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let ends = [triangle[a], triangle[b]];
-            let mut name = ends.each_ref().map(|end| key(&coordinates(end)));
+            let mut name = ends.each_ref().map(key);
             name.sort();
             edges.entry(name).or_insert((0, ends)).0 += 1;
         }
@@ -142,12 +139,13 @@ fn lone_edges<P: Copy>(triangles: impl Iterator<Item = [P; 3]>, coordinates: imp
 }
 
 fn border(triangles: &[[(Point, f64); 3]]) -> Vec<[Point; 2]> {
-    lone_edges(triangles.iter().map(|t| t.map(|(point, _)| point)), |point| point.to_vec())
+    let flat: Vec<[Point; 3]> = triangles.iter().map(|t| t.map(|(point, _)| point)).collect();
+    lone_edges(&flat)
 }
 
 /// The direction of the longest edge of the surface's border: rows run along it.
 fn longest_border(triangles: &[[Vector; 3]]) -> Vector {
-    let edges = lone_edges(triangles.iter().copied(), |point| point.to_vec());
+    let edges = lone_edges(triangles);
     let along = |edge: [Vector; 2]| {
         let v = subtract(edge[1], edge[0]);
         // One sense of the two, so that the order of edges does not matter.

@@ -73,6 +73,23 @@ fn grids_on_meshes_follow_the_outline() {
 }
 
 #[test]
+fn margins_hold_far_from_the_origin() {
+    // 0.4 m wide, and where single precision counts by half a metre.
+    let (scene, grid) = corner_room();
+    let placed = |origin: [f64; 3]| {
+        let transform = Transform { columns: [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2], origin] };
+        let area = GridArea::Mesh { mesh: MeshId(0), transform };
+        GridPoints::new(&scene, &Grid { area, spacing: 0.05, margin: 0.04, ..grid.clone() }).expect("a grid")
+    };
+    let far = [500_000.0, 5_400_000.0, 300.0];
+    let (here, there) = (placed([0.0; 3]), placed(far));
+    assert_eq!((here.size, here.known().count()), (there.size, there.known().count()));
+    for (a, b) in here.known().zip(there.known()) {
+        assert!((0..3).all(|k| (a[k] + far[k] - b[k]).abs() < 1e-6), "{a:?} {b:?}");
+    }
+}
+
+#[test]
 fn mirrored_placements_keep_their_face() {
     let mirrored = Transform { columns: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]] };
     let (scene, grid) = floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]], mirrored);

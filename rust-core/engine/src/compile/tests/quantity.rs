@@ -1,6 +1,7 @@
 //! Quantities: what a light of so many lm, cd, lx, cd/m² or W sends.
 
 use super::{goniogram, illuminance, placed, table};
+use crate::light::{FarField, LightKind, LightRecord, Shaping as Narrowing};
 use crate::scene::{DomeFormat, LUMENS_PER_WATT, Light, LightQuantity, LightShape, Opening, OpeningShape, Shaping, Spot};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -60,6 +61,21 @@ fn directed_spots_and_cones() {
     let shaping = Shaping { cone_angle_deg: Some(25.0), ..Shaping::default() };
     let light = Light { shaping, ..placed(LightShape::Point, None) };
     close(straight_on(with(light, LightQuantity::Lumens(100.0)), 1.0), expected, 1e-4, "cone");
+}
+
+#[test]
+fn narrow_beams_keep_their_flux() {
+    let flux = |record: LightRecord| FarField::new(&[record], &[]).flux();
+    // A rectangle of 4 m² whose spread keeps its flux, Φ = π A L.
+    for degrees in [0.05_f32, 0.2, 0.3, 0.5, 0.7, 2.0, 30.0] {
+        let record = LightRecord { spread: degrees.to_radians(), ..LightRecord::new(LightKind::Rectangle) };
+        close(flux(record), 4.0 * PI, 2e-3, &format!("spread of {degrees} degrees"));
+    }
+    // Rounding of a cosine in single precision, 3e-8, to the power.
+    for (focus, tolerance) in [(100.0_f32, 1e-3), (1e4, 2e-3), (1e6, 5e-2)] {
+        let record = LightRecord { shaping: Narrowing { focus, ..Narrowing::default() }, ..LightRecord::new(LightKind::Point) };
+        close(flux(record), 4.0 * PI / f64::from(focus + 1.0), tolerance, &format!("focus of {focus}"));
+    }
 }
 
 #[test]

@@ -30,6 +30,20 @@ impl Default for GlareOptions {
     }
 }
 
+impl GlareOptions {
+    /// Refuses thresholds and radii that are none.
+    fn check(&self) -> Result<()> {
+        let (Threshold::Luminance(threshold) | Threshold::TimesMean(threshold)) = self.threshold;
+        if !(threshold >= 0.0 && threshold.is_finite()) {
+            return Err(Error::setting("threshold", format!("{threshold} was found, expected a number not below 0")));
+        }
+        if !(0.0..=PI).contains(&self.radius) {
+            return Err(Error::setting("radius", format!("{} was found, expected radians from 0 to π", self.radius)));
+        }
+        Ok(())
+    }
+}
+
 /// What a picture says about glare.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Glare {
@@ -51,12 +65,16 @@ impl Glare {
     /// Finds the sources in luminances (cd/m², rows from the top). Values that are not finite or below 0 count as 0.
     ///
     /// # Errors
-    /// Another number of values than the view has pixels, or a view of less than a hemisphere.
+    /// Another number of values than the view has pixels, or none, a view of less than a hemisphere, or a threshold or radius that is none.
     pub fn new(luminance: &[f32], view: &FisheyeView, options: &GlareOptions) -> Result<Self> {
         let [width, height] = view.size();
         if luminance.len() != width * height {
             return Err(Error::setting("luminance", format!("{} values were found, expected {width} × {height}", luminance.len())));
         }
+        if luminance.is_empty() {
+            return Err(Error::setting("luminance", "the picture has no pixels"));
+        }
+        options.check()?;
         if !view.covers_hemisphere() {
             let problem = "the picture shows less than a hemisphere, so that the light at the eye is not known; expected 180° or more";
             return Err(Error::setting("fov", problem));

@@ -110,6 +110,8 @@ fn smoothed(values: &[f32], [width, height]: [usize; 2], radius: usize) -> Vec<f
     if radius == 0 {
         return values.to_vec();
     }
+    // A wider one holds the whole picture too, and would not count on.
+    let radius = radius.min(width.max(height));
     // Along rows, then along columns, with running sums.
     let along = |values: &[[f64; 2]], count: usize, stride: usize, start: usize, out: &mut [[f64; 2]]| {
         let (mut sum, mut next) = ([0.0; 2], 0);
@@ -187,6 +189,7 @@ mod tests {
         assert!((1..7).all(|x| (smooth[8 + x] - x as f32).abs() < 1e-6));
         let spike: Vec<f32> = (0..25).map(|i| if i == 12 { 9.0 } else { 0.0 }).collect();
         assert!((smoothed(&spike, [5, 5], 1)[12] - 1.0).abs() < 1e-6);
+        assert!(smoothed(&spike, [5, 5], usize::MAX).iter().all(|mean| (mean - 9.0 / 25.0).abs() < 1e-6));
     }
 
     #[test]
