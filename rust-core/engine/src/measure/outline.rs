@@ -121,12 +121,15 @@ fn world_triangles(mesh: &Mesh, transform: &Transform) -> Vec<[Vector; 3]> {
     mesh.triangles.iter().filter_map(placed).filter(|t| t.iter().flatten().all(|x| x.is_finite())).collect()
 }
 
+/// Ends of an edge.
+type Edge<const N: usize> = [[f64; N]; 2];
+
 /// Edges of one triangle alone. Corners that do not share a point meet where their coordinates are the same to single precision.
-fn lone_edges<const N: usize>(triangles: &[[[f64; N]; 3]]) -> Vec<[[f64; N]; 2]> {
+fn lone_edges<const N: usize>(triangles: &[[[f64; N]; 3]]) -> Vec<Edge<N>> {
     let Some([start, ..]) = triangles.first() else { return Vec::new() };
     // From the first corner on: far from the world's origin single precision is coarser than a table. Adding zero makes both zeros one.
     let key = |end: &[f64; N]| std::array::from_fn(|k| ((end[k] - start[k]) as f32 + 0.0).to_bits());
-    let mut edges: HashMap<[[u32; N]; 2], (usize, [[f64; N]; 2])> = HashMap::new();
+    let mut edges: HashMap<[[u32; N]; 2], (usize, Edge<N>)> = HashMap::new();
     for triangle in triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let ends = [triangle[a], triangle[b]];
