@@ -23,8 +23,8 @@ impl Picture {
         let by_part: Vec<usize> = (0..channels.len()).filter(has_part).collect();
         let names = |of: &[usize]| of.iter().map(|index| channels[*index].0.as_str()).collect::<Vec<_>>().join(", ");
         let chosen = match (by_name, &by_part[..]) {
-            (Some(chosen), _) => chosen,
-            (None, [chosen]) => *chosen,
+            (Some(whole), _) => whole,
+            (None, [part]) => *part,
             (None, []) => {
                 let known = names(&(0..channels.len()).collect::<Vec<_>>());
                 let problem =

@@ -118,7 +118,7 @@ fn is_round(record: &LightRecord) -> bool {
     is_shape && record.opening.is_none() && record.spot.is_none_or(|spot| spot.stretch[0] == spot.stretch[1])
 }
 
-/// Where the power of a focus' cosine falls to a 4096th, in steps of √½, angles are looked at no closer.
+/// Parts of a focus' beam that are summed apart: the cosine's power falls by √½ over each, to a 4096th in all.
 const FOCUS_STEPS: u32 = 24;
 
 /// Polar angles where a beam begins or ends, or where a focus takes a step.

@@ -128,8 +128,8 @@ type Edge<const N: usize> = [[f64; N]; 2];
 fn lone_edges<const N: usize>(triangles: &[[[f64; N]; 3]]) -> Vec<Edge<N>> {
     let Some([start, ..]) = triangles.first() else { return Vec::new() };
     // From the first corner on: far from the world's origin single precision is coarser than a table. Adding zero makes both zeros one.
-    let key = |end: &[f64; N]| std::array::from_fn(|k| ((end[k] - start[k]) as f32 + 0.0).to_bits());
-    let mut edges: HashMap<[[u32; N]; 2], (usize, Edge<N>)> = HashMap::new();
+    let key = |end: &[f64; N]| -> [u32; N] { std::array::from_fn(|k| ((end[k] - start[k]) as f32 + 0.0).to_bits()) };
+    let mut edges = HashMap::new();
     for triangle in triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let ends = [triangle[a], triangle[b]];
