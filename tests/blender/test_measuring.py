@@ -64,6 +64,39 @@ def test_lux_and_luminance_along_a_ray():
 
 
 @pytest.mark.blender
+def test_the_point_meter_ends_when_its_viewport_is_gone():
+    import importlib
+    from types import SimpleNamespace
+
+    import bpy
+
+    tool = importlib.import_module("gonio_extension.operators.point_meter")
+    operator = tool.GONIO_OT_point_meter
+    restored = []
+    window = SimpleNamespace(cursor_modal_restore=lambda: restored.append(True))
+    handler = bpy.types.SpaceView3D.draw_handler_add(lambda: None, (), "WINDOW", "POST_PIXEL")
+    running = SimpleNamespace(_handler=handler, poll=operator.poll)
+    running.cancel = lambda context: operator.cancel(running, context)
+    moved, gone = SimpleNamespace(type="MOUSEMOVE"), SimpleNamespace(area=None, window=window)
+    assert operator.modal(running, gone, moved) == {"CANCELLED"} and running._handler is None and restored == [True]
+    # Blender may end it once more.
+    running.cancel(SimpleNamespace(area=None, window=None))
+
+
+@pytest.mark.blender
+def test_the_view_under_the_cursor_of_a_quad_view():
+    import importlib
+    from types import SimpleNamespace
+
+    view_under = importlib.import_module("gonio_extension.operators.point_meter").view_under
+    views = [SimpleNamespace(type="WINDOW", x=x, y=y, width=100, height=100) for x in (0, 100) for y in (0, 100)]
+    sidebar = SimpleNamespace(type="UI", x=150, y=0, width=50, height=200)
+    area = SimpleNamespace(regions=[sidebar, *views])
+    found = [view_under(area, SimpleNamespace(mouse_x=x, mouse_y=y)) for x, y in ((50, 50), (50, 150), (120, 50), (120, 150), (170, 50))]
+    assert found == [*views, None]
+
+
+@pytest.mark.blender
 def test_the_viewport_shows_false_colour():
     import bpy
     import numpy
