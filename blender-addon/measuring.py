@@ -3,8 +3,10 @@
 
 from dataclasses import dataclass, field
 
+import bpy
 import gonio
 import numpy as np
+from bpy.app.handlers import persistent
 
 from .export import Exporter
 from .report import Report
@@ -19,8 +21,26 @@ class Readings:
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
 
+    def clear(self) -> None:
+        """Forgets everything."""
+        self.grids, self.point = {}, ()
+
 
 latest = Readings()
+
+
+@persistent
+def _forget(*_arguments) -> None:
+    """Another file's objects may have the same names."""
+    latest.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_post.append(_forget)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_forget)
 
 
 class Meter:

@@ -39,6 +39,8 @@ def test_grids_become_texts_and_images():
     assert picture.size[0] > picture.size[1] > 100
     assert bpy.ops.gonio.measure_grids(samples=16) == {"FINISHED"}
     assert len([image for image in bpy.data.images if image.name.startswith("Work plane")]) == 1
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert not measuring.latest.grids
 
 
 @pytest.mark.blender
