@@ -53,11 +53,11 @@ class Meter:
         self._exporter.settings(depsgraph, width=1, height=1, passes=["color"])
         self._compiled = None
 
-    def at(self, position, normal, towards, samples: int):
-        """Illuminance on the plane across `normal` and the luminance that is seen from `position` towards `towards`."""
+    def at(self, position, normal, eye, towards, samples: int):
+        """Illuminance at `position` on the plane across `normal`, and the luminance that is seen from `eye` towards `towards`."""
         self.scene.truncate(meters=0, grids=0)
         self.scene.add_meter(tuple(position), normal=tuple(normal))
-        self.scene.add_meter(tuple(position), facing=tuple(towards), quantity="luminance")
+        self.scene.add_meter(tuple(eye), facing=tuple(towards), quantity="luminance")
         illuminance, luminance = gonio.measure(self.scene, samples=samples, previous=self._render()).meters
         return illuminance, luminance
 

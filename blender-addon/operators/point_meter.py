@@ -98,9 +98,9 @@ def reading_along(meter, depsgraph, scene, origin, direction, samples) -> tuple[
         normal = -normal
     # Off the surface by less than a meter's own thickness, more than single precision.
     above = position + normal * max(1e-4, 1e-5 * max(map(abs, position)))
+    eye = position - direction * max(1e-3, 1e-4 * (position - origin).length)
     try:
-        illuminance, _ = meter.at(above, normal, direction, samples)
-        _, luminance = meter.at(position - direction * max(1e-3, 1e-4 * (position - origin).length), normal, direction, samples)
+        illuminance, luminance = meter.at(above, normal, eye, direction, samples)
     except gonio.Error as error:
         return (str(error),)
     figures = (("E", illuminance, "lx"), ("L", luminance, "cd/m²"))
