@@ -61,12 +61,15 @@ class Meter:
         illuminance, luminance = gonio.measure(self.scene, samples=samples, previous=self._render()).meters
         return illuminance, luminance
 
-    def grids(self, depsgraph, objects, samples: int, cancelled=None):
-        """Readings of the grids on these objects, in their order."""
+    def put_grids(self, depsgraph, objects) -> None:
+        """Puts the grids on these objects into the scene."""
         self.scene.truncate(meters=0, grids=0)
         for thing in objects:
             self._add_grid(thing, thing.evaluated_get(depsgraph))
-        return gonio.measure(self.scene, samples=samples, previous=self._render(), cancelled=cancelled)
+
+    def grids(self, samples: int, cancelled=None):
+        """Readings of the grids that were put there, in their order; it asks nothing of Blender, so that any thread may wait for it."""
+        return gonio.measure(self.scene, samples=samples, previous=self._render(cancelled), cancelled=cancelled)
 
     def _add_grid(self, thing, evaluated) -> None:
         settings = thing.gonio
@@ -86,12 +89,12 @@ class Meter:
             name=thing.name,
         )
 
-    def _render(self):
+    def _render(self, cancelled=None):
         """A render of one pixel, which keeps the trees for measurements that follow."""
         if self._compiled is None:
             self.scene.add_camera()
             self.scene.set(samples=1)
-            self._compiled = gonio.Render(self.scene)
+            self._compiled = gonio.Render(self.scene, cancelled=cancelled)
             self._compiled.wait()
         return self._compiled
 

@@ -44,6 +44,60 @@ def test_grids_become_texts_and_images():
 
 
 @pytest.mark.blender
+def test_grids_are_measured_beside_blender_until_escape():
+    import importlib
+    import time
+    from types import SimpleNamespace
+
+    import bpy
+    import scenes
+
+    scene = scenes.lit_floor()
+    floor = bpy.data.objects["Floor"]
+    floor.gonio.is_grid, floor.gonio.grid_spacing = True, 4.0
+    operator = importlib.import_module("gonio_extension.operators.measure_grids").GONIO_OT_measure_grids
+    latest = importlib.import_module("gonio_extension.measuring").latest
+    names = ("invoke", "modal", "cancel", "_publish", "_fail")
+    said, timers, texts = [], [], []
+    Running = type("Running", (), {**{name: vars(operator)[name] for name in names}, "report": lambda self, kind, text: said.append(text)})
+    manager = SimpleNamespace(
+        event_timer_add=lambda pause, window: timers.append(pause) or pause,
+        event_timer_remove=timers.remove,
+        modal_handler_add=lambda operator: None,
+    )
+    context = SimpleNamespace(
+        scene=scene,
+        view_layer=bpy.context.view_layer,
+        window=None,
+        window_manager=manager,
+        workspace=SimpleNamespace(status_text_set=texts.append),
+        evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
+    )
+    tick, escape = SimpleNamespace(type="TIMER"), SimpleNamespace(type="ESC")
+    running = Running()
+
+    def finish():
+        running.samples = 16
+        assert running.invoke(context, None) == {"RUNNING_MODAL"}
+        while (state := running.modal(context, tick)) == {"RUNNING_MODAL"}:
+            time.sleep(0.01)
+        assert not timers and texts[-1] is None
+        return state
+
+    running.samples = 1 << 30
+    assert running.invoke(context, None) == {"RUNNING_MODAL"} and timers and texts[-1]
+    assert running.modal(context, tick) == {"RUNNING_MODAL"}
+    assert running.modal(context, escape) == {"CANCELLED"}
+    assert running._found.done() and not timers and texts[-1] is None and not latest.grids
+    assert finish() == {"FINISHED"} and set(latest.grids) == {"Floor"} and len(said) == 1
+    floor.gonio.grid_margin = 100.0
+    assert finish() == {"CANCELLED"} and "nothing to measure" in said[-1]
+    assert operator.poll(context)
+    scene.render.engine = "BLENDER_WORKBENCH"
+    assert not operator.poll(context)
+
+
+@pytest.mark.blender
 def test_lux_and_luminance_along_a_ray():
     import importlib
     import math
