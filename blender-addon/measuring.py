@@ -3,8 +3,10 @@
 
 from dataclasses import dataclass, field
 
+import bpy
 import gonio
 import numpy as np
+from bpy.app.handlers import persistent
 
 from .export import Exporter
 from .report import Report
@@ -19,8 +21,26 @@ class Readings:
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
 
+    def clear(self) -> None:
+        """Forgets everything."""
+        self.grids, self.point = {}, ()
+
 
 latest = Readings()
+
+
+@persistent
+def _forget(*_arguments) -> None:
+    """Another file's objects may have the same names."""
+    latest.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_post.append(_forget)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_forget)
 
 
 class Meter:
@@ -33,20 +53,23 @@ class Meter:
         self._exporter.settings(depsgraph, width=1, height=1, passes=["color"])
         self._compiled = None
 
-    def at(self, position, normal, towards, samples: int):
-        """Illuminance on the plane across `normal` and the luminance that is seen from `position` towards `towards`."""
+    def at(self, position, normal, eye, towards, samples: int):
+        """Illuminance at `position` on the plane across `normal`, and the luminance that is seen from `eye` towards `towards`."""
         self.scene.truncate(meters=0, grids=0)
         self.scene.add_meter(tuple(position), normal=tuple(normal))
-        self.scene.add_meter(tuple(position), facing=tuple(towards), quantity="luminance")
+        self.scene.add_meter(tuple(eye), facing=tuple(towards), quantity="luminance")
         illuminance, luminance = gonio.measure(self.scene, samples=samples, previous=self._render()).meters
         return illuminance, luminance
 
-    def grids(self, depsgraph, objects, samples: int, cancelled=None):
-        """Readings of the grids on these objects, in their order."""
+    def put_grids(self, depsgraph, objects) -> None:
+        """Puts the grids on these objects into the scene."""
         self.scene.truncate(meters=0, grids=0)
         for thing in objects:
             self._add_grid(thing, thing.evaluated_get(depsgraph))
-        return gonio.measure(self.scene, samples=samples, previous=self._render(), cancelled=cancelled)
+
+    def grids(self, samples: int, cancelled=None):
+        """Readings of the grids that were put there, in their order; it asks nothing of Blender, so that any thread may wait for it."""
+        return gonio.measure(self.scene, samples=samples, previous=self._render(cancelled), cancelled=cancelled)
 
     def _add_grid(self, thing, evaluated) -> None:
         settings = thing.gonio
@@ -66,12 +89,12 @@ class Meter:
             name=thing.name,
         )
 
-    def _render(self):
+    def _render(self, cancelled=None):
         """A render of one pixel, which keeps the trees for measurements that follow."""
         if self._compiled is None:
             self.scene.add_camera()
             self.scene.set(samples=1)
-            self._compiled = gonio.Render(self.scene)
+            self._compiled = gonio.Render(self.scene, cancelled=cancelled)
             self._compiled.wait()
         return self._compiled
 

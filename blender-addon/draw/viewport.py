@@ -59,7 +59,9 @@ class Overlay:
         if context.region.as_pointer() != self._region or context.space_data.shading.type != "RENDERED":
             return
         region, sidebar = context.region, next((each for each in context.area.regions if each.type == "UI"), None)
-        covered = sidebar.width if sidebar is not None and sidebar.width > 1 else 0
+        # Without overlap the sidebar lies beside the view.
+        overlaps = context.preferences.system.use_region_overlap
+        covered = sidebar.width if overlaps and sidebar is not None and sidebar.width > 1 else 0
         legend = self._picture.legend
         gpu.state.blend_set("ALPHA_PREMULT")
         draw_texture_2d(self._texture, *_place(self._picture, region))

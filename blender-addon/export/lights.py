@@ -43,7 +43,8 @@ def describe(group, matrix, images, report):
         "group": group.source.lightgroup,
         **extra,
     }
-    if luminaire.is_photometric(lamp):
+    # A portal gives no light of its own.
+    if luminaire.is_photometric(lamp) and not description["portal"]:
         photometry.apply(description, lamp, colour, matrix, report)
     return description
 

@@ -48,7 +48,9 @@ def _luminaire(description, lamp, matrix, report):
     try:
         found = luminaire.goniogram(lamp)
     except (OSError, gonio.Error) as error:
-        report.add("Light", lamp.name, f"{error}; the light counts as uniform")
+        # The file tells how strong the light is, not only where it shines.
+        by_file = lamp.gonio.unit in ("FILE", "LAMP_LUMEN")
+        report.add("Light", lamp.name, f"{error}; the light {'stays dark' if by_file else 'counts as uniform'}")
         return
     if found is None:
         return

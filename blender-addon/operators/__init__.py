@@ -3,6 +3,7 @@
 
 import bpy
 
+from .. import measuring
 from .denoise import GONIO_OT_add_denoise_node
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
@@ -22,8 +23,10 @@ CLASSES = (
 def register() -> None:
     for kind in CLASSES:
         bpy.utils.register_class(kind)
+    measuring.register()
 
 
 def unregister() -> None:
+    measuring.unregister()
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)

@@ -29,47 +29,58 @@ class GONIO_OT_point_meter(bpy.types.Operator):
         except gonio.Error as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._region = next(region for region in context.area.regions if region.type == "WINDOW")
-        self._label = None
+        self._region = self._label = None
         self._handler = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_PIXEL")
         context.window_manager.modal_handler_add(self)
         context.window.cursor_modal_set("EYEDROPPER")
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type in {"ESC", "RIGHTMOUSE"}:
-            return self._end(context, {"CANCELLED"})
-        at = (event.mouse_x - self._region.x, event.mouse_y - self._region.y)
-        # The sidebar and the tools lie over the view.
-        over = [each.type for each in context.area.regions if _holds(each, event)]
-        inside = over == ["WINDOW"]
-        if event.type == "MOUSEMOVE" and inside:
-            self._read(context, at, self.MOVING_SAMPLES)
+        # Events that pass through may have taken the viewport away: another workspace, another editor.
+        if event.type in {"ESC", "RIGHTMOUSE"} or not self.poll(context):
+            self.cancel(context)
+            return {"CANCELLED"}
+        region = view_under(context.area, event)
+        if event.type == "MOUSEMOVE" and region is not None:
+            self._read(context, region, event, self.MOVING_SAMPLES)
             context.area.tag_redraw()
             return {"RUNNING_MODAL"}
-        if event.type == "LEFTMOUSE" and event.value == "PRESS" and inside:
-            self._read(context, at, self.samples)
-            return self._end(context, {"FINISHED"})
+        if event.type == "LEFTMOUSE" and event.value == "PRESS" and region is not None:
+            self._read(context, region, event, self.samples)
+            self.cancel(context)
+            return {"FINISHED"}
         return {"PASS_THROUGH"}
 
-    def _read(self, context, at, samples) -> None:
-        region_3d = context.area.spaces.active.region_3d
-        origin, direction = (place(self._region, region_3d, at) for place in (region_2d_to_origin_3d, region_2d_to_vector_3d))
+    def cancel(self, context):
+        """Takes label and cursor away; Blender calls it when it ends the tool itself, as before another file."""
+        handler, self._handler = self._handler, None
+        if handler is not None:
+            bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
+        if context.window is not None:
+            context.window.cursor_modal_restore()
+        if context.area is not None:
+            context.area.tag_redraw()
+
+    def _read(self, context, region, event, samples) -> None:
+        at = (event.mouse_x - region.x, event.mouse_y - region.y)
+        # The four of a quad view have views of their own.
+        origin, direction = (place(region, region.data, at) for place in (region_2d_to_origin_3d, region_2d_to_vector_3d))
         lines = reading_along(self._meter, context.evaluated_depsgraph_get(), context.scene, origin, direction, samples)
         measuring.latest.point = lines
-        self._label = (at, lines)
+        self._region, self._label = region.as_pointer(), (at, lines)
 
     def _draw(self) -> None:
-        if self._label is not None:
+        # It is called for all 3D viewports.
+        if self._label is not None and bpy.context.region.as_pointer() == self._region:
             from ..draw.label import draw_label
 
             draw_label(*self._label)
 
-    def _end(self, context, result):
-        bpy.types.SpaceView3D.draw_handler_remove(self._handler, "WINDOW")
-        context.window.cursor_modal_restore()
-        context.area.tag_redraw()
-        return result
+
+def view_under(area, event):
+    """The region of a 3D viewport under the cursor; None where another one, as the sidebar, lies over it."""
+    over = [each for each in area.regions if _holds(each, event)]
+    return over[0] if [each.type for each in over] == ["WINDOW"] else None
 
 
 def _holds(region, event) -> bool:
@@ -87,9 +98,9 @@ def reading_along(meter, depsgraph, scene, origin, direction, samples) -> tuple[
         normal = -normal
     # Off the surface by less than a meter's own thickness, more than single precision.
     above = position + normal * max(1e-4, 1e-5 * max(map(abs, position)))
+    eye = position - direction * max(1e-3, 1e-4 * (position - origin).length)
     try:
-        illuminance, _ = meter.at(above, normal, direction, samples)
-        _, luminance = meter.at(position - direction * max(1e-3, 1e-4 * (position - origin).length), normal, direction, samples)
+        illuminance, luminance = meter.at(above, normal, eye, direction, samples)
     except gonio.Error as error:
         return (str(error),)
     figures = (("E", illuminance, "lx"), ("L", luminance, "cd/m²"))

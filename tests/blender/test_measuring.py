@@ -39,6 +39,62 @@ def test_grids_become_texts_and_images():
     assert picture.size[0] > picture.size[1] > 100
     assert bpy.ops.gonio.measure_grids(samples=16) == {"FINISHED"}
     assert len([image for image in bpy.data.images if image.name.startswith("Work plane")]) == 1
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert not measuring.latest.grids
+
+
+@pytest.mark.blender
+def test_grids_are_measured_beside_blender_until_escape():
+    import importlib
+    import time
+    from types import SimpleNamespace
+
+    import bpy
+    import scenes
+
+    scene = scenes.lit_floor()
+    floor = bpy.data.objects["Floor"]
+    floor.gonio.is_grid, floor.gonio.grid_spacing = True, 4.0
+    operator = importlib.import_module("gonio_extension.operators.measure_grids").GONIO_OT_measure_grids
+    latest = importlib.import_module("gonio_extension.measuring").latest
+    names = ("invoke", "modal", "cancel", "_publish", "_fail")
+    said, timers, texts = [], [], []
+    Running = type("Running", (), {**{name: vars(operator)[name] for name in names}, "report": lambda self, kind, text: said.append(text)})
+    manager = SimpleNamespace(
+        event_timer_add=lambda pause, window: timers.append(pause) or pause,
+        event_timer_remove=timers.remove,
+        modal_handler_add=lambda operator: None,
+    )
+    context = SimpleNamespace(
+        scene=scene,
+        view_layer=bpy.context.view_layer,
+        window=None,
+        window_manager=manager,
+        workspace=SimpleNamespace(status_text_set=texts.append),
+        evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
+    )
+    tick, escape = SimpleNamespace(type="TIMER"), SimpleNamespace(type="ESC")
+    running = Running()
+
+    def finish():
+        running.samples = 16
+        assert running.invoke(context, None) == {"RUNNING_MODAL"}
+        while (state := running.modal(context, tick)) == {"RUNNING_MODAL"}:
+            time.sleep(0.01)
+        assert not timers and texts[-1] is None
+        return state
+
+    running.samples = 1 << 30
+    assert running.invoke(context, None) == {"RUNNING_MODAL"} and timers and texts[-1]
+    assert running.modal(context, tick) == {"RUNNING_MODAL"}
+    assert running.modal(context, escape) == {"CANCELLED"}
+    assert running._found.done() and not timers and texts[-1] is None and not latest.grids
+    assert finish() == {"FINISHED"} and set(latest.grids) == {"Floor"} and len(said) == 1
+    floor.gonio.grid_margin = 100.0
+    assert finish() == {"CANCELLED"} and "nothing to measure" in said[-1]
+    assert operator.poll(context)
+    scene.render.engine = "BLENDER_WORKBENCH"
+    assert not operator.poll(context)
 
 
 @pytest.mark.blender
@@ -61,6 +117,39 @@ def test_lux_and_luminance_along_a_ray():
     assert float(lines[1].split()[1]) == pytest.approx(lux / math.pi, rel=3e-3) and "cd/m²" in lines[1]
     assert lines[2] == "Floor"
     assert read(meter, depsgraph, scene, Vector((0, 0, 0.3)), Vector((0, 0, 1)), 16) == ("nothing there",)
+
+
+@pytest.mark.blender
+def test_the_point_meter_ends_when_its_viewport_is_gone():
+    import importlib
+    from types import SimpleNamespace
+
+    import bpy
+
+    tool = importlib.import_module("gonio_extension.operators.point_meter")
+    operator = tool.GONIO_OT_point_meter
+    restored = []
+    window = SimpleNamespace(cursor_modal_restore=lambda: restored.append(True))
+    handler = bpy.types.SpaceView3D.draw_handler_add(lambda: None, (), "WINDOW", "POST_PIXEL")
+    running = SimpleNamespace(_handler=handler, poll=operator.poll)
+    running.cancel = lambda context: operator.cancel(running, context)
+    moved, gone = SimpleNamespace(type="MOUSEMOVE"), SimpleNamespace(area=None, window=window)
+    assert operator.modal(running, gone, moved) == {"CANCELLED"} and running._handler is None and restored == [True]
+    # Blender may end it once more.
+    running.cancel(SimpleNamespace(area=None, window=None))
+
+
+@pytest.mark.blender
+def test_the_view_under_the_cursor_of_a_quad_view():
+    import importlib
+    from types import SimpleNamespace
+
+    view_under = importlib.import_module("gonio_extension.operators.point_meter").view_under
+    views = [SimpleNamespace(type="WINDOW", x=x, y=y, width=100, height=100) for x in (0, 100) for y in (0, 100)]
+    sidebar = SimpleNamespace(type="UI", x=150, y=0, width=50, height=200)
+    area = SimpleNamespace(regions=[sidebar, *views])
+    found = [view_under(area, SimpleNamespace(mouse_x=x, mouse_y=y)) for x, y in ((50, 50), (50, 150), (120, 50), (120, 150), (170, 50))]
+    assert found == [*views, None]
 
 
 @pytest.mark.blender

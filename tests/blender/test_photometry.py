@@ -115,17 +115,36 @@ def test_luminaires_and_their_openings(tmp_path: Path):
 
 @pytest.mark.blender
 def test_files_that_are_not_there_are_reported(tmp_path: Path):
-    import bpy
     import scenes
-    from recorder import exporter
+    from recorder import depsgraph, exporter
 
     scene = scenes.lit_floor()
     settings = next(thing for thing in scene.objects if thing.type == "LIGHT").data.gonio
     settings.use_photometry, settings.unit, settings.file = True, "CANDELA", str(tmp_path / "none.ies")
     made, report = exporter()
-    light = made.sync(bpy.context.evaluated_depsgraph_get()).lights[0]
+    light = made.sync(depsgraph()).lights[0]
     assert light["goniogram"] is None and light["quantity"] == {"Candela": 800.0}
-    assert any("none.ies" in str(each) for each in report.diagnostics)
+    assert any("none.ies" in each.text and "uniform" in each.text for each in report.diagnostics)
+    for unit in ("FILE", "LAMP_LUMEN"):
+        settings.unit = unit
+        made, report = exporter()
+        made.sync(depsgraph())
+        assert any("none.ies" in each.text and "dark" in each.text for each in report.diagnostics)
+
+
+@pytest.mark.blender
+def test_portals_have_no_photometry(tmp_path: Path):
+    import scenes
+    from recorder import depsgraph, exporter
+
+    (tmp_path / "lamp.ies").write_text(IES.format(size="0.05 0.1 0"))
+    lamp = next(thing for thing in scenes.lit_floor().objects if thing.type == "LIGHT")
+    lamp.data.type = "AREA"
+    settings = lamp.data.gonio
+    settings.use_photometry, settings.file, settings.is_tube, settings.is_portal = True, str(tmp_path / "lamp.ies"), True, True
+    made, _ = exporter()
+    light = made.sync(depsgraph()).lights[0]
+    assert light["portal"] and "Rectangle" in light["shape"] and light["goniogram"] is None and "quantity" not in light
 
 
 @pytest.mark.blender
