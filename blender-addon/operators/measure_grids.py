@@ -52,7 +52,7 @@ class GONIO_OT_measure_grids(bpy.types.Operator):
 
     def modal(self, context, event):
         if event.type == "ESC":
-            self._stop.set()
+            self.cancel(context)
             return {"CANCELLED"}
         # Nothing passes through: the grids and the file are still what is measured when the figures come.
         if not self._found.done():
