@@ -1,5 +1,6 @@
 //! Embree through the C shim.
 
+use crate::world::{Mesh, World};
 use gonio::accel::RayBatch;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 
@@ -28,15 +29,40 @@ struct Peer {
     scene: *mut c_void,
 }
 
+#[repr(C)]
+struct PeerMesh {
+    positions: *const [f32; 3],
+    points: usize,
+    triangles: *const [u32; 3],
+    count: usize,
+}
+
+impl PeerMesh {
+    fn new(mesh: &Mesh) -> Self {
+        PeerMesh {
+            positions: mesh.positions.as_ptr(),
+            points: mesh.positions.len(),
+            triangles: mesh.triangles.as_ptr(),
+            count: mesh.triangles.len(),
+        }
+    }
+}
+
+#[repr(C)]
+struct PeerPlacement {
+    mesh: u32,
+    rows: [[f32; 4]; 3],
+}
+
 unsafe extern "C" {
     fn peer_flush_denormals();
     fn peer_thread_seconds() -> f64;
     fn peer_new(
         peer: *mut Peer,
-        positions: *const f32,
-        points: usize,
-        triangles: *const u32,
-        count: usize,
+        meshes: *const PeerMesh,
+        mesh_count: usize,
+        placements: *const PeerPlacement,
+        placed: usize,
         robust: c_int,
         config: *const c_char,
     ) -> f64;
@@ -70,7 +96,7 @@ pub fn version() -> String {
     }
 }
 
-/// One mesh in Embree, medium quality.
+/// A world in Embree, medium quality; one placed mesh alone needs no instance there.
 pub struct EmbreeScene {
     peer: Peer,
     /// Seconds of the build by the clock.
@@ -80,21 +106,17 @@ pub struct EmbreeScene {
 }
 
 impl EmbreeScene {
-    pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], robust: bool, threads: usize) -> Self {
+    pub fn new(world: &World, robust: bool, threads: usize) -> Self {
         let mut peer = Peer { device: std::ptr::null_mut(), scene: std::ptr::null_mut() };
         let config = CString::new(format!("threads={threads}")).expect("no zero byte");
+        let meshes: Vec<PeerMesh> = world.meshes.iter().map(PeerMesh::new).collect();
+        let placements = if world.placements.len() == 1 { &[][..] } else { &world.placements };
+        let placements: Vec<PeerPlacement> =
+            placements.iter().map(|p| PeerPlacement { mesh: p.mesh, rows: p.object_to_world.map(|row| row.map(|x| x as f32)) }).collect();
         let processor = thread_seconds();
-        // SAFETY: the shim copies the two arrays, whose lengths it is told.
+        // SAFETY: the shim copies the arrays, whose lengths it is told; worlds have fewer meshes than it has places for.
         let build_seconds = unsafe {
-            peer_new(
-                &mut peer,
-                positions.as_ptr().cast(),
-                positions.len(),
-                triangles.as_ptr().cast(),
-                triangles.len(),
-                robust.into(),
-                config.as_ptr(),
-            )
+            peer_new(&mut peer, meshes.as_ptr(), meshes.len(), placements.as_ptr(), placements.len(), robust.into(), config.as_ptr())
         };
         EmbreeScene { peer, build_seconds, build_processor_seconds: thread_seconds() - processor }
     }

@@ -1,22 +1,23 @@
 //! Rays a second of gonio and of Embree on the same rays: one thread, runs interleaved, medians of ratios.
 //!
-//! `cargo run --release [-- <detail> <runs>]`; detail 1 is a room of 280 thousand triangles, which grow with its square.
+//! `cargo run --release [-- <detail> <runs> <plants>]`; detail 1 is a room of 280 thousand triangles, which grow with its square. With plants, a
+//! field of so many instances stands in the room's place.
 
 mod embree;
 // What the Python module renders with: large pages, as Embree has them.
 #[path = "../../../../rust-core/python/src/memory.rs"]
 mod memory;
 mod rays;
-mod room;
+mod world;
 
 use embree::EmbreeScene;
 use fearless_simd::Level;
 use gonio::accel::{Blas, Geometry, Hits, Instance, SceneBvh};
 use rays::{OwnedRays, Random};
-use room::Mesh;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
+use world::{Mesh, Placement, World};
 
 /// Rays a call, as the renderer makes them.
 const BATCH: usize = 4096;
@@ -29,20 +30,30 @@ fn main() {
     let level = Level::new();
     println!("Embree {} (system library), shim: {}", embree::version(), env!("SHIM_COMPILER"));
     println!("gonio: {}, release profile, level {level:?}", env!("RUSTC_VERSION"));
-    let mesh = room::room(detail);
-    println!("room of {} triangles, {runs} interleaved runs, one thread, robust unless said otherwise\n", mesh.triangles.len());
-    let blas = builds(&mesh, runs);
-    let instance = Instance { geometry: Geometry::Mesh(0), object_to_world: Instance::IDENTITY, mask: 1, transparent: false };
-    let scene = SceneBvh::build(vec![Arc::new(blas)], &[instance], &AtomicBool::new(false)).expect("nobody cancels");
-    let robust = EmbreeScene::new(&mesh.positions, &mesh.triangles, true, 1);
-    let fast = EmbreeScene::new(&mesh.positions, &mesh.triangles, false, 1);
-    let bench = Bench { level, scene, robust, fast, runs };
-    traversal(&bench, &mesh);
+    let world = arguments.get(2).map_or_else(|| world::room(detail), |&plants| world::field(plants as u32));
+    let (triangles, placed) = (world.triangles(), world.placements.len());
+    println!("{triangles} triangles, {placed} placed meshes, {runs} interleaved runs, one thread, robust unless said otherwise\n");
+    if placed == 1 {
+        builds(&world, runs);
+    }
+    let (robust, fast) = (EmbreeScene::new(&world, true, 1), EmbreeScene::new(&world, false, 1));
+    traversal(&Bench { level, scene: scene(&world), robust, fast, runs }, &world);
 }
 
-/// Builds on one thread (processor seconds) and on two (seconds of the clock) beside Embree's; returns the tree.
-fn builds(mesh: &Mesh, runs: usize) -> Blas {
-    let build = || Blas::build(&mesh.positions, &mesh.triangles, &AtomicBool::new(false)).expect("nobody cancels");
+fn tree(mesh: &Mesh) -> Blas {
+    Blas::build(&mesh.positions, &mesh.triangles, &AtomicBool::new(false)).expect("nobody cancels")
+}
+
+fn scene(world: &World) -> SceneBvh {
+    let trees = world.meshes.iter().map(|mesh| Arc::new(tree(mesh))).collect();
+    let place = |p: &Placement| Instance { geometry: Geometry::Mesh(p.mesh), object_to_world: p.object_to_world, mask: 1, transparent: false };
+    let instances: Vec<Instance> = world.placements.iter().map(place).collect();
+    SceneBvh::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
+}
+
+/// Builds on one thread (processor seconds) and on two (seconds of the clock) beside Embree's.
+fn builds(world: &World, runs: usize) {
+    let build = || tree(&world.meshes[0]);
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         let (mut own, mut theirs) = (Vec::new(), Vec::new());
@@ -53,13 +64,13 @@ fn builds(mesh: &Mesh, runs: usize) -> Blas {
                 (start.elapsed().as_secs_f64(), embree::thread_seconds() - processor)
             });
             own.push(if threads == 1 { processor } else { clock });
-            let scene = EmbreeScene::new(&mesh.positions, &mesh.triangles, true, threads);
+            let scene = EmbreeScene::new(world, true, threads);
             theirs.push(if threads == 1 { scene.build_processor_seconds } else { scene.build_seconds });
         }
         let ratios: Vec<f64> = own.iter().zip(&theirs).map(|(a, b)| b / a).collect();
         let least = own.iter().copied().fold(f64::INFINITY, f64::min);
         let (own, theirs) = (median(own), median(theirs));
-        let million = mesh.triangles.len() as f64 * 1e-6;
+        let million = world.triangles() as f64 * 1e-6;
         println!(
             "build, {threads} threads: own {own:.3} s = {:.2} M triangles/s (best {:.2}), Embree medium {theirs:.3} s, ratio {:.2}",
             million / own,
@@ -67,10 +78,8 @@ fn builds(mesh: &Mesh, runs: usize) -> Blas {
             median(ratios)
         );
     }
-    let blas = build();
-    let memory = blas.memory();
+    let memory = build().memory();
     println!("own tree: {:.1} bytes a triangle\n", memory.bytes() as f64 / memory.triangles as f64);
-    blas
 }
 
 struct Bench {
@@ -81,15 +90,15 @@ struct Bench {
     runs: usize,
 }
 
-fn traversal(bench: &Bench, mesh: &Mesh) {
+fn traversal(bench: &Bench, world: &World) {
     let mut random = Random(1);
-    let primary = rays::primary(1024, 512);
+    let primary = rays::primary(world, 1024, 512);
     let first = hits(bench, &primary);
-    let bounce1 = rays::bounce(mesh, &primary, &first, &mut random);
+    let bounce1 = rays::bounce(world, &primary, &first, &mut random);
     let second = hits(bench, &bounce1);
-    let bounce2 = rays::bounce(mesh, &bounce1, &second, &mut random);
-    let shadow1 = rays::shadow(mesh, &primary, &first, &mut random);
-    let shadow2 = rays::shadow(mesh, &bounce1, &second, &mut random);
+    let bounce2 = rays::bounce(world, &bounce1, &second, &mut random);
+    let shadow1 = rays::shadow(world, &primary, &first, &mut random);
+    let shadow2 = rays::shadow(world, &bounce1, &second, &mut random);
     println!("ratios to Embree rtcIntersect1 or rtcOccluded1, robust (median; least to largest)");
     println!(
         "{:10} {:>8} {:>18} {:>18} {:>18} {:>18} {:>18} {:>8}",

@@ -1,6 +1,6 @@
-//! The sets of rays: camera, diffuse bounces, and shadow rays towards a light at the ceiling.
+//! The sets of rays: camera, diffuse bounces, and shadow rays towards a light overhead.
 
-use crate::room::{Mesh, ROOM};
+use crate::world::World;
 use gonio::accel::{Hits, NONE, RayBatch};
 
 /// Rays that own their columns.
@@ -52,7 +52,7 @@ impl Random {
 }
 
 /// Pinhole camera, one ray a pixel, pixels in tiles of 4 x 4.
-pub fn primary(width: usize, height: usize) -> OwnedRays {
+pub fn primary(world: &World, width: usize, height: usize) -> OwnedRays {
     let mut rays = OwnedRays::default();
     for tile in 0..width * height / 16 {
         let (tx, ty) = (tile % (width / 4) * 4, tile / (width / 4) * 4);
@@ -61,7 +61,7 @@ pub fn primary(width: usize, height: usize) -> OwnedRays {
             let y = 0.5 * height as f32 - (ty + k / 4) as f32 - 0.5;
             let (x, y) = (1.6 * x / width as f32, 1.6 * y / width as f32 - 0.25);
             let direction = normalized([0.9 * x + 0.1, 1.0, y]);
-            rays.push([0.3, -0.95 * ROOM[0], 2.2], direction, 0.0, f32::INFINITY);
+            rays.push(world.eye, direction, 0.0, f32::INFINITY);
         }
     }
     rays
@@ -76,12 +76,22 @@ fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The hit point of a ray and the unit normal on its side; misses end at the room's middle.
-fn surface(mesh: &Mesh, rays: &OwnedRays, hits: &Hits, i: usize) -> ([f32; 3], [f32; 3]) {
+/// The corners in the world of what a ray hit.
+fn corners(world: &World, hits: &Hits, i: usize) -> [[f32; 3]; 3] {
+    let placement = &world.placements[hits.instance[i] as usize];
+    let mesh = &world.meshes[placement.mesh as usize];
+    mesh.triangles[hits.primitive[i] as usize].map(|k| {
+        let [x, y, z] = mesh.positions[k as usize].map(f64::from);
+        placement.object_to_world.map(|row| (row[0] * x + row[1] * y + row[2] * z + row[3]) as f32)
+    })
+}
+
+/// The hit point of a ray and the unit normal on its side; misses end above the world's middle.
+fn surface(world: &World, rays: &OwnedRays, hits: &Hits, i: usize) -> ([f32; 3], [f32; 3]) {
     if hits.instance[i] == NONE {
         return ([0.0, 0.0, 2.0], [0.0, 0.0, 1.0]);
     }
-    let corners = mesh.triangles[hits.primitive[i] as usize].map(|k| mesh.positions[k as usize]);
+    let corners = corners(world, hits, i);
     let edge = |k: usize| [0, 1, 2].map(|a| corners[k][a] - corners[0][a]);
     let normal = normalized(cross(edge(1), edge(2)));
     let direction = [0, 1, 2].map(|a| rays.direction[a][i]);
@@ -92,10 +102,10 @@ fn surface(mesh: &Mesh, rays: &OwnedRays, hits: &Hits, i: usize) -> ([f32; 3], [
 }
 
 /// Cosine-distributed rays from the hits.
-pub fn bounce(mesh: &Mesh, rays: &OwnedRays, hits: &Hits, random: &mut Random) -> OwnedRays {
+pub fn bounce(world: &World, rays: &OwnedRays, hits: &Hits, random: &mut Random) -> OwnedRays {
     let mut out = OwnedRays::default();
     for i in 0..rays.len() {
-        let (point, normal) = surface(mesh, rays, hits, i);
+        let (point, normal) = surface(world, rays, hits, i);
         let (phi, z) = (std::f32::consts::TAU * random.unit(), 2.0 * random.unit() - 1.0);
         let r = (1.0 - z * z).max(0.0).sqrt();
         let ball = [r * phi.cos(), r * phi.sin(), z];
@@ -104,12 +114,14 @@ pub fn bounce(mesh: &Mesh, rays: &OwnedRays, hits: &Hits, random: &mut Random) -
     out
 }
 
-/// Rays from the hits to points of a light of 4 m x 4 m below the ceiling.
-pub fn shadow(mesh: &Mesh, rays: &OwnedRays, hits: &Hits, random: &mut Random) -> OwnedRays {
+/// Rays from the hits to points of the light.
+pub fn shadow(world: &World, rays: &OwnedRays, hits: &Hits, random: &mut Random) -> OwnedRays {
     let mut out = OwnedRays::default();
     for i in 0..rays.len() {
-        let (point, _) = surface(mesh, rays, hits, i);
-        let light = [4.0 * random.unit() - 2.0, 4.0 * random.unit() - 2.0, ROOM[1] - 0.05];
+        let (point, _) = surface(world, rays, hits, i);
+        let (middle, half) = world.light;
+        let mut side = || half * (2.0 * random.unit() - 1.0);
+        let light = [middle[0] + side(), middle[1] + side(), middle[2]];
         out.push(point, [0, 1, 2].map(|a| light[a] - point[a]), 0.0, 0.999);
     }
     out

@@ -1,4 +1,6 @@
-//! The benchmark's room: a rough floor and rough balls, huge wall quads and long slivers.
+//! The benchmark's worlds: a room of one mesh (a rough floor and rough balls, huge wall quads and long slivers), and a field of instances.
+
+use gonio::accel::Instance;
 
 /// Points and triangles.
 #[derive(Default)]
@@ -7,8 +9,33 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
+/// A mesh in its place.
+pub struct Placement {
+    pub mesh: u32,
+    pub object_to_world: [[f64; 4]; 3],
+}
+
+/// What rays are sent through.
+pub struct World {
+    pub meshes: Vec<Mesh>,
+    pub placements: Vec<Placement>,
+    /// Where the camera stands; it looks along y.
+    pub eye: [f32; 3],
+    /// The middle of the light, level and square, and half its width.
+    pub light: ([f32; 3], f32),
+}
+
+impl World {
+    /// The number of placed triangles' meshes, each counted once.
+    pub fn triangles(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
+    }
+}
+
 /// The room's half width and its height, in metres.
-pub const ROOM: [f32; 2] = [5.0, 4.0];
+const ROOM: [f32; 2] = [5.0, 4.0];
+/// Quads around a plant of the field, which is a rough ball of 10 thousand triangles.
+const PLANT: u32 = 50;
 
 /// A hash of a lattice point to [-1, 1].
 fn lattice(x: i32, y: i32, z: i32) -> f32 {
@@ -63,7 +90,13 @@ impl Mesh {
 }
 
 /// The room; `detail` 1 has about 280 thousand triangles, which grow with its square.
-pub fn room(detail: f32) -> Mesh {
+pub fn room(detail: f32) -> World {
+    let placements = vec![Placement { mesh: 0, object_to_world: Instance::IDENTITY }];
+    let [half, height] = ROOM;
+    World { meshes: vec![room_mesh(detail)], placements, eye: [0.3, -0.95 * half, 2.2], light: ([0.0, 0.0, height - 0.05], 2.0) }
+}
+
+fn room_mesh(detail: f32) -> Mesh {
     let mut mesh = Mesh::default();
     let [half, height] = ROOM;
     let n = (254.0 * detail) as u32;
@@ -92,4 +125,25 @@ pub fn room(detail: f32) -> Mesh {
         mesh.triangles.push([first, first + 1, first + 2]);
     }
     mesh
+}
+
+/// A rough ground with plants on it, one a square metre, turned, and scaled between 0.5 and 1.5.
+pub fn field(plants: u32) -> World {
+    let half = (plants as f32).sqrt() * 0.5;
+    let (mut ground, mut plant) = (Mesh::default(), Mesh::default());
+    ground.patch(128, 128, |u, v| {
+        let (x, y) = (2.0 * half * (2.0 * u - 1.0), 2.0 * half * (2.0 * v - 1.0));
+        [x, y, 0.2 * fractal([x, y, 0.0])]
+    });
+    plant.ball([0.0; 3], 0.4, PLANT);
+    let mut placements = vec![Placement { mesh: 0, object_to_world: Instance::IDENTITY }];
+    placements.extend((0..plants as i32).map(|k| {
+        let place = |seed| f64::from(lattice(k, seed, 7));
+        let (sin, cos) = (place(1) * std::f64::consts::PI).sin_cos();
+        let (size, width) = (1.0 + 0.5 * place(2), f64::from(half));
+        let object_to_world =
+            [[size * cos, -size * sin, 0.0, width * place(3)], [size * sin, size * cos, 0.0, width * place(4)], [0.0, 0.0, size, 0.3]];
+        Placement { mesh: 1, object_to_world }
+    }));
+    World { meshes: vec![ground, plant], placements, eye: [0.0, -half - 3.0, 6.0], light: ([0.0, 0.0, 2.0 * half + 10.0], 1.0) }
 }
