@@ -126,10 +126,7 @@ def push():
 
 
 def shading():
-    kinds = ("SOLID", "WIREFRAME", "RENDERED") if state["step"] < WARM else (chance.choice(("SOLID", "WIREFRAME", "RENDERED")),)
-    for kind in kinds:
-        views()[0].spaces.active.shading.type = kind
-        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+    views()[0].spaces.active.shading.type = chance.choice(("SOLID", "WIREFRAME", "RENDERED"))
 
 
 def edit_mode():
@@ -187,8 +184,20 @@ def final():
 
 ACTIONS = (orbit, orbit, move, move, add, delete, material, material, unknown_node, lamp, world, undo, undo, redo, shading, edit_mode)
 ACTIONS += (sidebar, quad, quad, border, camera_view, play, settings, final)
-# The first steps do everything once and fill caches.
-WARM = len(ACTIONS)
+# Each of the first steps does everything, so that the caches of Blender and of the driver are full after them.
+WARM = 20
+
+
+def act(action):
+    log.write(f"{state['step']} {action.__name__} ")
+    log.flush()
+    try:
+        action()
+        # As after any operator: Blender's undo takes edits for granted that it was not told of.
+        if action not in (undo, redo):
+            push()
+    except Exception:
+        log.write(f"FAILED\n{traceback.format_exc()}\n")
 
 
 def step() -> float | None:
@@ -199,19 +208,15 @@ def step() -> float | None:
         return finish()
     # Undo leads back to the engine that the file had first.
     window().scene.render.engine = ENGINE
-    action = ACTIONS[state["step"]] if state["step"] < WARM else chance.choice(ACTIONS)
+    warm = state["step"] < WARM
+    actions = chance.sample(ACTIONS, len(ACTIONS)) if warm else [chance.choice(ACTIONS)]
     if state["step"] % 10 == 0:
         for area in views():
             area.spaces.active.shading.type = "RENDERED"
-    log.write(f"{state['step']} {action.__name__} ")
-    log.flush()
-    try:
-        action()
-        # As after any operator: Blender's undo takes edits for granted that it was not told of.
-        if action not in (undo, redo):
-            push()
-    except Exception:
-        log.write(f"FAILED\n{traceback.format_exc()}\n")
+    for action in actions:
+        act(action)
+        if warm:
+            bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
     # Four viewports hold four pictures: steps with one are compared with one another.
     if not views()[0].spaces.active.region_quadviews:
         state["sizes"].append((state["step"], memory()))

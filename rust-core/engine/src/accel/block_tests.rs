@@ -33,7 +33,9 @@ impl BlockTests {
             let lane = i % block.len().max(1);
             let middle = |axis: usize| block.vertices.iter().map(|corner| corner[axis][lane]).sum::<f32>() / 3.0;
             let direction = [0, 1, 2].map(|axis| middle(axis) - origin[axis]);
-            if let Some(ray) = PreparedRay::new(origin, direction, 0.0, f32::MAX) {
+            if let Some(ray) =
+                PreparedRay::new([origin[0], origin[1], origin[2], 0.0], [direction[0], direction[1], direction[2], 0.0], 0.0, f32::MAX)
+            {
                 tests.rays.push(ray);
                 tests.first.push(first);
             }

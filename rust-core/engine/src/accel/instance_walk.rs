@@ -8,7 +8,6 @@ use super::prepared::PreparedRay;
 use super::query::Hit;
 use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
-use super::transform::{transform_direction, transform_point};
 use super::triangle_block::BlockHits;
 use super::walk::{Stack, Visitor, walk};
 use gonio_simd::prefetch;
@@ -39,9 +38,7 @@ pub(super) fn walk_scene<K: Lanes8, C: Collector>(
     i: usize,
     collector: &mut C,
 ) -> bool {
-    let origin = [rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]];
-    let direction = [rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]];
-    let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], rays.t_max[i]) else { return false };
+    let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
     walk_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], collector)
 }
 
@@ -58,8 +55,8 @@ pub(super) fn walk_instance<K: Lanes8, C: Collector>(
 ) {
     let Some(record) = scene.record_of.get(instance as usize).and_then(|place| scene.records.get(*place as usize)) else { return };
     let Geometry::Mesh(index) = record.geometry.get() else { return };
-    let origin = transform_point(&record.world_to_object, [rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]]);
-    let direction = transform_direction(&record.world_to_object, [rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]]);
+    let origin = record.world_to_object.point(rays.origin_of(i));
+    let direction = record.world_to_object.direction(rays.direction_of(i));
     let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], collector.t_max()) else { return };
     walk_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, collector);
 }
@@ -113,8 +110,8 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
             let mesh = &self.scene.meshes[index as usize];
             return walk_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.collector);
         }
-        let origin = transform_point(&record.world_to_object, ray.origin);
-        let direction = transform_direction(&record.world_to_object, ray.direction);
+        let origin = record.world_to_object.point(ray.origin);
+        let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
                 let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return false };

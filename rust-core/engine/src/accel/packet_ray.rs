@@ -1,7 +1,7 @@
 //! Sixteen rays made ready for box and triangle tests; lane for lane the numbers of `PreparedRay`.
 
 use super::node::{LARGEST_COORDINATE, ROUNDING_PAD};
-use super::prepared::{DIRECTION_RANGE, PreparedRay, SMALLEST_SHARE};
+use super::prepared::{DIRECTION_RANGE, Padded, PreparedRay, SMALLEST_SHARE};
 use super::transform::Affine;
 use fearless_simd::{f32x16, mask32x16, prelude::*};
 
@@ -61,7 +61,8 @@ impl<S: Simd> PacketRays<S> {
     pub(super) fn transformed(&self, simd: S, m: &Affine, t_max: f32x16<S>, lanes: u32) -> Self {
         let (mut origin, mut direction) = (self.origin, self.direction);
         let [p, d] = [self.origin, self.direction];
-        for (axis, row) in m.iter().enumerate() {
+        for axis in 0..3 {
+            let row = m.row(axis);
             origin[axis] = (p[0] * row[0] + p[1] * row[1]) + (p[2] * row[2] + row[3]);
             direction[axis] = (d[0] * row[0] + d[1] * row[1]) + d[2] * row[2];
         }
@@ -88,8 +89,8 @@ impl<S: Simd> PacketRays<S> {
 
 /// The components of one lane.
 #[inline(always)]
-pub(super) fn lane_of<S: Simd>(v: &[f32x16<S>; 3], lane: usize) -> [f32; 3] {
-    [v[0].as_slice()[lane], v[1].as_slice()[lane], v[2].as_slice()[lane]]
+pub(super) fn lane_of<S: Simd>(v: &[f32x16<S>; 3], lane: usize) -> Padded {
+    [v[0].as_slice()[lane], v[1].as_slice()[lane], v[2].as_slice()[lane], 0.0]
 }
 
 /// The least of the chosen lanes.

@@ -6,17 +6,29 @@
 
 use super::node::{LARGEST_COORDINATE, ROUNDING_PAD};
 
+/// Three components and a number that means nothing, so that all are computed and moved at once: a ray is made ready for every instance it enters.
+pub(super) type Padded = [f32; 4];
+
+/// The lesser axes and the largest, by the largest.
+static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+/// The larger number, and the second where one is NaN: one instruction, which `f32::max` is not.
+#[inline(always)]
+fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
 /// A ray in the space of one tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PreparedRay {
-    pub(super) origin: [f32; 3],
-    pub(super) direction: [f32; 3],
+    pub(super) origin: Padded,
+    pub(super) direction: Padded,
     /// One over the direction, components near zero replaced.
-    pub(super) reciprocal: [f32; 3],
+    pub(super) reciprocal: Padded,
     /// Offsets of the near planes, moved towards the ray's start.
-    pub(super) near_offset: [f32; 3],
+    pub(super) near_offset: Padded,
     /// Offsets of the far planes, moved away from the ray's start.
-    pub(super) far_offset: [f32; 3],
+    pub(super) far_offset: Padded,
     /// Rows of `Node::bounds` with the near planes of x, y, z.
     pub(super) near_rows: [usize; 3],
     /// The two lesser axes and the axis of the largest direction component.
@@ -36,41 +48,40 @@ pub(super) const DIRECTION_RANGE: [f32; 2] = [1e-12, 1e12];
 impl PreparedRay {
     /// `None` when the ray can hit nothing: parts of it are not finite, its direction is zero, or its interval is empty.
     #[inline(always)]
-    pub(super) fn new(origin: [f32; 3], direction: [f32; 3], t_min: f32, t_max: f32) -> Option<Self> {
-        let [x, y, z] = direction.map(f32::abs);
-        let largest = x.max(y).max(z);
-        let start = origin[0].abs().max(origin[1].abs()).max(origin[2].abs());
+    pub(super) fn new(origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<Self> {
+        let ([x, y, z, _], [ox, oy, oz, _]) = (direction.map(f32::abs), origin.map(f32::abs));
+        let (largest, start) = (larger(larger(x, y), z), larger(larger(ox, oy), oz));
         // The sum catches NaN, which the maxima drop.
-        let sum = x + y + z + origin[0].abs() + origin[1].abs() + origin[2].abs();
-        let t_min = if t_min > 0.0 { t_min } else { 0.0 };
-        if !((DIRECTION_RANGE[0]..=DIRECTION_RANGE[1]).contains(&largest)
-            && start <= LARGEST_COORDINATE
-            && sum < f32::INFINITY
-            && t_min <= t_max)
-        {
+        let sum = x + y + z + ox + oy + oz;
+        let t_min = larger(t_min, 0.0);
+        let usable = (largest >= DIRECTION_RANGE[0])
+            & (largest <= DIRECTION_RANGE[1])
+            & (start <= LARGEST_COORDINATE)
+            & (sum < f32::INFINITY)
+            & (t_min <= t_max);
+        if !usable {
             return None;
         }
-        let major = if x >= y && x >= z { 0 } else { 1 + usize::from(y < z) };
+        let major = if (x >= y) & (x >= z) { 0 } else { 1 + usize::from(y < z) };
         Some(Self::with_major(origin, direction, t_min, largest, start, major))
     }
 
     #[inline(always)]
-    fn with_major(origin: [f32; 3], direction: [f32; 3], t_min: f32, largest: f32, start: f32, major: usize) -> Self {
+    fn with_major(origin: Padded, direction: Padded, t_min: f32, largest: f32, start: f32, major: usize) -> Self {
         let smallest = largest * SMALLEST_SHARE;
         let pad = start * ROUNDING_PAD;
-        let mut reciprocal = [0.0; 3];
-        let (mut near_offset, mut far_offset, mut near_rows) = ([0.0; 3], [0.0; 3], [0; 3]);
-        for axis in 0..3 {
-            let component = direction[axis].abs().max(smallest).copysign(direction[axis]);
-            reciprocal[axis] = 1.0 / component;
-            let signed_pad = pad.copysign(component);
-            near_offset[axis] = -(origin[axis] + signed_pad) * reciprocal[axis];
-            far_offset[axis] = -(origin[axis] - signed_pad) * reciprocal[axis];
-            near_rows[axis] = if component < 0.0 { axis + 3 } else { axis };
+        let (mut reciprocal, mut near_offset, mut far_offset) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            let component = larger(direction[k].abs(), smallest).copysign(direction[k]);
+            reciprocal[k] = 1.0 / component;
+            let signed_pad = pad.copysign(direction[k]);
+            near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
+            far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
         }
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][major];
-        let along = reciprocal[major];
-        let shear = [direction[axes[0]] * along, direction[axes[1]] * along, along];
+        let near_rows = [0, 1, 2].map(|axis| axis + 3 * (direction[axis].to_bits() >> 31) as usize);
+        let axes = AXES[major % 3];
+        let along = reciprocal[major % 4];
+        let shear = [direction[axes[0] % 4] * along, direction[axes[1] % 4] * along, along];
         PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, axes, shear, t_min }
     }
 }

@@ -1,5 +1,7 @@
 //! Batches of rays and of hits, one entry a ray.
 
+use super::prepared::Padded;
+
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
 pub const NONE: u32 = u32::MAX;
 
@@ -30,6 +32,18 @@ impl<'a> RayBatch<'a> {
     /// True when there is no ray.
     pub fn is_empty(&self) -> bool {
         self.t_max.is_empty()
+    }
+
+    /// The start point of a ray.
+    #[inline(always)]
+    pub(super) fn origin_of(&self, i: usize) -> Padded {
+        [self.origin[0][i], self.origin[1][i], self.origin[2][i], 0.0]
+    }
+
+    /// The direction of a ray.
+    #[inline(always)]
+    pub(super) fn direction_of(&self, i: usize) -> Padded {
+        [self.direction[0][i], self.direction[1][i], self.direction[2][i], 0.0]
     }
 
     /// Cuts all columns to one length, so that later indexing is checked once.

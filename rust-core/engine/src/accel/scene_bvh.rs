@@ -7,7 +7,7 @@ use super::collapse::LeafMaker;
 use super::instance::{Geometry, Instance, InstanceRecord, PackedGeometry};
 use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
 use super::ray::NONE;
-use super::transform::{inverse, transformed_bounds};
+use super::transform::{Affine, inverse, transformed_bounds};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -80,7 +80,7 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
     let placed = outline.iter().map(|bounds| transformed_bounds(&instance.object_to_world, bounds));
     let bounds = placed.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
     let usable = bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE);
-    let world_to_object = inverse(&instance.object_to_world)?.map(|row| row.map(|x| x as f32));
+    let world_to_object = Affine::new(&inverse(&instance.object_to_world)?)?;
     let record = InstanceRecord {
         world_to_object,
         geometry: PackedGeometry::new(instance.geometry),
@@ -89,7 +89,7 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
         transparent: instance.transparent,
         identity: instance.object_to_world == Instance::IDENTITY,
     };
-    (usable && world_to_object.iter().flatten().all(|x| x.is_finite())).then_some((bounds, record))
+    usable.then_some((bounds, record))
 }
 
 /// Puts instance records into the order of the tree.

@@ -1,6 +1,7 @@
 //! Analytic shapes in unit object space, intersected in f64: there are few, and their hits place light samples.
 
 use super::node::Bounds;
+use super::prepared::Padded;
 
 /// A shape in its own space. Flat ones are hit from both sides, closed ones from outside alone, where lights shine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,8 +37,8 @@ impl Shape {
     }
 
     /// The crossings with `t_min < t <= t_max`, nearest first.
-    pub(super) fn crossings(self, origin: [f32; 3], direction: [f32; 3], t_min: f32, t_max: f32) -> [Option<ShapeHit>; 2] {
-        let (o, d) = (origin.map(f64::from), direction.map(f64::from));
+    pub(super) fn crossings(self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> [Option<ShapeHit>; 2] {
+        let [o, d] = [origin, direction].map(|[x, y, z, _]| [x, y, z].map(f64::from));
         let point = |t: f64| [0, 1, 2].map(|axis| o[axis] + t * d[axis]);
         let inside = |t: f64| ((t as f32) > t_min && (t as f32) <= t_max).then_some(t as f32);
         match self {

@@ -1,11 +1,61 @@
-//! Affine maps: 3 x 4 matrices, rows first, the last column the translation.
+//! Affine maps.
 
 use super::node::{Bounds, ROUNDING_PAD};
+use super::prepared::Padded;
 
-/// `point -> rows * [point, 1]`.
-pub(super) type Affine = [[f32; 4]; 3];
+/// `point -> x * column 0 + y * column 1 + z * column 2 + column 3`: the columns one behind the other, and a number that means nothing, so that
+/// each column can be read as four.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Affine([f32; 13]);
 
-/// The inverse of a map, or `None` when it is singular or not finite.
+impl Affine {
+    /// The map of these rows, unless a number of it is too large.
+    pub(super) fn new(rows: &[[f64; 4]; 3]) -> Option<Self> {
+        let mut numbers = [0.0; 13];
+        for (axis, row) in rows.iter().enumerate() {
+            for (column, x) in row.iter().enumerate() {
+                numbers[3 * column + axis] = *x as f32;
+            }
+        }
+        numbers.iter().all(|x| x.is_finite()).then_some(Affine(numbers))
+    }
+
+    #[inline(always)]
+    fn column(&self, column: usize) -> Padded {
+        let first = 3 * column;
+        [self.0[first], self.0[first + 1], self.0[first + 2], self.0[first + 3]]
+    }
+
+    /// The factors of x, y, z and one in a component of the image.
+    #[inline(always)]
+    pub(super) fn row(&self, axis: usize) -> [f32; 4] {
+        [self.0[axis], self.0[3 + axis], self.0[6 + axis], self.0[9 + axis]]
+    }
+
+    /// The image of a point, in the operations the packets use as well.
+    #[inline(always)]
+    pub(super) fn point(&self, p: Padded) -> Padded {
+        let [x, y, z, moved] = [self.column(0), self.column(1), self.column(2), self.column(3)];
+        let mut out = [0.0; 4];
+        for k in 0..4 {
+            out[k] = (x[k] * p[0] + y[k] * p[1]) + (z[k] * p[2] + moved[k]);
+        }
+        out
+    }
+
+    /// The image of a direction.
+    #[inline(always)]
+    pub(super) fn direction(&self, d: Padded) -> Padded {
+        let [x, y, z] = [self.column(0), self.column(1), self.column(2)];
+        let mut out = [0.0; 4];
+        for k in 0..4 {
+            out[k] = (x[k] * d[0] + y[k] * d[1]) + z[k] * d[2];
+        }
+        out
+    }
+}
+
+/// The inverse of a map given by rows, the last column the translation, or `None` when it is singular or not finite.
 pub(super) fn inverse(m: &[[f64; 4]; 3]) -> Option<[[f64; 4]; 3]> {
     let cofactor = |row: usize, column: usize| {
         let (r1, r2) = ((row + 1) % 3, (row + 2) % 3);
@@ -46,24 +96,4 @@ pub(super) fn transformed_bounds(m: &[[f64; 4]; 3], bounds: &Bounds) -> Bounds {
         image.max[axis] = (high + pad) as f32;
     }
     image.padded()
-}
-
-/// `rows * [point, 1]`, in the operations the packets use as well.
-#[inline(always)]
-pub(super) fn transform_point(m: &Affine, p: [f32; 3]) -> [f32; 3] {
-    let mut out = [0.0; 3];
-    for (x, row) in out.iter_mut().zip(m) {
-        *x = (row[0] * p[0] + row[1] * p[1]) + (row[2] * p[2] + row[3]);
-    }
-    out
-}
-
-/// `rows * [direction, 0]`.
-#[inline(always)]
-pub(super) fn transform_direction(m: &Affine, d: [f32; 3]) -> [f32; 3] {
-    let mut out = [0.0; 3];
-    for (x, row) in out.iter_mut().zip(m) {
-        *x = (row[0] * d[0] + row[1] * d[1]) + row[2] * d[2];
-    }
-    out
 }
