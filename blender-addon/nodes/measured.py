@@ -25,6 +25,7 @@ class GonioShaderNodeMeasured(bpy.types.ShaderNodeCustomGroup):
         name="File",
         description="The measurement: MERL, RGL, pBRDF, UTIA, BSDF XML, Zemax or .gbsdf",
         subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         update=lambda self, context: self.read_file(),
     )
     status: bpy.props.StringProperty(name="Status", description="What the file holds, or why it cannot be read")
@@ -45,7 +46,9 @@ class GonioShaderNodeMeasured(bpy.types.ShaderNodeCustomGroup):
         path = file_of(self)
         try:
             measured = gonio.MeasuredBsdf.from_file(path)
-            self.status = f"{'isotropic' if measured.isotropic else 'anisotropic'}, {len(measured.channels)} channels"
+            count = len(measured.channels)
+            channels = "one channel" if count == 1 else f"{count} channels"
+            self.status = f"{'isotropic' if measured.isotropic else 'anisotropic'}, {channels}"
             self.is_readable = True
             fallback_tree.fit(self, measured)
         except (OSError, gonio.Error) as problem:

@@ -62,6 +62,7 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         name="File",
         description="A luminaire's IES or EULUMDAT file. Nadir is the light's -Z, C0 its +X",
         subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         update=tag_data,
     )
     opening: EnumProperty(name="Opening", description="What of the luminaire shines", items=OPENINGS, default="FILE", update=tag_data)

@@ -23,7 +23,7 @@ pub(crate) trait Lookup: Simd {
 /// The largest index that leaves room for `tail` values, checked to fit the hardware's signed index.
 #[inline(always)]
 #[cfg(target_arch = "x86_64")]
-fn last_index(table: &[f32], tail: usize) -> i32 {
+pub(crate) fn last_index(table: &[f32], tail: usize) -> i32 {
     let last = table.len().checked_sub(tail).expect("a table read from is long enough");
     i32::try_from(last).expect("a table has fewer than 2^31 values")
 }

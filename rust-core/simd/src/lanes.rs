@@ -1,6 +1,6 @@
 //! The primitive operations that a set of lanes offers; [`F`], [`U`] and [`M`] dress them with operators.
 
-use crate::{F, M, U};
+use crate::{F, M, U, octets::MOST_TERMS};
 use core::fmt::Debug;
 
 /// A set of lanes: `COUNT` values worked on at once.
@@ -140,6 +140,9 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_pairs_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 2];
     /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`: one 128-bit load a lane. The table has four values at least.
     fn gather_quads_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 4];
+    /// The sum over up to 8 terms of `weight · table[i + offset..][..8]`, with `i = min(index, len - 8 - largest offset)`: one load a lane
+    /// and term. The table is long enough for index 0.
+    fn sum_octets_f(self, table: &[f32], index: Self::U32, offsets: &[u32], weights: &[Self::F32]) -> [Self::F32; 8];
     /// `table[index % 32]` by register permutes where the machine has them.
     fn lookup32_f(self, table: &[f32; 32], index: Self::U32) -> Self::F32;
 
@@ -200,6 +203,16 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_quads(self, table: &[f32], index: U<Self>) -> [F<Self>; 4] {
         let [a, b, c, d] = self.gather_quads_f(table, index.0);
         [F(a), F(b), F(c), F(d)]
+    }
+    /// The sum over up to 8 terms of `weight · table[i + offset..][..8]`, with `i = min(index, len - 8 - largest offset)`.
+    #[inline(always)]
+    fn sum_octets(self, table: &[f32], index: U<Self>, offsets: &[u32], weights: &[F<Self>]) -> [F<Self>; 8] {
+        let mut registers = [self.splat_f(0.0); MOST_TERMS];
+        for (register, weight) in registers.iter_mut().zip(weights) {
+            *register = weight.0;
+        }
+        let [a, b, c, d, e, f, g, h] = self.sum_octets_f(table, index.0, offsets, &registers[..weights.len()]);
+        [F(a), F(b), F(c), F(d), F(e), F(f), F(g), F(h)]
     }
     /// `table[index % 32]`.
     #[inline(always)]

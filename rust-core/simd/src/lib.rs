@@ -41,7 +41,8 @@
 //!   where a whole register may skip expensive work. Count with [`U::count_if`]; collect survivors with [`F::append`] and [`M::count`].
 //! - **`for` loops over arrays of vectors**, never `from_fn` or `map`: they end in `memcpy`.
 //! - **Gathers are the slowest thing here.** Axes of up to 32 knots take comparisons, `count_if` and [`lookup32`](Lanes::lookup32); where a gather must be,
-//!   lay neighbours side by side and read them with [`gather_pairs`](Lanes::gather_pairs). Indices are clamped to the table, so no index is unsafe.
+//!   lay neighbours side by side and read them with [`gather_pairs`](Lanes::gather_pairs); sums of what is read are cheapest with
+//!   [`sum_octets`](Lanes::sum_octets). Indices are clamped to the table, so no index is unsafe.
 //! - **Exactness by name.** [`mul_add`](F::mul_add) is fused where the level has it; `min`, `max` and [`to_i32`](F::to_i32) leave NaN and overflow to
 //!   the hardware. Code that must survive NaN compares and selects. Levels therefore agree statistically and not bit for bit; one level gives the same
 //!   bits each time.
@@ -56,6 +57,7 @@ mod gather;
 mod integer;
 mod lanes;
 mod mask;
+mod octets;
 mod one;
 mod prefetch;
 mod rgb;

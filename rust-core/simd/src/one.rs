@@ -1,6 +1,6 @@
 //! One lane: the scalar level, compiled from the same source and at the same optimisation level as the wide ones.
 
-use crate::Lanes;
+use crate::{Lanes, octets::sum_of_lane};
 
 /// A single value at a time.
 #[derive(Clone, Copy, Debug, Default)]
@@ -254,6 +254,16 @@ impl Lanes for One {
     fn gather_quads_f(self, table: &[f32], index: u32) -> [f32; 4] {
         let i = (index as usize).min(table.len() - 4);
         [table[i], table[i + 1], table[i + 2], table[i + 3]]
+    }
+    #[inline(always)]
+    fn sum_octets_f(self, table: &[f32], index: u32, offsets: &[u32], weights: &[f32]) -> [f32; 8] {
+        sum_of_lane(
+            table,
+            index,
+            offsets,
+            #[inline(always)]
+            |term| weights[term],
+        )
     }
     #[inline(always)]
     fn lookup32_f(self, table: &[f32; 32], index: u32) -> f32 {

@@ -1,6 +1,6 @@
 //! As many lanes as the machine's registers hold, through `fearless_simd`.
 
-use crate::{Lanes, gather::Lookup};
+use crate::{Lanes, gather::Lookup, octets::Octets};
 use fearless_simd::{Simd, prelude::*};
 
 /// The native width of a `fearless_simd` level.
@@ -249,6 +249,10 @@ impl<S: Simd> Lanes for Wide<S> {
     #[inline(always)]
     fn gather_quads_f(self, table: &[f32], index: S::u32s) -> [S::f32s; 4] {
         self.0.gather_quads(table, index)
+    }
+    #[inline(always)]
+    fn sum_octets_f(self, table: &[f32], index: S::u32s, offsets: &[u32], weights: &[S::f32s]) -> [S::f32s; 8] {
+        self.0.sum_octets(table, index, offsets, weights)
     }
     #[inline(always)]
     fn lookup32_f(self, table: &[f32; 32], index: S::u32s) -> S::f32s {

@@ -271,6 +271,27 @@ fn check_table_reads<L: Lanes>(l: L) {
     }
 }
 
+at_every_level!(sums_of_octets, check_sums_of_octets);
+#[inline(always)]
+fn check_sums_of_octets<L: Lanes>(l: L) {
+    for (len, offsets) in [(8, &[0][..]), (13, &[5, 0]), (1000, &[0, 4, 40, 44, 300, 304, 340, 344])] {
+        // Small integers, whose sums are exact in any order.
+        let table: Vec<f32> = (0..len).map(|i| (i * 37 % 101) as f32 - 50.0).collect();
+        let last = len - 8 - offsets.iter().max().map_or(0, |most| *most as usize);
+        let list: Vec<u32> = (0..16).map(|i| if i % 5 == 0 { u32::MAX - i } else { i * 61 % len as u32 }).collect();
+        let weight = |term: usize, lane: usize| (term * 3 + lane) as f32 - 7.0;
+        let weights: Vec<F<L>> = (0..offsets.len()).map(|term| l.iota().i32_to_float() + weight(term, 0)).collect();
+        for (k, value) in l.sum_octets(&table, l.load_integers(&list, 0), offsets, &weights).into_iter().enumerate() {
+            floats_are("sum_octets", value, |lane| {
+                let first = (list[lane] as usize).min(last) + k;
+                let terms = offsets.iter().enumerate().map(|(term, offset)| weight(term, lane) * table[first + *offset as usize]);
+                // The empty sum of floats is -0.
+                0.0 + terms.sum::<f32>()
+            });
+        }
+    }
+}
+
 at_every_level!(loads_and_stores, check_loads_and_stores);
 #[inline(always)]
 fn check_loads_and_stores<L: Lanes>(l: L) {

@@ -14,9 +14,11 @@ pub struct Axis {
     knots: Vec<f32>,
     /// Each interval's lower knot and the reciprocal of its width, one after the other.
     intervals: Vec<f32>,
-    /// The same for axes whose intervals fit in registers.
+    /// The same for axes whose intervals fit in registers; infinity behind the last start.
     starts: [f32; IN_REGISTERS],
     reciprocals: [f32; IN_REGISTERS],
+    /// Halvings of these intervals until one is left.
+    halvings: u32,
     /// For longer axes.
     guide: Option<Guide>,
     around: Around,
@@ -62,12 +64,14 @@ impl Axis {
         let width = |pair: &[f32]| if pair.len() > 1 { 1.0 / (pair[1] - pair[0]) } else { 0.0 };
         let pairs = || knots.windows(2.min(knots.len()));
         let intervals: Vec<f32> = pairs().flat_map(|pair| [pair[0], width(pair).min(f32::MAX)]).collect();
-        let (mut starts, mut reciprocals) = ([0.0; IN_REGISTERS], [0.0; IN_REGISTERS]);
+        let (mut starts, mut reciprocals) = ([f32::INFINITY; IN_REGISTERS], [0.0; IN_REGISTERS]);
+        starts[0] = knots[0];
         for (place, interval) in intervals.as_chunks::<2>().0.iter().take(IN_REGISTERS).enumerate() {
             [starts[place], reciprocals[place]] = *interval;
         }
+        let halvings = (knots.len() - 1).next_power_of_two().ilog2();
         let guide = (knots.len() > COMPARED).then(|| Guide::new(&knots));
-        Some(Self { knots, intervals, starts, reciprocals, guide, around: Around::Nothing, nearest: false })
+        Some(Self { knots, intervals, starts, reciprocals, halvings, guide, around: Around::Nothing, nearest: false })
     }
 
     /// An axis on which all repeats after `period`; the first knot's repetition is added, so that neighbours lie side by side. `None` as for
@@ -116,6 +120,8 @@ impl Axis {
         let x = self.brought(x);
         let index = match &self.guide {
             Some(guide) => self.search_from(l, x, guide),
+            // Of sixteen lanes a lookup in registers is one instruction.
+            None if L::COUNT == 16 && self.intervals.len() <= 2 * IN_REGISTERS => self.halve(l, x),
             None => self.count(l, x),
         };
         let (start, reciprocal) = if self.intervals.len() <= 2 * IN_REGISTERS {
@@ -150,6 +156,18 @@ impl Axis {
             index += x.ge(*knot).to_integers();
         }
         index
+    }
+
+    /// [`Self::count`] by halving, with the knots in registers.
+    #[inline(always)]
+    fn halve<L: Lanes>(&self, l: L, x: F<L>) -> U<L> {
+        let mut index = l.u(0);
+        for step in (0..self.halvings).rev() {
+            let next = index + (1 << step);
+            index = x.ge(l.lookup32(&self.starts, next)).select(next, index);
+        }
+        // Infinity is not below the places without knots.
+        index.min(self.knots.len().saturating_sub(2) as u32)
     }
 
     #[inline(always)]

@@ -12,7 +12,8 @@ pub struct Colours<const N: usize> {
     axes: [Axis; N],
     /// Values between neighbouring knots of each axis; 0 on axes of one knot.
     strides: [u32; N],
-    /// Red, green, blue and 1 for each cell, the last axis fastest; four zeros where nothing is known. One load brings a cell.
+    /// Red, green, blue and 1 for each cell, the last axis fastest; four zeros where nothing is known, and behind the last cell. One load brings
+    /// a cell and the next.
     cells: Vec<f32>,
     has_gaps: bool,
 }
@@ -27,7 +28,7 @@ impl<const N: usize> Colours<N> {
             *stride = if axis.len() > 1 { u32::try_from(count.checked_mul(4)?).ok()? } else { 0 };
             count = count.checked_mul(axis.len())?;
         }
-        i32::try_from(count.checked_mul(4)?).ok()?;
+        i32::try_from(count.checked_add(1)?.checked_mul(4)?).ok()?;
         let mut cells = Vec::with_capacity(4 * count);
         let mut has_gaps = false;
         for cell in 0..count {
@@ -35,6 +36,7 @@ impl<const N: usize> Colours<N> {
             has_gaps |= known.is_none();
             cells.extend(known.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]));
         }
+        cells.extend([0.0; 4]);
         Some(Self { axes, strides, cells, has_gaps })
     }
 
@@ -52,21 +54,22 @@ impl<const N: usize> Colours<N> {
             places[axis] = self.axes[axis].locate(l, place[axis]);
             first += places[axis].index * self.strides[axis];
         }
-        let (mut sum, mut known) = (Rgb::zero(l), l.f(0.0));
-        for corner in 0..1_u32 << N {
-            let (mut at, mut weight) = (0, l.f(1.0));
-            for (axis, Place { fraction, .. }) in places.iter().enumerate() {
+        let (mut offsets, mut weights) = ([0; 8], [l.f(1.0); 8]);
+        let corners = 1 << (N - 1);
+        for corner in 0..corners {
+            for (axis, Place { fraction, .. }) in places[..N - 1].iter().enumerate() {
                 let upper = corner >> axis & 1;
-                at += upper * self.strides[axis];
-                weight *= if upper == 1 { *fraction } else { 1.0 - *fraction };
+                offsets[corner] += upper as u32 * self.strides[axis];
+                weights[corner] *= if upper == 1 { *fraction } else { 1.0 - *fraction };
             }
-            let [r, g, b, one] = l.gather_quads(&self.cells, first + at);
-            sum = Rgb::new(r, g, b).mul_add(weight, sum);
-            known = one.mul_add(weight, known);
         }
+        let [r, g, b, one, r_next, g_next, b_next, one_next] = l.sum_octets(&self.cells, first, &offsets[..corners], &weights[..corners]);
+        let along = places[N - 1].fraction;
+        let sum = Rgb::new(r.lerp(r_next, along), g.lerp(g_next, along), b.lerp(b_next, along));
         if !self.has_gaps {
             return (sum, l.f(1.0));
         }
+        let known = one.lerp(one_next, along);
         let enough = known.gt(LEAST_WEIGHT);
         ((sum * known.max(LEAST_WEIGHT).recip()).keep_if(enough), known.keep_if(enough))
     }
