@@ -1,12 +1,15 @@
 //! From sums to an image.
 
-use super::{Film, TileFilm, catcher, channel_names, divisor, is_index};
+use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
     integrator::{BATCH, TILE, tile_code},
     scene::{Aov, Crop},
     threads::available_threads,
 };
-use std::sync::{Mutex, PoisonError};
+use std::{
+    borrow::Cow,
+    sync::{Mutex, PoisonError},
+};
 
 /// A named group of channels, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,13 +93,18 @@ impl Film {
             let area = self.tile_area(tile);
             let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
             let left = (area.min[0] - self.window.min[0]) as usize;
-            self.read(tile, |sums| {
-                least = least.min(sums.samples);
+            self.read(tile, |film| {
+                least = least.min(film.least_samples());
+                let sums = film.sums.total(self.plan.rules());
+                if sums.is_empty() {
+                    return;
+                }
+                let developing = Developing { sums, samples: film.samples };
                 for (aov, rows) in aovs.iter().zip(&mut band.layers) {
                     let mut part = Part { rows, left, width, size, channels: channel_names(*aov).len() };
-                    self.develop_tile(*aov, sums, &mut part);
+                    self.develop_tile(*aov, &developing, &mut part);
                     if let Some(first) = self.layout.catchers {
-                        catcher::show(*aov, sums, first, self.exposure, &mut part);
+                        catcher::show(*aov, &developing, first, self.exposure, &mut part);
                     }
                 }
             });
@@ -104,20 +112,34 @@ impl Film {
         least
     }
 
-    fn develop_tile(&self, aov: Aov, tile: &TileFilm, part: &mut Part<'_>) {
-        let Some(offset) = self.layout.offset(aov).filter(|_| tile.samples > 0) else { return };
+    fn develop_tile(&self, aov: Aov, tile: &Developing<'_>, part: &mut Part<'_>) {
+        let Some(offset) = self.layout.offset(aov) else { return };
         let sum = |channel: usize, code: usize| tile.sums[(offset + channel) * BATCH + code];
-        let scale = 1.0 / f64::from(tile.samples);
         let divisor = divisor(aov).and_then(|aov| self.layout.offset(aov));
         match (aov, divisor) {
             (_, Some(divisor)) => part.fill(|channel, code| share(sum(channel, code), tile.sums[(divisor + channel) * BATCH + code])),
             // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
             (Aov::PrimId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
             (_, None) if is_index(aov) => part.fill(|channel, code| (sum(channel, code) - 1.0).max(0.0)),
-            (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * scale),
-            (Aov::SampleCount, _) => part.fill(|_, _| f64::from(tile.samples)),
-            _ => part.fill(|channel, code| sum(channel, code) * scale),
+            (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * tile.scale(code)),
+            (Aov::SampleCount, _) => part.fill(|_, code| f64::from(tile.samples[zone_of(code)])),
+            _ => part.fill(|channel, code| sum(channel, code) * tile.scale(code)),
         }
+    }
+}
+
+/// A tile's sums on their way to means.
+pub(super) struct Developing<'a> {
+    /// Channel after channel, `BATCH` values each.
+    pub(super) sums: Cow<'a, [f64]>,
+    /// By zone.
+    samples: [u32; ZONES],
+}
+
+impl Developing<'_> {
+    /// What the sums of a pixel are multiplied by.
+    pub(super) fn scale(&self, code: usize) -> f64 {
+        1.0 / f64::from(self.samples[zone_of(code)].max(1))
     }
 }
 

@@ -81,6 +81,7 @@ pub(super) fn sense(
     let settings = Settings {
         resolution: table.resolution(),
         crop: None,
+        sample_range: None,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
         aovs: vec![Aov::Luminance, Aov::Illuminance],
         shader_passes: Vec::new(),

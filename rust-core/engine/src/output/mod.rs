@@ -8,6 +8,7 @@ mod picture;
 mod tone_map;
 
 pub use atomic::write_atomically;
+pub(crate) use atomic::write_through;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS, short_number};

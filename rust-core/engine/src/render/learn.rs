@@ -59,6 +59,7 @@ fn reduced(settings: &Settings) -> Settings {
         resolution: [width, height].map(|pixels| (part(pixels).round() as u32).max(1)),
         crop,
         samples: SAMPLES,
+        sample_range: None,
         seed: settings.seed ^ OTHER_SEED,
         aovs: vec![Aov::Color],
         ..settings.clone()

@@ -56,20 +56,27 @@ impl Render {
     /// Starts rendering; settings are those of the compiled view.
     pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
         let view = View::new(&scene, settings, execution)?;
-        let (window, exposure) = (view.window, view.exposure);
-        Ok(Self::run(scene, settings, Source::View(view), window, exposure))
+        let film = film_of(&scene, settings, view.window, view.exposure);
+        Ok(Self::run(scene, settings, Source::View(view), film))
+    }
+
+    /// Goes on with a film that the same render has left; see [`crate::checkpoint`].
+    pub fn resume(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution, film: Film) -> Result<Self> {
+        let view = View::new(&scene, settings, execution)?;
+        Ok(Self::run(scene, settings, Source::View(view), film))
     }
 
     /// Starts measuring at sensors, whose picture has the resolution of the settings.
     pub(crate) fn sense(scene: Arc<CompiledScene>, sensors: SensorTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
         let transport = Transport { measure: false, ..transport(&scene, settings, execution, [0.0; 3], [0.0; 3]) };
         let window = Crop { min: [0; 2], max: settings.resolution };
-        Self::run(scene, settings, Source::Sensors { sensors, transport }, window, 1.0)
+        let film = film_of(&scene, settings, window, 1.0);
+        Self::run(scene, settings, Source::Sensors { sensors, transport }, film)
     }
 
-    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, window: Crop, exposure: f32) -> Self {
-        let film = Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty());
-        let schedule = Schedule::new(film.tile_count(), settings.samples, settings.time_limit_s);
+    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film) -> Self {
+        let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
+        let schedule = Schedule::new(tiles, settings.range(), settings.samples, settings.time_limit_s);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let shared = Arc::new(Shared {
             scene,
@@ -146,6 +153,10 @@ impl Render {
             None => Ok(()),
         }
     }
+}
+
+fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {
+    Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty())
 }
 
 impl Drop for Render {

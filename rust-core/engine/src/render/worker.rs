@@ -15,8 +15,7 @@ use std::{
 pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
     let result = catch_unwind(AssertUnwindSafe(|| {
         let mut workspace = Workspace::default();
-        while !shared.cancel.load(Ordering::Relaxed) {
-            let Some(work) = shared.schedule.take() else { break };
+        while let Some(work) = shared.schedule.take(&|| shared.cancel.load(Ordering::Relaxed)) {
             trace_block(shared, &work, &mut workspace, ready);
         }
     }));
@@ -39,6 +38,7 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     };
     let known = shared.known.get_or_init(learned).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };
+    let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
     for sample in work.samples.clone() {
@@ -49,11 +49,10 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     }
     let statistics = std::mem::take(&mut workspace.statistics);
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
-    let samples = work.samples.end - work.samples.start;
     let origin = shared.scene.tables.origin;
-    let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.source.exposure(), origin);
+    let block = Block::new(&shared.film.layout, &workspace.first_hit, zones, shared.source.exposure(), origin);
     // Counted first, so that the last tile's news finds the progress complete.
-    shared.schedule.finished_one();
+    shared.schedule.finished(work);
     shared.film.add(work.tile, work.block, block, |samples| {
         // A slow host misses intermediate news of a tile, never its data.
         let _ = ready.try_send(TileReady { tile: work.tile, samples });

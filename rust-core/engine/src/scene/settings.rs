@@ -1,6 +1,7 @@
 //! How a scene is rendered.
 
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A rectangle of pixels: `[min, max)`, rows counted from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -202,6 +203,9 @@ pub struct Settings {
     pub camera: u32,
     /// Samples a pixel.
     pub samples: u32,
+    /// Which of them are rendered, `[first, behind the last]`; `None` is all. Ranges start and end where blocks of samples do.
+    #[serde(default)]
+    pub sample_range: Option<[u32; 2]>,
     /// Seed of the random numbers.
     pub seed: u32,
     /// The light transport.
@@ -249,6 +253,7 @@ impl Default for Settings {
             crop: None,
             camera: 0,
             samples: 64,
+            sample_range: None,
             seed: 0,
             integrator: Integrator::Path,
             max_bounces: 12,
@@ -268,6 +273,10 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The samples that are rendered.
+    pub fn range(&self) -> Range<u32> {
+        self.sample_range.map_or(0..self.samples, |[first, end]| first..end)
+    }
     /// Sets the passes by their names, in any case of letters but for shader passes, which are called `aov:` (colours) or `aov_value:`
     /// (numbers) and the name of the output; gives the first name that no pass has.
     pub fn set_passes(&mut self, names: &[String]) -> Result<(), String> {
