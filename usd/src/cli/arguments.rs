@@ -16,6 +16,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Render a USD stage to EXR, PNG or JPEG.
     Render(Box<RenderOptions>),
+    /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
+    Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
@@ -89,9 +91,8 @@ pub(super) enum ComplexityArgument {
 pub(super) struct RenderOptions {
     #[command(flatten)]
     pub(super) stage: StageArguments,
-    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
-    #[arg(long, short = 'o', value_name = "FILE")]
-    pub(super) output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) files: OutputArguments,
     /// Camera by name or path; without it the stage's own choice.
     #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
     pub(super) camera: Option<String>,
@@ -125,12 +126,6 @@ pub(super) struct RenderOptions {
     /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(super) aov: Vec<String>,
-    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub(super) exposure: f32,
-    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
-    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
-    pub(super) tonemap: String,
     /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(super) crop: Option<Vec<String>>,
@@ -149,9 +144,6 @@ pub(super) struct RenderOptions {
     /// Limit of an indirect sample's components in nits; 0 is off.
     #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
     pub(super) clamp_indirect: f32,
-    /// Half floats for the passes of EXR files that are not absolute.
-    #[arg(long)]
-    pub(super) half: bool,
     /// No neutral dome for stages without lights.
     #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
     pub(super) disable_camera_light: bool,
@@ -162,7 +154,56 @@ pub(super) struct RenderOptions {
     #[arg(long, short = 'q')]
     pub(super) quiet: bool,
     #[command(flatten)]
+    pub(super) checkpoint: CheckpointArguments,
+    #[command(flatten)]
     pub(super) daylight: DaylightArguments,
+}
+
+/// Files that pictures are written to.
+#[derive(Args, Clone, Debug)]
+pub(super) struct OutputArguments {
+    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(super) exposure: f32,
+    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
+    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
+    pub(super) tonemap: String,
+    /// Half floats for the passes of EXR files that are not absolute.
+    #[arg(long)]
+    pub(super) half: bool,
+}
+
+/// Renders that are interrupted, and parts of renders.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Checkpoints")]
+pub(super) struct CheckpointArguments {
+    /// Keep the sums so far in this file, from time to time and at the end; '####' or '$F4' stand for the frame number.
+    #[arg(long, value_name = "FILE")]
+    pub(super) checkpoint: Option<PathBuf>,
+    /// Seconds between checkpoints; where writing one takes long, at least twenty times as long as that.
+    #[arg(long = "checkpoint-every", value_name = "SECONDS", default_value_t = 60.0, requires = "checkpoint")]
+    pub(super) checkpoint_every: f64,
+    /// Go on with the checkpoint where there is one, to the same bits as without the interruption.
+    #[arg(long, requires = "checkpoint")]
+    pub(super) resume: bool,
+    /// Render a part of the samples, from the first to the one before the last number; 'gonio merge' joins the checkpoints of the parts.
+    #[arg(long, value_name = "FIRST:END")]
+    pub(super) samples: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct MergeArguments {
+    /// The checkpoints of the parts, in any order.
+    #[arg(required = true)]
+    pub(super) parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) files: OutputArguments,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(super) quiet: bool,
 }
 
 /// Sun and sky beside the stage's own lights.

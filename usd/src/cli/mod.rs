@@ -4,6 +4,7 @@ mod arguments;
 mod bench;
 mod bsdf;
 mod channel;
+mod checkpoint;
 mod compare;
 mod daylight;
 mod falsecolor;
@@ -13,6 +14,7 @@ mod frames;
 mod glare;
 mod info;
 mod measure;
+mod merge;
 mod output;
 mod photometry;
 mod progress;
@@ -44,6 +46,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     interrupt::install();
     let result = match parsed.command {
         Command::Render(options) => render::render(py, &options, &INTERRUPTED),
+        Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
         Command::Photometry(options) => photometry::photometry(&options),

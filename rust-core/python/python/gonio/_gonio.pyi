@@ -267,7 +267,14 @@ class Progress:
 
 @final
 class Render:
-    def __new__(cls, scene: Scene, previous: Render | None = None, *, cancelled: Callable[[], bool] | None = None) -> Render: ...
+    def __new__(
+        cls,
+        scene: Scene,
+        previous: Render | None = None,
+        *,
+        cancelled: Callable[[], bool] | None = None,
+        resume: str | PathLike[str] | None = None,
+    ) -> Render: ...
     def __enter__(self) -> Render: ...
     def __exit__(self, *_exception: type[BaseException] | BaseException | TracebackType | None) -> None: ...
     def __iter__(self) -> Iterator[Tile]: ...
@@ -279,6 +286,7 @@ class Render:
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def film(self) -> Film: ...
+    def checkpoint(self, path: str | PathLike[str]) -> None: ...
 
 @final
 class Scene:
@@ -385,6 +393,7 @@ class Scene:
         pixel_aspect: float | None = ...,
         crop: tuple[int, int, int, int] | None = ...,
         samples: int | None = ...,
+        sample_range: tuple[int, int] | None = ...,
         seed: int | None = ...,
         threads: int | None = ...,
         integrator: str | None = ...,
@@ -471,6 +480,7 @@ def artist_sky(
 ) -> tuple[Pass, list[float]]: ...
 def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
 def read_goniogram(data: bytes, name: str) -> tuple[dict[str, Any], list[str]]: ...
+def merge(paths: Sequence[str | PathLike[str]]) -> Film: ...
 def load_usd(
     path: str | PathLike[str],
     *,
