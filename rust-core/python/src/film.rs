@@ -34,10 +34,15 @@ impl Film {
         let [width, height] = self.image.size();
         (width, height)
     }
-    /// Samples a pixel.
+    /// Samples a pixel, the least of all.
     #[getter]
     fn samples(&self) -> u32 {
         self.image.samples
+    }
+    /// Samples a pixel in the mean.
+    #[getter]
+    fn mean_samples(&self) -> f64 {
+        self.image.mean_samples
     }
     /// Names of the passes.
     #[getter]

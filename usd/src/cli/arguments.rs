@@ -111,6 +111,12 @@ pub(super) struct RenderOptions {
     /// Samples a pixel.
     #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) spp: Option<u32>,
+    /// Stop sampling where the estimated noise is below this, on Cycles' scale: 0.01 is a clean picture, 0.1 a preview; 0 is off. --spp is the most that a pixel gets, the pass sample_count shows what it got.
+    #[arg(long = "noise-threshold", value_name = "ERROR", default_value_t = 0.0)]
+    pub(super) noise_threshold: f32,
+    /// Samples a pixel before its noise is estimated; 0 leaves it to the threshold (64 for 0.01).
+    #[arg(long = "min-spp", value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1 << 20))]
+    pub(super) min_spp: u32,
     /// Bounces after the first surface.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(super) max_bounces: Option<u32>,
@@ -130,7 +136,7 @@ pub(super) struct RenderOptions {
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(super) crop: Option<Vec<String>>,
     /// Stop after this many seconds, with whole passes over the picture.
-    #[arg(long = "time-limit", alias = "timelimit", value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long = "time-limit", aliases = ["timelimit", "time"], value_name = "SECONDS", default_value_t = 0.0)]
     pub(super) time_limit: f64,
     /// Seed of the random numbers.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]

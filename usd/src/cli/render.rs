@@ -156,6 +156,8 @@ impl Job<'_> {
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
         settings.sample_range = options.checkpoint.samples.as_deref().map(sample_range).transpose()?;
+        settings.noise_threshold = options.noise_threshold;
+        settings.min_samples = options.min_spp;
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
         settings.integrator = match options.integrator {
             IntegratorArgument::Path => Integrator::Path,
@@ -253,7 +255,12 @@ impl Job<'_> {
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
             let seconds = start.elapsed().as_secs_f64();
-            say(&format!("{} samples a pixel in {}, {:.1} Mrays/s", image.samples, clock(start.elapsed()), rays / seconds.max(1e-3)));
+            let samples = if image.mean_samples > f64::from(image.samples) {
+                format!("{} and more, {:.1} in the mean", image.samples, image.mean_samples)
+            } else {
+                image.samples.to_string()
+            };
+            say(&format!("{samples} samples a pixel in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
         }
         if result.is_err() {
             // The process ends next, which gives everything back at once; somebody waits.

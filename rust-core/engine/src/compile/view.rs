@@ -40,6 +40,10 @@ impl View {
             return Err(Error::Setting { name: "samples".into(), problem });
         }
         check_range(settings)?;
+        if !(settings.noise_threshold >= 0.0 && settings.noise_white >= 0.0 && settings.noise_white.is_finite()) {
+            let problem = format!("{} with white at {}, expected 0 or more", settings.noise_threshold, settings.noise_white);
+            return Err(Error::setting("noise_threshold", problem));
+        }
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
             problem: format!("the scene has {} cameras, number {} was asked for", scene.cameras.len(), settings.camera),
@@ -89,6 +93,8 @@ fn check_range(settings: &Settings) -> Result<()> {
         format!("the range {}:{} was found, expected a part of 0:{samples}", range.start, range.end)
     } else if [range.start, range.end].iter().any(|end| block_at(*end, samples).is_none()) {
         format!("the range {}:{} was found, expected ends at 0, 1, 2, 4, 8, a multiple of 16 or {samples}", range.start, range.end)
+    } else if settings.least_samples().is_some() && range != (0..samples) {
+        "a part of the samples cannot know which pixels have enough; leave out the noise threshold or the range".to_owned()
     } else {
         return Ok(());
     };

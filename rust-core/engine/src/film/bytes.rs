@@ -2,6 +2,7 @@
 
 use super::{
     Film, block_at,
+    noise::Halves,
     sums::Sums,
     tile::{TileFilm, ZONES},
 };
@@ -40,7 +41,8 @@ impl TileFilm {
         self.samples.iter().try_for_each(|samples| out.write_all(&samples.to_le_bytes()))?;
         [leading.len(), groups.len(), usize::from(!open.is_empty())].iter().try_for_each(|n| out.write_all(&(*n as u32).to_le_bytes()))?;
         leading.iter().try_for_each(|block| out.write_all(bytemuck::cast_slice(block)))?;
-        groups.iter().chain(Some(open)).try_for_each(|group| out.write_all(bytemuck::cast_slice(group)))
+        groups.iter().chain(Some(open)).try_for_each(|group| out.write_all(bytemuck::cast_slice(group)))?;
+        self.halves.as_ref().map_or(Ok(()), |halves| halves.write(out))
     }
 
     fn fill(&mut self, input: &mut impl Read, values: usize) -> Result<()> {
@@ -53,6 +55,9 @@ impl TileFilm {
         self.sums.leading = (0..leading).map(|_| array(input, values)).collect::<Result<_>>()?;
         self.sums.groups = (0..groups).map(|_| array(input, values)).collect::<Result<_>>()?;
         self.sums.open = if open == 0 { Vec::new() } else { array(input, values)? };
+        if let Some(halves) = &mut self.halves {
+            *halves = Halves::read(input)?;
+        }
         Ok(())
     }
 }

@@ -33,8 +33,10 @@ pub struct Image {
     pub window: Crop,
     /// The passes.
     pub layers: Vec<Layer>,
-    /// Samples a pixel, the least of all tiles.
+    /// Samples a pixel, the least of all.
     pub samples: u32,
+    /// Samples a pixel in the mean.
+    pub mean_samples: f64,
 }
 
 impl Image {
@@ -66,13 +68,15 @@ impl Film {
         let aovs: Vec<Aov> = layers.iter().map(|layer| layer.aov).collect();
         let bands = Mutex::new(self.bands(&mut layers, width));
         let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).min();
-        let least = std::thread::scope(|scope| {
+        let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).reduce(together);
+        let samples = std::thread::scope(|scope| {
             let others: Vec<_> = (1..available_threads()).map(|_| scope.spawn(work)).collect();
             let own = work();
-            others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).min()
+            others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).reduce(together)
         });
-        Image { resolution: self.resolution, window: self.window, layers, samples: least.unwrap_or(0) }
+        let (samples, total) = samples.unwrap_or((0, 0));
+        let mean_samples = total as f64 / (width * height).max(1) as f64;
+        Image { resolution: self.resolution, window: self.window, layers, samples, mean_samples }
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {
@@ -86,15 +90,16 @@ impl Film {
         bands
     }
 
-    /// Develops a row of tiles; gives the least number of samples of any.
-    fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> u32 {
-        let mut least = u32::MAX;
+    /// Develops a row of tiles; gives the least number of samples of any pixel, and those of all.
+    fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> (u32, u64) {
+        let (mut least, mut total) = (u32::MAX, 0);
         for tile in band.first_tile..band.first_tile + self.columns as usize {
             let area = self.tile_area(tile);
             let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
             let left = (area.min[0] - self.window.min[0]) as usize;
             self.read(tile, |film| {
                 least = least.min(film.least_samples());
+                total += film.total_samples();
                 let sums = film.sums.total(self.plan.rules());
                 if sums.is_empty() {
                     return;
@@ -109,7 +114,7 @@ impl Film {
                 }
             });
         }
-        least
+        (least, total)
     }
 
     fn develop_tile(&self, aov: Aov, tile: &Developing<'_>, part: &mut Part<'_>) {
@@ -167,6 +172,11 @@ impl Part<'_> {
     fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {
         self.for_each(|code, pixel| pixel.iter_mut().enumerate().for_each(|(channel, out)| *out = value(channel, code) as f32));
     }
+}
+
+/// The least and the sum of two parts' samples.
+fn together(a: (u32, u64), b: (u32, u64)) -> (u32, u64) {
+    (a.0.min(b.0), a.1 + b.1)
 }
 
 fn empty_layer(aov: Aov, name: &str, pixels: usize) -> Layer {

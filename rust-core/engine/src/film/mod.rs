@@ -6,6 +6,7 @@ mod catcher;
 mod channels;
 mod develop;
 mod filter;
+mod noise;
 mod sums;
 mod tile;
 
@@ -14,6 +15,7 @@ pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
 pub use filter::FilterTable;
+pub(crate) use noise::decides;
 pub use tile::{Block, TileFilm, TileState, ZONE, ZONES, zone_of};
 
 use crate::{
@@ -87,16 +89,22 @@ impl Film {
         self.read(tile, TileFilm::state)
     }
 
-    /// Adds a block to a tile; blocks that come early wait for those before them. `ready` is told the tile's samples when there are more,
-    /// in the order in which they came.
-    pub fn add(&self, tile: usize, number: u32, block: Block, ready: impl FnOnce(u32)) {
+    /// Adds a block to a tile, and gives what the tile is then; blocks that come early wait for those before them. `white` is the colour that is
+    /// shown as white, by which noise is measured. `ready` is told the tile's samples when there are more, in the order in which they came.
+    pub(crate) fn add(&self, tile: usize, number: u32, block: Block, white: f32, ready: impl FnOnce(u32)) -> TileState {
         let mut film = self.tile(tile);
         let before = film.state();
-        film.add(number, block, &self.plan);
+        film.add(number, block, &self.plan, white);
         let after = film.state();
         if after.next > before.next {
             ready(after.samples);
         }
+        after
+    }
+
+    /// Whether pixels may have enough samples before the end.
+    pub(crate) fn looks_at_noise(&self) -> bool {
+        self.plan.enough.is_some()
     }
 
     /// Whether all samples of the film's range are there.

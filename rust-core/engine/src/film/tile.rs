@@ -1,9 +1,10 @@
 //! A tile's sums.
 
 use super::{
-    ChannelLayout,
+    ChannelLayout, Film,
     blocks::{self, GROUP, block_at},
     catcher, is_index,
+    noise::{Halves, decides},
     sums::{Place, Rules, Sums},
 };
 use crate::{
@@ -30,6 +31,8 @@ pub struct Block {
     pub sums: Vec<f32>,
     /// A bit for each zone that was sampled.
     pub zones: u64,
+    /// Luminance of the colour; empty where nobody looks at the noise.
+    pub luminance: Vec<f32>,
 }
 
 /// Sums over all blocks so far.
@@ -39,11 +42,13 @@ pub struct TileFilm {
     pub samples: [u32; ZONES],
     /// The block that comes next.
     pub(super) next: u32,
-    /// Bits of the zones that have pixels.
-    inside: u64,
+    /// Pixels of each zone.
+    pixels: [u8; ZONES],
     /// Bits of the zones that go on.
     pub(super) zones: u64,
     pub(super) sums: Sums,
+    /// What tells the noise, if zones may have enough samples before the end.
+    pub(super) halves: Option<Halves>,
     waiting: BTreeMap<u32, Block>,
 }
 
@@ -65,6 +70,8 @@ pub(super) struct Plan {
     pub(super) range: Range<u32>,
     pub(super) samples: u32,
     pub(super) index_channels: Vec<usize>,
+    /// Error and least samples at which a zone has enough.
+    pub(super) enough: Option<(f32, u32)>,
 }
 
 impl Plan {
@@ -73,6 +80,7 @@ impl Plan {
             range: settings.range(),
             samples: settings.samples,
             index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
+            enough: settings.least_samples().map(|least| (settings.noise_threshold, least)),
         }
     }
 
@@ -98,21 +106,33 @@ impl Plan {
 impl TileFilm {
     /// An empty tile of so many pixels each way.
     pub(super) fn new(plan: &Plan, size: [usize; 2]) -> Self {
-        let corners = (0..size[1]).step_by(ZONE).flat_map(|y| (0..size[0]).step_by(ZONE).map(move |x| [x, y]));
-        let inside = corners.fold(0, |bits, corner| bits | 1 << zone_of(tile_code(corner)));
-        Self { samples: [0; ZONES], next: plan.first(), inside, zones: inside, sums: Sums::default(), waiting: BTreeMap::new() }
+        let mut pixels = [0; ZONES];
+        for y in (0..size[1]).step_by(ZONE) {
+            for x in (0..size[0]).step_by(ZONE) {
+                pixels[zone_of(tile_code([x, y]))] = ((size[0] - x).min(ZONE) * (size[1] - y).min(ZONE)) as u8;
+            }
+        }
+        let zones = (0..ZONES).filter(|zone| pixels[*zone] > 0).fold(0, |bits, zone| bits | 1 << zone);
+        let halves = plan.enough.map(|_| Halves::new());
+        Self { samples: [0; ZONES], next: plan.first(), pixels, zones, sums: Sums::default(), halves, waiting: BTreeMap::new() }
     }
 
-    /// Adds block `number`; one that comes early waits.
-    pub(super) fn add(&mut self, number: u32, block: Block, plan: &Plan) {
+    /// Adds block `number`; one that comes early waits. `white` is the value that is shown as white.
+    pub(super) fn add(&mut self, number: u32, block: Block, plan: &Plan, white: f32) {
         self.waiting.insert(number, block);
         while let Some(block) = self.waiting.remove(&self.next) {
-            self.add_now(block, plan);
+            self.add_now(block, plan, white);
         }
     }
 
-    fn add_now(&mut self, block: Block, plan: &Plan) {
+    fn add_now(&mut self, block: Block, plan: &Plan, white: f32) {
         let samples = blocks::block(self.next, plan.samples);
+        if let (Some(halves), Some((threshold, least))) = (&mut self.halves, plan.enough) {
+            halves.add(self.next, &block.luminance, samples.end - samples.start, block.zones);
+            if decides(samples.end, least) && samples.end < plan.range.end {
+                self.zones = halves.noisy(self.zones, &self.pixels, threshold, white);
+            }
+        }
         self.sums.add_block(Cow::Owned(block.sums), plan.place(&samples), plan.rules());
         self.count(samples.end - samples.start, block.zones);
         self.next += 1;
@@ -145,15 +165,20 @@ impl TileFilm {
 
     /// Samples a pixel, the least of all zones.
     pub fn least_samples(&self) -> u32 {
-        let inside = self.samples.iter().enumerate().filter(|(zone, _)| self.inside >> zone & 1 == 1);
-        inside.map(|(_, samples)| *samples).min().unwrap_or(0)
+        self.samples.iter().zip(self.pixels).filter(|(_, pixels)| *pixels > 0).map(|(samples, _)| *samples).min().unwrap_or(0)
+    }
+
+    /// Samples of all pixels together.
+    pub(super) fn total_samples(&self) -> u64 {
+        self.samples.iter().zip(self.pixels).map(|(samples, pixels)| u64::from(*samples) * u64::from(pixels)).sum()
     }
 }
 
 impl Block {
-    /// A block from what a worker gathered; positions are moved by `origin` back to world space, radiance is multiplied by `exposure`
-    /// in the colour pass alone.
-    pub fn new(layout: &ChannelLayout, gathered: &FirstHit, zones: u64, exposure: f32, origin: [f64; 3]) -> Self {
+    /// A block from what a worker gathered in some zones; positions are moved by `origin` back to world space, radiance is multiplied by
+    /// `exposure` in the colour pass alone.
+    pub(crate) fn new(film: &Film, gathered: &FirstHit, zones: u64, origin: [f64; 3]) -> Self {
+        let (layout, exposure) = (&film.layout, film.exposure);
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
             let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
@@ -162,13 +187,26 @@ impl Block {
         if let Some(first) = layout.catchers {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
-        Self { sums, zones }
+        let luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
+        Self { sums, zones, luminance }
     }
+}
+
+/// What a pixel's noise is measured by: the luminance of the colour, and of what shadow catchers send.
+fn shown_luminance(gathered: &FirstHit, layout: &ChannelLayout, exposure: f32) -> Vec<f32> {
+    let luminance = |i: usize| luminance(gathered, i);
+    let caught = |i: usize| if layout.catchers.is_some() { luminance(2 * BATCH + i) } else { 0.0 };
+    (0..BATCH).map(|i| (luminance(i) + caught(i)) * exposure).collect()
+}
+
+fn luminance(gathered: &FirstHit, slot: usize) -> f32 {
+    let [red, green, blue] = &gathered.radiance;
+    0.2126 * red[slot] + 0.7152 * green[slot] + 0.0722 * blue[slot]
 }
 
 fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
     let radiance = &gathered.radiance;
-    let luminance = |i: usize| 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
+    let luminance = |i: usize| luminance(gathered, i);
     match aov {
         Aov::Color => {
             for (c, out) in channels.chunks_exact_mut(BATCH).take(3).enumerate() {

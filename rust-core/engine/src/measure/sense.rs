@@ -82,6 +82,7 @@ pub(super) fn sense(
         resolution: table.resolution(),
         crop: None,
         sample_range: None,
+        noise_threshold: 0.0,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
         aovs: vec![Aov::Luminance, Aov::Illuminance],
         shader_passes: Vec::new(),

@@ -14,4 +14,4 @@ pub use exr::{Channels, ExrOptions, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS, short_number};
 pub use picture::{encode_png, write_picture};
 pub use tone_map::{ToneMap, display};
-pub(crate) use tone_map::{WHITE, map_lanes};
+pub(crate) use tone_map::{KEY, WHITE, map_lanes};

@@ -1,6 +1,7 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
 mod learn;
+mod meter;
 mod progress;
 mod schedule;
 mod source;
@@ -44,12 +45,21 @@ pub(crate) struct Shared {
     pub(crate) source: Source,
     pub(crate) settings: Settings,
     /// What the first worker learns.
-    pub(crate) known: OnceLock<Option<Arc<KnownLights>>>,
+    pub(crate) learned: OnceLock<Learned>,
     pub(crate) film: Film,
     pub(crate) schedule: Schedule,
     pub(crate) cancel: AtomicBool,
     pub(crate) failure: std::sync::Mutex<Option<String>>,
     pub(crate) statistics: std::sync::Mutex<Statistics>,
+}
+
+/// What small pictures of the view have told, which nobody sees.
+#[derive(Clone, Debug)]
+pub(crate) struct Learned {
+    /// Which lights arrive where.
+    pub(crate) known: Option<Arc<KnownLights>>,
+    /// The value of the colour pass that is shown as white.
+    pub(crate) white: f32,
 }
 
 impl Render {
@@ -76,13 +86,13 @@ impl Render {
 
     fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film) -> Self {
         let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
-        let schedule = Schedule::new(tiles, settings.range(), settings.samples, settings.time_limit_s);
+        let schedule = Schedule::new(tiles, settings);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let shared = Arc::new(Shared {
             scene,
             source,
             settings: settings.clone(),
-            known: OnceLock::new(),
+            learned: OnceLock::new(),
             film,
             schedule,
             cancel: AtomicBool::new(false),

@@ -1,10 +1,13 @@
 //! Which worker does what: all tiles' next blocks before any tile's next but one, so that a whole picture is there early.
 
 use super::Progress;
-use crate::film::{TileState, block};
+use crate::{
+    film::{TileState, block, decides},
+    scene::Settings,
+};
 use std::{
     cmp::Reverse,
-    collections::BinaryHeap,
+    collections::{BinaryHeap, HashMap},
     ops::Range,
     sync::{Condvar, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
@@ -37,8 +40,8 @@ pub(crate) struct Schedule {
     /// Samples of the whole render, and those that are wanted.
     samples: u32,
     range: Range<u32>,
-    /// Whether what comes after so many samples waits for a decision.
-    decides: fn(u32) -> bool,
+    /// Samples from which on what comes next may wait for a decision.
+    least: Option<u32>,
     queue: Mutex<Queue>,
     decided: Condvar,
     start: Instant,
@@ -51,8 +54,8 @@ pub(crate) struct Schedule {
 struct Queue {
     /// Next blocks and their tiles.
     next: BinaryHeap<Reverse<(u32, usize)>>,
-    /// Tiles that wait for a decision.
-    held: usize,
+    /// Tiles that wait for a decision, and the blocks that would come next.
+    held: HashMap<usize, u32>,
     /// The last block that any tile has started with.
     pass: Option<u32>,
     /// Samples that were traced, by tile.
@@ -60,10 +63,11 @@ struct Queue {
 }
 
 impl Schedule {
-    /// A schedule for samples `range` of `samples`, of which each tile has some.
-    pub(crate) fn new(tiles: impl Iterator<Item = TileState>, range: Range<u32>, samples: u32, time_limit_s: f64) -> Self {
+    /// A schedule for the samples that each tile does not have yet.
+    pub(crate) fn new(tiles: impl Iterator<Item = TileState>, settings: &Settings) -> Self {
+        let (range, samples, time_limit_s) = (settings.range(), settings.samples, settings.time_limit_s);
         let limit = (time_limit_s > 0.0).then(|| Duration::from_secs_f64(time_limit_s.min(1e9)));
-        let mut queue = Queue { next: BinaryHeap::new(), held: 0, pass: None, done: Vec::new() };
+        let mut queue = Queue { next: BinaryHeap::new(), held: HashMap::new(), pass: None, done: Vec::new() };
         for (tile, state) in tiles.enumerate() {
             let start = block(state.next, samples).start;
             if state.zones == 0 || start >= range.end {
@@ -74,7 +78,8 @@ impl Schedule {
             }
         }
         let before = queue.total_done();
-        Self { samples, range, decides: |_| false, queue: Mutex::new(queue), decided: Condvar::new(), start: Instant::now(), limit, before }
+        let (queue, decided) = (Mutex::new(queue), Condvar::new());
+        Self { samples, range, least: settings.least_samples(), queue, decided, start: Instant::now(), limit, before }
     }
 
     /// The next piece of work; waits while others may yet release some. `None` when there is none, the time is up, or the render cancelled.
@@ -95,14 +100,17 @@ impl Schedule {
                 }
                 queue.pass = queue.pass.max(Some(number));
                 let samples = block(number, self.samples);
-                if (self.decides)(samples.end) && samples.end < self.range.end {
-                    queue.held += 1;
-                } else if samples.end < self.range.end {
+                if samples.end >= self.range.end {
+                    return Some(Work { tile, block: number, samples });
+                }
+                if self.least.is_some_and(|least| decides(samples.end, least)) {
+                    queue.held.insert(tile, number + 1);
+                } else {
                     queue.next.push(Reverse((number + 1, tile)));
                 }
                 return Some(Work { tile, block: number, samples });
             }
-            if queue.held == 0 {
+            if queue.held.is_empty() {
                 return None;
             }
             queue = self.decided.wait_timeout(queue, WAIT).unwrap_or_else(PoisonError::into_inner).0;
@@ -112,6 +120,22 @@ impl Schedule {
     /// Counts what was traced.
     pub(crate) fn finished(&self, work: &Work) {
         self.queue().done[work.tile] += work.samples.end - work.samples.start;
+    }
+
+    /// Goes on with a tile that was waiting, or leaves it, once the film has all blocks before.
+    pub(crate) fn decided(&self, tile: usize, state: TileState) {
+        let mut queue = self.queue();
+        if queue.held.get(&tile) != Some(&state.next) {
+            return;
+        }
+        queue.held.remove(&tile);
+        if state.zones == 0 {
+            queue.done[tile] = self.range.end - self.range.start;
+        } else {
+            queue.next.push(Reverse((state.next, tile)));
+        }
+        drop(queue);
+        self.decided.notify_all();
     }
 
     pub(crate) fn progress(&self, rays: u64) -> Progress {
@@ -145,7 +169,7 @@ impl Queue {
     /// Hands out nothing more.
     fn end(&mut self) {
         self.next.clear();
-        self.held = 0;
+        self.held.clear();
     }
 }
 
@@ -157,20 +181,21 @@ mod tests {
         std::iter::from_fn(|| schedule.take(&|| false)).collect()
     }
 
-    fn tiles(next: &[u32]) -> impl Iterator<Item = TileState> {
-        next.iter().map(|next| TileState { next: *next, samples: 0, zones: 1 })
+    fn schedule(next: &[u32], samples: u32, range: Option<[u32; 2]>, noise_threshold: f32) -> Schedule {
+        let tiles = next.iter().map(|next| TileState { next: *next, samples: 0, zones: 1 });
+        Schedule::new(tiles, &Settings { samples, sample_range: range, noise_threshold, ..Settings::default() })
     }
 
     #[test]
     fn work_is_handed_out_once_and_in_order() {
-        let work = all(&Schedule::new(tiles(&[0, 0, 0]), 0..4, 4, 0.0));
+        let work = all(&schedule(&[0, 0, 0], 4, None, 0.0));
         assert_eq!(work.len(), 9);
         assert_eq!(work[3], Work { tile: 0, block: 1, samples: 1..2 });
     }
 
     #[test]
     fn tiles_that_are_behind_come_first() {
-        let schedule = Schedule::new(tiles(&[3, 1, 4]), 0..8, 8, 0.0);
+        let schedule = schedule(&[3, 1, 4], 8, None, 0.0);
         assert_eq!(schedule.progress(0).fraction, 13.0 / 24.0);
         let order: Vec<_> = all(&schedule).iter().map(|work| (work.block, work.tile)).collect();
         assert_eq!(order, [(1, 1), (2, 1), (3, 0), (3, 1)]);
@@ -178,7 +203,23 @@ mod tests {
 
     #[test]
     fn a_range_starts_and_ends_where_it_is_told() {
-        let work = all(&Schedule::new(tiles(&[5]), 16..48, 100, 0.0));
+        let work = all(&schedule(&[5], 100, Some([16, 48]), 0.0));
         assert_eq!(work.iter().map(|work| work.samples.clone()).collect::<Vec<_>>(), [16..32, 32..48]);
+    }
+
+    #[test]
+    fn tiles_wait_for_decisions() {
+        // Decisions from 32 samples on, which is the end of block 5.
+        let schedule = schedule(&[5, 5], 128, None, 0.1);
+        let state = |next, zones| TileState { next, samples: 0, zones };
+        for _ in 0..2 {
+            assert!(schedule.take(&|| false).is_some());
+        }
+        schedule.decided(0, state(5, 1));
+        schedule.decided(1, state(6, 0));
+        schedule.decided(0, state(6, 1));
+        assert_eq!(schedule.take(&|| false).map(|work| (work.block, work.tile)), Some((6, 0)));
+        schedule.decided(0, state(7, 0));
+        assert_eq!(schedule.take(&|| false), None);
     }
 }

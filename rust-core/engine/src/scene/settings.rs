@@ -206,6 +206,15 @@ pub struct Settings {
     /// Which of them are rendered, `[first, behind the last]`; `None` is all. Ranges start and end where blocks of samples do.
     #[serde(default)]
     pub sample_range: Option<[u32; 2]>,
+    /// Estimated error of 8 × 8 pixels, relative to what is shown, at which they have enough samples; 0 is off. On Cycles' scale.
+    #[serde(default)]
+    pub noise_threshold: f32,
+    /// Samples before any estimate; 0 leaves it to the threshold.
+    #[serde(default)]
+    pub min_samples: u32,
+    /// Value of the colour pass that is shown as white, for the estimate; 0 takes it from a small picture of the view.
+    #[serde(default)]
+    pub noise_white: f32,
     /// Seed of the random numbers.
     pub seed: u32,
     /// The light transport.
@@ -254,6 +263,9 @@ impl Default for Settings {
             camera: 0,
             samples: 64,
             sample_range: None,
+            noise_threshold: 0.0,
+            min_samples: 0,
+            noise_white: 0.0,
             seed: 0,
             integrator: Integrator::Path,
             max_bounces: 12,
@@ -276,6 +288,12 @@ impl Settings {
     /// The samples that are rendered.
     pub fn range(&self) -> Range<u32> {
         self.sample_range.map_or(0..self.samples, |[first, end]| first..end)
+    }
+    /// Samples before the noise is looked at; `None` where it never is. Left to the threshold it is Cycles' choice: 64 for 0.01, 32 for 0.1.
+    pub fn least_samples(&self) -> Option<u32> {
+        let by_threshold = || (16.0 / self.noise_threshold.powf(0.3)).ceil() as u32;
+        let wanted = if self.min_samples > 0 { self.min_samples } else { by_threshold() };
+        (self.noise_threshold > 0.0).then_some(wanted.max(4))
     }
     /// Sets the passes by their names, in any case of letters but for shader passes, which are called `aov:` (colours) or `aov_value:`
     /// (numbers) and the name of the output; gives the first name that no pass has.

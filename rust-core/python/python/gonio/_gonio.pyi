@@ -233,6 +233,8 @@ class Film:
     @property
     def samples(self) -> int: ...
     @property
+    def mean_samples(self) -> float: ...
+    @property
     def passes(self) -> list[str]: ...
     def __getitem__(self, name: str, /) -> Pass: ...
     def read(self, name: str, *, scale: float = 1.0, bottom_up: bool = False) -> Pass: ...
@@ -394,6 +396,9 @@ class Scene:
         crop: tuple[int, int, int, int] | None = ...,
         samples: int | None = ...,
         sample_range: tuple[int, int] | None = ...,
+        noise_threshold: float | None = ...,
+        min_samples: int | None = ...,
+        noise_white: float | None = ...,
         seed: int | None = ...,
         threads: int | None = ...,
         integrator: str | None = ...,
