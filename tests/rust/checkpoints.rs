@@ -116,7 +116,8 @@ fn what_does_not_belong_together_is_refused() {
     keep_part(&scene, [0, 16], &first);
     keep_part(&scene, [16, 32], &middle);
     keep_part(&scene, [32, 64], &last);
-    let refusal = |paths: &[&PathBuf]| merge(&paths.iter().map(|path| (*path).clone()).collect::<Vec<_>>()).expect_err("refused").to_string();
+    let refusal =
+        |paths: &[&PathBuf]| merge(&paths.iter().map(|path| (*path).clone()).collect::<Vec<_>>()).expect_err("refused").to_string();
     assert!(refusal(&[&first, &last]).contains("samples 16:32 are missing"));
     assert!(refusal(&[&first, &middle, &middle]).contains("samples 16:32 are there twice"));
     let resume = |change: &dyn Fn(&mut Scene)| {

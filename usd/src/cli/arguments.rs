@@ -180,6 +180,9 @@ pub(super) struct OutputArguments {
     /// Half floats for the passes of EXR files that are not absolute.
     #[arg(long)]
     pub(super) half: bool,
+    /// Take the noise out of the colour with Intel's Open Image Denoise (pip install 'gonio[denoise]'); other passes stay as they were rendered.
+    #[arg(long)]
+    pub(super) denoise: bool,
 }
 
 /// Renders that are interrupted, and parts of renders.

@@ -20,6 +20,8 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
         say(&format!("{} parts, samples {}:{} of {}", options.parts.len(), range.start, range.end, whole.identity.settings.samples));
     }
     let notes = Notes { exposure: whole.identity.exposure, interrupted: false, attributes: &whole.identity.notes };
-    writer.write_all(&options.files.output, &whole.film.develop(), &notes, options.quiet)?;
+    let mut image = whole.film.develop();
+    writer.finish(&mut image)?;
+    writer.write_all(&options.files.output, &image, &notes, options.quiet)?;
     Ok(0)
 }

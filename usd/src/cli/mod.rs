@@ -7,6 +7,7 @@ mod channel;
 mod checkpoint;
 mod compare;
 mod daylight;
+mod denoise;
 mod falsecolor;
 mod file;
 mod file_name;

@@ -1,10 +1,11 @@
 //! Writing a picture under the names asked for.
 
-use super::{arguments::OutputArguments, print};
+use super::{arguments::OutputArguments, denoise::Denoiser, print};
 use gonio::{
     Error, Result,
     film::Image,
     output::{ExrOptions, ToneMap, write_exr, write_picture},
+    scene::{Aov, Settings},
 };
 use gonio_simd::Execution;
 use std::path::{Path, PathBuf};
@@ -21,11 +22,12 @@ pub(super) struct Notes<'a> {
 }
 
 /// What file names and options say about writing.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Writer {
     tone_map: ToneMap,
     stops: f32,
     half: bool,
+    denoiser: Option<Denoiser>,
     execution: Execution,
 }
 
@@ -45,7 +47,18 @@ impl Writer {
                 std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
             }
         }
-        Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, execution })
+        let denoiser = options.denoise.then(Denoiser::new).transpose()?;
+        Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, denoiser, execution })
+    }
+
+    /// Asks for the passes that writing needs; gives those that no file shows.
+    pub(super) fn ask_for_passes(&self, settings: &mut Settings) -> Vec<Aov> {
+        if self.denoiser.is_some() { Denoiser::ask_for_guides(settings) } else { Vec::new() }
+    }
+
+    /// Denoises a picture, if that was asked for.
+    pub(super) fn finish(&self, image: &mut Image) -> Result<()> {
+        self.denoiser.as_ref().map_or(Ok(()), |denoiser| denoiser.run(image))
     }
 
     /// Writes all files at once: the wait is that for the slowest.

@@ -5,6 +5,7 @@ use super::{
     checkpoint::{Keeper, sample_range},
     daylight, file_name, frames, list,
     output::{Notes, Writer},
+    print,
     progress::{Reporter, clock},
     say,
 };
@@ -69,7 +70,12 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
 fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
     let Some(text) = &options.frames else { return Ok(vec![None]) };
     let frames = frames::parse(text)?;
-    let mut files = options.files.output.iter().map(|path| ("output", path)).chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
+    let mut files = options
+        .files
+        .output
+        .iter()
+        .map(|path| ("output", path))
+        .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
     if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !file_name::has_frame(path))) {
         return Err(Error::Setting {
             name: name.into(),
@@ -128,10 +134,11 @@ impl Job<'_> {
         }
         daylight::add(&self.options.daylight, &mut loaded, self.options.quiet)?;
         self.apply_settings(&mut loaded)?;
+        let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;
         self.tell_sizes(&compiled);
-        self.trace(&loaded.scene, &compiled)?;
+        self.trace(&loaded.scene, &compiled, &hidden)?;
         Ok(compiled)
     }
 
@@ -215,8 +222,8 @@ impl Job<'_> {
         }
     }
 
-    /// Renders and writes; an interrupted render leaves the picture so far.
-    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>) -> Result<()> {
+    /// Renders and writes but for the passes `hidden`; an interrupted render leaves the picture so far.
+    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>, hidden: &[Aov]) -> Result<()> {
         let start = Instant::now();
         let mut keeper = self.keeper(scene)?;
         let film = keeper.as_ref().map_or(Ok(None), Keeper::film)?;
@@ -248,7 +255,11 @@ impl Job<'_> {
         if let Some(keeper) = &mut keeper {
             keeper.keep(render.film())?;
         }
-        let image = render.film().develop();
+        let mut image = render.film().develop();
+        if result.is_ok() {
+            self.writer.finish(&mut image)?;
+        }
+        image.layers.retain(|layer| !hidden.contains(&layer.aov));
         if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
             self.write(scene, &image, result.is_err())?;
         }

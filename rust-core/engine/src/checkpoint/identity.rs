@@ -72,7 +72,8 @@ impl Identity {
 
     /// The first setting that another render has otherwise.
     fn different_setting(&self, other: &Settings, harmless: &[&str]) -> Option<String> {
-        let object = |settings: &Settings| serde_json::to_value(settings).ok().and_then(|value| value.as_object().cloned()).unwrap_or_default();
+        let object =
+            |settings: &Settings| serde_json::to_value(settings).ok().and_then(|value| value.as_object().cloned()).unwrap_or_default();
         let (wanted, found) = (object(&self.settings), object(other));
         let different = |(name, _): &(&String, &serde_json::Value)| {
             found.get(*name) != wanted.get(*name) && ![&HARMLESS, harmless].concat().contains(&name.as_str())

@@ -18,7 +18,8 @@ pub fn merge(parts: &[PathBuf]) -> Result<Checkpoint> {
         check_complete(path, &part)?;
         let (end, start) = (whole.film.range().end, part.film.range().start);
         if start != end {
-            let what = if start > end { format!("samples {end}:{start} are missing") } else { format!("samples {start}:{end} are there twice") };
+            let what =
+                if start > end { format!("samples {end}:{start} are missing") } else { format!("samples {start}:{end} are there twice") };
             return Err(Error::Format { path: path.clone(), line: None, problem: format!("its samples start at {start}: {what}") });
         }
         whole.film.join(part.film);

@@ -8,16 +8,16 @@ const MOST: u32 = 16;
 const SHORTER: u32 = 5;
 
 /// Samples of a group of blocks. Groups are summed by themselves, so that a run of samples that starts with a group needs no blocks from before it.
-pub const GROUP: u32 = 256;
+pub(super) const GROUP: u32 = 256;
 
 /// The samples of a block of a render that has so many a pixel; empty behind its last block.
-pub fn block(number: u32, samples: u32) -> Range<u32> {
+pub(crate) fn block(number: u32, samples: u32) -> Range<u32> {
     let [start, end] = [number, number.saturating_add(1)].map(|number| start(number).min(samples));
     start..end
 }
 
 /// The block that starts with a sample, or the number of blocks where the sample is the end of the render; `None` where a block would be cut.
-pub fn block_at(sample: u32, samples: u32) -> Option<u32> {
+pub(crate) fn block_at(sample: u32, samples: u32) -> Option<u32> {
     let number = match sample {
         0 => 0,
         1..=MOST => sample.ilog2() + 1,

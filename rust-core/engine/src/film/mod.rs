@@ -54,7 +54,8 @@ impl Film {
         let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let plan = Plan::new(settings, &layout);
-        let mut film = Self { resolution: settings.resolution, window, layout, names, exposure, plan, tiles: Vec::new(), columns: across(0) };
+        let mut film =
+            Self { resolution: settings.resolution, window, layout, names, exposure, plan, tiles: Vec::new(), columns: across(0) };
         let tile = |tile| Mutex::new(TileFilm::new(&film.plan, film.tile_size(tile)));
         film.tiles = (0..(across(0) * across(1)) as usize).map(tile).collect();
         film

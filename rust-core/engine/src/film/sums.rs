@@ -58,11 +58,6 @@ pub(super) enum Place {
 }
 
 impl Sums {
-    /// Whether nothing was added.
-    pub(super) fn is_empty(&self) -> bool {
-        self.leading.is_empty() && self.groups.is_empty() && self.open.is_empty()
-    }
-
     /// Adds a block.
     pub(super) fn add_block(&mut self, block: Cow<'_, [f32]>, place: Place, rules: Rules<'_>) {
         if matches!(place, Place::Leading) {

@@ -34,6 +34,7 @@ from ._gonio import (
     read_weather,
     simd_level,
 )
+from .oidn import denoise
 
 __all__ = [
     "Array",
@@ -60,6 +61,7 @@ __all__ = [
     "__version__",
     "artist_sky",
     "daylight",
+    "denoise",
     "false_colour",
     "glare",
     "load_usd",
