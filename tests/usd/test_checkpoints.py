@@ -1,5 +1,6 @@
 """Checkpoints, parts of renders and noise thresholds on the command line: the bits of one undisturbed render, or one clear line."""
 
+import os
 import random
 import subprocess
 import time
@@ -128,3 +129,22 @@ def test_kills_do_not_change_a_bit(run, command, room, tmp_path):
 @pytest.mark.timeout(1800)
 def test_fifty_kills_do_not_change_a_bit(run, command, room, tmp_path):
     kill_often(run, command, room, tmp_path, 5, 5)
+
+
+def test_denoising_on_the_command_line(run, room, tmp_path):
+    pytest.importorskip("pyoidn")
+    for name, options in (("raw", ()), ("clean", ("--denoise",))):
+        assert run(*line(room, "-o", tmp_path / f"{name}.exr", *options, spp=4)).returncode == 0
+    raw, clean = pictures.read(tmp_path / "raw.exr"), pictures.read(tmp_path / "clean.exr")
+    assert raw.channels.keys() == clean.channels.keys()
+    changed = {name for name in raw.channels if not np.array_equal(raw[name], clean[name])}
+    assert changed == {"R", "G", "B"}
+    rough = lambda image: np.abs(np.diff(image.rgb, axis=0)).mean()  # noqa: E731
+    assert rough(clean) < 0.8 * rough(raw)
+
+
+def test_denoising_without_the_extra_is_one_line(run, room, tmp_path):
+    (tmp_path / "pyoidn.py").write_text("raise ImportError('no such thing')\n")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])}
+    done = run(*line(room, "-o", tmp_path / "a.exr", "--denoise", spp=1), env=environment)
+    assert "pip install 'gonio[denoise]'" in fails(done)
