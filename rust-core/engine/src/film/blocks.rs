@@ -20,7 +20,7 @@ pub(crate) fn block(number: u32, samples: u32) -> Range<u32> {
 pub(crate) fn block_at(sample: u32, samples: u32) -> Option<u32> {
     let number = match sample {
         0 => 0,
-        1..=MOST => sample.ilog2() + 1,
+        1..=MOST => sample.next_power_of_two().ilog2() + 1,
         _ => sample.div_ceil(MOST) + SHORTER - 1,
     };
     (sample == samples || start(number) == sample).then_some(number)
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn blocks_cover_all_samples_once() {
-        for samples in [1, 2, 3, 17, 64, 1000] {
+        for samples in (1..40).chain([64, 1000]) {
             let blocks: Vec<_> = (0..).map(|number| block(number, samples)).take_while(|block| !block.is_empty()).collect();
             assert_eq!(blocks.iter().map(|b| b.end - b.start).sum::<u32>(), samples);
             assert!(blocks.windows(2).all(|pair| pair[0].end == pair[1].start));

@@ -112,9 +112,9 @@ mod tests {
 
     #[test]
     fn the_error_is_that_of_the_mean() {
-        // 256 samples of deviation 0.4 about 0.08: the mean's is 0.025, shown 3 · 0.025 / sqrt(3 · 0.08).
-        let halves = halves(0.08, 0.4, 16);
-        let exact = 3.0 * 0.025 / (DARK + 0.24_f64.sqrt());
+        // 256 samples of deviation 0.1 about 0.08: the mean's is 0.00625, shown 3 · 0.00625 / sqrt(3 · 0.08).
+        let halves = halves(0.08, 0.1, 16);
+        let exact = 3.0 * 0.00625 / (DARK + 0.24_f64.sqrt());
         let mean = (0..ZONES).map(|zone| halves.error(zone, 64, 1.0)).sum::<f64>() / ZONES as f64;
         // 4096 pixels: one per cent is the standard error of their mean square's root.
         assert!((mean / exact - 1.0).abs() < 0.04, "{mean} instead of {exact}");

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 from ._gonio import Film, UnsupportedError
@@ -16,8 +17,7 @@ GUIDES = ("denoising_albedo", "denoising_normal")
 def require() -> Any:
     """The package pyoidn; `gonio.UnsupportedError` with the remedy where it is absent or cannot be loaded."""
     try:
-        import pyoidn
-
+        pyoidn = importlib.import_module("pyoidn")
         # The library is loaded by the first call.
         with pyoidn.Device():
             return pyoidn
@@ -48,13 +48,15 @@ def denoised_bytes(width: int, height: int, color: bytes, albedo: bytes | None, 
 
 
 def _denoised(color: numpy.ndarray, albedo: numpy.ndarray | None, normal: numpy.ndarray | None) -> numpy.ndarray:
-    pyoidn = require()
-    guides: dict[str, Any] = {name: _prefiltered(pyoidn, name, image) for name, image in (("albedo", albedo), ("normal", normal)) if image is not None}
-    if "albedo" not in guides:
-        # The filter takes normals beside albedo only.
-        guides = {}
     import numpy
 
+    pyoidn = require()
+    guides: dict[str, Any] = {}
+    if albedo is not None:
+        guides["albedo"] = _prefiltered(pyoidn, "albedo", albedo)
+        # The filter takes normals beside albedo only.
+        if normal is not None:
+            guides["normal"] = _prefiltered(pyoidn, "normal", normal)
     return pyoidn.denoise(numpy.ascontiguousarray(color, numpy.float32), hdr=True, clean_aux=bool(guides), **guides)
 
 
