@@ -70,21 +70,23 @@ def test_a_noise_threshold_ends_quiet_zones():
     assert film.samples == counts.min() and film.mean_samples == pytest.approx(counts.mean())
     assert 16 <= counts.min() and counts.mean() < 400
     uniform = finished(floor_scene(width=64, height=64, samples=512, passes=PASSES))
-    assert np.asarray(film["color"]).mean() == pytest.approx(np.asarray(uniform["color"]).mean(), rel=5e-3)
+    assert np.asarray(film["illuminance"]).mean() == pytest.approx(np.asarray(uniform["illuminance"]).mean(), rel=5e-3)
     with pytest.raises(gonio.SettingError, match="noise threshold"):
         gonio.Render(floor_scene(noise_threshold=0.1, sample_range=(0, 2)))
 
 
-def test_denoising_brings_a_picture_nearer():
+def test_denoising_takes_noise_out():
     pytest.importorskip("pyoidn")
-    guides = ["color", "illuminance", "denoising_albedo", "denoising_normal"]
-    exact = np.asarray(finished(floor_scene(samples=1024, width=96, height=96))["color"])
-    noisy = finished(floor_scene(samples=4, width=96, height=96, passes=guides))
+    exact = finished(floor_scene(samples=64, width=96, height=96, passes=["color", "illuminance", "denoising_albedo", "denoising_normal"]))
+    color = np.array(exact["color"])
+    color[..., :3] *= np.random.default_rng(3).gamma(4.0, 0.25, (96, 96, 1)).astype("f4")
+    noisy = exact.with_pass("color", color)
     film = gonio.denoise(noisy)
-    error = {name: np.abs(np.asarray(each["color"]) - exact)[..., :3].mean() for name, each in (("noisy", noisy), ("denoised", film))}
-    assert error["denoised"] < error["noisy"]
-    assert all(np.array_equal(film[name], noisy[name]) for name in guides[1:])
-    assert np.array_equal(np.asarray(film["color"])[..., 3], np.asarray(noisy["color"])[..., 3])
+    # The median leaves the lamp's own pixels out.
+    error = lambda each: np.median(np.abs(np.asarray(each["color"]) - np.asarray(exact["color"]))[..., :3])  # noqa: E731
+    assert error(film) < 0.3 * error(noisy)
+    assert all(np.array_equal(film[name], noisy[name]) for name in film.passes if name != "color")
+    assert np.array_equal(np.asarray(film["color"])[..., 3], color[..., 3])
 
 
 def test_denoising_without_the_extra_says_how_to_get_it(monkeypatch):
