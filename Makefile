@@ -1,4 +1,5 @@
-# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make compare-cycles`, `make bench`, `make bench-peers`.
+# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make bench`,
+# `make bench-peers`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -11,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt goniogram weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build render extension test test-rust test-python test-blender lint compare-cycles validate bench bench-peers clean
+.PHONY: fuzz build render extension test test-rust test-python test-blender lint compare-cycles validation validate bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -68,14 +69,22 @@ compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
 	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
 	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/blender/compare_cycles -m validate
 
+# Light against closed forms and independent integrals; docs/validation.md is written of what was measured, whether it holds or not.
+validation: extension $(CURDIR)/.venv-bpy50/ready
+	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
+	rm -rf out/validation
+	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/blender/test_lumens.py -m validate; \
+	    held=$$?; $(BIN)/python tests/validate/lighting/page.py && exit $$held
+
 # Every reader of untrusted files, ten minutes each.
 fuzz:
 	cargo build --release --quiet -p gonio-formats --example fuzz
 	for reader in $(FUZZED); do cargo run --release --quiet -p gonio-formats --example fuzz -- $$reader 600 || exit 1; done
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
-validate: test-blender compare-cycles fuzz
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 --ignore tests/blender/compare_cycles
+validate: test-blender compare-cycles validation fuzz
+	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
+	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/blender/test_lumens.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 # Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.

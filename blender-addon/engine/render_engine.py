@@ -37,6 +37,7 @@ class GonioRenderEngine(bpy.types.RenderEngine):
         viewport, self.viewport = self.viewport, None
         if viewport is not None:
             viewport.close()
+            self.drawing.close()
         if hasattr(super(), "__del__"):
             super().__del__()
 
@@ -87,7 +88,7 @@ class GonioRenderEngine(bpy.types.RenderEngine):
             session.look(depsgraph, context.space_data, context.region_data, region.width, region.height, pixel_size)
             session.advance(depsgraph)
             if session.picture is not None:
-                self.drawing.draw(self, depsgraph.scene, session.picture, region.width, region.height)
+                self.drawing.draw(self, context, depsgraph.scene, session.picture)
             self.update_stats("", session.status)
 
     def _viewport(self) -> ViewportSession:

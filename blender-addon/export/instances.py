@@ -23,6 +23,7 @@ class Entry:
     name: str
     visibility: dict
     pass_index: int
+    light_group: str
     wanted: frozenset
     transforms: np.ndarray
     values: dict
@@ -35,6 +36,7 @@ class Entry:
             and self.name == other.name
             and self.visibility == other.visibility
             and self.pass_index == other.pass_index
+            and self.light_group == other.light_group
             and _same(self.transforms, other.transforms)
             and self.values.keys() == other.values.keys()
             and all(_same(self.values[name], other.values[name]) for name in self.values)
@@ -64,7 +66,8 @@ class Instances:
             if group.kept is not None and not self._leave_out(group):
                 continue
             values = _values(group, wanted) if wanted else NO_VALUES
-            self._put(number, Entry(mesh, materials, group.name, group.visibility, group.pass_index, wanted, group.matrices, values))
+            of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
+            self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
             number += 1
         if number < len(self._written):
             self.any_written = True
@@ -120,6 +123,7 @@ class Instances:
             visibility=entry.visibility,
             primvars=entry.values or None,
             pass_index=entry.pass_index,
+            light_group=entry.light_group,
             index=number if known else None,
         )
         if known:

@@ -5,8 +5,10 @@ from math import degrees, hypot, pi, sin
 
 import numpy as np
 
+from .. import luminaire
 from ..units import LUMENS_PER_WATT
 from . import goniogram  # noqa: F401 (it registers its node)
+from . import photometry
 from .material.closures import flatten
 from .material.sockets import active_output, input_socket
 from .material.translator import Translator
@@ -17,10 +19,11 @@ from .visibility import RAYS
 def describe(group, matrix, images, report):
     """The description of one lamp at one place."""
     lamp = group.data
-    strength, distribution = _strength(lamp, images, report)
+    colour, distribution = _colour(lamp, images, report)
+    strength = colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
-    return {
+    description = {
         "origin": {"name": group.name, "file": ""},
         "shape": shape,
         "emission": {
@@ -37,19 +40,24 @@ def describe(group, matrix, images, report):
         "spread_deg": 180.0,
         "portal": False,
         "goniogram": distribution,
+        "group": group.source.lightgroup,
         **extra,
     }
+    # A portal gives no light of its own.
+    if luminaire.is_photometric(lamp) and not description["portal"]:
+        photometry.apply(description, lamp, colour, matrix, report)
+    return description
 
 
-def _strength(lamp, images, report):
-    """The lamp's colour in W or W/m²: its own, of its temperature, and of its nodes; and its goniogram."""
-    strength = np.array(lamp.color, dtype=float) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
+def _colour(lamp, images, report):
+    """The lamp's colour: its own, of its temperature, and of its nodes; and its goniogram."""
+    colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
-        strength = strength * np.array(lamp.temperature_color, dtype=float)
+        colour = colour * np.array(lamp.temperature_color, dtype=float)
     if lamp.use_nodes and lamp.node_tree is not None:
-        colour, distribution = _nodes_colour(lamp, images, report)
-        return strength * colour, distribution
-    return strength, None
+        by_nodes, distribution = _nodes_colour(lamp, images, report)
+        return colour * by_nodes, distribution
+    return colour, None
 
 
 def _nodes_colour(lamp, images, report):

@@ -24,6 +24,8 @@ class Visibility:
             "transmission": thing.visible_transmission,
             "shadow": thing.visible_shadow,
         }
+        if thing.gonio.is_grid and thing.gonio.is_grid_only:
+            return dict.fromkeys(RAYS, False)
         if self._any_indirect and thing.indirect_only_get(view_layer=self._layer):
             seen["camera"] = False
         if thing.is_holdout or (self._any_holdout and thing.holdout_get(view_layer=self._layer)):

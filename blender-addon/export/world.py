@@ -101,8 +101,13 @@ def _uses_nodes(world):
 
 
 def _with_visibility(world, descriptions):
-    """Takes Cycles' ray switches of the world over."""
+    """Takes Cycles' ray switches of the world over, and its light group and its luminance."""
     switches = getattr(world, "cycles_visibility", None)
+    settings = world.gonio
+    for dome in descriptions:
+        dome["group"] = world.lightgroup
+        if settings.use_luminance and not settings.use_daylight:
+            dome["emission"]["radiance"] = [x * settings.luminance / LUMENS_PER_WATT for x in dome["emission"]["radiance"]]
     for dome in descriptions if switches is not None else ():
         for ray in ("camera", "diffuse", "glossy", "transmission"):
             dome["visibility"][ray] &= bool(getattr(switches, ray, True))

@@ -3,18 +3,30 @@
 
 import bpy
 
+from .. import measuring
 from .denoise import GONIO_OT_add_denoise_node
 from .from_cycles import GONIO_OT_settings_from_cycles
+from .measure_grids import GONIO_OT_measure_grids
+from .point_meter import GONIO_OT_point_meter
 from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
 
-CLASSES = (GONIO_OT_settings_from_cycles, GONIO_OT_add_denoise_node, GONIO_OT_report_jump, GONIO_OT_report_copy)
+CLASSES = (
+    GONIO_OT_settings_from_cycles,
+    GONIO_OT_add_denoise_node,
+    GONIO_OT_measure_grids,
+    GONIO_OT_point_meter,
+    GONIO_OT_report_jump,
+    GONIO_OT_report_copy,
+)
 
 
 def register() -> None:
     for kind in CLASSES:
         bpy.utils.register_class(kind)
+    measuring.register()
 
 
 def unregister() -> None:
+    measuring.unregister()
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings that live in the .blend file: `scene.gonio`, `view_layer.gonio`, `light.gonio`, `world.gonio`."""
+"""Settings that live in the .blend file: `scene.gonio`, `view_layer.gonio`, `object.gonio`, `light.gonio`, `world.gonio`."""
 
 import bpy
 
-from . import light, scene, view_layer, world
+from . import light, object, scene, view_layer, world
 
 OWNERS = (
     (bpy.types.Scene, scene.GonioSceneSettings),
     (bpy.types.ViewLayer, view_layer.GonioViewLayerSettings),
+    (bpy.types.Object, object.GonioObjectSettings),
     (bpy.types.Light, light.GonioLightSettings),
     (bpy.types.World, world.GonioWorldSettings),
 )

@@ -92,6 +92,10 @@ def _whole(name, description, default, low, high):
 class GonioWorldSettings(bpy.types.PropertyGroup):
     """Settings of one world."""
 
+    use_luminance: switch(
+        "Luminance", "State in cd/m² how bright the background is, whose picture and strength then are factors on it", tag_data
+    )
+    luminance: _number("Luminance", "Luminance in cd/m² of a background of strength 1, white where there is no picture", 1000.0, 0.0, 1e9)
     use_daylight: switch(
         "Daylight", "Light the scene by sun and sky of a place and a time, in lux, in the place of the world's nodes", tag_data
     )

@@ -81,6 +81,9 @@ def enabled_passes(layer) -> Iterator[Pass]:
     for switch, kinds in _OWN_PASSES.items():
         if getattr(layer.gonio, switch):
             yield from kinds
+    for group in layer.lightgroups:
+        # The name that Cycles gives the pass too.
+        yield Pass(f"Combined_{group.name}", "RGB", "COLOR", f"lightgroup:{group.name}", Scale.RADIANCE)
     for aov in _shader_aovs(layer):
         if aov.type == "VALUE":
             yield Pass(aov.name, "X", "VALUE", f"aov_value:{aov.name}")

@@ -3,6 +3,9 @@
 
 from .frame import Crop, Frame, crop_of_border
 
+# Properties of the scene's settings that are none, or change how a film is painted alone.
+NO_RENDER = ("rna_type", "name", "false_color_max", "false_color_steps", "use_false_color_contours")
+
 
 def frame_of(scene, space, region_3d, width: int, height: int) -> Frame:
     """The picture of a 3D viewport of `width` × `height` pixels, with its border."""
@@ -41,8 +44,8 @@ def camera_frame(scene, camera, region_3d) -> tuple[float, float, float, float]:
 
 
 def settings_of(scene) -> tuple:
-    """All settings whose change needs another picture but no export."""
-    own = tuple(getattr(scene.gonio, name) for name in scene.gonio.bl_rna.properties.keys() if name not in ("rna_type", "name"))
+    """All settings whose change needs another render but no export."""
+    own = tuple(getattr(scene.gonio, name) for name in scene.gonio.bl_rna.properties.keys() if name not in NO_RENDER)
     render = scene.render
     return (
         own,

@@ -8,7 +8,7 @@ import gonio
 
 from .. import report
 from ..export import Exporter
-from . import status
+from . import false_color, status
 from .frame import Frame
 from .passes import COMBINED, read_flat
 from .view import frame_of, settings_of
@@ -35,6 +35,8 @@ class Picture:
     height: int
     pixels: object
     frame: Frame
+    # In false colour the pixels are what the screen shows, and this stands beside them.
+    legend: false_color.Shown | None = None
 
 
 @dataclass
@@ -48,6 +50,8 @@ class _Stage:
     is_first: bool
     is_last: bool
     samples: int
+    # What the render's pass is shown as; None for the picture as it is.
+    style: false_color.Style | None
     started: float
     shown: float
 
@@ -67,6 +71,7 @@ class ViewportSession:
         self._settings: tuple | None = None
         self._pixel_size = 1
         self._exposure = 1.0
+        self._style: false_color.Style | None = None
         self._is_stale = True
         self._stage: _Stage | None = None
         self._is_running = False
@@ -98,6 +103,10 @@ class ViewportSession:
         if (settings, pixel_size) != (self._settings, self._pixel_size):
             self._settings, self._pixel_size, self._is_stale = settings, pixel_size, True
             self._exposure = depsgraph.scene.gonio.film_exposure
+        style = false_color.Style.of(depsgraph.scene.gonio)
+        if style != self._style:
+            self._style = style
+            self._repaint(style)
 
     def advance(self, depsgraph) -> None:
         """Starts what has to be started and takes over a new picture if there is one."""
@@ -149,7 +158,8 @@ class ViewportSession:
     def _begin(self, depsgraph, factor: int, *, is_first: bool) -> None:
         is_last = factor <= self._pixel_size
         frame = self._frame.reduced(factor)
-        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=["color"])
+        source = self._style.source if self._style else COMBINED.source
+        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=[source])
         wanted = depsgraph.scene.gonio.preview_samples
         self.exporter.scene.set(samples=(wanted or MOST_SAMPLES) if is_last else 1)
         previous = self._stage.render if self._stage is not None else None
@@ -158,7 +168,7 @@ class ViewportSession:
         self._is_running = False
         render = self._start(self.exporter.scene, previous=previous)
         now = self._now()
-        self._stage = _Stage(render, self._frame, frame, factor, is_first, is_last, wanted, now, now)
+        self._stage = _Stage(render, self._frame, frame, factor, is_first, is_last, wanted, self._style, now, now)
         self._is_running = True
 
     def _collect(self, depsgraph) -> None:
@@ -186,10 +196,23 @@ class ViewportSession:
     def _show(self, stage: _Stage) -> None:
         film = stage.render.film()
         width, height = film.size
-        pixels = read_flat(film, "color", COMBINED.factor(self._exposure, 1))
         number = self.picture.number + 1 if self.picture else 0
-        self.picture = Picture(number, width, height, pixels, stage.view)
+        if stage.style is None:
+            pixels = read_flat(film, COMBINED.source, COMBINED.factor(self._exposure, 1))
+            self.picture = Picture(number, width, height, pixels, stage.view)
+        else:
+            shown, legend = false_color.paint(film, stage.style, stage.view.height)
+            self.picture = Picture(number, width, height, shown.pixels, stage.view, legend)
         stage.shown = self._now()
+
+    def _repaint(self, style: false_color.Style | None) -> None:
+        """Gives the stage other colours; another pass takes another stage."""
+        stage = self._stage
+        if stage is None or stage.style is None or style is None or stage.style.source != style.source:
+            return
+        stage.style = style
+        if stage.is_last and stage.render.progress.samples > 0:
+            self._show(stage)
 
     def _learn(self, stage: _Stage) -> None:
         """Measures how many samples a second this scene allows."""

@@ -3,7 +3,24 @@
 
 import bpy
 
-from . import film, light, light_paths, material, object_visibility, passes, performance, report, sampling, simplify, stock, world
+from . import (
+    film,
+    light,
+    light_group,
+    light_paths,
+    material,
+    measure,
+    object_visibility,
+    passes,
+    performance,
+    photometry,
+    polar_picture,
+    report,
+    sampling,
+    simplify,
+    stock,
+    world,
+)
 
 PANELS = (
     *sampling.PANELS,
@@ -13,15 +30,20 @@ PANELS = (
     *performance.PANELS,
     *report.PANELS,
     *passes.PANELS,
-    *light.PANELS,
+    *light.PANELS[:1],
+    *photometry.PANELS,
+    *light.PANELS[1:],
     *world.PANELS,
+    *light_group.PANELS,
     *material.PANELS,
     *object_visibility.PANELS,
+    *measure.PANELS,
 )
 
 
 def register() -> None:
     stock.register()
+    polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
 
@@ -29,4 +51,5 @@ def register() -> None:
 def unregister() -> None:
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
+    polar_picture.unregister()
     stock.unregister()

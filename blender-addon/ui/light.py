@@ -32,6 +32,7 @@ class GONIO_LIGHT_PT_light(LightPanel, Panel):
         else:
             _draw_colour(layout, light)
             column = layout.column()
+            column.active = not light.gonio.use_photometry
             column.prop(light, "energy")
             column.prop(light, "exposure")
             column.prop(light, "normalize")

@@ -36,6 +36,20 @@ class GONIO_WORLD_PT_surface(WorldPanel, Panel):
             self.layout.prop(context.world, "color")
 
 
+class GONIO_WORLD_PT_luminance(WorldPanel, Panel):
+    bl_label = "Luminance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context):
+        self.layout.prop(context.world.gonio, "use_luminance", text="")
+
+    def draw(self, context):
+        settings = context.world.gonio
+        self.layout.use_property_split = True
+        self.layout.active = settings.use_luminance and not settings.use_daylight
+        self.layout.prop(settings, "luminance", text="cd/m²")
+
+
 class GONIO_WORLD_PT_daylight(WorldPanel, Panel):
     bl_label = "Daylight"
 
@@ -116,6 +130,7 @@ class GONIO_WORLD_PT_mist(WorldPanel, Panel):
 PANELS = (
     GONIO_WORLD_PT_preview,
     GONIO_WORLD_PT_surface,
+    GONIO_WORLD_PT_luminance,
     GONIO_WORLD_PT_daylight,
     GONIO_WORLD_PT_daylight_sky,
     GONIO_WORLD_PT_mist,

@@ -28,6 +28,11 @@ class Film:
     def __init__(self, size):
         self.size = size
 
+    def __getitem__(self, name):
+        assert name in ("luminance", "illuminance")
+        width, height = self.size
+        return [[[100.0 * x / width] for x in range(width)] for _ in range(height)]
+
     def read(self, name, *, scale, bottom_up):
         assert name == "color" and bottom_up
         return array("f", [scale]) * (self.size[0] * self.size[1] * 4)
@@ -190,6 +195,51 @@ def test_resizing_and_settings_export_nothing_again():
     stage.draw(pixel_size=4)
     assert len(Render.made) > count
     assert stage.exporter.calls.count("sync") == 1
+
+
+@pytest.mark.blender
+def test_a_picture_on_its_way_is_shown_as_it_was_asked_for():
+    stage = Stage()
+    settings = stage.depsgraph.scene.gonio
+    settings.display = "LUMINANCE"
+    Render.rate = 2e4
+    try:
+        stage.session.sync(stage.depsgraph)
+        stage.session.look(stage.depsgraph, stage.space, stage.region, 320, 180)
+        stage.session.advance(stage.depsgraph)
+        assert stage.session.picture is None and len(Render.made) == 1
+        settings.display = "COLOR"
+        stage.session.look(stage.depsgraph, stage.space, stage.region, 320, 180)
+        stage.clock.now += 0.8
+        stage.session.advance(stage.depsgraph)
+        # The first one came in false colour, and the next is under way.
+        assert stage.session.picture.legend is not None and len(Render.made) == 2
+    finally:
+        Render.rate = 1e6
+
+
+@pytest.mark.blender
+def test_other_false_colours_paint_the_film_anew():
+    stage = Stage()
+    stage.size = (160, 90)
+    settings = stage.depsgraph.scene.gonio
+    settings.display, settings.false_color_max = "ILLUMINANCE", 100.0
+    stage.session.sync(stage.depsgraph)
+    while not stage.session.is_finished:
+        stage.draw()
+        stage.clock.now += 0.1
+    count, number = len(Render.made), stage.session.picture.number
+    for name, value in (("false_color_max", 50.0), ("false_color_steps", 4), ("use_false_color_contours", False)):
+        before = bytes(stage.session.picture.pixels)
+        setattr(settings, name, value)
+        stage.draw()
+        number += 1
+        assert stage.session.picture.number == number and bytes(stage.session.picture.pixels) != before
+    stage.draw()
+    assert stage.session.is_finished and len(Render.made) == count and stage.session.picture.number == number
+    settings.display = "LUMINANCE"
+    stage.draw()
+    assert len(Render.made) > count
 
 
 @pytest.mark.blender

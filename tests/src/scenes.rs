@@ -24,6 +24,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         holdout: false,
         shadow_catcher: false,
         pass_index: 0,
+        light_group: String::new(),
     });
 }
 

@@ -18,7 +18,9 @@ def room(tmp_path_factory):
 
 
 def same(first, second):
-    return first.channels.keys() == second.channels.keys() and all(np.array_equal(first[name], second[name], equal_nan=True) for name in first.channels)
+    return first.channels.keys() == second.channels.keys() and all(
+        np.array_equal(first[name], second[name], equal_nan=True) for name in first.channels
+    )
 
 
 def line(room, *options, size=96, spp=64):
@@ -100,7 +102,10 @@ def test_noise_threshold_spends_samples_where_the_noise_is(run, room, tmp_path):
 def render_with_kills(command, room, path, kills, chance, *options):
     """Kills a render of a second or two again and again, resuming each time; gives the picture."""
     checkpoint = path.with_suffix(".checkpoint")
-    arguments = [*command, *line(room, "-o", path, "--checkpoint", checkpoint, "--checkpoint-every", "0", "--resume", *options, size=192, spp=512)]
+    arguments = [
+        *command,
+        *line(room, "-o", path, "--checkpoint", checkpoint, "--checkpoint-every", "0", "--resume", *options, size=192, spp=512),
+    ]
     for _ in range(kills):
         with subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             time.sleep(chance.uniform(0.2, 1.5))

@@ -25,7 +25,9 @@ pub fn camera<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: 
     ];
     let mut aperture_offset = ["horizontalApertureOffset", "verticalApertureOffset"].map(|name| finite(context, prim, name, 0.0));
     let is_orthographic = context.get::<String>(prim, "projection").is_some_and(|projection| projection == "orthographic");
-    let projection = if is_orthographic {
+    let projection = if let Some(fov_deg) = context.get_authored::<f64>(prim, "gonio:fisheye") {
+        Projection::FisheyeEquidistant { fov_deg }
+    } else if is_orthographic {
         let scale = UNITS_PER_TENTH * metres;
         aperture = aperture.map(|x| x * scale);
         aperture_offset = aperture_offset.map(|x| x * scale);

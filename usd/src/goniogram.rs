@@ -1,4 +1,4 @@
-//! IES and EULUMDAT files of UsdLux's ShapingAPI, literally by its specification: factors on the light's radiance, not candela.
+//! IES and EULUMDAT files: of UsdLux's ShapingAPI, literally by its specification, factors on the light's radiance; of `gonio:photometry`, candela.
 
 use crate::asset;
 use crate::context::Context;
@@ -32,6 +32,17 @@ pub(crate) fn goniogram<'py>(
     }
     let origin = prim.origin();
     let read = read(context, path, &origin).map(|found| Arc::new(requested(context, &origin, &found, request)));
+    context.goniograms.insert(key, read.clone());
+    read
+}
+
+/// The goniogram of a luminaire's file in candela, the same one for all lights that name it; `None`, with a warning, where there is none.
+pub(crate) fn absolute<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &AssetPath) -> Option<Arc<Goniogram>> {
+    let key = format!("{}\n{}\nabsolute", path.authored, path.resolved);
+    if let Some(known) = context.goniograms.get(&key) {
+        return known.clone();
+    }
+    let read = read(context, path, &prim.origin()).map(|found| Arc::new(Goniogram::from(&found)));
     context.goniograms.insert(key, read.clone());
     read
 }

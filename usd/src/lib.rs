@@ -20,6 +20,7 @@ mod meter;
 pub mod model;
 mod nesting;
 pub mod options;
+mod photometry;
 pub mod place;
 pub mod prim;
 pub mod primvar;

@@ -3,6 +3,7 @@
 use crate::context::{Context, UpAxis};
 use crate::goniogram::{Request, goniogram};
 use crate::material::{stated_colour_space, texture, to_linear_rec709};
+use crate::photometry;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::{AssetPath, FromValue};
@@ -40,15 +41,18 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
     let type_name = prim.type_name();
     let shape = shape(context, prim, &type_name)?;
     let is_dome = matches!(shape, LightShape::Dome { .. });
+    let photometry = photometry::photometry(context, prim, shape, transform);
+    // A quantity takes the place of the intensity, whatever that is.
+    let has_quantity = photometry.as_ref().is_some_and(|photometry| photometry.quantity.is_some());
     let emission = Emission {
-        radiance: radiance(context, prim)?,
+        radiance: if has_quantity { tint(context, prim) } else { radiance(context, prim)? },
         normalized: !is_dome && input(context, prim, "normalize").unwrap_or(false),
         metres_per_unit: context.metres_per_unit,
     };
     let has_texture = is_dome || matches!(shape, LightShape::Rectangle { .. });
     report_left_out(context, prim);
     let goniogram = if shape.is_at_infinity() { None } else { measured(context, prim) };
-    Some(Light {
+    let light = Light {
         origin: prim.origin(),
         shape,
         emission,
@@ -58,8 +62,25 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
         transform: if is_dome { dome_transform(context, prim, &type_name, transform) } else { *transform },
         visibility: Visibility { camera: is_seen_by_camera(context, prim), ..Visibility::default() },
         casts_shadow: casts_shadow(context, prim),
+        group: group(context, prim),
         ..Light::default()
+    };
+    Some(match photometry {
+        None => light,
+        Some(photometry) => Light {
+            quantity: photometry.quantity,
+            dimming: photometry.dimming,
+            goniogram: photometry.goniogram.or(light.goniogram),
+            shape: photometry.shape.unwrap_or(light.shape),
+            transform: photometry.placed.unwrap_or(light.transform),
+            ..light
+        },
     })
+}
+
+/// The light group that a prim names.
+pub fn group<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> String {
+    context.get_authored(prim, "gonio:lightGroup").unwrap_or_default()
 }
 
 /// A light's input; stages of before USD 21.02 have the names without prefix.
@@ -111,14 +132,19 @@ fn dome_format<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> DomeFor
     }
 }
 
+/// `color`, times the colour of the temperature if that is enabled.
+fn tint<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
+    let colour = colour(context, prim);
+    let temperature = if input(context, prim, "enableColorTemperature").unwrap_or(false) { temperature(context, prim) } else { [1.0; 3] };
+    std::array::from_fn(|i| colour[i] * temperature[i])
+}
+
 /// `intensity · 2^exposure · color`, times the colour of the temperature if that is enabled.
 fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<[f32; 3]> {
     let intensity: f32 = input(context, prim, "intensity").unwrap_or(1.0);
     let exposure: f32 = input(context, prim, "exposure").unwrap_or(0.0);
-    let colour = colour(context, prim);
-    let temperature = if input(context, prim, "enableColorTemperature").unwrap_or(false) { temperature(context, prim) } else { [1.0; 3] };
     let strength = intensity * exposure.exp2();
-    let radiance = std::array::from_fn(|i| strength * colour[i] * temperature[i]);
+    let radiance = tint(context, prim).map(|x| strength * x);
     if radiance.iter().all(|x: &f32| x.is_finite()) {
         return Some(radiance);
     }
@@ -297,7 +323,12 @@ pub fn mesh_light_material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>
     let Some(mut radiance) = radiance(context, prim) else {
         return bound;
     };
-    if input(context, prim, "normalize").unwrap_or(false) {
+    let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
+    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres) {
+        let tint = tint(context, prim);
+        let own = f64::from(0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2]);
+        radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });
+    } else if input(context, prim, "normalize").unwrap_or(false) {
         match area.filter(|area| *area > 0.0) {
             Some(area) => radiance = radiance.map(|x| (f64::from(x) / area) as f32),
             None => context.warn(&origin, "normalize of a mesh light needs the mesh's area, which is zero or unknown; it is ignored"),

@@ -81,7 +81,8 @@ fn measurand<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, prefix: &str
     let found = Measurand::by_name(&name);
     if found.is_none() {
         let expected = Measurand::NAMES.map(|(_, name)| name).join(", ");
-        context.warn(&prim.origin(), format!("{prefix}quantity '{name}' is not known, expected one of {expected}; nothing is measured there"));
+        context
+            .warn(&prim.origin(), format!("{prefix}quantity '{name}' is not known, expected one of {expected}; nothing is measured there"));
     }
     found
 }

@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
 use crate::options::Purpose;
 use crate::prim::Prim;
+use crate::view::shines;
 use crate::{camera, daylight, light, material, meter, primvar};
 use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
@@ -34,8 +35,8 @@ impl Placement {
     }
 }
 
-/// Instances that share a mesh, materials and the names of their values.
-type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>);
+/// Instances that share a mesh, materials, the names of their values and a light group.
+type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>, String);
 
 /// Instances under construction: the values of all placements, one after the other, for each name of the key.
 #[derive(Debug)]
@@ -137,7 +138,8 @@ impl<'py> Placer<'_, '_, 'py> {
         let transforms = self.transforms(element, placement);
         let materials = self.materials(element, shape, placement, &primvars, &transforms);
         let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
-        let key = (shape.mesh, materials, names);
+        let group = self.light_group(element, placement, &materials);
+        let key = (shape.mesh, materials, names, group);
         let place = match self.places.get(&key) {
             Some(place) => *place,
             None => self.new_set(element, &key, placement),
@@ -149,6 +151,16 @@ impl<'py> Placer<'_, '_, 'py> {
         }
         gathered.instances.transforms.extend(transforms);
         Ok(())
+    }
+
+    /// The light group that the prim names, for what shines.
+    fn light_group(&mut self, element: &Element, placement: &Placement, materials: &[MaterialId]) -> String {
+        let scene = &self.context.scene;
+        if !materials.iter().filter_map(|id| scene.materials.get(id.index())).any(shines) {
+            return String::new();
+        }
+        let prim = self.context.prim_at(&placement.path(&element.path));
+        prim.map(|prim| light::group(self.context, &prim)).unwrap_or_default()
     }
 
     fn new_set(&mut self, element: &Element, key: &Key, placement: &Placement) -> usize {
@@ -163,6 +175,7 @@ impl<'py> Placer<'_, '_, 'py> {
             holdout: false,
             shadow_catcher: false,
             pass_index: 0,
+            light_group: key.3.clone(),
         };
         self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
         self.places.insert(key.clone(), place);

@@ -31,7 +31,7 @@ pub(crate) struct Glare {
 
 #[pymethods]
 impl Glare {
-    /// Unified glare rating; None without sources.
+    /// Unified glare rating; None without sources ahead, or where all but them is black.
     #[getter]
     fn ugr(&self) -> Option<f64> {
         self.found.ugr()

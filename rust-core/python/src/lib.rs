@@ -8,6 +8,7 @@ mod description;
 mod error;
 mod film;
 mod glare;
+mod light;
 mod measure;
 mod measured;
 #[cfg(unix)]
@@ -47,7 +48,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]
-    use crate::photometry::read_goniogram;
+    use crate::photometry::{goniogram_figures, read_goniogram};
     #[pymodule_export]
     use crate::picture::{Picture, false_colour};
     #[pymodule_export]

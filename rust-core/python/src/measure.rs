@@ -133,7 +133,7 @@ impl GridReading {
     #[pyo3(signature = (*, max = None, steps = 10, log = None, contours = true, legend = true))]
     fn picture(&self, max: Option<f32>, steps: u32, log: Option<f32>, contours: bool, legend: bool) -> PyResult<Picture> {
         let style = picture::style(&self.grid.values(), max, steps, log, self.unit(), [contours, legend], 0)?;
-        Ok(Picture::of(measure::value_picture(&self.grid, &style)))
+        Ok(Picture::of(measure::value_picture(&self.grid, &style), style))
     }
 }
 
@@ -166,19 +166,20 @@ impl Measurements {
     }
 }
 
-/// Evaluates the scene's meters and grids with `samples` a point; `previous` lends the trees and images of what did not change, and `cancelled`, a
+/// Evaluates the scene's meters and grids with `samples` a point and, unlike pictures, as many bounces as matter, or `max_bounces`; `previous` lends the trees and images of what did not change, and `cancelled`, a
 /// function that says whether to stop, is asked every 50 ms.
 #[pyfunction]
-#[pyo3(name = "measure", signature = (scene, *, samples = 4096, previous = None, cancelled = None))]
+#[pyo3(name = "measure", signature = (scene, *, samples = 4096, max_bounces = None, previous = None, cancelled = None))]
 pub(crate) fn measure_scene(
     py: Python<'_>,
     scene: &Scene,
     samples: u32,
+    max_bounces: Option<u32>,
     previous: Option<&Render>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Measurements> {
     let mut description: Description = scene.scene.clone();
-    description.settings.samples = samples.max(1);
+    (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(measure::MOST_BOUNCES));
     let before = previous.and_then(Render::compiled);
     let stop = AtomicBool::new(false);
     let mut raised: Option<PyErr> = None;
@@ -194,8 +195,10 @@ pub(crate) fn measure_scene(
         stop.store(!goes_on, Ordering::Relaxed);
         goes_on
     };
-    let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
-    let found = py.detach(|| measure::measure(&description, Execution::detect(), &mut watch));
+    let found = py.detach(|| {
+        let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
+        measure::measure(&description, Execution::detect(), &mut watch)
+    });
     match (found, raised) {
         (_, Some(error)) => Err(error),
         (Ok(found), None) => Ok(Measurements { found }),

@@ -153,11 +153,12 @@ impl MeasuredBsdf {
         Ok(found)
     }
 
-    /// Writes it as .gbsdf: tables as they are; everything else evaluated at `theta` polar angles and `phi` azimuths of a turn.
-    #[pyo3(signature = (path, *, title = "", text = false, theta = 46, phi = 72))]
-    fn write(&self, py: Python<'_>, path: PathBuf, title: &str, text: bool, theta: usize, phi: usize) -> PyResult<()> {
+    /// Writes it as .gbsdf: tables as they are; everything else evaluated at `theta` polar angles and `phi` azimuths of a turn, 46 and 72 where
+    /// none are given, 19 and 36 of anisotropic materials.
+    #[pyo3(signature = (path, *, title = "", text = false, theta = None, phi = None))]
+    fn write(&self, py: Python<'_>, path: PathBuf, title: &str, text: bool, theta: Option<usize>, phi: Option<usize>) -> PyResult<()> {
         let encoding = if text { Encoding::Text } else { Encoding::Binary };
-        let grid = Grid { theta, phi, isotropic: self.measured.is_isotropic() };
+        let grid = Grid::new(&self.measured, theta, phi);
         py.detach(|| {
             let bytes = match &*self.measured {
                 Measured::Tables(tables) => gbsdf::write(tables, title, encoding),

@@ -4,6 +4,7 @@ use crate::{description::to_python, error::exception};
 use gonio::scene::Goniogram;
 use gonio_formats::photometry;
 use pyo3::prelude::*;
+use serde_json::json;
 
 /// The goniogram of an IES or EULUMDAT file's bytes as a light's description has it, its factors in cd, and warnings; `name` says which file it is.
 #[pyfunction]
@@ -11,4 +12,27 @@ pub(crate) fn read_goniogram<'py>(py: Python<'py>, data: &[u8], name: &str) -> P
     let found = photometry::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
     let warnings = found.warnings.iter().map(|warning| format!("{name}: {warning}")).collect();
     Ok((to_python(py, &Goniogram::from(&found))?, warnings))
+}
+
+/// What an IES or EULUMDAT file's bytes say of a luminaire, in lm, cd, W and degrees, and its `cuts`: γ (negative across) and cd in the planes C0–C180 and C90–C270.
+#[pyfunction]
+pub(crate) fn goniogram_figures<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyAny>> {
+    let found = photometry::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    let figures = found.figures();
+    let lamps = found.lamps();
+    let description = json!({
+        "luminaire": found.text("LUMINAIRE").unwrap_or_default(),
+        "lamps": lamps.map(|lamps| lamps.name.as_str()).unwrap_or_default(),
+        "colour": lamps.map(|lamps| lamps.colour.as_str()).unwrap_or_default(),
+        "lamp_flux_lm": lamps.and_then(|lamps| lamps.flux),
+        "flux_lm": figures.flux,
+        "downward_fraction": figures.downward_fraction,
+        "watts": figures.watts,
+        "efficacy_lm_per_w": figures.efficacy,
+        "peak_cd": figures.peak,
+        "beam_angle_deg": figures.beam.map(|spread| spread.angle()),
+        "field_angle_deg": figures.field.map(|spread| spread.angle()),
+        "cuts": [found.cut(0.0), found.cut(90.0)],
+    });
+    to_python(py, &description)
 }

@@ -2,21 +2,25 @@
 
 use crate::{
     buffer::side_lengths,
-    error::exception,
+    error::{exception, setting},
 };
 use gonio::output::{self, Canvas, FalseColour, FalseColourScale};
 use pyo3::{prelude::*, types::PyBytes};
 use std::{io::Write, path::PathBuf};
 
+/// Most pixels of a legend's height.
+const TALLEST: usize = 65_536;
+
 /// A picture for looking at: 8-bit RGBA, rows from the top.
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct Picture {
     canvas: Canvas,
+    style: FalseColour,
 }
 
 impl Picture {
-    pub(crate) fn of(canvas: Canvas) -> Self {
-        Self { canvas }
+    pub(crate) fn of(canvas: Canvas, style: FalseColour) -> Self {
+        Self { canvas, style }
     }
 }
 
@@ -26,6 +30,13 @@ impl Picture {
     #[getter]
     fn size(&self) -> (usize, usize) {
         self.canvas.size.into()
+    }
+    /// The legend alone, for a picture of a height in pixels, at most 65,536.
+    fn legend(&self, height: usize) -> PyResult<Self> {
+        if height > TALLEST {
+            return Err(setting("height", format!("{height} was found, expected at most {TALLEST} pixels")));
+        }
+        Ok(Self::of(self.style.legend(height), self.style.clone()))
     }
     /// Four bytes a pixel.
     fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
@@ -76,7 +87,8 @@ pub(crate) fn false_colour(
     let size = side_lengths(values, "values")?;
     let values = flat(values, "values")?;
     let style = style(&values, max, steps, log, unit, [contours, legend], smoothing)?;
-    Ok(Picture::of(py.detach(|| style.draw(&values, size))))
+    let canvas = py.detach(|| style.draw(&values, size));
+    Ok(Picture::of(canvas, style))
 }
 
 /// The numbers of a float buffer of any shape.

@@ -152,13 +152,16 @@ impl Render {
         loop {
             py.check_signals()?;
             let running = self.running()?;
-            let ready = py.detach(|| running.next_tile(Duration::from_millis(50)));
+            // Asked before, so that nothing can come after the last look.
+            let finished = running.is_finished();
+            let wait = if finished { Duration::ZERO } else { Duration::from_millis(50) };
+            let ready = py.detach(|| running.next_tile(wait));
             if let Some(ready) = ready {
                 let area = running.film().tile_area(ready.tile);
                 let [width, height] = [0, 1].map(|axis| area.max[axis] - area.min[axis]);
                 return Ok(Some(Tile { x: area.min[0], y: area.min[1], width, height, samples: ready.samples }));
             }
-            if running.is_finished() && py.detach(|| running.next_tile(Duration::ZERO)).is_none() {
+            if finished {
                 return Ok(None);
             }
         }

@@ -5,6 +5,7 @@ use crate::{
     daylight::{self, Daylight},
     description,
     error::{exception, setting},
+    light,
     measure::measurand,
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
@@ -13,8 +14,8 @@ use crate::{
 use gonio::{
     Diagnostic,
     scene::{
-        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId, Meter, Origin, Primvar,
-        PrimvarInterpolation, Transform, Visibility,
+        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId,
+        Meter, Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
     },
 };
 use pyo3::{exceptions::PyValueError, prelude::*, pybacked::PyBackedBytes, types::PyDict};
@@ -78,7 +79,7 @@ impl Scene {
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
     /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
-    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, index = None))]
+    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -89,6 +90,7 @@ impl Scene {
         visibility: Option<HashMap<String, bool>>,
         primvars: Option<&Bound<'_, PyDict>>,
         pass_index: u32,
+        light_group: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
         let place = |m: [[f64; 4]; 4]| Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| m[row][column])) };
@@ -111,6 +113,7 @@ impl Scene {
             holdout,
             shadow_catcher,
             pass_index,
+            light_group: light_group.to_owned(),
         };
         description::put(&mut self.scene.instances, "instances", instances, index)
     }
@@ -227,13 +230,18 @@ impl Scene {
             holdout: false,
             shadow_catcher: false,
             pass_index: 0,
+            light_group: String::new(),
         });
         Ok(())
     }
 
-    /// Adds a light of a shape: "rectangle" (width, height), "disk" (radius), "sphere" (radius), "cylinder" (radius, length),
-    /// "distant" (angle in degrees), "dome". Radiance in cd/m² (a distant light: lux on a facing surface); flat ones shine along local −z.
-    #[pyo3(signature = (shape, radiance = [1.0; 3], *, transform = None, width = 1.0, height = 1.0, radius = 0.5, length = 1.0, angle = 0.53, visible = true, name = "light"))]
+    /// Adds a light of a shape: "rectangle" (width, height), "disk" (radius), "sphere" (radius), "cylinder" (radius, length), "point",
+    /// "luminaire" (its goniogram's opening, or another), "distant" (angle in degrees), "dome". Radiance in cd/m² (point and luminaire: cd; a
+    /// distant light: lux on a facing surface); flat ones shine along local −z.
+    ///
+    /// One of lumens, lamp_lumens, candela, lux (at metres: a pair), nits or watts in place of it lets the radiance tell the colour alone; so does a
+    /// goniogram of a point or a luminaire, whose factors then are cd. The temperature in K multiplies the colour.
+    #[pyo3(signature = (shape, radiance = [1.0; 3], *, transform = None, width = 1.0, height = 1.0, radius = 0.5, length = 1.0, angle = 0.53, visible = true, name = "light", **photometry))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn add_light(
         &mut self,
@@ -247,24 +255,29 @@ impl Scene {
         angle: f64,
         visible: bool,
         name: &str,
+        photometry: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<u32> {
+        let photometry = light::Photometry::new(photometry)?;
         let (shape, normalized) = match shape {
             "rectangle" => (LightShape::Rectangle { width, height }, false),
             "disk" => (LightShape::Disk { radius }, false),
             "sphere" => (LightShape::Sphere { radius }, false),
             "cylinder" => (LightShape::Cylinder { radius, length }, false),
+            "point" => (LightShape::Point, false),
+            "luminaire" => (LightShape::Opening(photometry.opening()), false),
             "distant" => (LightShape::Distant { angle_deg: angle }, true),
             "dome" => (LightShape::Dome { format: DomeFormat::Automatic }, false),
             other => {
-                let problem = format!("'{other}' was found, expected rectangle, disk, sphere, cylinder, distant or dome");
+                let problem = format!("'{other}' was found, expected rectangle, disk, sphere, cylinder, point, luminaire, distant or dome");
                 return Err(setting("shape", problem));
             }
         };
-        self.scene.lights.push(Light {
+        let plain = Light {
             emission: Emission { radiance, normalized, ..Emission::default() },
             visibility: Visibility { camera: visible, ..Visibility::default() },
             ..Light::new(Origin::new(name), shape, self::transform(transform)?)
-        });
+        };
+        self.scene.lights.push(photometry.applied(plain));
         Ok((self.scene.lights.len() - 1) as u32)
     }
 
@@ -339,6 +352,12 @@ impl Scene {
         }
         self.scene.settings = settings;
         Ok(())
+    }
+
+    /// Names of the light groups; "other" is that of all lights that are in none. Their passes are called `lightgroup:` and the name.
+    #[getter]
+    fn light_groups(&self) -> Vec<String> {
+        self.scene.light_groups()
     }
 
     /// What is not as asked for, as (origin, message).

@@ -22,6 +22,8 @@ pub(super) enum Command {
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
     Compare(CompareOptions),
+    /// Dim and recolour the light groups of a rendered EXR file.
+    Relight(RelightOptions),
     /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
     /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it.
@@ -132,6 +134,9 @@ pub(super) struct RenderOptions {
     /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(super) aov: Vec<String>,
+    /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
+    #[arg(long = "light-groups")]
+    pub(super) light_groups: bool,
     /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(super) crop: Option<Vec<String>>,
@@ -299,7 +304,7 @@ pub(super) struct MeasureOptions {
     /// Samples a point.
     #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) spp: u32,
-    /// Bounces after the first surface.
+    /// Limit of the bounces; without one all count that matter.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(super) max_bounces: Option<u32>,
     /// The light transport: full global illumination, or direct light alone.
@@ -433,6 +438,18 @@ pub(super) struct CompareOptions {
     /// Compare only these channels, separated by commas.
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(super) channels: Vec<String>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct RelightOptions {
+    /// An EXR file that was rendered with --light-groups.
+    pub(super) image: PathBuf,
+    /// A group's factor, and the colour temperature in K that tints it: 'Kitchen=0.3' or 'Kitchen=0.3,2700'; may be given several times.
+    #[arg(long, value_name = "NAME=FACTOR[,KELVIN]")]
+    pub(super) group: Vec<String>,
+    /// The EXR file to write: colour, luminance if the picture has it, and the groups.
+    #[arg(long, short = 'o', value_name = "FILE.exr")]
+    pub(super) output: PathBuf,
 }
 
 #[derive(Args, Debug)]

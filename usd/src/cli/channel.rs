@@ -14,17 +14,28 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Reads a file. A channel is found by its whole name, or by a part of it between points: Blender's files call it `ViewLayer.Luminance.X`.
+    /// Reads a file. A channel is found by its whole name, or by a part of it between points that no other has: Blender's files call it
+    /// `ViewLayer.Luminance.X`.
     pub(super) fn read(path: &Path, quantity: &str) -> Result<Self> {
         let (channels, size) = read_exr(path)?;
         let by_name = channels.iter().position(|(name, _)| name == quantity);
-        let by_part = || channels.iter().position(|(name, _)| name.split('.').any(|part| part.eq_ignore_ascii_case(quantity)));
-        let missing = || {
-            let names: Vec<&str> = channels.iter().map(|(name, _)| name.as_str()).collect();
-            let problem = format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity}); the file has {}", names.join(", "));
-            Error::Format { path: path.to_owned(), line: None, problem }
+        let has_part = |index: &usize| channels[*index].0.split('.').any(|part| part.eq_ignore_ascii_case(quantity));
+        let by_part: Vec<usize> = (0..channels.len()).filter(has_part).collect();
+        let names = |of: &[usize]| of.iter().map(|index| channels[*index].0.as_str()).collect::<Vec<_>>().join(", ");
+        let chosen = match (by_name, &by_part[..]) {
+            (Some(whole), _) => whole,
+            (None, [part]) => *part,
+            (None, []) => {
+                let known = names(&(0..channels.len()).collect::<Vec<_>>());
+                let problem =
+                    format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity}); the file has {known}");
+                return Err(Error::Format { path: path.to_owned(), line: None, problem });
+            }
+            (None, several) => {
+                let problem = format!("'{quantity}' names several channels, expected one of {}", names(several));
+                return Err(Error::setting("quantity", problem));
+            }
         };
-        let chosen = by_name.or_else(by_part).ok_or_else(missing)?;
         Ok(Self { channels, size, chosen })
     }
 

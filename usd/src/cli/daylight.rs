@@ -61,7 +61,8 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
     Ok(daylight)
 }
 
-fn number(name: &str, text: &str) -> Result<f64> {
+/// A finite number of an option.
+pub(super) fn number(name: &str, text: &str) -> Result<f64> {
     let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
     value.ok_or_else(|| Error::setting(name, format!("'{text}' was found, expected a number")))
 }

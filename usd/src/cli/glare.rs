@@ -22,7 +22,7 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     })?;
     let picture = Picture::read(&options.image, &options.quantity)?;
     let view = FisheyeView::new(projection, options.fov, picture.size)?;
-    let found = Glare::new(picture.values(), &view, &glare_options(options)?)?;
+    let found = Glare::new(picture.values(), &view, &glare_options(options))?;
     if let Some(path) = &options.output {
         write(path, &drawn(&picture, &found)?)?;
     }
@@ -34,14 +34,9 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     Ok(0)
 }
 
-fn glare_options(options: &GlareArguments) -> Result<GlareOptions> {
-    let positive = |name: &str, value: f64| {
-        let problem = || Error::setting(name, format!("{value} was found, expected a number not below 0"));
-        Some(value).filter(|value| *value >= 0.0 && value.is_finite()).ok_or_else(problem)
-    };
-    let default = GlareOptions::default();
-    let threshold = options.threshold.map(|luminance| positive("threshold", luminance)).transpose()?;
-    Ok(GlareOptions { threshold: threshold.map_or(default.threshold, Threshold::Luminance), radius: positive("radius", options.radius)? })
+fn glare_options(options: &GlareArguments) -> GlareOptions {
+    let threshold = options.threshold.map_or(GlareOptions::default().threshold, Threshold::Luminance);
+    GlareOptions { threshold, radius: options.radius }
 }
 
 /// Degrees to the right and up.
@@ -72,9 +67,19 @@ fn as_json(glare: &Glare) -> Value {
     })
 }
 
+/// The rating, or why there is none.
+fn ugr_line(glare: &Glare) -> String {
+    let is_ahead = |source: &GlareSource| source.direction[2] > 0.0;
+    match glare.ugr() {
+        Some(ugr) => format!("UGR: {ugr:.1}"),
+        None if glare.sources.iter().any(is_ahead) => "UGR: not defined, the background is black".to_owned(),
+        None => "UGR: no source of glare ahead".to_owned(),
+    }
+}
+
 fn as_text(glare: &Glare) -> Vec<String> {
     let mut lines = vec![
-        glare.ugr().map_or("UGR: no source of glare".to_owned(), |ugr| format!("UGR: {ugr:.1}")),
+        ugr_line(glare),
         format!("DGP: {:.3} ({:.3} with the correction for little light)", glare.dgp(), glare.dgp_low_light()),
         format!("at the eye: {:.1} lx", glare.eye_illuminance),
         format!("background: {:.2} cd/m², mean: {:.2} cd/m²", glare.background_luminance, glare.mean_luminance),

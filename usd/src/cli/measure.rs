@@ -11,7 +11,7 @@ use super::{
 use crate::{Loaded, SampleTime, Stage, context::UpAxis};
 use gonio::{
     Error, Result,
-    measure::{GridReading, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
+    measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
     output::{FalseColour, write_atomically},
     scene::{Integrator, Measurand, Meter, Origin, Scene},
 };
@@ -90,7 +90,7 @@ fn evaluated(scene: &Scene, mut reporter: Reporter, interrupted: &AtomicBool) ->
 fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
     let settings = &mut scene.settings;
     settings.samples = options.spp;
-    settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
+    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
     settings.integrator = match options.integrator {
         IntegratorArgument::Path => Integrator::Path,
         IntegratorArgument::Direct => Integrator::Direct,
@@ -111,7 +111,7 @@ fn points(options: &MeasureOptions, measurand: Measurand, axis: UpAxis) -> Resul
 }
 
 fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
-    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f64| x.is_finite()).collect();
+    let numbers = text.split(',').map(|part| daylight::number(name, part)).collect::<Result<Vec<f64>>>()?;
     let wrong = |_| Error::setting(name, format!("'{text}' was found, expected three numbers separated by commas"));
     numbers.try_into().map_err(wrong)
 }
@@ -157,7 +157,12 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     let [along, across] = grid.spacing;
     let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2} {unit} ± {:.2}", reading.value, reading.standard_error);
     vec![
-        format!("{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart", grid.origin, grid.measurand.name(), summary.points),
+        format!(
+            "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
+            grid.origin,
+            grid.measurand.name(),
+            summary.points
+        ),
         figure("average", &summary.average),
         figure("least", &summary.min),
         figure("greatest", &summary.max),

@@ -19,6 +19,7 @@ mod merge;
 mod output;
 mod photometry;
 mod progress;
+mod relight;
 mod render;
 
 use arguments::{Arguments, Command};
@@ -50,6 +51,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
+        Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),

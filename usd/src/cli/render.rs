@@ -160,6 +160,7 @@ impl Job<'_> {
                 say(&note.to_string());
             }
         }
+        let light_groups = loaded.scene.light_groups();
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
         settings.sample_range = options.checkpoint.samples.as_deref().map(sample_range).transpose()?;
@@ -188,6 +189,9 @@ impl Job<'_> {
         if !settings.aovs.contains(&Aov::Color) {
             // Pictures for looking at are made of it, and it costs nothing.
             settings.aovs.insert(0, Aov::Color);
+        }
+        if options.light_groups {
+            settings.add_light_groups(light_groups);
         }
         if let Some(crop) = &options.crop {
             settings.crop = Some(crop_of(crop, settings.resolution)?);

@@ -11,6 +11,7 @@ use super::scene_bvh::SceneBvh;
 use super::transform::{transform_direction, transform_point};
 use super::triangle_block::BlockHits;
 use super::walk::{Stack, Visitor, walk};
+use gonio_simd::prefetch;
 
 /// A query: takes the hits of one ray as they are found.
 pub(super) trait Collector {
@@ -94,6 +95,15 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
     }
 
     #[inline(always)]
+    fn fetch(&self, child: ChildRef) {
+        if child.is_inner() {
+            prefetch(&self.scene.nodes, child.index());
+        } else {
+            prefetch(&self.scene.records, child.index());
+        }
+    }
+
+    #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
         let record = &self.scene.records[leaf.index()];
         if record.mask & self.mask == 0 {
@@ -150,6 +160,15 @@ impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
     #[inline(always)]
     fn t_max(&self) -> f32 {
         self.collector.t_max()
+    }
+
+    #[inline(always)]
+    fn fetch(&self, child: ChildRef) {
+        if child.is_inner() {
+            prefetch(&self.mesh.nodes, child.index());
+        } else {
+            prefetch(&self.mesh.blocks, child.index());
+        }
     }
 
     #[inline(always)]

@@ -67,6 +67,9 @@ impl Collector for Any {
     }
 }
 
+/// Two triangles' distances to a point of their common edge differ by less than this share.
+const SAME_DISTANCE: f32 = 1e-5;
+
 /// Ends at the first opaque hit and keeps the transparent ones.
 struct Passed<'a> {
     t_max: f32,
@@ -86,9 +89,25 @@ impl Collector for Passed<'_> {
     fn add(&mut self, hit: Hit, transparent: bool) -> bool {
         if transparent {
             let Hit { t, u, v, primitive, instance } = hit;
-            self.hits.push(PassedHit { ray: self.ray, instance, primitive, u, v, t });
+            let hit = PassedHit { ray: self.ray, instance, primitive, u, v, t };
+            match hit.is_on_edge().then(|| self.twin(&hit)).flatten() {
+                // The lower number, so that the order of the walk does not show.
+                Some(twin) if hit.primitive < self.hits[twin].primitive => self.hits[twin] = hit,
+                Some(_) => {}
+                None => self.hits.push(hit),
+            }
         }
         !transparent
+    }
+}
+
+impl Passed<'_> {
+    /// The place of a hit of the same ray on the same edge, which two triangles share: the surface is passed once.
+    fn twin(&self, hit: &PassedHit) -> Option<usize> {
+        let of_ray = self.hits.iter().rposition(|known| known.ray != hit.ray).map_or(0, |last| last + 1);
+        let is_twin =
+            |known: &PassedHit| known.instance == hit.instance && known.is_on_edge() && (known.t - hit.t).abs() <= SAME_DISTANCE * hit.t;
+        self.hits[of_ray..].iter().position(is_twin).map(|place| of_ray + place)
     }
 }
 

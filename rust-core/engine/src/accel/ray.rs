@@ -94,3 +94,10 @@ pub struct PassedHit {
     /// Distance in units of the ray's direction.
     pub t: f32,
 }
+
+impl PassedHit {
+    /// Whether the hit is on an edge of its triangle, where a neighbour is hit as well.
+    pub(super) fn is_on_edge(&self) -> bool {
+        self.u <= 0.0 || self.v <= 0.0 || self.u + self.v >= 1.0 - f32::EPSILON
+    }
+}

@@ -10,6 +10,8 @@ pub(super) trait Visitor<K: Lanes8> {
     const ORDERED: bool;
     /// Nothing beyond this distance is of interest.
     fn t_max(&self) -> f32;
+    /// Has memory fetch a child that waits for its turn.
+    fn fetch(&self, child: ChildRef);
     /// Visits a leaf; true ends the walk.
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool;
 }
@@ -26,7 +28,8 @@ fn entry(near: f32, child: ChildRef) -> u64 {
 }
 
 #[inline(always)]
-fn push(stack: &mut Stack, top: &mut usize, entry: u64) {
+fn push<V: Visitor<K>, K: Lanes8>(stack: &mut Stack, top: &mut usize, entry: u64, visitor: &V) {
+    visitor.fetch(ChildRef(entry as u32));
     stack[*top % STACK] = entry;
     *top += 1;
 }
@@ -49,7 +52,7 @@ pub(super) fn walk<K: Lanes8, V: Visitor<K>>(
             let node = &nodes[current.index()];
             let mask = lanes.boxes(node, ray, visitor.t_max(), &mut near);
             if mask != 0 {
-                current = descend::<V, K>(node, mask, &near, stack, &mut top);
+                current = descend(node, mask, &near, stack, &mut top, visitor);
                 continue;
             }
         } else if visitor.leaf(lanes, ray, current) {
@@ -71,7 +74,14 @@ pub(super) fn walk<K: Lanes8, V: Visitor<K>>(
 
 /// Chooses the next child among those of a mask that is not zero, and leaves the others on the stack.
 #[inline(always)]
-fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH], stack: &mut Stack, top: &mut usize) -> ChildRef {
+fn descend<V: Visitor<K>, K: Lanes8>(
+    node: &Node,
+    mask: u32,
+    near: &[f32; WIDTH],
+    stack: &mut Stack,
+    top: &mut usize,
+    visitor: &V,
+) -> ChildRef {
     let first = mask.trailing_zeros() as usize % WIDTH;
     let rest = mask & (mask - 1);
     if rest == 0 {
@@ -82,7 +92,7 @@ fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH]
         let mut rest = rest;
         while rest != 0 {
             let slot = (31 - rest.leading_zeros()) as usize % WIDTH;
-            push(stack, top, entry(0.0, node.children[slot]));
+            push(stack, top, entry(0.0, node.children[slot]), visitor);
             rest ^= 1 << slot;
         }
         return node.children[first];
@@ -92,7 +102,7 @@ fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH]
     let (mut low, mut high) = (a.min(b), a.max(b));
     let mut rest = rest & (rest - 1);
     if rest == 0 {
-        push(stack, top, high);
+        push(stack, top, high, visitor);
         return ChildRef(low as u32);
     }
     let third = rest.trailing_zeros() as usize % WIDTH;
@@ -101,8 +111,8 @@ fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH]
     if rest == 0 {
         let middle = low.max(c);
         low = low.min(c);
-        push(stack, top, high.max(middle));
-        push(stack, top, high.min(middle));
+        push(stack, top, high.max(middle), visitor);
+        push(stack, top, high.min(middle), visitor);
         return ChildRef(low as u32);
     }
     let fourth = rest.trailing_zeros() as usize % WIDTH;
@@ -113,9 +123,9 @@ fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH]
     low = low.min(low2);
     high = high.max(high2);
     if rest == 0 {
-        push(stack, top, high);
-        push(stack, top, inner1.max(inner2));
-        push(stack, top, inner1.min(inner2));
+        push(stack, top, high, visitor);
+        push(stack, top, inner1.max(inner2), visitor);
+        push(stack, top, inner1.min(inner2), visitor);
         return ChildRef(low as u32);
     }
     let mut sorted = [high, inner1.max(inner2), inner1.min(inner2), low, 0, 0, 0, 0];
@@ -133,7 +143,7 @@ fn descend<V: Visitor<K>, K: Lanes8>(node: &Node, mask: u32, near: &[f32; WIDTH]
         rest &= rest - 1;
     }
     for &e in &sorted[..n - 1] {
-        push(stack, top, e);
+        push(stack, top, e, visitor);
     }
     ChildRef(sorted[n - 1] as u32)
 }

@@ -9,16 +9,24 @@ pub(crate) fn normal_reflectance<L: Lanes>(eta: F<L>) -> F<L> {
     ((eta - 1.0) / (eta + 1.0)).squared()
 }
 
-/// Exact unpolarised reflectance of a dielectric at cosine `c` ≥ 0; 1 under total internal reflection.
+/// Exact reflectance of a dielectric at cosine `c` ≥ 0 of light polarised across and along the plane of incidence; 1 under total internal reflection.
 #[inline(always)]
-pub(crate) fn dielectric<L: Lanes>(c: F<L>, eta: F<L>) -> F<L> {
+pub(crate) fn dielectric_polarised<L: Lanes>(c: F<L>, eta: F<L>) -> [F<L>; 2] {
     // The floor keeps 0 / 0 away at grazing angles of equal indices.
     let c = c.max(1e-6);
     let squared = 1.0 - (1.0 - c * c) / (eta * eta);
     let t = squared.safe_sqrt();
     let s = (c - eta * t) / (c + eta * t);
     let p = (eta * c - t) / (eta * c + t);
-    squared.le(0.0).select(c.lanes().f(1.0), (s * s + p * p) * 0.5)
+    let (total, one) = (squared.le(0.0), c.lanes().f(1.0));
+    [total.select(one, s * s), total.select(one, p * p)]
+}
+
+/// The same of unpolarised light.
+#[inline(always)]
+pub(crate) fn dielectric<L: Lanes>(c: F<L>, eta: F<L>) -> F<L> {
+    let [s, p] = dielectric_polarised(c, eta);
+    (s + p) * 0.5
 }
 
 /// The exact curve moved to run from 0 at normal incidence to 1 at grazing.

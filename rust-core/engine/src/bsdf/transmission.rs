@@ -68,23 +68,34 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         self.push(Shape::Glass(lobe), weight * factor, weight * (reflected + refracted), turn, Side::Both, Normal::Specular);
     }
 
-    /// A sheet of dielectric: what its two interfaces reflect and pass in all, at the view's angle (OpenPBR 1.1, thin-walled case).
+    /// A sheet of dielectric: what its two interfaces reflect and pass in all, at the view's angle (OpenPBR 1.1, thin-walled case), each polarisation
+    /// by itself, for the second interface meets what the first one let pass.
     #[inline(always)]
     pub(super) fn thin_wall(&mut self, base: &Base<L>) {
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let eta = base.bending.max(1.0);
-        let mut first = base.ends[0].lerp(base.ends[1], fresnel::dielectric_share(self.specular_mu, eta)).saturate();
-        if let Some(film) = self.film(self.l.f(1.0)) {
-            first = first.lerp(film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight);
-        }
         let cos = (1.0 - (1.0 - self.specular_mu * self.specular_mu) / (eta * eta)).max(1e-4).sqrt();
         let colour = self.rgb(p::TRANSMISSION_COLOR).saturate().max(1e-6);
         let path = cos.recip();
         let through = Rgb::new(colour.r.pow(path), colour.g.pow(path), colour.b.pow(path));
-        let entered = self.white() - first;
-        let inner = first * through;
-        let passed = through * entered * entered / (self.white() - inner * inner).max(1e-6);
-        let reflected = first + passed * inner;
+        let normal = fresnel::normal_reflectance(eta);
+        // Films are those of unpolarised light.
+        let film = match self.film(self.l.f(1.0)) {
+            Some(film) => Some((film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight)),
+            None => None,
+        };
+        let (mut reflected, mut passed) = (Rgb::zero(self.l), Rgb::zero(self.l));
+        for reflectance in fresnel::dielectric_polarised(self.specular_mu, eta) {
+            let mut first = base.ends[0].lerp(base.ends[1], (reflectance - normal) / (1.0 - normal)).saturate();
+            if let Some((coloured, weight)) = film {
+                first = first.lerp(coloured, weight);
+            }
+            let entered = self.white() - first;
+            let inner = first * through;
+            let both = through * entered * entered / (self.white() - inner * inner).max(1e-6);
+            passed += both * 0.5;
+            reflected += (first + both * inner) * 0.5;
+        }
         let weight = self.weight * presence;
         let (widths, turn) = self.transmission_widths(base);
         let spread = (((eta - 1.0) * (eta - 0.5).squared() * 3.4) / (eta * eta * eta)).safe_sqrt();

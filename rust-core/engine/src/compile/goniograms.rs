@@ -2,7 +2,7 @@
 
 use crate::{
     error::Diagnostic,
-    light::{AngularType, Goniogram},
+    light::{AngularType, FarField, Goniogram, LightKind, LightRecord},
     scene::{self, Light, PhotometricType},
 };
 use std::sync::Arc;
@@ -13,6 +13,8 @@ pub(super) struct CompiledGoniograms {
     sources: Vec<Arc<scene::Goniogram>>,
     /// None for what cannot be used.
     places: Vec<Option<u32>>,
+    /// Flux in lm of each table, where it was asked for.
+    fluxes: Vec<Option<f64>>,
     pub(super) tables: Vec<Arc<Goniogram>>,
 }
 
@@ -30,11 +32,21 @@ impl CompiledGoniograms {
         }
         let place = table.map(|table| {
             self.tables.push(Arc::new(table));
+            self.fluxes.push(None);
             self.tables.len() as u32 - 1
         });
         self.sources.push(source.clone());
         self.places.push(place);
         place
+    }
+
+    /// The flux in lm that a table's factors sum up to as intensities in cd.
+    pub(super) fn flux(&mut self, number: u32) -> f64 {
+        let Some(known) = self.fluxes.get_mut(number as usize) else { return 0.0 };
+        *known.get_or_insert_with(|| {
+            let point = LightRecord { goniogram: Some(number), ..LightRecord::new(LightKind::Point) };
+            FarField::new(&[point], &self.tables).flux()
+        })
     }
 
     /// Whether the same goniograms were laid out, in the same order.

@@ -4,14 +4,17 @@ use super::{
     geometry::slots_of,
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
+    light_groups::GroupNames,
+    openings::{self, Part},
+    quantity::{self, FarFields},
     textures::CompiledTextures,
 };
 use crate::{
     accel::{Geometry, Instance, Shape},
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    integrator::{MaterialTable, ray_mask},
-    light::{LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
+    integrator::{LightGroups, MaterialTable, ray_mask},
+    light::{Goniogram, LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
 };
 use std::sync::Arc;
@@ -48,6 +51,7 @@ pub(super) struct CompiledLights {
     pub(super) instances: Vec<Instance>,
     pub(super) instance_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
+    pub(super) groups: LightGroups,
 }
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
@@ -64,21 +68,39 @@ pub(super) fn compile(
     let mut instances = Vec::new();
     let mut instance_light = Vec::new();
     let mut goniograms = CompiledGoniograms::default();
+    let mut far_fields = FarFields::default();
+    let mut groups = GroupNames::default();
     for (number, light) in scene.lights.iter().enumerate() {
-        let placed = rebased(&sized(light), origin);
         let goniogram = goniograms.number(light, diagnostics);
-        records.push(LightRecord { goniogram, ..record(light, &placed, textures.light_numbers[number], diagnostics) });
-        if let Some(instance) = shape_instance(light, &placed) {
-            instance_light.push(number as u32);
-            instances.push(instance);
+        let first = records.len();
+        report_unused(light, kind(light.shape), diagnostics);
+        for part in emitters(light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize))) {
+            let plain = record(light, &part, textures.light_numbers[number], diagnostics);
+            if let Some(instance) = shape_instance(light, &part) {
+                instance_light.push(records.len() as u32);
+                instances.push(instance);
+            }
+            records.push(LightRecord { goniogram, opening: part.opening, ..plain });
         }
+        let group = groups.number(&light.group);
+        groups.of_light.resize(records.len(), group);
+        quantity::apply(light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
     }
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
+    let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
     let table = previous.table(&records, &images, &goniograms);
     let kept = KeptLights { records, images, goniograms, table: Some(table.clone()) };
-    CompiledLights { table, kept, instances, instance_light, triangle_lights }
+    CompiledLights { table, kept, instances, instance_light, triangle_lights, groups }
+}
+
+/// What the light is made of, in the rebased world.
+fn emitters(light: &Light, origin: [f64; 3], goniogram: Option<&Arc<Goniogram>>) -> Vec<Part> {
+    match &light.shape {
+        LightShape::Opening(opening) => openings::parts(opening, &rebased(&light.transform, origin), goniogram.map(|table| &**table)),
+        shape => vec![Part { kind: kind(*shape), placed: rebased(&sized(light), origin), opening: None }],
+    }
 }
 
 /// The light's map with its size in the axes: half sides, radii, half length.
@@ -89,7 +111,7 @@ fn sized(light: &Light) -> Transform {
         LightShape::Ellipse { width, height } => [0.5 * width, 0.5 * height, 1.0],
         LightShape::Sphere { radius } | LightShape::FacingDisk { radius } => [radius; 3],
         LightShape::Cylinder { radius, length } => [0.5 * length, radius, radius],
-        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => [1.0; 3],
+        LightShape::Point | LightShape::Opening(_) | LightShape::Distant { .. } | LightShape::Dome { .. } => [1.0; 3],
     };
     let mut transform = light.transform;
     for (column, size) in transform.columns.iter_mut().zip([x, y, z]) {
@@ -104,19 +126,18 @@ fn kind(shape: LightShape) -> LightKind {
         LightShape::Disk { .. } | LightShape::Ellipse { .. } => LightKind::Disk,
         LightShape::Sphere { .. } => LightKind::Sphere,
         LightShape::FacingDisk { .. } => LightKind::FacingDisk,
-        LightShape::Point => LightKind::Point,
+        LightShape::Point | LightShape::Opening(_) => LightKind::Point,
         LightShape::Cylinder { .. } => LightKind::Cylinder,
         LightShape::Distant { .. } => LightKind::Distant,
         LightShape::Dome { .. } => LightKind::Dome,
     }
 }
 
-fn record(light: &Light, placed: &Transform, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
-    let kind = kind(light.shape);
-    report_unused(light, kind, diagnostics);
+fn record(light: &Light, part: &Part, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
+    let (kind, placed) = (part.kind, &part.placed);
     let angle = if let LightShape::Distant { angle_deg } = light.shape { angle_deg.to_radians() } else { 0.0 };
     let mut radiance = light.emission.radiance;
-    if light.emission.normalized {
+    if light.emission.normalized && light.quantity.is_none() && part.opening.is_none() {
         // The factor is an area in the stage's own units.
         let units = placed.columns.map(|column| column.map(|x| x / light.emission.metres_per_unit));
         let factor = size_factor(kind, [units[0], units[1], units[2]], angle);
@@ -166,32 +187,32 @@ fn report_unused(light: &Light, kind: LightKind, diagnostics: &mut Vec<Diagnosti
     }
 }
 
-/// The light's shape for the tree: scattered rays find every light, camera rays those that are visible.
-fn shape_instance(light: &Light, placed: &Transform) -> Option<Instance> {
+/// An emitter's shape for the tree: scattered rays find every light, camera rays those that are visible.
+fn shape_instance(light: &Light, part: &Part) -> Option<Instance> {
     if light.portal {
         return None;
     }
-    let mut transform = *placed;
+    let mut transform = part.placed;
     let mut double = |axis: usize| transform.columns[axis].iter_mut().for_each(|x| *x *= 2.0);
-    let shape = match light.shape {
-        LightShape::Rectangle { .. } => {
+    let shape = match part.kind {
+        LightKind::Rectangle => {
             double(0);
             double(1);
             Shape::Rectangle
         }
-        LightShape::Disk { .. } | LightShape::Ellipse { .. } => Shape::Disk,
-        LightShape::Sphere { .. } => Shape::Sphere,
+        LightKind::Disk => Shape::Disk,
+        LightKind::Sphere => Shape::Sphere,
         // Rays that meet the disk meet this sphere, and the light's density tells them from the others.
-        LightShape::FacingDisk { .. } => {
+        LightKind::FacingDisk => {
             let radius = transform.columns[0].iter().map(|x| x * x).sum::<f64>().sqrt();
             transform.columns[..3].copy_from_slice(&Transform::scale(radius).columns[..3]);
             Shape::Sphere
         }
-        LightShape::Cylinder { .. } => {
+        LightKind::Cylinder => {
             double(0);
             Shape::Cylinder
         }
-        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => return None,
+        LightKind::Point | LightKind::Distant | LightKind::Dome | LightKind::Triangle => return None,
     };
     let seen = |visible: bool, bit: u8| if visible { bit } else { 0 };
     let visibility = light.visibility;

@@ -8,10 +8,13 @@ mod geometry;
 mod goniograms;
 mod instances;
 mod kept;
+mod light_groups;
 mod lights;
 mod materials;
 mod measured;
+mod openings;
 mod primvars;
+mod quantity;
 mod shader_passes;
 mod textures;
 mod trees;
@@ -122,6 +125,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         instance_light: lights.instance_light,
         triangle_lights: lights.triangle_lights,
         object_lights,
+        groups: lights.groups,
         any_transparent,
         any_absorbing,
         origin,
@@ -147,3 +151,6 @@ fn instanced_triangles(scene: &Scene) -> u64 {
 fn check(cancel: &AtomicBool) -> Result<()> {
     if cancel.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests;

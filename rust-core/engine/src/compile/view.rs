@@ -1,6 +1,6 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, shader_passes};
+use super::{CompiledScene, light_groups, shader_passes};
 use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
@@ -68,6 +68,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         surroundings_cover: settings.background == Background::Covering,
         passes: FirstPasses {
             shader: shader_passes::programs(&scene.tables.materials, settings),
+            groups: light_groups::passes(&scene.tables.groups, settings),
             uv: settings.aovs.contains(&Aov::Uv),
             mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
                 start: settings.mist.start,

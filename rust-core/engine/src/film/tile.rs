@@ -214,6 +214,11 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &First
             }
             channels[3 * BATCH..].copy_from_slice(&gathered.alpha[..BATCH]);
         }
+        Aov::LightGroup(number) => {
+            for (out, column) in channels.chunks_exact_mut(BATCH).zip(gathered.groups.part(u32::from(number))) {
+                out.iter_mut().zip(&column[..BATCH]).for_each(|(out, value)| *out = value * exposure);
+            }
+        }
         Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
         Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
         Aov::Normal | Aov::DenoisingNormal => copy3(channels, &gathered.normal),

@@ -90,7 +90,8 @@ fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -
     if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
 }
 
-/// Samples the next direction and appends the paths that go on.
+/// Samples the next direction and appends the paths that go on; of those that do not scatter any more what goes straight through, as the light
+/// that was sampled before does.
 #[inline(always)]
 pub(super) fn scatter<L: Lanes>(
     stage: &Stage<'_, L>,
@@ -98,10 +99,10 @@ pub(super) fn scatter<L: Lanes>(
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     u: [F<L>; 4],
-    going_on: M<L>,
+    [going_on, ending]: [M<L>; 2],
     ws: &mut Workspace,
 ) {
-    if !going_on.any() {
+    if !(going_on | ending).any() {
         return;
     }
     let l = stage.l;
@@ -112,7 +113,7 @@ pub(super) fn scatter<L: Lanes>(
     let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
     let throughput = point.throughput * sample.value * sample.pdf.recip();
     let passes = sample.straight & straight_left(point.counts, stage.transport);
-    let mut alive = (going_on & consistent).and_not(sample.straight.and_not(passes))
+    let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
         & throughput.max_component().is_finite();

@@ -130,8 +130,16 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
         add(coverage, pixel, l.f(1.0), caught);
     }
     if transport.shows_surroundings {
-        let radiance: Rgb<L> =
-            kernels::surroundings(l, tables, None, [vertex, normal], direction, l.gather(&ws.paths.pdf, point.path), [caught, caught]);
+        let radiance: Rgb<L> = kernels::surroundings(
+            l,
+            tables,
+            None,
+            [vertex, normal],
+            direction,
+            l.gather(&ws.paths.pdf, point.path),
+            [caught, caught],
+            None,
+        );
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }

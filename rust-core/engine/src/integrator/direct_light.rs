@@ -3,6 +3,7 @@
 use super::{
     accumulate::clamped,
     catcher, kernels,
+    light_groups::add_of_lights,
     scatter::{add_sampled, code_of_sampled},
     shade::{Point, Stage},
     state::{ShadowLanes, Workspace},
@@ -36,6 +37,7 @@ pub(super) fn light<L: Lanes>(
     let code = code_of_sampled(point.flags);
     let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
     add_sampled(&mut ws.first_hit, code, point.slot, contribution, shares, free);
+    add_of_lights(l, &transport.passes.groups, sample.light, point.slot, contribution, free, &mut ws.first_hit.groups);
     let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
     let ray = ShadowLanes { segment, contribution, slot: point.slot, code, light: sample.light, shares };
     ws.shadows.append(&ray, lit & sample.casts_shadow);

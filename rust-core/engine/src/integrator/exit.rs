@@ -22,5 +22,5 @@ pub(super) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, base: u32,
         light(stage, point, wo, &lobes, [u_choice, u, v], point.alive, ws);
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
-    scatter(stage, point, wo, &lobes, [l.f(0.5), u, v, u_roulette], point.alive, ws);
+    scatter(stage, point, wo, &lobes, [l.f(0.5), u, v, u_roulette], [point.alive, l.m(false)], ws);
 }

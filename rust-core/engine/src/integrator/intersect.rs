@@ -4,6 +4,7 @@ use super::{
     accumulate::clamped,
     catcher,
     kernels::{self, LightHit},
+    light_groups::add_of_lights,
     light_sums::code,
     material::Tables,
     path::Transport,
@@ -87,7 +88,9 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let slot = l.gather_integers(&ws.paths.slot, path);
         let value = clamped(radiance * throughput * weight, transport.clamp(depth));
-        add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, alive & value.is_lit());
+        let arrives = alive & value.is_lit();
+        add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, arrives);
+        add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.first_hit.groups);
     }
     ws.at_lights.truncate(count);
 }
@@ -145,11 +148,21 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let delta = (flags & flag::DELTA).ne(0);
         let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
         let direction = gather3(l, &ws.paths.direction, path);
-        let radiance =
-            kernels::surroundings(l, tables, transport.known.as_deref(), from, direction, l.gather(&ws.paths.pdf, path), [camera, delta]);
+        let pdf = l.gather(&ws.paths.pdf, path);
+        let (known, first) = (transport.known.as_deref(), [camera, delta]);
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
-        let value = clamped(radiance * throughput, transport.clamp(depth));
-        add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, alive & value.is_lit());
+        let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
+        let value = clamped(unclamped, transport.clamp(depth));
+        let arrives = alive & value.is_lit();
+        add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
+        if transport.passes.groups.wanted() && arrives.any() {
+            // A limit holds for all of them together.
+            let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
+            for light in tables.lights.at_infinity() {
+                let part = kernels::surroundings(l, tables, known, from, direction, pdf, first, Some(light)) * throughput * share;
+                add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.first_hit.groups);
+            }
+        }
     }
 }
 

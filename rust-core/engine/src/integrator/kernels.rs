@@ -85,6 +85,7 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLi
 
 /// [`crate::light::LightTable::escaped`].
 #[inline(never)]
+#[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
 pub(super) fn surroundings<L: Lanes>(
     l: L,
     tables: &Tables,
@@ -93,10 +94,11 @@ pub(super) fn surroundings<L: Lanes>(
     direction: Vec3<L>,
     pdf: F<L>,
     [first, delta]: [M<L>; 2],
+    only: Option<u32>,
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.escaped(l, known, from, normal, direction, pdf, first, delta),
+        || tables.lights.escaped(l, known, from, normal, direction, pdf, first, delta, only),
     )
 }
 

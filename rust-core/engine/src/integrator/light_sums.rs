@@ -26,11 +26,9 @@ pub struct LightSums {
 }
 
 impl LightSums {
-    /// Makes room if a pass wants any of the sums.
-    pub fn prepare(&mut self, wanted: bool) {
-        if self.parts.is_empty() && wanted {
-            self.parts = (0..code::COUNT).map(|_| columns3(BATCH)).collect();
-        }
+    /// Makes room for so many sums, as many as a render's passes want.
+    pub fn prepare(&mut self, count: usize) {
+        self.parts.resize_with(count, || columns3(BATCH));
     }
     /// Whether anything is to be summed.
     #[inline(always)]

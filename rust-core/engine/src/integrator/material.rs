@@ -1,6 +1,6 @@
 //! What the kernels see of a scene: compiled tables.
 
-use super::shader_passes::ShaderOutputs;
+use super::{light_groups::LightGroups, shader_passes::ShaderOutputs};
 use crate::{
     accel::SceneBvh,
     bsdf::{Surface, parameter},
@@ -136,6 +136,8 @@ pub struct Tables {
     pub triangle_lights: Vec<u32>,
     /// 1 for lights that paths among catchers alone do not know; empty if there is none.
     pub object_lights: Vec<u32>,
+    /// Lights by group.
+    pub groups: LightGroups,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.

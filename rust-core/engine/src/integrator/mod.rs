@@ -10,6 +10,7 @@ mod first_surface;
 mod generate;
 mod intersect;
 pub(crate) mod kernels;
+mod light_groups;
 mod light_sums;
 mod material;
 mod measure;
@@ -27,6 +28,7 @@ mod surface;
 
 pub use catcher::CatcherSums;
 pub(crate) use generate::{TileArea, generate, tile_code};
+pub use light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use light_sums::{LightSums, code};
 pub use material::{MaterialTable, Mix, Shading, SurfaceMaterial, Tables};
 pub use path::{FirstPasses, Mist, Start, Tracer, Transport};

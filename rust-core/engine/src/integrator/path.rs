@@ -6,6 +6,7 @@ use super::{
     generate::{TileArea, generate},
     intersect::{intersect, sort_by_material},
     kernels,
+    light_groups::GroupPasses,
     material::Tables,
     measure::measure,
     sensors::{SensorTable, place},
@@ -65,6 +66,8 @@ pub struct FirstPasses {
     pub numbers: bool,
     /// What materials compute for passes of their own.
     pub shader: ShaderPasses,
+    /// Which groups of lights are summed apart.
+    pub groups: GroupPasses,
 }
 
 /// The mist pass: metres at which it starts, metres until it is full, exponent.

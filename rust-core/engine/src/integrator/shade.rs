@@ -7,6 +7,7 @@ use super::{
     direct_light::light,
     first_surface::{append_measure, covered, record_first},
     kernels::{self, LightHit},
+    light_groups::add_of_surfaces,
     light_sums::code,
     material::{SurfaceMaterial, Tables},
     path::{SampleContext, Transport},
@@ -207,7 +208,8 @@ fn shade_lanes<L: Lanes>(
         light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
-    scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], going_on, ws);
+    let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
+    scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], [going_on, ending], ws);
 }
 
 /// Opacity after the cut-out threshold.
@@ -235,5 +237,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
         }
     }
     let value = clamped(value, transport.clamp(context.depth));
-    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, present & value.is_lit());
+    let arrives = present & value.is_lit();
+    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
+    add_of_surfaces(stage, at, point.slot, value, arrives, ws);
 }

@@ -2,6 +2,7 @@
 
 use super::{
     catcher, kernels,
+    light_groups::add_of_lights,
     material::{Shading, Tables},
     path::Transport,
     scatter::add_sampled,
@@ -44,7 +45,7 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     if !ws.passed.is_empty() {
         dim_by_surfaces(tables, transport, ws);
     }
-    dispatch!(transport.execution, l => add_arrived(l, ws));
+    dispatch!(transport.execution, l => add_arrived(l, transport, ws));
     note_arrivals(ws);
     ws.shadows.count = 0;
 }
@@ -74,7 +75,7 @@ fn note_arrivals(ws: &mut Workspace) {
 }
 
 #[inline(always)]
-fn add_arrived<L: Lanes>(l: L, ws: &mut Workspace) {
+fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
     for at in (0..ws.shadows.count).step_by(L::COUNT) {
         let mut bits = 0;
         for lane in 0..L::COUNT {
@@ -87,6 +88,10 @@ fn add_arrived<L: Lanes>(l: L, ws: &mut Workspace) {
         let [diffuse, glossy] = &rays.shares;
         let shares = if ws.first_hit.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None };
         add_sampled(&mut ws.first_hit, code, slot, value, shares, arrived);
+        if transport.passes.groups.wanted() {
+            let light = l.load_integers(&ws.shadows.light, at);
+            add_of_lights(l, &transport.passes.groups, light, slot, value, arrived, &mut ws.first_hit.groups);
+        }
     }
 }
 

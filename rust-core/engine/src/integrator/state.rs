@@ -1,8 +1,14 @@
 //! The state of a batch of paths, in columns.
 
 use super::{
-    catcher::CatcherSums, light_sums::LightSums, material::Tables, path::Transport, shader_passes::ShaderSums, shadow_order::ShadowOrder,
-    statistics::Statistics, subsurface::Walks,
+    catcher::CatcherSums,
+    light_sums::{LightSums, code},
+    material::Tables,
+    path::Transport,
+    shader_passes::ShaderSums,
+    shadow_order::ShadowOrder,
+    statistics::Statistics,
+    subsurface::Walks,
 };
 use crate::{
     accel::{Hits, PassedHit},
@@ -333,6 +339,8 @@ pub struct FirstHit {
     pub clearness: Column,
     /// Light by where it comes from.
     pub lights: LightSums,
+    /// Light by its group.
+    pub groups: LightSums,
     /// What materials show in passes of their own.
     pub shader: ShaderSums,
     /// What shadow catchers hide; empty where there are none.
@@ -354,6 +362,7 @@ impl Default for FirstHit {
             uv: columns3(BATCH),
             clearness: Column::new(BATCH),
             lights: LightSums::default(),
+            groups: LightSums::default(),
             shader: ShaderSums::default(),
             catchers: CatcherSums::default(),
         }
@@ -381,6 +390,7 @@ impl FirstHit {
             .for_each(|column| column.fill(0.0));
         [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
         self.lights.clear();
+        self.groups.clear();
     }
 }
 
@@ -454,7 +464,8 @@ pub struct Workspace {
 impl Workspace {
     /// Empties the block's sums, and makes room for those that passes want.
     pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
-        self.first_hit.lights.prepare(shows_lights);
+        self.first_hit.lights.prepare(if shows_lights { code::COUNT } else { 0 });
+        self.first_hit.groups.prepare(transport.passes.groups.count);
         self.first_hit.shader.prepare(&transport.passes.shader);
         if !tables.geometry.set_catcher.is_empty() {
             self.first_hit.prepare_catchers();

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Cosines bound the cone less this.
 const SLACK: f32 = 1e-4;
 /// Beams of a smaller full angle, in radians, are widened to it: their directions could not be told from one another.
-const SMALLEST_SPREAD: f32 = 2e-3;
+pub(super) const SMALLEST_SPREAD: f32 = 2e-3;
 /// Steepness of a hard edge.
 const HARD: f64 = 1e30;
 /// Reach of lights without spread.

@@ -1,6 +1,7 @@
 //! From records to rows.
 
 use super::beam::{fill_shaping, fill_spot, fill_spread};
+use super::projected_area::{Outline, ProjectedArea};
 use super::record::{LightKind, LightRecord};
 use super::row::{ROW, field, flag};
 use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, narrow, scale, unit_or, widen};
@@ -9,8 +10,10 @@ use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, 
 const SMALLEST_HALF_ANGLE: f64 = 2e-5;
 
 /// The shape's geometry in double precision.
-struct Geometry {
+pub(super) struct Geometry {
     axes: [Vector; 3],
+    /// Axes that the beam refers to.
+    aim: [Vector; 3],
     origin: Vector,
     /// Columns of the sampling frame, when it has an inverse.
     frame: [Vector; 3],
@@ -86,7 +89,7 @@ fn area(kind: LightKind, axes: [Vector; 3]) -> f64 {
 }
 
 impl Geometry {
-    fn new(record: &LightRecord) -> Self {
+    pub(super) fn new(record: &LightRecord) -> Self {
         let kind = record.kind;
         let columns = record.to_world.map(widen);
         let (axes, origin) = ([columns[0], columns[1], columns[2]], columns[3]);
@@ -94,20 +97,25 @@ impl Geometry {
         let (frame, half) = sampling_frame(kind, axes, normal);
         let (centre, radius) = bound(kind, axes, origin);
         let inverse = inverse_rows(frame).filter(|_| columns.iter().flatten().all(|x| x.is_finite()));
-        Self { axes, origin, frame, inverse, half, normal, area: area(kind, axes), centre, radius }
+        let aim = record.opening.map_or(axes, |opening| opening.axes.map(widen));
+        Self { axes, aim, origin, frame, inverse, half, normal, area: area(kind, axes), centre, radius }
+    }
+    /// What the emitter shows of itself by direction; none where it has no area.
+    pub(super) fn projected_area(&self, kind: LightKind) -> Option<ProjectedArea> {
+        ProjectedArea::of_emitter(kind, self.axes, self.normal, self.area)
     }
     fn fill(&self, row: &mut [f32]) {
         let mut put = |at: usize, v: Vector| row[at..at + 3].copy_from_slice(&narrow(v));
         put(field::ORIGIN, self.origin);
         put(field::BOUND_CENTRE, self.centre);
         put(field::NORMAL, self.normal);
-        let axis = unit_or(scale(self.axes[2], -1.0), unit_or(self.normal, [0.0, 0.0, -1.0]));
+        let axis = unit_or(scale(self.aim[2], -1.0), unit_or(self.normal, [0.0, 0.0, -1.0]));
         put(field::AXIS, axis);
         let level = |v: Vector| add(v, scale(axis, -dot(v, axis)));
-        let x = unit_or(level(self.axes[0]), unit_or(level([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]));
+        let x = unit_or(level(self.aim[0]), unit_or(level([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]));
         // A mirrored luminaire stays mirrored.
         let y = cross(x, axis);
-        let side = if dot(y, self.axes[1]) < 0.0 { -1.0 } else { 1.0 };
+        let side = if dot(y, self.aim[1]) < 0.0 { -1.0 } else { 1.0 };
         put(field::LEVEL_X, x);
         put(field::LEVEL_Y, scale(y, side));
         for k in 0..3 {
@@ -151,11 +159,12 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
     let mut bits = record.kind as u32;
     let shaped = fill_shaping(&record.shaping, row) && !record.kind.is_infinite();
     let flat = record.kind.is_flat();
-    let spot = fill_spot(record, geometry.axes, row) && !record.kind.is_infinite();
+    let spot = fill_spot(record, geometry.aim, row) && !record.kind.is_infinite();
     let spread = fill_spread(record, geometry.axes, row);
     let emitting = if record.area > 0.0 { f64::from(record.area) } else { geometry.area };
     let bright = luminance(radiance) * factor;
     let (strength, delta) = match record.kind {
+        _ if record.opening.is_some() => (bright * record.opening.map_or(1.0, |part| f64::from(part.share)), false),
         LightKind::Rectangle | LightKind::Disk | LightKind::Triangle | LightKind::FacingDisk => (bright * emitting, false),
         // A convex body shows a quarter of its surface on average (Cauchy).
         LightKind::Sphere | LightKind::Cylinder => (bright * emitting / 4.0, false),
@@ -179,9 +188,15 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
         (delta, flag::DELTA),
         (record.kind.is_infinite(), flag::INFINITE),
         (flat, flag::FLAT),
+        (record.opening.is_some(), flag::OPENING),
+        (record.opening.is_some_and(|part| part.area.outline != Outline::Faces), flag::ROUND),
+        (record.opening.is_some_and(|part| part.area.outline == Outline::Ellipsoid), flag::ALL_ROUND),
         (lit, flag::LIT),
     ] {
         bits |= if set { bit } else { 0 };
+    }
+    if let Some(part) = &record.opening {
+        part.area.fill(row);
     }
     row[field::FLAGS] = f32::from_bits(bits);
     row[field::STRENGTH] = if lit && record.visible_to_scattered { strength as f32 } else { 0.0 };

@@ -17,6 +17,27 @@ pub enum AngularType {
     A,
 }
 
+impl AngularType {
+    /// The unit direction of a horizontal and a vertical angle in radians.
+    pub fn direction(self, horizontal: f64, vertical: f64) -> [f64; 3] {
+        let ((sin_h, cos_h), (sin_v, cos_v)) = (horizontal.sin_cos(), vertical.sin_cos());
+        match self {
+            Self::C => [sin_v * cos_h, sin_v * sin_h, -cos_v],
+            Self::B => [sin_v * cos_h, sin_h, -cos_v * cos_h],
+            Self::A => [sin_v, cos_v * sin_h, -cos_v * cos_h],
+        }
+    }
+
+    /// Solid angle per product of the two angles' steps.
+    pub fn solid_angle(self, horizontal: f64, vertical: f64) -> f64 {
+        match self {
+            Self::C => vertical.sin(),
+            Self::B => horizontal.cos(),
+            Self::A => vertical.cos(),
+        }
+    }
+}
+
 /// Factors on a grid of two angles in radians, zero beyond its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goniogram {
@@ -40,6 +61,17 @@ impl Goniogram {
     /// The largest factor.
     pub fn peak(&self) -> f32 {
         self.peak
+    }
+
+    /// How two angles make a direction.
+    pub fn angular_type(&self) -> AngularType {
+        self.angular_type
+    }
+
+    /// The tabulated horizontal and vertical angles in radians.
+    pub fn angles(&self) -> [&[f32]; 2] {
+        let [horizontal, vertical] = self.table.axes();
+        [horizontal.knots(), vertical.knots()]
     }
 
     /// The factor in a direction of any length in the luminaire's frame.

@@ -1,5 +1,7 @@
 //! What the compile step says about each light: plain data, one record per light.
 
+use super::projected_area::ProjectedArea;
+
 /// The emitter's geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -81,6 +83,17 @@ pub struct Spot {
     pub stretch: [f32; 2],
 }
 
+/// A luminaire's opening as one of its parts knows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpeningPart {
+    /// What the whole opening shows.
+    pub area: ProjectedArea,
+    /// The part's share of the opening's surface, for choosing among lights.
+    pub share: f32,
+    /// Axes x, y and z of the luminaire, which shaping, spot and goniogram refer to.
+    pub axes: [[f32; 3]; 3],
+}
+
 /// A light, in world space and metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightRecord {
@@ -92,6 +105,8 @@ pub struct LightRecord {
     /// Emitted radiance (cd/m², Rec.709) before shaping and texture, already divided by the normalize factor. Cd for points, lx on a facing
     /// surface for distant lights of angle 0.
     pub radiance: [f32; 3],
+    /// The luminaire that the light is a part of: the radiance is then an intensity in cd, and what the opening shows of itself to a direction divides it.
+    pub opening: Option<OpeningPart>,
     /// Narrowing of the beam; domes and distant lights ignore it.
     pub shaping: Shaping,
     /// A spot's cone; domes and distant lights ignore it.
@@ -130,6 +145,7 @@ impl LightRecord {
             kind,
             to_world: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
             radiance: [1.0; 3],
+            opening: None,
             shaping: Shaping::default(),
             spot: None,
             goniogram: None,

@@ -3,8 +3,8 @@
 use super::record::LightKind;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// Values in a row: five cache lines.
-pub(crate) const ROW: usize = 80;
+/// Values in a row: six cache lines.
+pub(crate) const ROW: usize = 96;
 
 /// Where a row keeps what.
 pub(crate) mod field {
@@ -78,6 +78,10 @@ pub(crate) mod field {
     pub(crate) const GONIOGRAM: usize = 70;
     /// Cosine of the half angle of a flat light's spread, less a little; 0 without one.
     pub(crate) const SPREAD_COSINE: usize = 71;
+    /// Areas of an opening's sides, as vectors along their normals, 9.
+    pub(crate) const OPENING_SIDES: usize = 72;
+    /// What an opening's sides show to the one side more than to the other, 3.
+    pub(crate) const OPENING_TILT: usize = 81;
 }
 
 /// Switches in [`field::FLAGS`]; the kind's number is in the low byte.
@@ -94,6 +98,12 @@ pub(crate) mod flag {
     pub(crate) const LIT: u32 = 1 << 15;
     pub(crate) const SPOT: u32 = 1 << 16;
     pub(crate) const SPREAD: u32 = 1 << 17;
+    /// The radiance is an intensity that goes through an opening.
+    pub(crate) const OPENING: u32 = 1 << 18;
+    /// The opening's second and third sides are one round side.
+    pub(crate) const ROUND: u32 = 1 << 19;
+    /// And so is the first with them.
+    pub(crate) const ALL_ROUND: u32 = 1 << 20;
 }
 
 /// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.

@@ -5,6 +5,7 @@ use super::disk::Disk;
 use super::emitter::{Aim, Emitter};
 use super::facing_disk::{self, FacingDisk};
 use super::portal::Portals;
+use super::projected_area::per_area;
 use super::record::LightKind;
 use super::rectangle::Rectangle;
 use super::row::{Reader, field, flag};
@@ -246,9 +247,9 @@ impl LightTable {
 
     /// Radiance sent against `wi`, with shaping and texture.
     #[inline(always)]
-    fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
+    pub(super) fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
         let plain = light.colour(field::RADIANCE);
-        let shaped = plain * shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi);
+        let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi) * per_area(l, light, -wi));
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);
         if !textured.any() {
@@ -360,7 +361,7 @@ impl LightTable {
 
     /// Light that a ray from `from` (normal `n` there, zero where there is no surface) along unit `wi` meets on leaving the scene: the sum of the infinite
     /// lights' radiances, each times its power-heuristic weight against `bsdf_pdf`. The weight is 1 where the ray is a camera ray (`first`,
-    /// which sees visible lights alone) or was sent by a delta lobe (`delta`).
+    /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
     pub fn escaped<L: Lanes>(
@@ -373,9 +374,10 @@ impl LightTable {
         bsdf_pdf: F<L>,
         first: M<L>,
         delta: M<L>,
+        only: Option<u32>,
     ) -> Rgb<L> {
         let mut sum = Rgb::zero(l);
-        for infinite in &self.infinite {
+        for infinite in self.infinite.iter().filter(|infinite| only.is_none_or(|only| infinite.light == only)) {
             let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);

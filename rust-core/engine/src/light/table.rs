@@ -86,6 +86,10 @@ impl LightTable {
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
+    /// The lights at infinity.
+    pub fn at_infinity(&self) -> impl Iterator<Item = u32> + '_ {
+        self.infinite.iter().map(|infinite| infinite.light)
+    }
     /// Whether a light shines from all around.
     pub fn is_dome(&self, light: u32) -> bool {
         self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)

@@ -21,7 +21,13 @@ pub fn csv(measurements: &Measurements) -> String {
     out
 }
 
-fn line(out: &mut String, origin: &Origin, place: Option<[usize; 2]>, ([x, y, z], reading): ([f64; 3], super::Reading), measurand: Measurand) {
+fn line(
+    out: &mut String,
+    origin: &Origin,
+    place: Option<[usize; 2]>,
+    ([x, y, z], reading): ([f64; 3], super::Reading),
+    measurand: Measurand,
+) {
     let place = place.map_or_else(|| ",".to_owned(), |[row, column]| format!("{row},{column}"));
     let (quantity, unit) = (measurand.name(), measurand.unit().replace('²', "2"));
     let (value, error) = (reading.value, reading.standard_error);

@@ -29,6 +29,9 @@ use gonio_simd::Execution;
 use sense::Probe;
 use std::sync::{Arc, atomic::AtomicBool};
 
+/// Bounces of measurements that no limit was asked for: in white rooms the late ones are many lux together, and roulette ends what does not matter.
+pub const MOST_BOUNCES: u32 = 255;
+
 /// What all meters and grids of a scene show.
 #[derive(Clone, Debug, Default)]
 pub struct Measurements {
@@ -62,7 +65,16 @@ impl std::fmt::Debug for Watch<'_> {
 /// Grids that cannot be laid out, meters without a direction, more than [`MOST_POINTS`] points, what compiling finds, cancellation, and for
 /// daylight factors a scene without domes.
 pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Result<Measurements> {
-    let grids = scene.grids.iter().map(|grid| GridPoints::new(scene, grid)).collect::<Result<Vec<_>>>()?;
+    let mut count = scene.meters.len();
+    let laid_out = |grid| {
+        let points = GridPoints::new(scene, grid)?;
+        count += points.known().count();
+        if count > MOST_POINTS {
+            return Err(Error::setting("grids", format!("more than {MOST_POINTS} points in all; take a wider spacing")));
+        }
+        Ok(points)
+    };
+    let grids = scene.grids.iter().map(laid_out).collect::<Result<Vec<_>>>()?;
     let at_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| {
         points.known().map(|position| Meter {
             origin: grid.origin.clone(),
@@ -73,9 +85,6 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
         })
     });
     let meters: Vec<Meter> = scene.meters.iter().cloned().chain(at_grids).collect();
-    if meters.len() > MOST_POINTS {
-        return Err(Error::setting("grids", format!("{} points in all, expected at most {MOST_POINTS}; take a wider spacing", meters.len())));
-    }
     let mut diagnostics = Vec::new();
     let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;
     let (single, mut rest) = readings.split_at(scene.meters.len());

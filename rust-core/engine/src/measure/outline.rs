@@ -8,7 +8,7 @@ use crate::{
     error::{Error, Result},
     scene::{Grid, Mesh, Transform},
 };
-use std::collections::HashMap;
+use std::{cmp::Ordering, collections::HashMap};
 
 /// The mean normal of a surface is shorter the more it turns; below this share it has no side.
 const LEAST_FLATNESS: f64 = 0.5;
@@ -34,8 +34,9 @@ impl Outline {
         let sum = corners.iter().map(twice_area).fold([0.0; 3], add);
         let total: f64 = corners.iter().map(|t| length(twice_area(t))).sum();
         let normal = unit(sum).filter(|_| length(sum) >= LEAST_FLATNESS * total);
-        let curved = || Error::scene(&grid.origin, "a grid wants a surface with one side, such as a floor or a table's top; this one has no area or turns back on itself");
-        let normal = normal.ok_or_else(curved)?;
+        let problem =
+            "a grid wants a surface with one side, such as a floor or a table's top; this one has no area or turns back on itself";
+        let normal = normal.ok_or_else(|| Error::scene(&grid.origin, problem))?;
         let [u, v] = axes(normal, longest_border(&corners));
         let flat = |p: Vector| ([dot(p, u), dot(p, v)], dot(p, normal));
         // What faces the other way is the underside of something.
@@ -102,7 +103,8 @@ impl Lattice {
             let [low, high] = [along().fold(f64::INFINITY, f64::min) - widened, along().fold(f64::NEG_INFINITY, f64::max) + widened];
             let number = |at: f64| (at - self.first[axis]) / self.spacing[axis];
             // Casts hold numbers to the lattice.
-            (number(low).floor().max(0.0) as usize).min(self.size[axis])..((number(high).ceil() + 1.0).max(0.0) as usize).min(self.size[axis])
+            (number(low).floor().max(0.0) as usize).min(self.size[axis])
+                ..((number(high).ceil() + 1.0).max(0.0) as usize).min(self.size[axis])
         };
         let (columns, rows, across) = (range(0), range(1), self.size[0]);
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
@@ -119,19 +121,19 @@ fn world_triangles(mesh: &Mesh, transform: &Transform) -> Vec<[Vector; 3]> {
     mesh.triangles.iter().filter_map(placed).filter(|t| t.iter().flatten().all(|x| x.is_finite())).collect()
 }
 
-/// A point's coordinates to single precision: corners that do not share a point meet there.
-fn key(p: &[f64]) -> Vec<u32> {
-    // Adding zero makes both zeros one.
-    p.iter().map(|x| (*x as f32 + 0.0).to_bits()).collect()
-}
+/// Ends of an edge.
+type Edge<const N: usize> = [[f64; N]; 2];
 
-/// Edges of one triangle alone, by their ends' keys.
-fn lone_edges<P: Copy>(triangles: impl Iterator<Item = [P; 3]>, coordinates: impl Fn(&P) -> Vec<f64>) -> Vec<[P; 2]> {
-    let mut edges: HashMap<[Vec<u32>; 2], (usize, [P; 2])> = HashMap::new();
+/// Edges of one triangle alone. Corners that do not share a point meet where their coordinates are the same to single precision.
+fn lone_edges<const N: usize>(triangles: &[[[f64; N]; 3]]) -> Vec<Edge<N>> {
+    let Some([start, ..]) = triangles.first() else { return Vec::new() };
+    // From the first corner on: far from the world's origin single precision is coarser than a table. Adding zero makes both zeros one.
+    let key = |end: &[f64; N]| -> [u32; N] { std::array::from_fn(|k| ((end[k] - start[k]) as f32 + 0.0).to_bits()) };
+    let mut edges = HashMap::new();
     for triangle in triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let ends = [triangle[a], triangle[b]];
-            let mut name = ends.each_ref().map(|end| key(&coordinates(end)));
+            let mut name = ends.each_ref().map(key);
             name.sort();
             edges.entry(name).or_insert((0, ends)).0 += 1;
         }
@@ -140,19 +142,23 @@ fn lone_edges<P: Copy>(triangles: impl Iterator<Item = [P; 3]>, coordinates: imp
 }
 
 fn border(triangles: &[[(Point, f64); 3]]) -> Vec<[Point; 2]> {
-    lone_edges(triangles.iter().map(|t| t.map(|(point, _)| point)), |point| point.to_vec())
+    let flat: Vec<[Point; 3]> = triangles.iter().map(|t| t.map(|(point, _)| point)).collect();
+    lone_edges(&flat)
 }
 
 /// The direction of the longest edge of the surface's border: rows run along it.
 fn longest_border(triangles: &[[Vector; 3]]) -> Vector {
-    let edges = lone_edges(triangles.iter().copied(), |point| point.to_vec());
+    let edges = lone_edges(triangles);
     let along = |edge: [Vector; 2]| {
         let v = subtract(edge[1], edge[0]);
         // One sense of the two, so that the order of edges does not matter.
         let first = v.iter().copied().find(|x| x.abs() > 1e-9 * length(v)).unwrap_or(1.0);
         scaled(v, first.signum())
     };
-    let longer = |a: &Vector, b: &Vector| (length(*a) * 1e6).round().total_cmp(&(length(*b) * 1e6).round()).then(a[0].total_cmp(&b[0])).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]));
+    // To the micrometre, then by direction: of a rectangle's equal edges always the same.
+    let rank = |v: &Vector| [(length(*v) * 1e6).round(), v[0], v[1], v[2]];
+    let longer =
+        |a: &Vector, b: &Vector| rank(a).iter().zip(rank(b)).map(|(a, b)| a.total_cmp(&b)).find(|o| o.is_ne()).unwrap_or(Ordering::Equal);
     edges.into_iter().map(along).max_by(longer).unwrap_or([1.0, 0.0, 0.0])
 }
 

@@ -16,7 +16,8 @@ pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {
     let cell = (SIDE / columns.max(rows).max(1)).clamp(CELL[0], CELL[1]);
     let size = [columns * cell, rows * cell];
     let values = grid.values();
-    let pixels: Vec<f32> = (0..size[0] * size[1]).map(|i| interpolated(&values, grid.size, [i % size[0], size[1] - 1 - i / size[0]], cell)).collect();
+    let pixels: Vec<f32> =
+        (0..size[0] * size[1]).map(|i| interpolated(&values, grid.size, [i % size[0], size[1] - 1 - i / size[0]], cell)).collect();
     let mut canvas = style.draw(&pixels, size);
     let dot = (cell / 32).max(1);
     for (index, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
@@ -41,5 +42,11 @@ fn interpolated(values: &[f32], [columns, rows]: [usize; 2], pixel: [usize; 2], 
     let at = |x: usize, y: usize| values[(low[1] + y).min(rows - 1) * columns + (low[0] + x).min(columns - 1)];
     let row = |y: usize| at(0, y) * (1.0 - part[0]) + at(1, y) * part[0];
     let mixed = row(0) * (1.0 - part[1]) + row(1) * part[1];
-    if mixed.is_nan() { own } else if own.is_nan() { f32::NAN } else { mixed }
+    if mixed.is_nan() {
+        own
+    } else if own.is_nan() {
+        f32::NAN
+    } else {
+        mixed
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     outline::{Lattice, Outline},
-    vector::{Vector, add, across, cross, length, scaled, unit},
+    vector::{Vector, across, add, cross, length, scaled, unit},
 };
 use crate::{
     error::{Error, Result},
@@ -34,7 +34,8 @@ impl GridPoints {
         let lengths = [grid.spacing, grid.margin, grid.height];
         if lengths.iter().any(|length| !length.is_finite()) || grid.spacing < 0.0 || grid.margin < 0.0 {
             let [spacing, margin, height] = lengths;
-            return Err(Error::scene(&grid.origin, format!("a grid with spacing {spacing} m, margin {margin} m and height {height} m, expected finite ones, the first two not below 0")));
+            let found = format!("a grid with spacing {spacing} m, margin {margin} m and height {height} m");
+            return Err(Error::scene(&grid.origin, format!("{found}, expected finite ones, the first two not below 0")));
         }
         match &grid.area {
             GridArea::Rectangle { corner, edges } => rectangle(grid, *corner, *edges),
@@ -48,23 +49,27 @@ impl GridPoints {
     }
 }
 
-/// Metres from point to point by EN 12464-1: 0.2 · 5^(log10 d), at most 10, where d is the longer side, or the shorter where that is less than half.
+/// Metres from point to point by EN 12464-1: d over the whole number next to d / p with p = 0.2 · 5^(log10 d), at most 10, where d is the longer
+/// side, or the shorter where that is less than half.
 fn standard_spacing(sides: [f64; 2]) -> f64 {
     let (long, short) = (sides[0].max(sides[1]), sides[0].min(sides[1]));
     let d = if long >= 2.0 * short { short } else { long };
-    (0.2 * 5f64.powf(d.log10())).min(10.0)
+    let most = (0.2 * 5f64.powf(d.log10())).min(10.0);
+    d / (d / most).round().max(1.0)
 }
 
 /// Points and metres from one to the next along sides of a length.
 fn cells(grid: &Grid, sides: [f64; 2]) -> Result<([usize; 2], [f64; 2])> {
     if sides.iter().any(|side| !(side.is_finite() && *side > 0.0)) {
         let [width, depth] = sides;
-        return Err(Error::scene(&grid.origin, format!("the grid's area is {width:.3} × {depth:.3} m without its margin; there is nothing to measure")));
+        let problem = format!("the grid's area is {width:.3} × {depth:.3} m without its margin; there is nothing to measure");
+        return Err(Error::scene(&grid.origin, problem));
     }
     let spacing = if grid.spacing > 0.0 { grid.spacing } else { standard_spacing(sides) };
     let counts = sides.map(|side| (side / spacing).round().max(1.0));
     if counts[0] * counts[1] > MOST_POINTS as f64 {
-        return Err(Error::scene(&grid.origin, format!("the grid has {:.0} points, expected at most {MOST_POINTS}; take a wider spacing", counts[0] * counts[1])));
+        let problem = format!("the grid has {:.0} points, expected at most {MOST_POINTS}; take a wider spacing", counts[0] * counts[1]);
+        return Err(Error::scene(&grid.origin, problem));
     }
     Ok((counts.map(|count| count as usize), [0, 1].map(|axis| sides[axis] / counts[axis])))
 }

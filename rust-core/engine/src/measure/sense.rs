@@ -1,8 +1,9 @@
 //! From meters to sensors, and from their pixels to readings.
 
 use super::{
+    MOST_BOUNCES,
     reading::Reading,
-    vector::{across, cross, unit},
+    vector::{across, add, cross, scaled, unit},
 };
 use crate::{
     compile::CompiledScene,
@@ -18,7 +19,7 @@ use std::{f64::consts::PI, sync::Arc, time::Duration};
 /// How often progress is told.
 const TELL_EVERY: Duration = Duration::from_millis(50);
 /// Rounding errors of a position by its coordinates: that of the rebased point and that of the surface it may lie on.
-const POSITION_ERROR: f32 = 8.0 * f32::EPSILON;
+const POSITION_ERROR: f64 = 8.0 * f32::EPSILON as f64;
 
 /// A meter in unit vectors, world space.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,8 @@ pub(super) struct Probe {
     normal: [f64; 3],
     side: [f64; 3],
     turn: f64,
+    /// Where a cylinder stands up from what it stands on; zero for all else.
+    up: [f64; 3],
     looks: bool,
 }
 
@@ -34,29 +37,37 @@ impl Probe {
     /// # Errors
     /// Positions and directions that are not finite or have no length.
     pub(super) fn new(meter: &Meter) -> Result<Self> {
-        let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, format!("the meter's {what} is {v:?}, expected finite numbers and a direction"));
+        let problem = |what: &str, v: [f64; 3]| format!("the meter's {what} is {v:?}, expected finite numbers and a direction");
+        let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, problem(what, v));
         let position = Some(meter.position).filter(|p| p.iter().all(|x| x.is_finite())).ok_or_else(|| wrong("position", meter.position))?;
         let direction = |what, v: [f64; 3]| unit(v).ok_or_else(|| wrong(what, v));
-        let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, looks };
+        let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, up: [0.0; 3], looks };
         Ok(match meter.measurand {
             Measurand::Illuminance | Measurand::DaylightFactor => plane(direction("normal", meter.normal)?, false),
             Measurand::Luminance => plane(direction("facing", meter.facing)?, true),
             Measurand::Cylindrical | Measurand::Semicylindrical => {
                 let axis = direction("axis", meter.normal)?;
+                if meter.measurand == Measurand::Semicylindrical && unit(cross(axis, direction("facing", meter.facing)?)).is_none() {
+                    return Err(Error::scene(&meter.origin, "half a cylinder faces along its own axis, expected a direction across it"));
+                }
                 let normal = across(axis, meter.facing);
                 let turn = if meter.measurand == Measurand::Cylindrical { PI } else { 0.5 * PI };
-                Self { position, normal, side: cross(axis, normal), turn, looks: false }
+                Self { position, normal, side: cross(axis, normal), turn, up: axis, looks: false }
             }
         })
     }
 
-    fn sensor(&self, origin: [f64; 3]) -> Sensor {
-        let position = [0, 1, 2].map(|i| (self.position[i] - origin[i]) as f32);
-        let largest = position.iter().fold(0.0f32, |most, x| most.max(x.abs()));
+    /// In a scene of a radius in metres, whose surfaces are as exact as that allows.
+    fn sensor(&self, origin: [f64; 3], radius: f64) -> Sensor {
+        let rebased = [0, 1, 2].map(|i| self.position[i] - origin[i]);
+        let largest = rebased.iter().fold(radius, |most, x| most.max(x.abs()));
+        let error = largest * POSITION_ERROR;
+        // The side of a cylinder looks along the floor it stands on.
+        let position = add(rebased, scaled(self.up, error)).map(|x| x as f32);
         let single = |v: [f64; 3]| v.map(|x| x as f32);
         Sensor {
             position,
-            error: largest * POSITION_ERROR,
+            error: error as f32,
             normal: single(self.normal),
             side: single(self.side),
             turn: self.turn as f32,
@@ -74,7 +85,8 @@ pub(super) fn sense(
     progress: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<Reading>> {
     let origin = scene.tables.origin;
-    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(origin)).collect();
+    let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
+    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(origin, radius)).collect();
     let table = SensorTable::new(&sensors);
     let side = table.side();
     let blocks: Vec<[usize; 2]> = (0..probes.len()).map(|sensor| table.block(sensor)).collect();
@@ -84,6 +96,11 @@ pub(super) fn sense(
         sample_range: None,
         noise_threshold: 0.0,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
+        // Limits are for pictures' sake.
+        kind_bounces: [MOST_BOUNCES; 4],
+        clamp_direct: 0.0,
+        clamp_indirect: 0.0,
+        time_limit_s: 0.0,
         aovs: vec![Aov::Luminance, Aov::Illuminance],
         shader_passes: Vec::new(),
         background: Background::Seen,

@@ -14,7 +14,16 @@ fn floor(points: &[[f32; 3]], triangles: &[[u32; 3]], transform: Transform) -> (
 
 /// An L of three square metres.
 fn corner_room() -> (Scene, Grid) {
-    let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let points = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 1.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [1.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+    ];
     floor(&points, &[[0, 7, 3], [0, 3, 6], [7, 1, 2], [7, 2, 3], [6, 3, 4], [6, 4, 5]], Transform::IDENTITY)
 }
 
@@ -43,6 +52,14 @@ fn spacing_without_a_wish_is_the_standards() {
 }
 
 #[test]
+fn the_first_sides_whole_points_decide_the_others() {
+    let area = GridArea::Rectangle { corner: [0.0; 3], edges: [[4.0, 0.0, 0.0], [0.0, 9.7, 0.0]] };
+    let points = GridPoints::new(&Scene::default(), &Grid { area, ..Grid::default() }).expect("a grid");
+    // d = 4 m: p = 0.527 m, 8 points of 0.5 m, and 9.7 m / 0.5 m next to 19.
+    assert_eq!(points.size, [8, 19]);
+}
+
+#[test]
 fn grids_on_meshes_follow_the_outline() {
     let (scene, grid) = corner_room();
     let grid = Grid { spacing: 0.25, height: 0.8, ..grid };
@@ -56,6 +73,23 @@ fn grids_on_meshes_follow_the_outline() {
 }
 
 #[test]
+fn margins_hold_far_from_the_origin() {
+    // 0.4 m wide, and where single precision counts by half a metre.
+    let (scene, grid) = corner_room();
+    let placed = |origin: [f64; 3]| {
+        let transform = Transform { columns: [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2], origin] };
+        let area = GridArea::Mesh { mesh: MeshId(0), transform };
+        GridPoints::new(&scene, &Grid { area, spacing: 0.05, margin: 0.04, ..grid.clone() }).expect("a grid")
+    };
+    let far = [500_000.0, 5_400_000.0, 300.0];
+    let (here, there) = (placed([0.0; 3]), placed(far));
+    assert_eq!((here.size, here.known().count()), (there.size, there.known().count()));
+    for (a, b) in here.known().zip(there.known()) {
+        assert!((0..3).all(|k| (a[k] + far[k] - b[k]).abs() < 1e-6), "{a:?} {b:?}");
+    }
+}
+
+#[test]
 fn mirrored_placements_keep_their_face() {
     let mirrored = Transform { columns: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]] };
     let (scene, grid) = floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]], mirrored);
@@ -65,7 +99,8 @@ fn mirrored_placements_keep_their_face() {
 
 #[test]
 fn areas_without_a_side_are_errors_that_name_the_grid() {
-    let (there_and_back, mut grid) = floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 1]], Transform::IDENTITY);
+    let (there_and_back, mut grid) =
+        floor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 1]], Transform::IDENTITY);
     let mut complain = |change: &dyn Fn(&mut Grid)| {
         change(&mut grid);
         GridPoints::new(&there_and_back, &grid).expect_err("no grid").to_string()
@@ -78,7 +113,12 @@ fn areas_without_a_side_are_errors_that_name_the_grid() {
 #[test]
 fn figures_are_those_of_the_points() {
     let reading = |value| Reading { value, standard_error: 3.0 };
-    let points = GridPoints { size: [3, 1], spacing: [1.0; 2], positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])], normal: [0.0, 0.0, 1.0] };
+    let points = GridPoints {
+        size: [3, 1],
+        spacing: [1.0; 2],
+        positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])],
+        normal: [0.0, 0.0, 1.0],
+    };
     let grid = GridReading::new(&Grid::default(), points, &[reading(100.0), reading(300.0)]);
     assert_eq!((grid.summary.average.value, grid.summary.min.value, grid.summary.max.value), (200.0, 100.0, 300.0));
     assert_eq!((grid.summary.uniformity(), grid.summary.diversity()), (0.5, 1.0 / 3.0));

@@ -1,5 +1,6 @@
 //! How a light's emission depends on direction, as measured.
 
+use super::Opening;
 use gonio_formats::photometry;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +28,12 @@ pub struct Goniogram {
     pub vertical_deg: Vec<f32>,
     /// Not negative: `factors[h * vertical_deg.len() + v]`.
     pub factors: Vec<f32>,
+    /// Flux in lm of the lamps that the factors are for, where it is known.
+    #[serde(default)]
+    pub lamp_flux: Option<f64>,
+    /// The luminaire's opening, in metres; a light has it if its shape is one.
+    #[serde(default)]
+    pub opening: Opening,
 }
 
 impl From<photometry::PhotometricType> for PhotometricType {
@@ -49,6 +56,8 @@ impl From<&photometry::Goniogram> for Goniogram {
             horizontal_deg: narrow(horizontal),
             vertical_deg: narrow(vertical),
             factors: narrow(intensities),
+            lamp_flux: found.lamps().and_then(|lamps| lamps.flux),
+            opening: found.opening.into(),
         }
     }
 }

@@ -56,4 +56,7 @@ pub struct Instances {
     /// What the object index pass shows.
     #[serde(default)]
     pub pass_index: u32,
+    /// The light group that what they emit belongs to.
+    #[serde(default)]
+    pub light_group: String,
 }

@@ -1,6 +1,6 @@
 //! Light sources.
 
-use super::{Goniogram, Origin, TextureId, Transform, Visibility};
+use super::{Goniogram, LightQuantity, Opening, Origin, TextureId, Transform, Visibility};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -61,6 +61,9 @@ pub enum LightShape {
         /// Local units.
         length: f64,
     },
+    /// A luminaire's: the emission's radiance is a luminous intensity in cd, which each part of the opening sends in the share that it has in the
+    /// area seen from there. From afar it is the intensity in every direction; from near it is as if every part sent alike.
+    Opening(Opening),
     /// Infinitely far, shining along −z, seen under `angle_deg` (full angle).
     Distant {
         /// Full angle in degrees; 0 gives parallel light.
@@ -133,6 +136,10 @@ fn unit_stretch() -> [f32; 2] {
     [1.0; 2]
 }
 
+fn undimmed() -> f32 {
+    1.0
+}
+
 fn lambertian_deg() -> f32 {
     180.0
 }
@@ -146,11 +153,20 @@ pub struct Light {
     pub shape: LightShape,
     /// Its strength.
     pub emission: Emission,
+    /// Its strength in another unit, in place of the emission's, whose radiance then tells the colour alone.
+    #[serde(default)]
+    pub quantity: Option<LightQuantity>,
+    /// Factor on its strength, as a dimmer's and its maintenance's (CIE 97) make it.
+    #[serde(default = "undimmed")]
+    pub dimming: f32,
     /// Narrowing of the beam.
     pub shaping: Shaping,
     /// A spot's cone.
     #[serde(default)]
     pub spot: Option<Spot>,
+    /// The light group that it belongs to; the nameless ones are together in [`super::OTHER_LIGHTS`].
+    #[serde(default)]
+    pub group: String,
     /// Measured factors by direction; lights at infinity have no use for them.
     #[serde(default)]
     pub goniogram: Option<Arc<Goniogram>>,
@@ -178,8 +194,11 @@ impl Default for Light {
             origin: Origin::default(),
             shape: LightShape::Point,
             emission: Emission::default(),
+            quantity: None,
+            dimming: undimmed(),
             shaping: Shaping::default(),
             spot: None,
+            group: String::new(),
             goniogram: None,
             spread_deg: lambertian_deg(),
             portal: false,
@@ -207,11 +226,12 @@ mod tests {
         let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
         let mut json = serde_json::to_value(&light).expect("plain data");
         let fields = json.as_object_mut().expect("a structure");
-        for name in ["spot", "spread_deg", "portal", "goniogram"] {
+        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group"] {
             assert!(fields.remove(name).is_some(), "{name}");
         }
         let older: Light = serde_json::from_value(json).expect("older form");
         assert_eq!((older.spot, older.spread_deg, older.portal), (None, 180.0, false));
+        assert_eq!((older.quantity, older.dimming), (None, 1.0));
         assert_eq!(older.shape, light.shape);
     }
 }

@@ -9,10 +9,12 @@ mod camera;
 mod goniogram;
 mod instance;
 mod light;
+mod light_quantity;
 mod material;
 mod measured;
 mod mesh;
 mod meter;
+mod opening;
 mod origin;
 mod settings;
 mod texture;
@@ -24,6 +26,7 @@ pub use camera::{Camera, CameraExposure, Projection};
 pub use goniogram::{Goniogram, PhotometricType};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
+pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use material::{
     Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, ShaderOutput, Space,
     SubsurfaceMethod,
@@ -31,8 +34,9 @@ pub use material::{
 pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
+pub use opening::{Opening, OpeningShape};
 pub use origin::Origin;
-pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, ScatteringKind, Settings, ShaderValue};
+pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, OTHER_LIGHTS, ScatteringKind, Settings, ShaderValue};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 
@@ -98,6 +102,19 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Names of the light groups, that of all lights that are in none the last one.
+    pub fn light_groups(&self) -> Vec<String> {
+        let named = self.lights.iter().map(|light| &light.group).chain(self.instances.iter().map(|set| &set.light_group));
+        let mut names: Vec<String> = Vec::new();
+        for name in named.filter(|name| !name.is_empty() && *name != OTHER_LIGHTS) {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        names.push(OTHER_LIGHTS.to_owned());
+        names
+    }
+
     /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);

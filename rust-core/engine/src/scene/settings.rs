@@ -77,7 +77,15 @@ pub enum Aov {
     Light(ScatteringKind, LightPart),
     /// What the materials' shader outputs of a name show; the name is an entry of [`Settings::shader_passes`].
     Shader(ShaderValue, u16),
+    /// The colour that a group of lights brings; its name is an entry of [`Settings::light_groups`]. All groups of a scene sum up to the colour.
+    LightGroup(u16),
 }
+
+/// What stands before the name of a light group in the name of its pass.
+const LIGHT_GROUP: &str = "lightgroup:";
+
+/// The light group of all lights that are in none.
+pub const OTHER_LIGHTS: &str = "other";
 
 /// Kinds of values that shader passes hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -116,7 +124,7 @@ pub enum LightPart {
 }
 
 impl Aov {
-    /// All passes with their names, but for shader passes.
+    /// All passes with their names, but for shader passes and light groups.
     pub const NAMES: [(Self, &'static str); 27] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
@@ -151,7 +159,7 @@ impl Aov {
         ]
     };
 
-    /// The pass's name; empty for shader passes, whose names [`Settings::pass_name`] knows.
+    /// The pass's name; empty for shader passes and light groups, whose names [`Settings::pass_name`] knows.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
     }
@@ -245,6 +253,9 @@ pub struct Settings {
     /// Names of the shader outputs that passes show.
     #[serde(default)]
     pub shader_passes: Vec<String>,
+    /// Names of the light groups that passes show.
+    #[serde(default)]
+    pub light_groups: Vec<String>,
     /// Stop after this many seconds; 0 is off.
     pub time_limit_s: f64,
 }
@@ -279,6 +290,7 @@ impl Default for Settings {
             threads: 0,
             aovs: vec![Aov::Color],
             shader_passes: Vec::new(),
+            light_groups: Vec::new(),
             time_limit_s: 0.0,
         }
     }
@@ -295,35 +307,49 @@ impl Settings {
         let wanted = if self.min_samples > 0 { self.min_samples } else { by_threshold() };
         (self.noise_threshold > 0.0).then_some(wanted.max(4))
     }
-    /// Sets the passes by their names, in any case of letters but for shader passes, which are called `aov:` (colours) or `aov_value:`
-    /// (numbers) and the name of the output; gives the first name that no pass has.
+    /// Sets the passes by their names, in any case of letters but for those with names of their own: shader passes, which are called `aov:`
+    /// (colours) or `aov_value:` (numbers) and the name of the output, and `lightgroup:` with the name of the group. Gives the first name
+    /// that no pass has.
     pub fn set_passes(&mut self, names: &[String]) -> Result<(), String> {
-        let mut shader_passes: Vec<String> = Vec::new();
+        let (mut shader_passes, mut light_groups): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        let number = |list: &mut Vec<String>, name: &str| {
+            let known = list.iter().position(|known| known == name);
+            let number = known.unwrap_or(list.len());
+            if known.is_none() {
+                list.push(name.to_owned());
+            }
+            u16::try_from(number).ok()
+        };
         let mut aovs = Vec::new();
         for name in names {
             let shader = ShaderValue::PREFIXES.iter().find_map(|(kind, prefix)| Some((*kind, name.strip_prefix(prefix)?)));
-            aovs.push(match shader {
-                Some((kind, output)) => {
-                    let known = shader_passes.iter().position(|known| known == output);
-                    let number = known.unwrap_or(shader_passes.len());
-                    if known.is_none() {
-                        shader_passes.push(output.to_owned());
-                    }
-                    Aov::Shader(kind, u16::try_from(number).map_err(|_| name.clone())?)
-                }
-                None => Aov::by_name(name).ok_or_else(|| name.clone())?,
-            });
+            let aov = match (shader, name.strip_prefix(LIGHT_GROUP)) {
+                (Some((kind, output)), _) => number(&mut shader_passes, output).map(|number| Aov::Shader(kind, number)),
+                (None, Some(group)) => number(&mut light_groups, group).map(Aov::LightGroup),
+                (None, None) => Aov::by_name(name),
+            };
+            aovs.push(aov.ok_or_else(|| name.clone())?);
         }
-        (self.aovs, self.shader_passes) = (aovs, shader_passes);
+        (self.aovs, self.shader_passes, self.light_groups) = (aovs, shader_passes, light_groups);
         Ok(())
     }
-    /// A pass's name, shader passes among them.
+    /// Adds passes of the named light groups to those that are set.
+    pub fn add_light_groups(&mut self, names: Vec<String>) {
+        for name in names {
+            if !self.light_groups.contains(&name) {
+                self.aovs.push(Aov::LightGroup(self.light_groups.len() as u16));
+                self.light_groups.push(name);
+            }
+        }
+    }
+    /// A pass's name, those with names of their own among them.
     pub fn pass_name(&self, aov: Aov) -> String {
         match aov {
             Aov::Shader(kind, number) => {
                 let prefix = ShaderValue::PREFIXES.iter().find(|(known, _)| *known == kind).map_or("", |(_, prefix)| prefix);
                 format!("{prefix}{}", self.shader_passes.get(usize::from(number)).map_or("", String::as_str))
             }
+            Aov::LightGroup(number) => format!("{LIGHT_GROUP}{}", self.light_groups.get(usize::from(number)).map_or("", String::as_str)),
             other => other.name().to_owned(),
         }
     }

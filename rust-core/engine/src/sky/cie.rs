@@ -27,6 +27,16 @@ impl CieSky {
         CIE_TYPES.contains(&kind).then_some(Self { kind, zenith_angle })
     }
 
+    /// The standard overcast, intermediate or clear sky (types 1, 7 and 12), by Perez' clearness.
+    pub(super) fn of_clearness(clearness: f64, zenith_angle: f64) -> Self {
+        let kind = match clearness {
+            ..1.23 => 1,
+            ..2.8 => 7,
+            _ => 12,
+        };
+        Self { kind, zenith_angle }
+    }
+
     /// Luminance over that of the zenith, towards a direction whose height above the horizon has a sine of `up` (0 to 1) and that is `angle`
     /// radians from the sun.
     pub fn relative_luminance(&self, up: f64, angle: f64) -> f64 {

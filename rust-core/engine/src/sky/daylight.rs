@@ -98,12 +98,17 @@ impl Daylight {
         let (zenith_angle, air_mass) = (sun.zenith_angle(), relative_air_mass(sun.elevation_deg));
         let clearness = Clearness::new(&irradiance, zenith_angle, air_mass, normal);
         let blue = HosekWilkie::new(sun.elevation_deg.min(90.0), self.turbidity, self.ground)?;
-        let distribution = match self.model {
+        let mut distribution = match self.model {
             SkyModel::Perez => Distribution::Perez(PerezSky::new(&clearness, zenith_angle)),
             SkyModel::HosekWilkie => Distribution::HosekWilkie(blue),
             SkyModel::Cie(kind) => Distribution::Cie(CieSky::new(kind, zenith_angle).ok_or_else(|| Error::setting("sky", "no such type"))?),
         };
-        let unscaled = distribution.horizontal(zenith_angle);
+        let mut unscaled = distribution.horizontal(zenith_angle);
+        if unscaled <= 0.0 {
+            // Perez' formula is negative all over for a few skies darker than those it was fitted to.
+            distribution = Distribution::Cie(CieSky::of_clearness(clearness.clearness, zenith_angle));
+            unscaled = distribution.horizontal(zenith_angle);
+        }
         let [direct_lux, diffuse_lux] = self.illuminances(&irradiance, &clearness, zenith_angle, unscaled);
         Ok(Sky {
             sun,
@@ -113,7 +118,7 @@ impl Daylight {
             clearness,
             ground: self.ground,
             distribution,
-            scale: if unscaled > 0.0 { diffuse_lux / unscaled } else { 0.0 },
+            scale: diffuse_lux / unscaled,
             blue: self.is_coloured.then_some((blue, self.clear_share(&clearness))),
             sun_colour: if self.is_coloured { colour::of_sun(air_mass * pressure_ratio, self.turbidity) } else { [1.0; 3] },
         })

@@ -100,6 +100,11 @@ impl Axis {
         self.knots.len()
     }
 
+    /// The knots, in order.
+    pub fn knots(&self) -> &[f32] {
+        &self.knots
+    }
+
     /// The first and the last knot.
     pub fn range(&self) -> [f32; 2] {
         [self.knots[0], self.knots[self.knots.len() - 1]]

@@ -84,7 +84,7 @@ impl Goniogram {
 
     /// Intensities in cd in the plane through C(c) and the one across from it, with γ in degrees, negative in the latter; in increasing
     /// order.
-    pub(crate) fn cut(&self, c: f64) -> Vec<[f64; 2]> {
+    pub fn cut(&self, c: f64) -> Vec<[f64; 2]> {
         let own = self.photometric_type == PhotometricType::C;
         let count = (180.0 / CUT_STEP) as usize;
         let angles = if own { self.vertical.clone() } else { (0..=count).map(|index| index as f64 * CUT_STEP).collect() };

@@ -29,6 +29,7 @@ __all__ = [
     "false_colour",
     "glare",
     "measure",
+    "merge",
     "MeasuredBsdf",
     "Pass",
     "Progress",
@@ -37,6 +38,7 @@ __all__ = [
     "Scene",
     "_main",
     "load_usd",
+    "goniogram_figures",
     "read_goniogram",
     "__version__",
     "simd_level",
@@ -102,7 +104,7 @@ class MeasuredBsdf:
     def pdf(self, wi: Buffer, wo: Buffer) -> Array: ...
     def sample(self, wo: Buffer, u: Buffer) -> tuple[Array, Array]: ...
     def fit(self) -> dict[str, Any]: ...
-    def write(self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int = 46, phi: int = 72) -> None: ...
+    def write(self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int | None = None, phi: int | None = None) -> None: ...
 
 @final
 class Reading:
@@ -164,6 +166,7 @@ def measure(
     scene: Scene,
     *,
     samples: int = 4096,
+    max_bounces: int | None = None,
     previous: Render | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurements: ...
@@ -172,6 +175,7 @@ def measure(
 class Picture:
     @property
     def size(self) -> tuple[int, int]: ...
+    def legend(self, height: int) -> Picture: ...
     def tobytes(self) -> bytes: ...
     def write(self, path: str | PathLike[str]) -> None: ...
 
@@ -318,6 +322,7 @@ class Scene:
         visibility: Mapping[str, bool] | None = None,
         primvars: Mapping[str, Buffer] | None = None,
         pass_index: int = 0,
+        light_group: str = "",
         index: int | None = None,
     ) -> int: ...
     def put_material(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
@@ -349,22 +354,22 @@ class Scene:
         self,
         position: Sequence[float],
         *,
-        normal: Sequence[float] = (0.0, 0.0, 1.0),
-        facing: Sequence[float] = (0.0, 1.0, 0.0),
+        normal: Sequence[float] = ...,
+        facing: Sequence[float] = ...,
         quantity: str = "illuminance",
         name: str = "meter",
     ) -> int: ...
     def add_grid(
         self,
         *,
-        corner: Sequence[float] = (0.0, 0.0, 0.0),
+        corner: Sequence[float] = ...,
         edges: Sequence[Sequence[float]] | None = None,
         mesh: int | None = None,
         transform: Sequence[Sequence[float]] | None = None,
         spacing: float = 0.0,
         margin: float = 0.0,
         height: float = 0.0,
-        facing: Sequence[float] = (0.0, 1.0, 0.0),
+        facing: Sequence[float] = ...,
         quantity: str = "illuminance",
         name: str = "grid",
     ) -> int: ...
@@ -385,6 +390,19 @@ class Scene:
         angle: float = 0.53,
         visible: bool = True,
         name: str = "light",
+        lumens: float | None = None,
+        lamp_lumens: float | None = None,
+        candela: float | None = None,
+        lux: float | tuple[float, float] | None = None,
+        nits: float | None = None,
+        watts: float | None = None,
+        temperature: float | None = None,
+        dimming: float = 1.0,
+        goniogram: Mapping[str, Any] | None = None,
+        opening: Mapping[str, Any] | None = None,
+        cosine_power: float = 0.0,
+        spot: tuple[float, float] | None = None,
+        group: str = "",
     ) -> int: ...
     def add_daylight(self, daylight: Daylight, *, up: str = "Z", north: float = 0.0, rows: int = 512) -> None: ...
     def add_camera(self, transform: Sequence[Sequence[float]] | None = None, *, fov: float = 40.0, name: str = "camera") -> None: ...
@@ -417,6 +435,8 @@ class Scene:
         time_limit: float | None = ...,
         passes: Sequence[str] | None = ...,
     ) -> None: ...
+    @property
+    def light_groups(self) -> list[str]: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -485,6 +505,7 @@ def artist_sky(
     rows: int = 512,
 ) -> tuple[Pass, list[float]]: ...
 def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
+def goniogram_figures(data: bytes, name: str) -> dict[str, Any]: ...
 def read_goniogram(data: bytes, name: str) -> tuple[dict[str, Any], list[str]]: ...
 def merge(paths: Sequence[str | PathLike[str]]) -> Film: ...
 def load_usd(

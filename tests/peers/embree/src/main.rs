@@ -3,6 +3,9 @@
 //! `cargo run --release [-- <detail> <runs>]`; detail 1 is a room of 280 thousand triangles, which grow with its square.
 
 mod embree;
+// What the Python module renders with: large pages, as Embree has them.
+#[path = "../../../../rust-core/python/src/memory.rs"]
+mod memory;
 mod rays;
 mod room;
 

@@ -9,13 +9,6 @@ use gonio_formats::bsdf::{
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Angles of the grid that isotropic and anisotropic materials are evaluated on when none is asked for: polar ones, azimuths.
-const ISOTROPIC: [u32; 2] = [46, 72];
-const ANISOTROPIC: [u32; 2] = [19, 36];
-
-/// More numbers than that do not go into a file: one gigabyte of them.
-const MOST_VALUES: u128 = 1 << 28;
-
 /// Pairs of directions that a resampled file is compared with its source at.
 const PAIRS: u32 = 2000;
 
@@ -25,7 +18,8 @@ pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, p
     let (tables, report) = match (measured, &options.grid) {
         (Measured::Tables(tables), None) => (tables.clone(), json!({ "resampled": false })),
         (_, grid) => {
-            let grid = grid_of(measured, grid.as_deref())?;
+            let asked = |place: usize| grid.as_ref().and_then(|grid| grid.get(place)).map(|count| *count as usize);
+            let grid = Grid::new(measured, asked(0), asked(1));
             let tables = measured.resampled(grid).map_err(|error| Error::setting("grid", error.problem))?;
             let difference = mean_difference(measured, &Measured::Tables(tables.clone()));
             (tables, json!({ "resampled": true, "theta": grid.theta, "phi": grid.phi, "mean_difference": difference }))
@@ -33,20 +27,6 @@ pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, p
     };
     super::write(path, &gbsdf::write(&tables, title, encoding))?;
     Ok(report)
-}
-
-/// The grid that was asked for, or the usual one.
-fn grid_of(measured: &Measured, asked: Option<&[u32]>) -> Result<Grid> {
-    let isotropic = measured.is_isotropic();
-    let usual = if isotropic { ISOTROPIC } else { ANISOTROPIC };
-    let [theta, phi] = asked.and_then(|asked| asked.try_into().ok()).unwrap_or(usual);
-    let cells = u128::from(theta).pow(2) * u128::from(phi).pow(if isotropic { 1 } else { 2 });
-    let values = cells * measured.channels().count() as u128;
-    if values > MOST_VALUES {
-        let problem = format!("{theta} × {phi} angles make {values} numbers a side, expected {MOST_VALUES} at most");
-        return Err(Error::setting("grid", problem));
-    }
-    Ok(Grid { theta: theta as usize, phi: phi as usize, isotropic })
 }
 
 /// How far the one is from the other: the sum of differences of luminance over the sum of luminances, at directions spread evenly over both

@@ -108,3 +108,29 @@ fn passed_hits_are_all_transparent_hits_of_rays_that_no_opaque_surface_blocks() 
         assert!(scalar_passed.len().abs_diff(passed.len()) <= 5);
     }
 }
+
+#[test]
+fn an_edge_that_two_triangles_share_is_passed_once() {
+    let positions = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let pane = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    let sheets = [0.5, 0.25].map(|height| {
+        let mut object_to_world = Instance::IDENTITY;
+        object_to_world[2][3] = height;
+        Instance { geometry: Geometry::Mesh(0), object_to_world, mask: 1, transparent: true }
+    });
+    let panes = scene(vec![pane.blas()], &sheets);
+    let mut rays = OwnedRays::default();
+    for i in 0..101 {
+        // Along the diagonal, exactly.
+        let along = i as f32 / 64.0 - 0.75;
+        rays.push([along, along, 1.0], [0.0, 0.0, -1.0], 10.0);
+    }
+    for level in levels() {
+        let (mut blocked, mut passed) = (vec![0; 101], Vec::new());
+        panes.blocked_or_passed(level, &rays.batch(), &mut blocked, &mut passed);
+        assert_eq!(passed.len(), 2 * 101);
+        passed.clear();
+        panes.blocked_or_passed_scalar(&rays.batch(), &mut blocked, &mut passed);
+        assert_eq!(passed.len(), 2 * 101);
+    }
+}

@@ -20,6 +20,7 @@ pub(in crate::bench) fn place(scene: &mut Scene, mesh: Mesh, material: Material,
         holdout: false,
         shadow_catcher: false,
         pass_index: 0,
+        light_group: String::new(),
     });
 }
 

@@ -10,7 +10,7 @@ use crate::{
     compile::CompiledScene,
     error::Result,
     integrator::{Tables, kernels},
-    scene::{Closure, DomeFormat, Light, LightShape, Material, Mesh, Origin, Scene, Texture, Transform},
+    scene::{Closure, DomeFormat, Goniogram, Light, LightShape, Material, Mesh, Opening, OpeningShape, Origin, Scene, Texture, Transform},
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
 use std::sync::{Arc, atomic::AtomicBool};
@@ -51,6 +51,7 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
     }
     cases.push(case("dome with an image", &sky())?);
     cases.push(case("triangle", &triangle())?);
+    cases.push(case("luminaire", &luminaire())?);
     cases.push(case("nine lights of five kinds", &scenes::room())?);
     Ok(cases)
 }
@@ -68,6 +69,18 @@ fn sky() -> Scene {
     let texture = Some(scene.add_texture(texture));
     scene.lights.push(Light { texture, ..dome });
     scene
+}
+
+/// A box of a luminaire that shines to all sides, by planes of 15° and polar angles of 5°.
+fn luminaire() -> Scene {
+    let horizontal_deg: Vec<f32> = (0..=24).map(|plane| 15.0 * plane as f32).collect();
+    let vertical_deg: Vec<f32> = (0..=36).map(|angle| 5.0 * angle as f32).collect();
+    let factor = |plane: f32, angle: f32| 120.0 + 80.0 * angle.to_radians().cos() * plane.to_radians().cos();
+    let factors = horizontal_deg.iter().flat_map(|plane| vertical_deg.iter().map(move |angle| factor(*plane, *angle))).collect();
+    let goniogram = Goniogram { horizontal_deg, vertical_deg, factors, ..Goniogram::default() };
+    let shape = LightShape::Opening(Opening::new(OpeningShape::Box, [1.2, 0.3, 0.1]));
+    let plain = light(shape, 1.0, aimed([0.0, 2.0, 0.0], [0.0; 3]));
+    Scene { lights: vec![Light { goniogram: Some(Arc::new(goniogram)), ..plain }], ..Scene::default() }
 }
 
 /// An emissive triangle, its front down.

@@ -83,6 +83,7 @@ fn scene(nodes: &Value) -> Scene {
         holdout: false,
         shadow_catcher: false,
         pass_index: 0,
+        light_group: String::new(),
     });
     scene
 }

@@ -4,7 +4,7 @@ use super::harness::NO_IMAGES;
 use super::harness::{draw, light, numbers, turned};
 use super::shape::{facing_axes, seen};
 use crate::light::vector::{Vector, dot, length, narrow, widen};
-use crate::light::{LightKind, LightRecord, LightTable, Shaping, Spot};
+use crate::light::{LightKind, LightRecord, LightTable, OpeningPart, ProjectedArea, Shaping, Spot};
 use gonio_simd::{Column, Execution, Lanes, One, Vec3};
 
 fn lights() -> Vec<LightRecord> {
@@ -26,11 +26,36 @@ fn lights() -> Vec<LightRecord> {
             }
         }
     }
+    all.extend(luminaires(at));
     for record in &mut all {
         record.spot = Some(Spot { angle: 2.8, blend: 0.6, stretch: [1.2, 0.9] });
         record.shaping = Shaping { cone_angle: 1.3, softness: 0.5, focus: 2.0, focus_tint: [0.2, 0.1, 0.0] };
     }
     all
+}
+
+/// Parts of luminaires: the radiance is an intensity over what the whole shows.
+fn luminaires(at: [f32; 3]) -> Vec<LightRecord> {
+    let faces = ProjectedArea::of_faces(&[(0, [0.0, 0.0, -1.6]), (0, [0.0, 0.0, 1.6]), (1, [0.4, 0.0, 0.0])]);
+    let wide = |axes: [[f32; 3]; 3]| axes.map(widen);
+    [
+        (LightKind::Rectangle, turned([0.8, 0.5, 0.6], [0.0; 3]), faces),
+        (
+            LightKind::Cylinder,
+            turned([0.8, 0.3, 0.2], [0.2, 0.4, -0.3]),
+            ProjectedArea::of_cylinder(wide(turned([0.8, 0.3, 0.2], [0.2, 0.4, -0.3]))),
+        ),
+        (
+            LightKind::Sphere,
+            turned([0.3, 0.5, 0.2], [0.2, 0.4, -0.3]),
+            ProjectedArea::of_ellipsoid(wide(turned([0.3, 0.5, 0.2], [0.2, 0.4, -0.3]))),
+        ),
+    ]
+    .map(|(kind, axes, area)| {
+        let part = OpeningPart { area, share: 0.5, axes: turned([1.0; 3], [0.1, 0.2, 0.3]) };
+        LightRecord { opening: Some(part), ..light(kind, axes, at) }
+    })
+    .into()
 }
 
 const POINTS: [[f32; 3]; 5] = [[0.0, 0.0, 0.0], [0.3, 0.2, 0.9], [0.4, 0.2, 1.75], [1.3, -0.4, 1.7], [5.0, 7.0, -30.0]];

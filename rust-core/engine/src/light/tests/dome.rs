@@ -33,7 +33,7 @@ fn constant_dome_gives_pi() {
 fn look<L: Lanes>(l: L, table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
     let yes = l.m(true);
     let zero = Vec3::splat(l, [0.0; 3]);
-    let seen = table.escaped(l, None, zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes);
+    let seen = table.escaped(l, None, zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None);
     [seen.r.to_array()[0], seen.g.to_array()[0], seen.b.to_array()[0]]
 }
 
@@ -124,7 +124,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
-        let by_bsdf = table.escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never).g * std::f32::consts::PI;
+        let by_bsdf = table.escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).g * std::f32::consts::PI;
         (by_light + by_bsdf).store(out, at);
     }
 }

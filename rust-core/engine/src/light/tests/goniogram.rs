@@ -29,14 +29,9 @@ fn at_directions(goniogram: &Goniogram, directions: &[[f64; 3]]) -> Vec<Vec<f32>
     Execution::all().into_iter().map(of_level).collect()
 }
 
-/// The direction of two angles in degrees, by the standards' formulas.
+/// The direction of two angles in degrees.
 fn direction(angular_type: AngularType, horizontal: f64, vertical: f64) -> [f64; 3] {
-    let ((sin_h, cos_h), (sin_v, cos_v)) = (horizontal.to_radians().sin_cos(), vertical.to_radians().sin_cos());
-    match angular_type {
-        AngularType::C => [sin_v * cos_h, sin_v * sin_h, -cos_v],
-        AngularType::B => [sin_v * cos_h, sin_h, -cos_v * cos_h],
-        AngularType::A => [sin_v, cos_v * sin_h, -cos_v * cos_h],
-    }
+    angular_type.direction(horizontal.to_radians(), vertical.to_radians())
 }
 
 #[test]

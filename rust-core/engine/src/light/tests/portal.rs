@@ -120,7 +120,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
-        let by_bsdf = table.escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never).g * std::f32::consts::PI;
+        let by_bsdf = table.escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).g * std::f32::consts::PI;
         (by_light + by_bsdf.keep_if(open(wi))).store(out, at);
     }
 }

@@ -30,6 +30,20 @@ impl Default for GlareOptions {
     }
 }
 
+impl GlareOptions {
+    /// Refuses thresholds and radii that are none.
+    fn check(&self) -> Result<()> {
+        let (Threshold::Luminance(threshold) | Threshold::TimesMean(threshold)) = self.threshold;
+        if !(threshold >= 0.0 && threshold.is_finite()) {
+            return Err(Error::setting("threshold", format!("{threshold} was found, expected a number not below 0")));
+        }
+        if !(0.0..=PI).contains(&self.radius) {
+            return Err(Error::setting("radius", format!("{} was found, expected radians from 0 to π", self.radius)));
+        }
+        Ok(())
+    }
+}
+
 /// What a picture says about glare.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Glare {
@@ -51,14 +65,19 @@ impl Glare {
     /// Finds the sources in luminances (cd/m², rows from the top). Values that are not finite or below 0 count as 0.
     ///
     /// # Errors
-    /// Another number of values than the view has pixels, or a view of less than a hemisphere.
+    /// Another number of values than the view has pixels, or none, a view of less than a hemisphere, or a threshold or radius that is none.
     pub fn new(luminance: &[f32], view: &FisheyeView, options: &GlareOptions) -> Result<Self> {
         let [width, height] = view.size();
         if luminance.len() != width * height {
             return Err(Error::setting("luminance", format!("{} values were found, expected {width} × {height}", luminance.len())));
         }
+        if luminance.is_empty() {
+            return Err(Error::setting("luminance", "the picture has no pixels"));
+        }
+        options.check()?;
         if !view.covers_hemisphere() {
-            return Err(Error::setting("fov", "the picture shows less than a hemisphere, so that the light at the eye is not known; expected 180° or more"));
+            let problem = "the picture shows less than a hemisphere, so that the light at the eye is not known; expected 180° or more";
+            return Err(Error::setting("fov", problem));
         }
         let known: Vec<f32> = luminance.iter().map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 }).collect();
         let (mut light, mut solid_angle, mut eye_illuminance) = (0.0, 0.0, 0.0);
@@ -82,14 +101,15 @@ impl Glare {
         Ok(Self { sources, source_of, threshold, mean_luminance, eye_illuminance, background_luminance })
     }
 
-    /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources ahead. None without sources, or where all but them is black.
+    /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources ahead. None without sources, or where all but them is
+    /// black.
     pub fn ugr(&self) -> Option<f64> {
         let sum = self.weighted_sum();
         (sum > 0.0 && self.background_luminance > 0.0).then(|| 8.0 * (0.25 / self.background_luminance * sum).log10())
     }
 
-    /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1. Made
-    /// for 380 lx and more at the eye and values from 0.2 to 0.8.
+    /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1.
+    /// Made for 380 lx and more at the eye and values from 0.2 to 0.8.
     pub fn dgp(&self) -> f64 {
         let of_sources = if self.eye_illuminance > 0.0 { self.weighted_sum() / self.eye_illuminance.powf(1.87) } else { 0.0 };
         (5.87e-5 * self.eye_illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0)

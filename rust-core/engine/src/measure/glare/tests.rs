@@ -44,7 +44,8 @@ fn a_disk_ahead_gives_the_hand_computed_ugr_and_dgp() {
     let (half, elevation, bright, dim) = (5f64.to_radians(), 20.0, 20_000.0, 50.0);
     for projection in [FisheyeProjection::Equidistant, FisheyeProjection::Equisolid] {
         let view = view(projection);
-        let glare = Glare::new(&picture(&view, up(elevation), 5.0, bright as f32, dim as f32), &view, &GlareOptions::default()).expect("a picture");
+        let glare =
+            Glare::new(&picture(&view, up(elevation), 5.0, bright as f32, dim as f32), &view, &GlareOptions::default()).expect("a picture");
         let [source] = glare.sources[..] else { panic!("{} sources", glare.sources.len()) };
         let solid_angle = 2.0 * PI * (1.0 - half.cos());
         assert!((source.solid_angle / solid_angle - 1.0).abs() < 5e-3, "{projection:?}: {}", source.solid_angle);
@@ -103,6 +104,21 @@ fn pictures_that_say_too_little_are_errors() {
     assert!(Glare::new(&[1.0; 64], &narrow, &GlareOptions::default()).is_err());
     assert!(Glare::new(&[1.0; 63], &view(FisheyeProjection::Equisolid), &GlareOptions::default()).is_err());
     assert!(FisheyeView::new(FisheyeProjection::Hemispherical, 200.0, [8; 2]).is_err());
+    let empty = FisheyeView::new(FisheyeProjection::Equidistant, 180.0, [0; 2]).expect("a view");
+    assert!(Glare::new(&[], &empty, &GlareOptions::default()).is_err());
     let black = Glare::new(&vec![0.0; SIDE * SIDE], &view(FisheyeProjection::Equidistant), &GlareOptions::default()).expect("a picture");
     assert_eq!((black.sources.len(), black.dgp()), (0, 0.16));
+}
+
+#[test]
+fn options_that_are_none_are_errors_that_name_them() {
+    let view = FisheyeView::new(FisheyeProjection::Equidistant, 180.0, [8; 2]).expect("a view");
+    let default = GlareOptions::default();
+    let problem = |options: GlareOptions| Glare::new(&[1.0; 64], &view, &options).expect_err("no options").to_string();
+    for threshold in [Threshold::Luminance(f64::NAN), Threshold::Luminance(-1.0), Threshold::TimesMean(f64::INFINITY)] {
+        assert!(problem(GlareOptions { threshold, ..default }).contains("threshold"));
+    }
+    for radius in [f64::NAN, -0.1, 7.0] {
+        assert!(problem(GlareOptions { radius, ..default }).contains("radius"));
+    }
 }

@@ -25,6 +25,15 @@ impl Canvas {
         }
     }
 
+    /// Copies another canvas to a place; what lies outside does not matter.
+    pub fn put(&mut self, other: &Self, [left, top]: [usize; 2]) {
+        let width = other.size[0].min(self.size[0].saturating_sub(left));
+        for y in 0..other.size[1].min(self.size[1].saturating_sub(top)) {
+            let (from, to) = (4 * y * other.size[0], 4 * ((top + y) * self.size[0] + left));
+            self.rgba[to..to + 4 * width].copy_from_slice(&other.rgba[from..from + 4 * width]);
+        }
+    }
+
     /// Fills a rectangle.
     pub fn fill(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], colour: [u8; 4]) {
         (top..top + height).for_each(|y| (left..left + width).for_each(|x| self.set([x, y], colour)));

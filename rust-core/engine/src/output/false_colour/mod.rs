@@ -75,30 +75,31 @@ impl FalseColour {
         if !self.legend {
             return picture;
         }
-        let [width, height] = picture.size;
+        let strip = self.legend(picture.size[1]);
+        let mut canvas = Canvas::new([picture.size[0] + strip.size[0], strip.size[1]], PAPER);
+        canvas.put(&picture, [0, 0]);
+        canvas.put(&strip, [picture.size[0], 0]);
+        canvas
+    }
+
+    /// The legend for a picture of a height, at least as tall as its text wants.
+    pub fn legend(&self, height: usize) -> Canvas {
         let dot = (height / 240).clamp(1, 6);
         let labels: Vec<String> = self.scale.edges().iter().map(|edge| short_number(*edge)).collect();
         let widest = labels.iter().chain([&self.unit]).map(|label| Canvas::text_size(label, dot)[0]).max().unwrap_or(0);
-        let (margin, swatch) = (4 * dot, 12 * dot);
-        // Room for every label and the unit above them, whatever the picture's height.
-        let line = Canvas::text_size("0", dot)[1] + 3 * dot;
-        let tall = height.max((labels.len() + 2) * line);
-        let mut canvas = Canvas::new([width + 3 * margin + swatch + widest, tall], PAPER);
-        for (from, to) in picture.rgba.chunks_exact((4 * width).max(1)).zip(canvas.rgba.chunks_exact_mut(4 * canvas.size[0])) {
-            to[..from.len()].copy_from_slice(from);
-        }
-        let left = width + margin;
-        canvas.write(&self.unit, [left, margin], dot, INK);
+        let (margin, swatch, text) = (4 * dot, 12 * dot, Canvas::text_size("0", dot)[1]);
+        let line = text + 3 * dot;
+        let mut canvas = Canvas::new([3 * margin + swatch + widest, height.max((labels.len() + 2) * line)], PAPER);
+        canvas.write(&self.unit, [margin, margin], dot, INK);
         let (top, steps) = (margin + 2 * line, self.scale.steps());
-        let room = tall.saturating_sub(top + line);
-        for step in 0..=steps {
-            let y = top + room * (steps - step) / steps;
-            if step < steps {
-                let [r, g, b] = self.scale.colour(step);
-                let above = top + room * (steps - step - 1) / steps;
-                canvas.fill([left, above], [swatch, y - above], [r, g, b, 255]);
-            }
-            canvas.write(&labels[step], [left + swatch + margin, y.saturating_sub(Canvas::text_size("0", dot)[1] / 2)], dot, INK);
+        let room = canvas.size[1].saturating_sub(top + line);
+        let edge = |step: usize| top + room * (steps - step) / steps;
+        for step in 0..steps {
+            let [r, g, b] = self.scale.colour(step);
+            canvas.fill([margin, edge(step + 1)], [swatch, edge(step) - edge(step + 1)], [r, g, b, 255]);
+        }
+        for (step, label) in labels.iter().enumerate() {
+            canvas.write(label, [2 * margin + swatch, edge(step).saturating_sub(text / 2)], dot, INK);
         }
         canvas
     }
@@ -109,6 +110,8 @@ fn smoothed(values: &[f32], [width, height]: [usize; 2], radius: usize) -> Vec<f
     if radius == 0 {
         return values.to_vec();
     }
+    // A wider one holds the whole picture too, and would not count on.
+    let radius = radius.min(width.max(height));
     // Along rows, then along columns, with running sums.
     let along = |values: &[[f64; 2]], count: usize, stride: usize, start: usize, out: &mut [[f64; 2]]| {
         let (mut sum, mut next) = ([0.0; 2], 0);
@@ -158,7 +161,12 @@ mod tests {
         for (edge, expected) in log.edges().iter().zip([1.0, 10.0, 100.0, 1000.0]) {
             assert!((edge / expected - 1.0).abs() < 1e-5, "{edge}");
         }
-        for wrong in [FalseColourScale::new(0.0, 5, None), FalseColourScale::new(f32::NAN, 5, None), FalseColourScale::new(1.0, 0, None), FalseColourScale::new(1.0, 5, Some(-1.0))] {
+        for wrong in [
+            FalseColourScale::new(0.0, 5, None),
+            FalseColourScale::new(f32::NAN, 5, None),
+            FalseColourScale::new(1.0, 0, None),
+            FalseColourScale::new(1.0, 5, Some(-1.0)),
+        ] {
             assert!(wrong.is_err());
         }
         assert_eq!([0.9, 430.0, 1000.0].map(|high| FalseColourScale::round_max(&[high; 7])), [1.0, 500.0, 1000.0]);
@@ -181,6 +189,7 @@ mod tests {
         assert!((1..7).all(|x| (smooth[8 + x] - x as f32).abs() < 1e-6));
         let spike: Vec<f32> = (0..25).map(|i| if i == 12 { 9.0 } else { 0.0 }).collect();
         assert!((smoothed(&spike, [5, 5], 1)[12] - 1.0).abs() < 1e-6);
+        assert!(smoothed(&spike, [5, 5], usize::MAX).iter().all(|mean| (mean - 9.0 / 25.0).abs() < 1e-6));
     }
 
     #[test]
@@ -194,7 +203,9 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, text) in [(0.0, "0"), (500.0, "500"), (0.25, "0.25"), (12.5, "12.5"), (1234.0, "1234"), (1e9, "1e9"), (0.0333, "0.0333")] {
+        for (value, text) in
+            [(0.0, "0"), (500.0, "500"), (0.25, "0.25"), (12.5, "12.5"), (1234.0, "1234"), (1e9, "1e9"), (0.0333, "0.0333")]
+        {
             assert_eq!(short_number(value), text);
         }
     }

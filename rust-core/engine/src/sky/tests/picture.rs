@@ -73,6 +73,16 @@ fn every_model_s_picture_has_its_zenith_and_its_sum() {
 }
 
 #[test]
+fn where_perez_has_no_light_the_sky_has_what_was_measured() {
+    let mut day = somewhere();
+    day.model = SkyModel::Perez;
+    day.irradiance = Some(Irradiance { direct_normal: 169.25, diffuse_horizontal: 63.9 });
+    let sky = day.sky_under(SunPosition { azimuth_deg: 180.0, elevation_deg: 75.0 }).expect("a sky");
+    let (found, _) = horizontal(&sky.image(512).expect("a picture"));
+    assert!((found / sky.diffuse_lux - 1.0).abs() < 5e-3 && found > 5000.0, "{found} lx, expected {}", sky.diffuse_lux);
+}
+
+#[test]
 fn the_brightest_pixel_lies_at_the_sun() {
     let mut day = somewhere();
     day.model = SkyModel::Cie(12);

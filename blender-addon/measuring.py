@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meters and calculation grids: what operators measure and panels show."""
+
+from dataclasses import dataclass, field
+
+import bpy
+import gonio
+import numpy as np
+from bpy.app.handlers import persistent
+
+from .export import Exporter
+from .report import Report
+
+
+@dataclass
+class Readings:
+    """What was measured last."""
+
+    # By the object's name.
+    grids: dict = field(default_factory=dict)
+    # Lines of figures as the N-panel shows them.
+    point: tuple = ()
+
+    def clear(self) -> None:
+        """Forgets everything."""
+        self.grids, self.point = {}, ()
+
+
+latest = Readings()
+
+
+@persistent
+def _forget(*_arguments) -> None:
+    """Another file's objects may have the same names."""
+    latest.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_post.append(_forget)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_forget)
+
+
+class Meter:
+    """A scene to measure in, exported once."""
+
+    def __init__(self, depsgraph) -> None:
+        self.report = Report()
+        self._exporter = Exporter(self.report)
+        self.scene = self._exporter.sync(depsgraph)
+        self._exporter.settings(depsgraph, width=1, height=1, passes=["color"])
+        self._compiled = None
+
+    def at(self, position, normal, eye, towards, samples: int):
+        """Illuminance at `position` on the plane across `normal`, and the luminance that is seen from `eye` towards `towards`."""
+        self.scene.truncate(meters=0, grids=0)
+        self.scene.add_meter(tuple(position), normal=tuple(normal))
+        self.scene.add_meter(tuple(eye), facing=tuple(towards), quantity="luminance")
+        illuminance, luminance = gonio.measure(self.scene, samples=samples, previous=self._render()).meters
+        return illuminance, luminance
+
+    def put_grids(self, depsgraph, objects) -> None:
+        """Puts the grids on these objects into the scene."""
+        self.scene.truncate(meters=0, grids=0)
+        for thing in objects:
+            self._add_grid(thing, thing.evaluated_get(depsgraph))
+
+    def grids(self, samples: int, cancelled=None):
+        """Readings of the grids that were put there, in their order; it asks nothing of Blender, so that any thread may wait for it."""
+        return gonio.measure(self.scene, samples=samples, previous=self._render(cancelled), cancelled=cancelled)
+
+    def _add_grid(self, thing, evaluated) -> None:
+        settings = thing.gonio
+        mesh = evaluated.to_mesh()
+        try:
+            points, triangles = _arrays(mesh)
+        finally:
+            evaluated.to_mesh_clear()
+        number = self.scene.add_mesh(points, triangles, name=thing.name)
+        self.scene.add_grid(
+            mesh=number,
+            transform=[list(row) for row in evaluated.matrix_world],
+            spacing=settings.grid_spacing,
+            margin=settings.grid_margin,
+            height=settings.grid_height,
+            quantity=settings.grid_quantity,
+            name=thing.name,
+        )
+
+    def _render(self, cancelled=None):
+        """A render of one pixel, which keeps the trees for measurements that follow."""
+        if self._compiled is None:
+            self.scene.add_camera()
+            self.scene.set(samples=1)
+            self._compiled = gonio.Render(self.scene, cancelled=cancelled)
+            self._compiled.wait()
+        return self._compiled
+
+
+def _arrays(mesh):
+    """Points and triangles of a mesh."""
+    mesh.calc_loop_triangles()
+    points = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", points.ravel())
+    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    return points, triangles
+
+
+def grid_lines(reading) -> tuple[str, ...]:
+    """The figures of a grid."""
+    unit, symbol = reading.unit, "D" if reading.unit == "%" else "E"
+    figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
+    lines = [f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}" for name, figure in figures]
+    columns, rows = reading.size
+    return (*lines, f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points")

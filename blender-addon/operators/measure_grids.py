@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures light on the calculation grids of a scene."""
+
+from concurrent.futures import ThreadPoolExecutor
+from threading import Event
+
+import bpy
+import gonio
+import numpy as np
+from bpy.props import IntProperty
+
+from .. import measuring, report
+
+# What the engine, the arrays of a mesh and Blender's own meshes and images raise.
+FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError)
+# Seconds between two looks whether the measurement is done.
+PAUSE = 0.1
+
+
+class GONIO_OT_measure_grids(bpy.types.Operator):
+    """Measure light on all calculation grids of the view layer; values and pictures become a text and images of the file"""
+
+    bl_idname = "gonio.measure_grids"
+    bl_label = "Measure Grids"
+    bl_options = {"REGISTER", "UNDO"}
+
+    samples: IntProperty(name="Samples", description="Samples of each point", min=16, max=1 << 20, default=4096)
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene.render.engine == "GONIO" and any(True for _ in _grids(context))
+
+    def execute(self, context):
+        try:
+            meter = _meter(context)
+            return self._publish(context, meter, meter.grids(self.samples))
+        except FAILURES as error:
+            return self._fail(error)
+
+    def invoke(self, context, event):
+        """Measures beside Blender, until ESC; scripts that call `execute` wait."""
+        try:
+            self._meter = _meter(context)
+        except FAILURES as error:
+            return self._fail(error)
+        self._stop, self._worker = Event(), ThreadPoolExecutor(max_workers=1)
+        self._found = self._worker.submit(self._meter.grids, self.samples, self._stop.is_set)
+        self._timer = context.window_manager.event_timer_add(PAUSE, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        context.workspace.status_text_set("Gonio measures the grids    ESC: Cancel")
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self.cancel(context)
+            return {"CANCELLED"}
+        # Nothing passes through: the grids and the file are still what is measured when the figures come.
+        if not self._found.done():
+            return {"RUNNING_MODAL"}
+        self.cancel(context)
+        try:
+            return self._publish(context, self._meter, self._found.result())
+        except FAILURES as error:
+            return self._fail(error)
+
+    def cancel(self, context):
+        """Ends the measurement and waits for its thread; Blender calls it when it ends the operator itself, as before another file."""
+        self._stop.set()
+        self._worker.shutdown()
+        context.window_manager.event_timer_remove(self._timer)
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+
+    def _publish(self, context, meter, found):
+        report.publish(meter.report)
+        measuring.latest.grids = {reading.name: reading for reading in found.grids}
+        _write_text("Gonio grids.csv", found.csv())
+        for name, reading in measuring.latest.grids.items():
+            _write_image(f"{name} ({reading.unit})", reading.picture(max=context.scene.gonio.false_color_max or None))
+        count = len(found.grids)
+        self.report({"INFO"}, f"{count} grid{'s' * (count > 1)} measured; values are in the text 'Gonio grids.csv'")
+        return {"FINISHED"}
+
+    def _fail(self, error):
+        self.report({"ERROR"}, str(error) or type(error).__name__)
+        return {"CANCELLED"}
+
+
+def _meter(context):
+    """A meter of the scene with its grids."""
+    depsgraph = context.evaluated_depsgraph_get()
+    meter = measuring.Meter(depsgraph)
+    meter.put_grids(depsgraph, list(_grids(context)))
+    return meter
+
+
+def _grids(context):
+    for thing in context.view_layer.objects:
+        if thing.gonio.is_grid and thing.type == "MESH":
+            yield thing
+
+
+def _write_text(name, content) -> None:
+    text = bpy.data.texts.get(name) or bpy.data.texts.new(name)
+    text.clear()
+    text.write(content.replace("\r\n", "\n"))
+
+
+def _write_image(name, picture) -> None:
+    width, height = picture.size
+    image = bpy.data.images.get(name)
+    if image is None:
+        image = bpy.data.images.new(name, width, height, alpha=True)
+    elif tuple(image.size) != (width, height):
+        image.scale(width, height)
+    pixels = np.frombuffer(picture.tobytes(), np.uint8).reshape(height, width, 4)[::-1]
+    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel() / 255.0)
+    image.update()
+    image.pack()

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings of objects that Blender itself has no place for."""
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty
+
+from .switch import switch
+from .tag import tag_data
+
+# The numbers are stored in files: never change or reuse one.
+QUANTITIES = (
+    ("illuminance", "Illuminance", "On the surface, in lx", 0),
+    ("cylindrical", "Cylindrical Illuminance", "Mean over the side of a small upright cylinder, in lx", 1),
+    ("daylight-factor", "Daylight Factor", "Illuminance by the sky alone, in per cent of that on open ground", 2),
+)
+
+
+def _length(name, description, minimum):
+    return FloatProperty(name=name, description=description, min=minimum, default=0.0, unit="LENGTH", update=tag_data)
+
+
+class GonioObjectSettings(bpy.types.PropertyGroup):
+    """Settings of one object."""
+
+    is_grid: switch("Calculation Grid", "Light can be measured on a grid of points over the object's surface", tag_data)
+    is_grid_only: switch("Only a Grid", "The object is not rendered: it is there to be measured on alone", tag_data)
+    grid_quantity: EnumProperty(name="Quantity", description="What the grid measures", items=QUANTITIES, default="illuminance")
+    grid_spacing: _length("Spacing", "Distance from point to point; that of EN 12464-1 if 0", 0.0)
+    grid_margin: _length("Margin", "Width of the strip along the edges that is left out", 0.0)
+    grid_height: _length("Height", "Distance from the surface to the grid, along its normal", -1e6)

@@ -1,0 +1,122 @@
+//! `gonio relight`.
+
+use super::{arguments::RelightOptions, file::check_ending, print, say};
+use gonio::{
+    Error, Result,
+    film::{Image, Layer},
+    light::blackbody_rgb,
+    output::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr},
+    scene::{Aov, Crop},
+};
+
+/// What stands before a group's name in the names of its channels.
+const PREFIX: &str = "lightgroup:";
+
+/// Share of a picture's light that its groups may lack: rounding to half precision and denoising stay below.
+const MOST_MISSING: f64 = 0.01;
+
+/// Sums the groups of an image, each times its factor and colour.
+pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
+    check_ending("output", &options.output, &["exr"])?;
+    let asked = options.group.iter().map(|text| parse(text)).collect::<Result<Vec<_>>>()?;
+    let (channels, size) = read_exr(&options.image)?;
+    let exposure = exposure_of_exr(&options.image)?;
+    let names = groups(&channels);
+    if names.is_empty() {
+        let problem = "it has no light groups; gonio render --light-groups writes them".into();
+        return Err(Error::Format { path: options.image.clone(), line: None, problem });
+    }
+    if let Some((unknown, _)) = asked.iter().find(|(name, _)| !names.contains(name)) {
+        let problem = format!("there is no light group '{unknown}', expected one of {}", names.join(", "));
+        return Err(Error::Setting { name: "group".into(), problem });
+    }
+    let missing = missing(&channels, &names);
+    if missing > MOST_MISSING {
+        let percent = 100.0 * missing;
+        say(&format!(
+            "warning: {percent:.0} % of the light belongs to no group of the file and is left out; gonio render --light-groups writes all"
+        ));
+    }
+    let factor = |name: &String| asked.iter().rev().find(|(asked, _)| asked == name).map_or([1.0; 3], |(_, factor)| *factor);
+    let image = relit(&channels, size, exposure, &names, factor);
+    write_exr(&options.output, &image, &ExrOptions { exposure, ..ExrOptions::default() })?;
+    print(&options.output.display().to_string());
+    Ok(0)
+}
+
+/// A group's name and factors of red, green and blue.
+fn parse(text: &str) -> Result<(String, [f32; 3])> {
+    let wrong =
+        || Error::Setting { name: "group".into(), problem: format!("'{text}' was found, expected NAME=FACTOR or NAME=FACTOR,KELVIN") };
+    let (name, values) = text.rsplit_once('=').ok_or_else(wrong)?;
+    let (factor, kelvin) = values.split_once(',').map_or((values, None), |(factor, kelvin)| (factor, Some(kelvin)));
+    let number = |text: &str| text.trim().parse::<f32>().ok().filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(wrong);
+    let factor = number(factor)?;
+    let colour = kelvin.map(number).transpose()?.map_or([1.0; 3], blackbody_rgb);
+    Ok((name.to_owned(), colour.map(|x| x * factor)))
+}
+
+/// Names of the groups that the channels hold.
+fn groups(channels: &Channels) -> Vec<String> {
+    channels.iter().filter_map(|(name, _)| Some(name.strip_prefix(PREFIX)?.strip_suffix(".R")?.to_owned())).collect()
+}
+
+fn find<'a>(channels: &'a Channels, name: &str) -> Option<&'a [f32]> {
+    channels.iter().find(|(known, _)| known == name).map(|(_, values)| values.as_slice())
+}
+
+/// The share of the colour's light that is in none of the groups.
+fn missing(channels: &Channels, names: &[String]) -> f64 {
+    let light = |prefix: &str| -> f64 {
+        let values = ["R", "G", "B"].into_iter().filter_map(|channel| find(channels, &format!("{prefix}{channel}"))).flatten();
+        values.copied().filter(|value| value.is_finite()).map(f64::from).sum()
+    };
+    let of_groups: f64 = names.iter().map(|name| light(&format!("{PREFIX}{name}."))).sum();
+    let colour = light("");
+    if colour > 0.0 { 1.0 - of_groups / colour } else { 0.0 }
+}
+
+fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names: &[String], factor: impl Fn(&String) -> [f32; 3]) -> Image {
+    let pixels = width * height;
+    let mut colour = vec![0.0; 4 * pixels];
+    for (pixel, alpha) in colour.chunks_exact_mut(4).zip(find(channels, "A").into_iter().flatten().copied().chain(std::iter::repeat(1.0))) {
+        pixel[3] = alpha;
+    }
+    let mut layers = Vec::new();
+    for (number, name) in names.iter().enumerate() {
+        let factors = factor(name);
+        let mut values = vec![0.0; 3 * pixels];
+        for (k, channel) in ["R", "G", "B"].into_iter().enumerate() {
+            let from = find(channels, &format!("{PREFIX}{name}.{channel}")).unwrap_or_default();
+            for (pixel, value) in from.iter().enumerate().take(pixels) {
+                values[3 * pixel + k] = value * factors[k];
+                colour[4 * pixel + k] += value * factors[k];
+            }
+        }
+        layers.push(Layer { aov: Aov::LightGroup(number as u16), name: format!("{PREFIX}{name}"), values, channels: 3 });
+    }
+    if find(channels, "Luminance").is_some() {
+        let luminance = |c: &[f32]| (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / exposure;
+        let values = colour.chunks_exact(4).map(luminance).collect();
+        layers.push(Layer { aov: Aov::Luminance, name: "luminance".into(), values, channels: 1 });
+    }
+    layers.insert(0, Layer { aov: Aov::Color, name: "color".into(), values: colour, channels: 4 });
+    let resolution = [width as u32, height as u32];
+    Image { resolution, window: Crop { min: [0, 0], max: resolution }, layers, samples: 0, mean_samples: 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_of_no_group_is_missing() {
+        let grey = |prefix: &str, value: f32| ["R", "G", "B"].map(|channel| (format!("{prefix}{channel}"), vec![value; 4]));
+        let some: Channels = [grey("", 2.0), grey("lightgroup:Kitchen.", 0.5)].concat();
+        assert!((missing(&some, &groups(&some)) - 0.75).abs() < 1e-12);
+        let all: Channels = [some, grey("lightgroup:other.", 1.5).to_vec()].concat();
+        assert!(missing(&all, &groups(&all)).abs() < 1e-12);
+        let without_colour: Channels = grey("lightgroup:Kitchen.", 0.5).to_vec();
+        assert_eq!(missing(&without_colour, &groups(&without_colour)), 0.0);
+    }
+}

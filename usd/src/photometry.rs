@@ -1,0 +1,144 @@
+//! Absolute photometry of UsdLux lights: `gonio:photometry` attributes; `docs/photometry.md` lists them.
+
+use crate::context::Context;
+use crate::goniogram;
+use crate::prim::Prim;
+use crate::vt::{AssetPath, FromValue};
+use gonio::scene::{Goniogram, LightQuantity, LightShape, Opening, OpeningShape, Transform};
+use std::sync::Arc;
+
+/// Every attribute's name begins so.
+const PREFIX: &str = "gonio:photometry:";
+
+/// What a prim's attributes say of its strength.
+pub(crate) struct Photometry {
+    /// In place of the schema's intensity.
+    pub(crate) quantity: Option<LightQuantity>,
+    /// Dimming times maintenance.
+    pub(crate) dimming: f32,
+    /// A luminaire's, in candela.
+    pub(crate) goniogram: Option<Arc<Goniogram>>,
+    /// The shape that emits, where it is another than the schema's.
+    pub(crate) shape: Option<LightShape>,
+    /// Turns the luminaire about its vertical axis, and takes its opening from metres to the light's own units.
+    pub(crate) placed: Option<Transform>,
+}
+
+fn attribute<'py, T: FromValue>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<T> {
+    context.get_authored(prim, &format!("{PREFIX}{name}"))
+}
+
+/// The photometry of a light of a shape at a place; `None` where the prim has no such attributes.
+pub(crate) fn photometry<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    shape: LightShape,
+    transform: &Transform,
+) -> Option<Photometry> {
+    if !prim.has_authored_prefix(PREFIX) {
+        return None;
+    }
+    let goniogram = if shape.is_at_infinity() { None } else { file(context, prim) };
+    let opening = opening(context, prim, shape, goniogram.as_deref());
+    let is_luminaire = opening.is_some();
+    let quantity = quantity(context, prim).or(is_luminaire.then_some(LightQuantity::Measured));
+    let dimming = dimming(context, prim);
+    let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
+    let placed = is_luminaire.then(|| luminaire_place(transform, context.metres_per_unit, rotation));
+    Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
+}
+
+/// Dimming times maintenance.
+fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
+    let mut factor = |name: &str| {
+        let found: f32 = attribute(context, prim, name).unwrap_or(1.0);
+        if found.is_finite() && found >= 0.0 {
+            return found;
+        }
+        context.warn(&prim.origin(), format!("{PREFIX}{name} is {found}, expected a number of zero or more; 1 is used"));
+        1.0
+    };
+    factor("dimming") * factor("maintenanceFactor")
+}
+
+fn file<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<Goniogram>> {
+    let path: AssetPath = attribute(context, prim, "file")?;
+    if path.authored.is_empty() { None } else { goniogram::absolute(context, prim, &path) }
+}
+
+/// The emitter of a luminaire's file: its own opening, a point, or the light's shape.
+fn opening<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: LightShape, found: Option<&Goniogram>) -> Option<LightShape> {
+    let asked: String = attribute(context, prim, "opening").unwrap_or_default();
+    let found = found?;
+    Some(match asked.as_str() {
+        "" | "file" => LightShape::Opening(found.opening),
+        "point" => LightShape::Point,
+        "light" => LightShape::Opening(of_light(shape, context.metres_per_unit)),
+        other => {
+            context.warn(&prim.origin(), format!("{PREFIX}opening is '{other}', expected file, point or light; file is used"));
+            LightShape::Opening(found.opening)
+        }
+    })
+}
+
+/// The opening that a light's shape is, in metres.
+fn of_light(shape: LightShape, metres_per_unit: f64) -> Opening {
+    let opening = |shape, size: [f64; 3]| Opening::new(shape, size.map(|s| s * metres_per_unit));
+    match shape {
+        LightShape::Rectangle { width, height } => opening(OpeningShape::Rectangle, [width, height, 0.0]),
+        LightShape::Disk { radius } => opening(OpeningShape::Disk, [2.0 * radius, 2.0 * radius, 0.0]),
+        LightShape::Ellipse { width, height } => opening(OpeningShape::Disk, [width, height, 0.0]),
+        LightShape::Sphere { radius } | LightShape::FacingDisk { radius } => opening(OpeningShape::Ellipsoid, [2.0 * radius; 3]),
+        LightShape::Cylinder { radius, length } => opening(OpeningShape::CylinderAlongX, [length, 2.0 * radius, 2.0 * radius]),
+        LightShape::Opening(opening) => opening,
+        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => Opening::default(),
+    }
+}
+
+/// Files state openings in metres, whatever the stage's unit is.
+fn luminaire_place(transform: &Transform, metres_per_unit: f64, rotation_deg: f64) -> Transform {
+    let (sine, cosine) = rotation_deg.to_radians().sin_cos();
+    let turned = Transform { columns: [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0], [0.0; 3]] };
+    transform.after(&Transform::scale(1.0 / metres_per_unit)).after(&turned)
+}
+
+fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<LightQuantity> {
+    let value: f64 = attribute(context, prim, "quantity")?;
+    let unit: String = attribute(context, prim, "unit").unwrap_or_default();
+    Some(match unit.as_str() {
+        "" | "lm" => LightQuantity::Lumens(value),
+        "lampLm" => LightQuantity::LampLumens(value),
+        "cd" => LightQuantity::Candela(value),
+        "lx" => LightQuantity::Lux { illuminance: value, distance: attribute(context, prim, "distance").unwrap_or(1.0) },
+        "nit" => LightQuantity::Nits(value),
+        "W" => LightQuantity::Watts(value),
+        other => {
+            let expected = "expected lm, lampLm, cd, lx, nit or W";
+            context.warn(&prim.origin(), format!("{PREFIX}unit is '{other}', {expected}; the light keeps its intensity"));
+            return None;
+        }
+    })
+}
+
+/// Luminance in cd/m² of a mesh light of an area in m² whose attributes say how strong it is, before its colour.
+pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, area: Option<f64>) -> Option<f64> {
+    use std::f64::consts::PI;
+    let area = area.filter(|area| *area > 0.0);
+    let luminance = match (quantity(context, prim)?, area) {
+        (LightQuantity::Nits(luminance), _) => luminance,
+        (LightQuantity::Lumens(flux), Some(area)) => flux / (PI * area),
+        (LightQuantity::Watts(watts), Some(area)) => watts * gonio::scene::LUMENS_PER_WATT / (PI * area),
+        _ => {
+            context.warn(&prim.origin(), "mesh lights take nit, or lm or W of a known area; the light keeps its intensity");
+            return None;
+        }
+    };
+    if !(luminance.is_finite() && luminance >= 0.0) {
+        context.warn(
+            &prim.origin(),
+            format!("{PREFIX}quantity gives {luminance} cd/m², expected zero or more; the light keeps its intensity"),
+        );
+        return None;
+    }
+    Some(luminance * f64::from(dimming(context, prim)))
+}
