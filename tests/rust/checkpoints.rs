@@ -11,7 +11,11 @@ use gonio_tests::{
     picture::{compiled, render, settings},
     scenes::{camera_from_above, facing_down, floor, light},
 };
-use std::{fs, path::PathBuf, time::Duration};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 fn scene(pixels: u32, samples: u32) -> Scene {
     let mut scene = floor(0.8);
@@ -48,7 +52,7 @@ fn identity(scene: &Scene) -> Identity {
 }
 
 /// Renders a range of the samples and keeps it.
-fn keep_part(scene: &Scene, range: [u32; 2], path: &PathBuf) {
+fn keep_part(scene: &Scene, range: [u32; 2], path: &Path) {
     let part = Scene { settings: Settings { sample_range: Some(range), ..scene.settings.clone() }, ..scene.clone() };
     let mut render = Render::start(compiled(&part), &part.settings, Execution::best()).expect("the render starts");
     render.finish().expect("the render ends well");
@@ -56,7 +60,7 @@ fn keep_part(scene: &Scene, range: [u32; 2], path: &PathBuf) {
 }
 
 /// Renders with an interruption after every few tiles, each time from the checkpoint.
-fn with_interruptions(scene: &Scene, path: &PathBuf) -> (Image, u32) {
+fn with_interruptions(scene: &Scene, path: &Path) -> (Image, u32) {
     let (compiled, identity) = (compiled(scene), identity(scene));
     for interruptions in 0.. {
         let settings = Settings { threads: 1 + interruptions % 3, ..scene.settings.clone() };

@@ -30,7 +30,7 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
     let [red, green, blue] = &workspace.first_hit.radiance;
     let luminance = (0..BATCH).map(|i| 0.2126 * f64::from(red[i]) + 0.7152 * f64::from(green[i]) + 0.0722 * f64::from(blue[i]));
     let (sum, count) = luminance.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
-    let mean = if count > 0.0 { (sum / count as f64).exp() / f64::from(SAMPLES) } else { 0.0 };
+    let mean = if count > 0.0 { (sum / count).exp() / f64::from(SAMPLES) } else { 0.0 };
     let white = mean as f32 * view.exposure / KEY;
     if white > 0.0 { white } else { 1.0 }
 }
