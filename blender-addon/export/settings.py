@@ -4,6 +4,8 @@
 from ..units import LUMENS_PER_WATT
 
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
+# Darker films are as noisy as this one.
+LEAST_EXPOSURE = 1e-6
 # Exponents of the way into the mist, as Cycles has them.
 FALLOFFS = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
 
@@ -16,6 +18,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
     def ask(name, usual):
         return getattr(own, name, usual)
 
+    prefix = "preview_" if preview else ""
     samples = ask("preview_samples", 1024) or 1 << 24 if preview else ask("samples", 128)
     arguments = {
         "width": int(width),
@@ -23,6 +26,10 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "crop": crop,
         "pixel_aspect": 1.0 if preview else render.pixel_aspect_x / render.pixel_aspect_y,
         "samples": int(samples),
+        "noise_threshold": _noise_threshold(ask, prefix, int(samples)),
+        "min_samples": int(ask(f"{prefix}adaptive_min_samples", 0)),
+        # Noise counts by what is shown as white in Blender's units.
+        "noise_white": LUMENS_PER_WATT / max(float(ask("film_exposure", 1.0)), LEAST_EXPOSURE),
         "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
         "max_bounces": int(ask("max_bounces", 12)),
         "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
@@ -43,3 +50,10 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
     if mist is not None and "mist" in passes:
         arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])
     return arguments
+
+
+def _noise_threshold(ask, prefix, samples):
+    """The threshold, 0 where it is switched off; a threshold of 0 follows the samples, as in Cycles."""
+    if not ask(f"use_{prefix}adaptive_sampling", False):
+        return 0.0
+    return float(ask(f"{prefix}adaptive_threshold", 0.01)) or max(0.001, 1.0 / samples)

@@ -62,16 +62,27 @@ class GonioSceneSettings(bpy.types.PropertyGroup):
         default=256,
         update=tag_data,
     )
-    use_adaptive_sampling: switch("Noise Threshold", "Stop sampling pixels whose estimated noise is below a threshold", tag_data)
-    adaptive_threshold: _threshold("Noise Threshold", "Estimated relative error at which a pixel is done", 0.01)
+    use_adaptive_sampling: switch(
+        "Noise Threshold", "Stop sampling pixels whose estimated noise is below a threshold", tag_data, default=True
+    )
+    adaptive_threshold: _threshold(
+        "Noise Threshold",
+        "Estimated error of 8 by 8 pixels, relative to what is shown, at which they are done; 0 follows the samples",
+        0.01,
+    )
     adaptive_min_samples: _least_samples(
         "Min Samples", "Samples that a pixel has before its noise is estimated, chosen by the threshold if 0"
     )
     use_preview_adaptive_sampling: switch(
-        "Viewport Noise Threshold", "Stop sampling pixels of the viewport whose estimated noise is below a threshold", tag_data
+        "Viewport Noise Threshold",
+        "Stop sampling pixels of the viewport whose estimated noise is below a threshold",
+        tag_data,
+        default=True,
     )
     preview_adaptive_threshold: _threshold(
-        "Viewport Noise Threshold", "Estimated relative error at which a pixel of the viewport is done", 0.1
+        "Viewport Noise Threshold",
+        "Estimated error of 8 by 8 pixels of the viewport, relative to what is shown, at which they are done; 0 follows the samples",
+        0.1,
     )
     preview_adaptive_min_samples: _least_samples(
         "Viewport Min Samples", "Samples that a pixel of the viewport has before its noise is estimated, chosen by the threshold if 0"

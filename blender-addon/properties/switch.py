@@ -4,6 +4,6 @@
 from bpy.props import BoolProperty
 
 
-def switch(name, description, update):
-    """A property that is off until someone switches it on; `update` tells Blender of it."""
-    return BoolProperty(name=name, description=description, default=False, update=update)
+def switch(name, description, update, *, default=False):
+    """A property that is off until someone switches it on, unless said otherwise; `update` tells Blender of it."""
+    return BoolProperty(name=name, description=description, default=default, update=update)

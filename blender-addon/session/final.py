@@ -68,7 +68,6 @@ class FinalSession:
         frame, exposure = final_frame(depsgraph.scene.render), depsgraph.scene.gonio.film_exposure
         kinds = passes.add_passes(engine, depsgraph.view_layer)
         samples = self._settings(depsgraph, layer, frame, kinds, preview)
-        _tell_of_settings(layer.report, depsgraph)
         with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
@@ -99,13 +98,6 @@ class FinalSession:
         if own > 0:
             layer.exporter.scene.set(samples=own)
         return own or depsgraph.scene.gonio.samples
-
-
-def _tell_of_settings(told: report.Report, depsgraph) -> None:
-    """Settings of the session that have no effect are not passed over in silence."""
-    if depsgraph.scene.gonio.use_adaptive_sampling:
-        message = "a noise threshold is not supported; each pixel gets all samples unless the time limit ends the render"
-        told.add("Scene", depsgraph.scene.name, message, severity="INFO")
 
 
 @contextmanager

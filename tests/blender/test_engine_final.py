@@ -221,3 +221,42 @@ def test_previews_of_materials_lights_and_worlds():
     values = list(red.preview.image_pixels_float)
     reds, greens = values[0::4], values[1::4]
     assert any(r > 0.3 and r > 2.0 * g for r, g in zip(reds, greens, strict=True))
+
+
+@pytest.mark.blender
+def test_the_noise_threshold_is_the_scene_s(tmp_path: Path):
+    import math
+
+    import scenes
+
+    # A pass of sample counts shows shares of the most samples.
+    scene = scenes.lit_floor(samples=1024, width=32, height=32)
+    scene.gonio.max_bounces = 4
+    scene.view_layers[0].gonio.pass_debug_sample_count = True
+    means = {}
+    for on in (True, False):
+        scene.gonio.use_adaptive_sampling = on
+        scenes.render(tmp_path / "a.exr")
+        channels = scenes.read(tmp_path / "a.exr")
+        means[on] = float(channels["ViewLayer.Combined.R"].mean())
+        count = channels["ViewLayer.Debug Sample Count.X"]
+        # Even light from a point has no noise: 64 samples are the least for the usual threshold of 0.01.
+        assert math.isclose(float(count.max()), 64 / 1024 if on else 1.0, rel_tol=1e-6)
+    assert math.isclose(means[True], means[False], rel_tol=2e-3)
+
+
+@pytest.mark.blender
+def test_thresholds_are_those_of_cycles():
+    import bpy
+    import scenes
+
+    scene = scenes.lit_floor()
+    settings = part("export.settings").settings
+    size = {"width": 8, "height": 8, "crop": None, "passes": ["color"]}
+    found = lambda preview: settings(bpy.context.evaluated_depsgraph_get(), preview=preview, **size)  # noqa: E731
+    assert abs(found(False)["noise_threshold"] - 0.01) < 1e-7 and abs(found(True)["noise_threshold"] - 0.1) < 1e-7
+    scene.gonio.adaptive_threshold, scene.gonio.samples, scene.gonio.film_exposure = 0.0, 500, 2.0
+    assert abs(found(False)["noise_threshold"] - 0.002) < 1e-9
+    assert abs(found(False)["noise_white"] - 177.83 / 2.0) < 1e-3
+    scene.gonio.use_adaptive_sampling = scene.gonio.use_preview_adaptive_sampling = False
+    assert found(False)["noise_threshold"] == found(True)["noise_threshold"] == 0.0

@@ -10,7 +10,8 @@ import pytest
 
 OPTIONS = """--purposes --complexity --mask --variant --session-layer --settings --strict --verbose --output --camera --frames --res --image-width
 --res-scale --spp --max-bounces --integrator --filter --filter-width --aov --exposure --tonemap --crop --time-limit --seed --threads
---clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet""".split()
+--clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet --noise-threshold --min-spp --checkpoint
+--checkpoint-every --resume --samples --denoise""".split()
 
 SETTINGS = """
 def RenderSettings "Settings"
@@ -73,7 +74,7 @@ def test_help_lists_every_option(run):
         assert re.search(rf"^ +(-\w, )?{option}\b", done.stdout, re.MULTILINE), option
 
 
-@pytest.mark.parametrize("command", ["render", "info", "compare"])
+@pytest.mark.parametrize("command", ["render", "merge", "info", "compare"])
 def test_help_of_each_command(run, command):
     assert command in run("--help").stdout
     done = run(command, "-h")

@@ -7,6 +7,7 @@ pub mod accel;
 pub mod bench;
 pub mod bsdf;
 pub mod camera;
+pub mod checkpoint;
 pub mod colour;
 pub mod compile;
 pub mod distribution;

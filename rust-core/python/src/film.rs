@@ -1,12 +1,15 @@
 //! Developed films as buffers.
 
-use crate::{error::exception, pass::Pass};
+use crate::{error::exception, pass::Pass, picture::flat};
 use gonio::{
     film::{Image, Layer, channel_names},
     output::{ExrOptions, ToneMap, write_exr, write_picture},
 };
 use gonio_simd::Execution;
-use pyo3::{exceptions::PyKeyError, prelude::*};
+use pyo3::{
+    exceptions::{PyKeyError, PyValueError},
+    prelude::*,
+};
 use std::path::PathBuf;
 
 /// A developed image: passes as float32 arrays, rows from the top.
@@ -34,10 +37,15 @@ impl Film {
         let [width, height] = self.image.size();
         (width, height)
     }
-    /// Samples a pixel.
+    /// Samples a pixel, the least of all.
     #[getter]
     fn samples(&self) -> u32 {
         self.image.samples
+    }
+    /// Samples a pixel in the mean.
+    #[getter]
+    fn mean_samples(&self) -> f64 {
+        self.image.mean_samples
     }
     /// Names of the passes.
     #[getter]
@@ -69,6 +77,18 @@ impl Film {
             values
         });
         Ok(Pass::new(size, layer.channels, channel_names(layer.aov), values))
+    }
+    /// The same film with other values in a pass: a float buffer of the shape that the pass has.
+    fn with_pass(&self, name: &str, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let shape: (usize, usize, usize) = values.getattr("shape")?.extract()?;
+        let (channels, [width, height]) = (self.layer(name)?.channels, self.image.size());
+        if shape != (height, width, channels) {
+            return Err(PyValueError::new_err(format!("{name}: a shape of {shape:?} was found, expected {:?}", (height, width, channels))));
+        }
+        let values = flat(values, name)?;
+        let mut image = self.image.clone();
+        image.layers.iter_mut().filter(|layer| layer.name == name).for_each(|layer| layer.values.clone_from(&values));
+        Ok(Self { image, exposure: self.exposure })
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]

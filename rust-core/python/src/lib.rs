@@ -52,7 +52,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::picture::{Picture, false_colour};
     #[pymodule_export]
-    use crate::render::{Progress, Render, Tile};
+    use crate::render::{Progress, Render, Tile, merge};
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]

@@ -3,14 +3,16 @@
 use crate::{error::exception, film::Film, scene::Scene};
 use crossbeam_channel::RecvTimeoutError;
 use gonio::{
+    checkpoint::{Checkpoint, Identity, write_checkpoint},
     compile::{CompiledScene, compile},
     render,
 };
 use gonio_simd::Execution;
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use std::{
+    path::{Path, PathBuf},
     sync::{
-        Arc,
+        Arc, OnceLock,
         atomic::{AtomicBool, Ordering},
     },
     time::{Duration, Instant},
@@ -52,6 +54,9 @@ pub(crate) struct Render {
     running: Option<render::Render>,
     compiled: Option<Arc<CompiledScene>>,
     exposure: f32,
+    description: gonio::scene::Scene,
+    /// What checkpoints say they are of, once one was asked for.
+    identity: OnceLock<Identity>,
 }
 
 impl Render {
@@ -71,29 +76,43 @@ const COMPILE_POLL: Duration = Duration::from_millis(50);
 fn start(
     scene: &gonio::scene::Scene,
     before: Option<&CompiledScene>,
+    resume: Option<&Path>,
     stop: &AtomicBool,
 ) -> gonio::Result<(render::Render, f32, Arc<CompiledScene>)> {
-    let settings = scene.settings.clone();
+    let (settings, execution) = (&scene.settings, Execution::detect());
     let exposure = scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
+    let film = resume.map(|path| Checkpoint::resume(path, &Identity::new(scene, execution, Vec::new()))).transpose()?;
     let compiled = Arc::new(compile(scene, before, stop)?);
-    render::Render::start(compiled.clone(), &settings, Execution::detect()).map(|render| (render, exposure, compiled))
+    let render = match film {
+        Some(film) => render::Render::resume(compiled.clone(), settings, execution, film)?,
+        None => render::Render::start(compiled.clone(), settings, execution)?,
+    };
+    Ok((render, exposure, compiled))
 }
 
 #[pymethods]
 impl Render {
-    /// Compiles the scene as it is now and starts the workers; `previous` lends the trees and images of what did not change.
+    /// Compiles the scene as it is now and starts the workers; `previous` lends the trees and images of what did not change. `resume` is a
+    /// checkpoint of the same scene and settings to go on from.
     ///
     /// While it compiles, signals are looked at and `cancelled`, a function that says whether to stop, is asked every 50 ms.
     #[new]
-    #[pyo3(signature = (scene, previous = None, *, cancelled = None))]
-    fn new(py: Python<'_>, scene: &Scene, previous: Option<&Self>, cancelled: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    #[pyo3(signature = (scene, previous = None, *, cancelled = None, resume = None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        previous: Option<&Self>,
+        cancelled: Option<&Bound<'_, PyAny>>,
+        resume: Option<PathBuf>,
+    ) -> PyResult<Self> {
         let description = scene.scene.clone();
+        let kept = scene.scene.clone();
         let before = previous.and_then(Self::compiled);
         let stop = Arc::new(AtomicBool::new(false));
         let (send, started) = crossbeam_channel::bounded(1);
         let asked = stop.clone();
         // A thread that panics drops its sender, which the loop below finds out.
-        std::thread::spawn(move || send.send(start(&description, before.as_deref(), &asked)));
+        std::thread::spawn(move || send.send(start(&description, before.as_deref(), resume.as_deref(), &asked)));
         let wanted_no_more = || -> PyResult<bool> {
             py.check_signals()?;
             cancelled.map_or(Ok(false), |cancelled| cancelled.call0()?.is_truthy())
@@ -102,7 +121,8 @@ impl Render {
             match py.detach(|| started.recv_timeout(COMPILE_POLL)) {
                 Ok(result) => {
                     let (running, exposure, compiled) = result.map_err(exception)?;
-                    return Ok(Self { running: Some(running), exposure, compiled: Some(compiled) });
+                    let (running, compiled) = (Some(running), Some(compiled));
+                    return Ok(Self { running, exposure, compiled, description: kept, identity: OnceLock::new() });
                 }
                 Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("compiling the scene broke off")),
                 Err(RecvTimeoutError::Timeout) => {
@@ -187,4 +207,23 @@ impl Render {
         let running = self.running()?;
         Ok(Film::new(py.detach(|| running.film().develop()), self.exposure))
     }
+    /// Keeps the sums so far in a file, whole or not at all; `Render(scene, resume=path)` goes on with them, `merge` joins the files of ranges.
+    fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let running = self.running()?;
+        let written = py.detach(|| {
+            let identity = self.identity.get_or_init(|| Identity::new(&self.description, Execution::detect(), Vec::new()));
+            write_checkpoint(&path, identity, running.film())
+        });
+        written.map_err(exception)
+    }
+}
+
+/// The film of a whole render from the checkpoints of its parts (see `sample_range` of `Scene.set`), given in any order.
+#[pyfunction]
+pub(crate) fn merge(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Film> {
+    let merged = py.detach(|| {
+        let whole = gonio::checkpoint::merge(&paths)?;
+        Ok((whole.film.develop(), whole.identity.exposure))
+    });
+    merged.map(|(image, exposure)| Film::new(image, exposure)).map_err(exception)
 }

@@ -18,8 +18,8 @@ pub(crate) fn change(settings: &mut Settings, changes: &Bound<'_, PyDict>) -> Py
 }
 
 fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    // None leaves a setting as it is, but for the crop, which it takes away.
-    if value.is_none() && key != "crop" {
+    // None leaves a setting as it is, but for the crop and the range, which it takes away.
+    if value.is_none() && !matches!(key, "crop" | "sample_range") {
         return Ok(());
     }
     match key {
@@ -31,6 +31,10 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             0 => return Err(wrong(key, "0 was found, expected 1 or more".into())),
             samples => s.samples = samples,
         },
+        "noise_threshold" => s.noise_threshold = within(key, value, 0.0, f64::MAX)? as f32,
+        "min_samples" => s.min_samples = value.extract()?,
+        "noise_white" => s.noise_white = within(key, value, 0.0, f64::from(f32::MAX))? as f32,
+        "sample_range" => s.sample_range = value.extract()?,
         "seed" => s.seed = value.extract()?,
         "threads" => s.threads = value.extract()?,
         "integrator" => s.integrator = integrator(value)?,

@@ -16,6 +16,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Render a USD stage to EXR, PNG or JPEG.
     Render(Box<RenderOptions>),
+    /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
+    Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
@@ -91,9 +93,8 @@ pub(super) enum ComplexityArgument {
 pub(super) struct RenderOptions {
     #[command(flatten)]
     pub(super) stage: StageArguments,
-    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
-    #[arg(long, short = 'o', value_name = "FILE")]
-    pub(super) output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) files: OutputArguments,
     /// Camera by name or path; without it the stage's own choice.
     #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
     pub(super) camera: Option<String>,
@@ -112,6 +113,12 @@ pub(super) struct RenderOptions {
     /// Samples a pixel.
     #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) spp: Option<u32>,
+    /// Stop sampling where the estimated noise is below this, on Cycles' scale: 0.01 is a clean picture, 0.1 a preview; 0 is off. --spp is the most that a pixel gets, the pass sample_count shows what it got.
+    #[arg(long = "noise-threshold", value_name = "ERROR", default_value_t = 0.0)]
+    pub(super) noise_threshold: f32,
+    /// Samples a pixel before its noise is estimated; 0 leaves it to the threshold (64 for 0.01).
+    #[arg(long = "min-spp", value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1 << 20))]
+    pub(super) min_spp: u32,
     /// Bounces after the first surface.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(super) max_bounces: Option<u32>,
@@ -130,17 +137,11 @@ pub(super) struct RenderOptions {
     /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
     #[arg(long = "light-groups")]
     pub(super) light_groups: bool,
-    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub(super) exposure: f32,
-    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
-    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
-    pub(super) tonemap: String,
     /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(super) crop: Option<Vec<String>>,
     /// Stop after this many seconds, with whole passes over the picture.
-    #[arg(long = "time-limit", alias = "timelimit", value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long = "time-limit", aliases = ["timelimit", "time"], value_name = "SECONDS", default_value_t = 0.0)]
     pub(super) time_limit: f64,
     /// Seed of the random numbers.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
@@ -154,9 +155,6 @@ pub(super) struct RenderOptions {
     /// Limit of an indirect sample's components in nits; 0 is off.
     #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
     pub(super) clamp_indirect: f32,
-    /// Half floats for the passes of EXR files that are not absolute.
-    #[arg(long)]
-    pub(super) half: bool,
     /// No neutral dome for stages without lights.
     #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
     pub(super) disable_camera_light: bool,
@@ -167,7 +165,59 @@ pub(super) struct RenderOptions {
     #[arg(long, short = 'q')]
     pub(super) quiet: bool,
     #[command(flatten)]
+    pub(super) checkpoint: CheckpointArguments,
+    #[command(flatten)]
     pub(super) daylight: DaylightArguments,
+}
+
+/// Files that pictures are written to.
+#[derive(Args, Clone, Debug)]
+pub(super) struct OutputArguments {
+    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(super) exposure: f32,
+    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
+    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
+    pub(super) tonemap: String,
+    /// Half floats for the passes of EXR files that are not absolute.
+    #[arg(long)]
+    pub(super) half: bool,
+    /// Take the noise out of the colour with Intel's Open Image Denoise (pip install 'gonio[denoise]'); other passes stay as they were rendered.
+    #[arg(long)]
+    pub(super) denoise: bool,
+}
+
+/// Renders that are interrupted, and parts of renders.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Checkpoints")]
+pub(super) struct CheckpointArguments {
+    /// Keep the sums so far in this file, from time to time and at the end; '####' or '$F4' stand for the frame number.
+    #[arg(long, value_name = "FILE")]
+    pub(super) checkpoint: Option<PathBuf>,
+    /// Seconds between checkpoints; where writing one takes long, at least twenty times as long as that.
+    #[arg(long = "checkpoint-every", value_name = "SECONDS", default_value_t = 60.0, requires = "checkpoint")]
+    pub(super) checkpoint_every: f64,
+    /// Go on with the checkpoint where there is one, to the same bits as without the interruption.
+    #[arg(long, requires = "checkpoint")]
+    pub(super) resume: bool,
+    /// Render a part of the samples, from the first to the one before the last number; 'gonio merge' joins the checkpoints of the parts.
+    #[arg(long, value_name = "FIRST:END")]
+    pub(super) samples: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct MergeArguments {
+    /// The checkpoints of the parts, in any order.
+    #[arg(required = true)]
+    pub(super) parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) files: OutputArguments,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(super) quiet: bool,
 }
 
 /// Sun and sky beside the stage's own lights.

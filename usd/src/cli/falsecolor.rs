@@ -64,6 +64,7 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
         window: Crop { min: [0; 2], max: resolution },
         layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
         samples: 1,
+        mean_samples: 1.0,
     };
     Ok(Canvas { rgba: display(&image, ToneMap::Photographic, 0.0, Execution::detect()), size: picture.size })
 }

@@ -4,8 +4,10 @@ mod arguments;
 mod bench;
 mod bsdf;
 mod channel;
+mod checkpoint;
 mod compare;
 mod daylight;
+mod denoise;
 mod falsecolor;
 mod file;
 mod file_name;
@@ -13,6 +15,7 @@ mod frames;
 mod glare;
 mod info;
 mod measure;
+mod merge;
 mod output;
 mod photometry;
 mod progress;
@@ -45,6 +48,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     interrupt::install();
     let result = match parsed.command {
         Command::Render(options) => render::render(py, &options, &INTERRUPTED),
+        Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
         Command::Relight(options) => py.detach(|| relight::relight(&options)),

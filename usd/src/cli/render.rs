@@ -2,6 +2,7 @@
 
 use super::{
     arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
+    checkpoint::{Keeper, sample_range},
     daylight, file_name, frames, list,
     output::{Notes, Writer},
     print,
@@ -15,6 +16,7 @@ use crate::{
 };
 use gonio::{
     Error, Result,
+    checkpoint::Identity,
     compile::{CompiledScene, compile},
     render::Render,
     scene::{Aov, Crop, Filter, Integrator, Scene},
@@ -43,11 +45,11 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
         }
         return Ok(0);
     }
-    if options.output.is_empty() {
+    if options.files.output.is_empty() && options.checkpoint.checkpoint.is_none() {
         return Err(Error::Setting { name: "output".into(), problem: "no file was given; say -o picture.exr".into() });
     }
     let execution = Execution::detect();
-    let writer = Writer::new(options, execution)?;
+    let writer = Writer::new(&options.files, execution)?;
     let frames = frames_of(options)?;
     let mut previous: Option<Arc<CompiledScene>> = None;
     for frame in &frames {
@@ -55,9 +57,10 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
         let start = Instant::now();
         let loaded = stage.load(py, &stage_options, interrupted)?;
         let loading = start.elapsed();
-        let outputs: Vec<PathBuf> =
-            options.output.iter().map(|path| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f))).collect();
-        let job = Job { options, writer: &writer, execution, outputs, loading, interrupted };
+        let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
+        let outputs = options.files.output.iter().map(of_frame).collect();
+        let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
+        let job = Job { options, writer: &writer, execution, outputs, checkpoint, loading, interrupted };
         let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
         previous = Some(compiled);
     }
@@ -67,9 +70,15 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
 fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
     let Some(text) = &options.frames else { return Ok(vec![None]) };
     let frames = frames::parse(text)?;
-    if let (true, Some(path)) = (frames.len() > 1, options.output.iter().find(|path| !file_name::has_frame(path))) {
+    let mut files = options
+        .files
+        .output
+        .iter()
+        .map(|path| ("output", path))
+        .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
+    if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !file_name::has_frame(path))) {
         return Err(Error::Setting {
-            name: "output".into(),
+            name: name.into(),
             problem: format!("{}: several frames need a place for the frame number, such as '####' or '$F4'", path.display()),
         });
     }
@@ -112,6 +121,7 @@ struct Job<'a> {
     writer: &'a Writer,
     execution: Execution,
     outputs: Vec<PathBuf>,
+    checkpoint: Option<PathBuf>,
     loading: Duration,
     interrupted: &'static AtomicBool,
 }
@@ -124,10 +134,11 @@ impl Job<'_> {
         }
         daylight::add(&self.options.daylight, &mut loaded, self.options.quiet)?;
         self.apply_settings(&mut loaded)?;
+        let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;
         self.tell_sizes(&compiled);
-        self.trace(&loaded.scene, &compiled)?;
+        self.trace(&loaded.scene, &compiled, &hidden)?;
         Ok(compiled)
     }
 
@@ -152,6 +163,9 @@ impl Job<'_> {
         let light_groups = loaded.scene.light_groups();
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
+        settings.sample_range = options.checkpoint.samples.as_deref().map(sample_range).transpose()?;
+        settings.noise_threshold = options.noise_threshold;
+        settings.min_samples = options.min_spp;
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
         settings.integrator = match options.integrator {
             IntegratorArgument::Path => Integrator::Path,
@@ -212,10 +226,15 @@ impl Job<'_> {
         }
     }
 
-    /// Renders and writes; an interrupted render leaves the picture so far.
-    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>) -> Result<()> {
+    /// Renders and writes but for the passes `hidden`; an interrupted render leaves the picture so far.
+    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>, hidden: &[Aov]) -> Result<()> {
         let start = Instant::now();
-        let mut render = Render::start(compiled.clone(), &scene.settings, self.execution)?;
+        let mut keeper = self.keeper(scene)?;
+        let film = keeper.as_ref().map_or(Ok(None), Keeper::film)?;
+        let mut render = match film {
+            Some(film) => Render::resume(compiled.clone(), &scene.settings, self.execution, film)?,
+            None => Render::start(compiled.clone(), &scene.settings, self.execution)?,
+        };
         let mut reporter = Reporter::new(self.options.quiet);
         while !render.is_finished() {
             if self.interrupted.load(Ordering::Relaxed) {
@@ -225,6 +244,9 @@ impl Job<'_> {
             let _ = render.next_tile(Duration::from_millis(20));
             while render.next_tile(Duration::ZERO).is_some() {}
             reporter.show(&render.progress());
+            if let Some(keeper) = &mut keeper {
+                keeper.keep_if_due(render.film());
+            }
             Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
         }
         reporter.clear();
@@ -234,14 +256,26 @@ impl Job<'_> {
         {
             return result;
         }
-        let image = render.film().develop();
+        if let Some(keeper) = &mut keeper {
+            keeper.keep(render.film())?;
+        }
+        let mut image = render.film().develop();
+        if result.is_ok() {
+            self.writer.finish(&mut image)?;
+        }
+        image.layers.retain(|layer| !hidden.contains(&layer.aov));
         if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
             self.write(scene, &image, result.is_err())?;
         }
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
             let seconds = start.elapsed().as_secs_f64();
-            say(&format!("{} samples a pixel in {}, {:.1} Mrays/s", image.samples, clock(start.elapsed()), rays / seconds.max(1e-3)));
+            let samples = if image.mean_samples > f64::from(image.samples) {
+                format!("{} and more, {:.1} in the mean", image.samples, image.mean_samples)
+            } else {
+                image.samples.to_string()
+            };
+            say(&format!("{samples} samples a pixel in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
         }
         if result.is_err() {
             // The process ends next, which gives everything back at once; somebody waits.
@@ -252,31 +286,26 @@ impl Job<'_> {
 
     /// Writes all files at once: the wait is that for the slowest.
     fn write(&self, scene: &Scene, image: &gonio::film::Image, interrupted: bool) -> Result<()> {
+        let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
+        let notes = Notes { exposure, interrupted, attributes: &self.attributes(scene) };
+        self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
+    }
+
+    /// What the header of EXR files says beside the passes.
+    fn attributes(&self, scene: &Scene) -> [(String, String); 3] {
         let camera = &scene.cameras[scene.settings.camera as usize];
-        let attributes = [
+        [
             ("gonio:camera".to_owned(), camera.origin.name.to_string()),
             ("gonio:stage".to_owned(), self.options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
             ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
-        ];
-        let notes = Notes { exposure: camera.exposure.0, interrupted, attributes: &attributes };
-        let written: Vec<Result<()>> = std::thread::scope(|scope| {
-            let mut writers = Vec::new();
-            for path in &self.outputs {
-                let notes = &notes;
-                writers.push(scope.spawn(move || self.writer.write(path, image, notes)));
-            }
-            writers
-                .into_iter()
-                .map(|writer| writer.join().unwrap_or_else(|_| Err(Error::Internal("the writing of a file broke off".into()))))
-                .collect()
-        });
-        for (path, result) in self.outputs.iter().zip(written) {
-            result?;
-            if !self.options.quiet {
-                print(&path.display().to_string());
-            }
-        }
-        Ok(())
+        ]
+    }
+
+    /// What keeps the render's checkpoint, if there is to be one.
+    fn keeper(&self, scene: &Scene) -> Result<Option<Keeper>> {
+        let Some(path) = &self.checkpoint else { return Ok(None) };
+        let identity = Identity::new(scene, self.execution, self.attributes(scene).to_vec());
+        Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
     }
 }
 

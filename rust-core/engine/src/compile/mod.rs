@@ -22,7 +22,7 @@ mod view;
 
 pub use bounds::Bounds;
 pub use view::View;
-pub(crate) use view::transport;
+pub(crate) use view::{transport, window};
 
 use crate::{
     accel::{Blas, SceneBvh},

@@ -4,7 +4,7 @@ use super::{CompiledScene, light_groups, shader_passes};
 use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::FilterTable,
+    film::{FilterTable, block_at},
     integrator::{FirstPasses, Mist, Transport},
     scene::{Aov, Background, Camera, Crop, Integrator, Projection, Settings},
 };
@@ -38,6 +38,11 @@ impl View {
             let problem =
                 format!("{} samples and a limit of {} s, expected 1 or more and 0 or more", settings.samples, settings.time_limit_s);
             return Err(Error::Setting { name: "samples".into(), problem });
+        }
+        check_range(settings)?;
+        if !(settings.noise_threshold >= 0.0 && settings.noise_white >= 0.0 && settings.noise_white.is_finite()) {
+            let problem = format!("{} with white at {}, expected 0 or more", settings.noise_threshold, settings.noise_white);
+            return Err(Error::setting("noise_threshold", problem));
         }
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
@@ -82,7 +87,23 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
     }
 }
 
-fn window(settings: &Settings) -> Result<Crop> {
+/// Refuses ranges of samples that are empty or would cut a block.
+fn check_range(settings: &Settings) -> Result<()> {
+    let (range, samples) = (settings.range(), settings.samples);
+    let problem = if range.start >= range.end || range.end > samples {
+        format!("the range {}:{} was found, expected a part of 0:{samples}", range.start, range.end)
+    } else if [range.start, range.end].iter().any(|end| block_at(*end, samples).is_none()) {
+        format!("the range {}:{} was found, expected ends at 0, 1, 2, 4, 8, a multiple of 16 or {samples}", range.start, range.end)
+    } else if settings.least_samples().is_some() && range != (0..samples) {
+        "a part of the samples cannot know which pixels have enough; leave out the noise threshold or the range".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(Error::setting("samples", problem))
+}
+
+/// The part of the image that settings ask for.
+pub(crate) fn window(settings: &Settings) -> Result<Crop> {
     let [width, height] = settings.resolution;
     if width == 0 || height == 0 || width > MOST_PIXELS || height > MOST_PIXELS {
         return Err(Error::Setting {

@@ -1,6 +1,6 @@
 //! Shadow catchers: what is behind them, dimmed by how much less light they send than they would without the objects.
 
-use super::{TileFilm, develop::Part};
+use super::develop::{Developing, Part};
 use crate::{
     integrator::{BATCH, FirstHit},
     scene::Aov,
@@ -18,12 +18,12 @@ pub(super) fn fill(channels: &mut [f32], gathered: &FirstHit) {
 }
 
 /// Adds to the pixels of a tile what catchers show there; `first` is the first of their channels.
-pub(super) fn show(aov: Aov, tile: &TileFilm, first: usize, exposure: f32, part: &mut Part<'_>) {
-    if tile.samples == 0 || !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance) {
+pub(super) fn show(aov: Aov, tile: &Developing<'_>, first: usize, exposure: f32, part: &mut Part<'_>) {
+    if !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance) {
         return;
     }
-    let scale = 1.0 / f64::from(tile.samples);
     part.for_each(|code, values| {
+        let scale = tile.scale(code);
         let sum = |channel: usize| tile.sums[(first + channel) * BATCH + code];
         let three = |channel: usize| [0, 1, 2].map(|c| sum(channel + c));
         let lit = lit_share(three(0), three(3));

@@ -1,12 +1,15 @@
 //! From sums to an image.
 
-use super::{Film, TileFilm, catcher, channel_names, divisor, is_index};
+use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
     integrator::{BATCH, TILE, tile_code},
     scene::{Aov, Crop},
     threads::available_threads,
 };
-use std::sync::{Mutex, PoisonError};
+use std::{
+    borrow::Cow,
+    sync::{Mutex, PoisonError},
+};
 
 /// A named group of channels, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +33,10 @@ pub struct Image {
     pub window: Crop,
     /// The passes.
     pub layers: Vec<Layer>,
-    /// Samples a pixel, the least of all tiles.
+    /// Samples a pixel, the least of all.
     pub samples: u32,
+    /// Samples a pixel in the mean.
+    pub mean_samples: f64,
 }
 
 impl Image {
@@ -63,13 +68,15 @@ impl Film {
         let aovs: Vec<Aov> = layers.iter().map(|layer| layer.aov).collect();
         let bands = Mutex::new(self.bands(&mut layers, width));
         let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).min();
-        let least = std::thread::scope(|scope| {
+        let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).reduce(together);
+        let samples = std::thread::scope(|scope| {
             let others: Vec<_> = (1..available_threads()).map(|_| scope.spawn(work)).collect();
             let own = work();
-            others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).min()
+            others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).reduce(together)
         });
-        Image { resolution: self.resolution, window: self.window, layers, samples: least.unwrap_or(0) }
+        let (samples, total) = samples.unwrap_or((0, 0));
+        let mean_samples = total as f64 / (width * height).max(1) as f64;
+        Image { resolution: self.resolution, window: self.window, layers, samples, mean_samples }
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {
@@ -83,41 +90,61 @@ impl Film {
         bands
     }
 
-    /// Develops a row of tiles; gives the least number of samples of any.
-    fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> u32 {
-        let mut least = u32::MAX;
+    /// Develops a row of tiles; gives the least number of samples of any pixel, and those of all.
+    fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> (u32, u64) {
+        let (mut least, mut total) = (u32::MAX, 0);
         for tile in band.first_tile..band.first_tile + self.columns as usize {
             let area = self.tile_area(tile);
             let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
             let left = (area.min[0] - self.window.min[0]) as usize;
-            self.read(tile, |sums| {
-                least = least.min(sums.samples);
+            self.read(tile, |film| {
+                least = least.min(film.least_samples());
+                total += film.total_samples();
+                let sums = film.sums.total(self.plan.rules());
+                if sums.is_empty() {
+                    return;
+                }
+                let developing = Developing { sums, samples: film.samples };
                 for (aov, rows) in aovs.iter().zip(&mut band.layers) {
                     let mut part = Part { rows, left, width, size, channels: channel_names(*aov).len() };
-                    self.develop_tile(*aov, sums, &mut part);
+                    self.develop_tile(*aov, &developing, &mut part);
                     if let Some(first) = self.layout.catchers {
-                        catcher::show(*aov, sums, first, self.exposure, &mut part);
+                        catcher::show(*aov, &developing, first, self.exposure, &mut part);
                     }
                 }
             });
         }
-        least
+        (least, total)
     }
 
-    fn develop_tile(&self, aov: Aov, tile: &TileFilm, part: &mut Part<'_>) {
-        let Some(offset) = self.layout.offset(aov).filter(|_| tile.samples > 0) else { return };
+    fn develop_tile(&self, aov: Aov, tile: &Developing<'_>, part: &mut Part<'_>) {
+        let Some(offset) = self.layout.offset(aov) else { return };
         let sum = |channel: usize, code: usize| tile.sums[(offset + channel) * BATCH + code];
-        let scale = 1.0 / f64::from(tile.samples);
         let divisor = divisor(aov).and_then(|aov| self.layout.offset(aov));
         match (aov, divisor) {
             (_, Some(divisor)) => part.fill(|channel, code| share(sum(channel, code), tile.sums[(divisor + channel) * BATCH + code])),
             // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
             (Aov::PrimId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
             (_, None) if is_index(aov) => part.fill(|channel, code| (sum(channel, code) - 1.0).max(0.0)),
-            (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * scale),
-            (Aov::SampleCount, _) => part.fill(|_, _| f64::from(tile.samples)),
-            _ => part.fill(|channel, code| sum(channel, code) * scale),
+            (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * tile.scale(code)),
+            (Aov::SampleCount, _) => part.fill(|_, code| f64::from(tile.samples[zone_of(code)])),
+            _ => part.fill(|channel, code| sum(channel, code) * tile.scale(code)),
         }
+    }
+}
+
+/// A tile's sums on their way to means.
+pub(super) struct Developing<'a> {
+    /// Channel after channel, `BATCH` values each.
+    pub(super) sums: Cow<'a, [f64]>,
+    /// By zone.
+    samples: [u32; ZONES],
+}
+
+impl Developing<'_> {
+    /// What the sums of a pixel are multiplied by.
+    pub(super) fn scale(&self, code: usize) -> f64 {
+        1.0 / f64::from(self.samples[zone_of(code)].max(1))
     }
 }
 
@@ -145,6 +172,11 @@ impl Part<'_> {
     fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {
         self.for_each(|code, pixel| pixel.iter_mut().enumerate().for_each(|(channel, out)| *out = value(channel, code) as f32));
     }
+}
+
+/// The least and the sum of two parts' samples.
+fn together(a: (u32, u64), b: (u32, u64)) -> (u32, u64) {
+    (a.0.min(b.0), a.1 + b.1)
 }
 
 fn empty_layer(aov: Aov, name: &str, pixels: usize) -> Layer {

@@ -1,21 +1,32 @@
 //! The film: sums of samples by pixel, in blocks added in order, so that the same samples always give the same bits.
 
+mod blocks;
+mod bytes;
 mod catcher;
 mod channels;
 mod develop;
 mod filter;
+mod noise;
+mod sums;
 mod tile;
 
+pub(crate) use blocks::{block, block_at};
+pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
 pub use filter::FilterTable;
-pub use tile::{Block, TileFilm};
+pub(crate) use noise::decides;
+pub use tile::{Block, TileFilm, TileState, ZONE, ZONES, zone_of};
 
 use crate::{
     integrator::TILE,
     scene::{Crop, Settings},
 };
-use std::sync::{Mutex, PoisonError};
+use std::{
+    ops::Range,
+    sync::{Mutex, PoisonError},
+};
+use tile::Plan;
 
 /// Sums of one image.
 #[derive(Debug)]
@@ -30,6 +41,7 @@ pub struct Film {
     names: Vec<String>,
     /// Factor on the colour pass.
     exposure: f32,
+    plan: Plan,
     tiles: Vec<Mutex<TileFilm>>,
     columns: u32,
 }
@@ -41,9 +53,17 @@ impl Film {
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
         let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
-        let count = (across(0) * across(1)) as usize;
-        let tiles = (0..count).map(|_| Mutex::new(TileFilm::new(&layout))).collect();
-        Self { resolution: settings.resolution, window, layout, names, exposure, tiles, columns: across(0) }
+        let plan = Plan::new(settings, &layout);
+        let mut film =
+            Self { resolution: settings.resolution, window, layout, names, exposure, plan, tiles: Vec::new(), columns: across(0) };
+        let tile = |tile| Mutex::new(TileFilm::new(&film.plan, film.tile_size(tile)));
+        film.tiles = (0..(across(0) * across(1)) as usize).map(tile).collect();
+        film
+    }
+
+    /// Tiles of a window.
+    pub(crate) fn tiles_of(window: Crop) -> u64 {
+        [0, 1].map(|axis| u64::from((window.max[axis] - window.min[axis]).div_ceil(TILE as u32))).iter().product()
     }
 
     /// Tiles of the window.
@@ -59,15 +79,53 @@ impl Film {
         Crop { min, max: [0, 1].map(|axis| (min[axis] + TILE as u32).min(self.window.max[axis])) }
     }
 
-    /// Adds a block to a tile; blocks that come early wait for those before them. `ready` is told the tile's samples when there are more,
-    /// in the order in which they came.
-    pub fn add(&self, tile: usize, number: u32, block: Block, ready: impl FnOnce(u32)) {
-        let mut sums = self.tile(tile);
-        let before = sums.samples;
-        sums.add(number, block);
-        if sums.samples > before {
-            ready(sums.samples);
+    /// Width and height of a tile in pixels.
+    fn tile_size(&self, tile: usize) -> [usize; 2] {
+        let area = self.tile_area(tile);
+        [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize)
+    }
+
+    /// What of a tile there is.
+    pub fn state(&self, tile: usize) -> TileState {
+        self.read(tile, TileFilm::state)
+    }
+
+    /// Adds a block to a tile, and gives what the tile is then; blocks that come early wait for those before them. `white` is the colour that is
+    /// shown as white, by which noise is measured. `ready` is told the tile's samples when there are more, in the order in which they came.
+    pub(crate) fn add(&self, tile: usize, number: u32, block: Block, white: f32, ready: impl FnOnce(u32)) -> TileState {
+        let mut film = self.tile(tile);
+        let before = film.state();
+        film.add(number, block, &self.plan, white);
+        let after = film.state();
+        if after.next > before.next {
+            ready(after.samples);
         }
+        after
+    }
+
+    /// Whether pixels may have enough samples before the end.
+    pub(crate) fn looks_at_noise(&self) -> bool {
+        self.plan.enough.is_some()
+    }
+
+    /// Whether all samples of the film's range are there.
+    pub fn is_complete(&self) -> bool {
+        let last = block_at(self.plan.range.end, self.plan.samples);
+        (0..self.tile_count()).map(|tile| self.state(tile)).all(|state| state.zones == 0 || Some(state.next) == last)
+    }
+
+    /// The samples that the film is for, of all the samples of its render.
+    pub fn range(&self) -> Range<u32> {
+        self.plan.range.clone()
+    }
+
+    /// Adds a film of the same picture with the samples that follow; both are complete.
+    pub(crate) fn join(&mut self, later: Self) {
+        for (tile, later) in self.tiles.iter_mut().zip(later.tiles) {
+            let later = later.into_inner().unwrap_or_else(PoisonError::into_inner);
+            tile.get_mut().unwrap_or_else(PoisonError::into_inner).join(later, &self.plan);
+        }
+        self.plan.range.end = later.plan.range.end;
     }
 
     /// Runs `read` on a tile's sums.

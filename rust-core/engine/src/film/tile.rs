@@ -1,81 +1,184 @@
 //! A tile's sums.
 
-use super::{ChannelLayout, catcher, is_index};
-use crate::{
-    integrator::{BATCH, FirstHit, code},
-    scene::{Aov, LightPart},
+use super::{
+    ChannelLayout, Film,
+    blocks::{self, GROUP, block_at},
+    catcher, is_index,
+    noise::{Halves, decides},
+    sums::{Place, Rules, Sums},
 };
-use std::collections::BTreeMap;
+use crate::{
+    integrator::{BATCH, FirstHit, TILE, code, tile_code},
+    scene::{Aov, LightPart, Settings},
+};
+use std::{borrow::Cow, collections::BTreeMap, ops::Range};
+
+/// Pixels along the side of a zone: what adaptive sampling goes on with or leaves.
+pub const ZONE: usize = 8;
+/// Zones of a tile, and pixels of a zone: those whose Morton numbers differ in the last six bits.
+pub const ZONES: usize = (TILE / ZONE) * (TILE / ZONE);
+
+/// The zone of a pixel by its Morton number.
+#[inline]
+pub fn zone_of(code: usize) -> usize {
+    code / (ZONE * ZONE)
+}
 
 /// Sums over a block of samples, `BATCH` values a channel, by the pixels' Morton numbers.
 #[derive(Clone, Debug)]
 pub struct Block {
     /// Channel after channel.
     pub sums: Vec<f32>,
-    /// Samples a pixel has in it.
-    pub samples: u32,
+    /// A bit for each zone that was sampled.
+    pub zones: u64,
+    /// Luminance of the colour; empty where nobody looks at the noise.
+    pub luminance: Vec<f32>,
 }
 
 /// Sums over all blocks so far.
 #[derive(Clone, Debug)]
 pub struct TileFilm {
-    /// Channel after channel, `BATCH` values each, by the pixels' Morton numbers; empty before the first block.
-    pub sums: Vec<f64>,
-    /// Samples a pixel has.
-    pub samples: u32,
-    /// Blocks added.
-    pub blocks: u32,
+    /// By zone, samples a pixel has.
+    pub samples: [u32; ZONES],
+    /// The block that comes next.
+    pub(super) next: u32,
+    /// Pixels of each zone.
+    pixels: [u8; ZONES],
+    /// Bits of the zones that go on.
+    pub(super) zones: u64,
+    pub(super) sums: Sums,
+    /// What tells the noise, if zones may have enough samples before the end.
+    pub(super) halves: Option<Halves>,
     waiting: BTreeMap<u32, Block>,
-    index_channels: Vec<usize>,
+}
+
+/// What of a tile there is, and what comes next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TileState {
+    /// The block that comes next.
+    pub next: u32,
+    /// Samples a pixel, the least of all zones.
+    pub samples: u32,
+    /// Bits of the zones that go on.
+    pub zones: u64,
+}
+
+/// What all tiles of a film have in common.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    /// First sample, the one behind the last, and samples of the whole render.
+    pub(super) range: Range<u32>,
+    pub(super) samples: u32,
+    pub(super) index_channels: Vec<usize>,
+    /// Error and least samples at which a zone has enough.
+    pub(super) enough: Option<(f32, u32)>,
+}
+
+impl Plan {
+    pub(super) fn new(settings: &Settings, layout: &ChannelLayout) -> Self {
+        Self {
+            range: settings.range(),
+            samples: settings.samples,
+            index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
+            enough: settings.least_samples().map(|least| (settings.noise_threshold, least)),
+        }
+    }
+
+    pub(super) fn rules(&self) -> Rules<'_> {
+        Rules { index_channels: &self.index_channels, from_start: self.range.start == 0 }
+    }
+
+    /// The first block.
+    pub(super) fn first(&self) -> u32 {
+        block_at(self.range.start, self.samples).unwrap_or(0)
+    }
+
+    fn place(&self, samples: &Range<u32>) -> Place {
+        let group_start = samples.start / GROUP * GROUP;
+        match samples.end.is_multiple_of(GROUP) {
+            _ if group_start < self.range.start => Place::Leading,
+            true => Place::Last,
+            false => Place::Open,
+        }
+    }
 }
 
 impl TileFilm {
-    /// An empty tile.
-    pub fn new(layout: &ChannelLayout) -> Self {
-        Self {
-            sums: Vec::new(),
-            samples: 0,
-            blocks: 0,
-            waiting: BTreeMap::new(),
-            index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
-        }
-    }
-
-    /// Adds block `number`; one that comes early waits.
-    pub fn add(&mut self, number: u32, block: Block) {
-        self.waiting.insert(number, block);
-        while let Some(block) = self.waiting.remove(&self.blocks) {
-            self.add_now(&block);
-            self.blocks += 1;
-        }
-    }
-
-    fn add_now(&mut self, block: &Block) {
-        if self.sums.is_empty() {
-            self.sums = block.sums.iter().map(|value| f64::from(*value)).collect();
-        } else {
-            self.add_sums(block);
-        }
-        self.samples += block.samples;
-    }
-
-    fn add_sums(&mut self, block: &Block) {
-        for (channel, sums) in self.sums.chunks_exact_mut(BATCH).enumerate() {
-            let values = &block.sums[channel * BATCH..(channel + 1) * BATCH];
-            if self.index_channels.contains(&channel) {
-                // Indices are not averaged: the first sample that met something names it.
-                sums.iter_mut().zip(values).filter(|(sum, _)| **sum == 0.0).for_each(|(sum, value)| *sum = f64::from(*value));
-            } else {
-                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
+    /// An empty tile of so many pixels each way.
+    pub(super) fn new(plan: &Plan, size: [usize; 2]) -> Self {
+        let mut pixels = [0; ZONES];
+        for y in (0..size[1]).step_by(ZONE) {
+            for x in (0..size[0]).step_by(ZONE) {
+                pixels[zone_of(tile_code([x, y]))] = ((size[0] - x).min(ZONE) * (size[1] - y).min(ZONE)) as u8;
             }
         }
+        let zones = (0..ZONES).filter(|zone| pixels[*zone] > 0).fold(0, |bits, zone| bits | 1 << zone);
+        let halves = plan.enough.map(|_| Halves::new());
+        Self { samples: [0; ZONES], next: plan.first(), pixels, zones, sums: Sums::default(), halves, waiting: BTreeMap::new() }
+    }
+
+    /// Adds block `number`; one that comes early waits. `white` is the value that is shown as white.
+    pub(super) fn add(&mut self, number: u32, block: Block, plan: &Plan, white: f32) {
+        self.waiting.insert(number, block);
+        while let Some(block) = self.waiting.remove(&self.next) {
+            self.add_now(block, plan, white);
+        }
+    }
+
+    fn add_now(&mut self, block: Block, plan: &Plan, white: f32) {
+        let samples = blocks::block(self.next, plan.samples);
+        if let (Some(halves), Some((threshold, least))) = (&mut self.halves, plan.enough) {
+            halves.add(self.next, &block.luminance, samples.end - samples.start, block.zones);
+            if decides(samples.end, least) && samples.end < plan.range.end {
+                self.zones = halves.noisy(self.zones, &self.pixels, threshold, white);
+            }
+        }
+        self.sums.add_block(Cow::Owned(block.sums), plan.place(&samples), plan.rules());
+        self.count(samples.end - samples.start, block.zones);
+        self.next += 1;
+    }
+
+    fn count(&mut self, samples: u32, zones: u64) {
+        let sampled = self.samples.iter_mut().enumerate().filter(|(zone, _)| zones >> zone & 1 == 1);
+        sampled.for_each(|(_, count)| *count += samples);
+    }
+
+    /// Adds what a tile of the run that follows has.
+    pub(super) fn join(&mut self, later: Self, plan: &Plan) {
+        for (number, block) in (self.next..).zip(later.sums.leading) {
+            self.sums.add_block(Cow::Owned(block), plan.place(&blocks::block(number, plan.samples)), plan.rules());
+        }
+        for group in later.sums.groups {
+            self.sums.add_group(group, plan.rules());
+        }
+        if !later.sums.open.is_empty() {
+            self.sums.open = later.sums.open;
+        }
+        self.samples.iter_mut().zip(later.samples).for_each(|(samples, more)| *samples += more);
+        self.next = later.next;
+    }
+
+    /// What there is.
+    pub(super) fn state(&self) -> TileState {
+        TileState { next: self.next, samples: self.least_samples(), zones: self.zones }
+    }
+
+    /// Samples a pixel, the least of all zones.
+    pub fn least_samples(&self) -> u32 {
+        self.samples.iter().zip(self.pixels).filter(|(_, pixels)| *pixels > 0).map(|(samples, _)| *samples).min().unwrap_or(0)
+    }
+
+    /// Samples of all pixels together.
+    pub(super) fn total_samples(&self) -> u64 {
+        self.samples.iter().zip(self.pixels).map(|(samples, pixels)| u64::from(*samples) * u64::from(pixels)).sum()
     }
 }
 
 impl Block {
-    /// A block from what a worker gathered; positions are moved by `origin` back to world space, radiance is multiplied by `exposure`
-    /// in the colour pass alone.
-    pub fn new(layout: &ChannelLayout, gathered: &FirstHit, samples: u32, exposure: f32, origin: [f64; 3]) -> Self {
+    /// A block from what a worker gathered in some zones; positions are moved by `origin` back to world space, radiance is multiplied by
+    /// `exposure` in the colour pass alone.
+    pub(crate) fn new(film: &Film, gathered: &FirstHit, zones: u64, origin: [f64; 3]) -> Self {
+        let (layout, exposure) = (&film.layout, film.exposure);
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
             let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
@@ -84,13 +187,26 @@ impl Block {
         if let Some(first) = layout.catchers {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
-        Self { sums, samples }
+        let luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
+        Self { sums, zones, luminance }
     }
+}
+
+/// What a pixel's noise is measured by: the luminance of the colour, and of what shadow catchers send.
+fn shown_luminance(gathered: &FirstHit, layout: &ChannelLayout, exposure: f32) -> Vec<f32> {
+    let luminance = |i: usize| luminance(gathered, i);
+    let caught = |i: usize| if layout.catchers.is_some() { luminance(2 * BATCH + i) } else { 0.0 };
+    (0..BATCH).map(|i| (luminance(i) + caught(i)) * exposure).collect()
+}
+
+fn luminance(gathered: &FirstHit, slot: usize) -> f32 {
+    let [red, green, blue] = &gathered.radiance;
+    0.2126 * red[slot] + 0.7152 * green[slot] + 0.0722 * blue[slot]
 }
 
 fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
     let radiance = &gathered.radiance;
-    let luminance = |i: usize| 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
+    let luminance = |i: usize| luminance(gathered, i);
     match aov {
         Aov::Color => {
             for (c, out) in channels.chunks_exact_mut(BATCH).take(3).enumerate() {

@@ -8,6 +8,9 @@ use crate::{
 };
 use gonio_simd::{F, Lanes, Rgb, U, Vec3};
 
+/// Pixels of a zone.
+const ZONE_PIXELS: u32 = BATCH as u32 / u64::BITS;
+
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileArea {
@@ -15,6 +18,8 @@ pub(crate) struct TileArea {
     pub(crate) min: [u32; 2],
     /// Behind the last column and row, at most [`super::TILE`] further.
     pub(crate) max: [u32; 2],
+    /// Bits of the runs of 64 pixels that are wanted.
+    pub(crate) zones: u64,
 }
 
 /// Starts a path through every pixel of a tile; four by four pixels follow one another, so that sixteen rays make a packet.
@@ -29,7 +34,7 @@ pub(crate) fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.count = 0;
-    for first in (0..BATCH as u32).step_by(L::COUNT) {
+    for first in (0..BATCH as u32).step_by(L::COUNT).filter(|first| area.zones >> (first / ZONE_PIXELS) & 1 == 1) {
         let pixel = l.iota() + first;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
         let inside = (x + area.min[0]).lt(area.max[0]) & (y + area.min[1]).lt(area.max[1]);

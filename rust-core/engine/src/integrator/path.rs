@@ -115,6 +115,8 @@ pub struct Tracer<'a> {
     pub start: Start<'a>,
     /// What does not change.
     pub transport: Transport,
+    /// Bits of the zones of the tile, runs of 64 Morton numbers, in which camera rays start.
+    pub zones: u64,
 }
 
 impl Tracer<'_> {
@@ -125,7 +127,7 @@ impl Tracer<'_> {
         let execution = self.transport.execution;
         let tile = [min[0] / super::TILE as u32, min[1] / super::TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
-        let area = TileArea { min, max };
+        let area = TileArea { min, max, zones: self.zones };
         let mut time = Instant::now();
         let first = match self.start {
             Start::Camera(camera, filter) => {

@@ -93,6 +93,8 @@ pub(super) fn sense(
     let settings = Settings {
         resolution: table.resolution(),
         crop: None,
+        sample_range: None,
+        noise_threshold: 0.0,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
         // Limits are for pictures' sake.
         kind_bounces: [MOST_BOUNCES; 4],

@@ -12,11 +12,20 @@ const BUFFER: usize = 1 << 20;
 
 /// Writes through a temporary file in the same folder, which takes the name once it is complete, and on disk if it is to be `durable`.
 pub fn write_atomically(path: &Path, durable: bool, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<()> {
-    let temporary = temporary_name(path);
-    let result = write_to(&temporary, durable, write).and_then(|()| fs::rename(&temporary, path));
+    write_through(&temporary_name(path), path, durable, write)
+}
+
+/// The same through a temporary file of a given name, in the same folder.
+pub(crate) fn write_through(
+    temporary: &Path,
+    path: &Path,
+    durable: bool,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<()> {
+    let result = write_to(temporary, durable, write).and_then(|()| fs::rename(temporary, path));
     result.map_err(|error| {
         // The temporary file may not even exist; the error worth telling is the first one.
-        let _ = fs::remove_file(&temporary);
+        let _ = fs::remove_file(temporary);
         Error::io(path, error)
     })
 }

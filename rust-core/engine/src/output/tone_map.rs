@@ -16,7 +16,7 @@ pub enum ToneMap {
 }
 
 /// Grey that the log-average luminance is brought to.
-const KEY: f32 = 0.18;
+pub(crate) const KEY: f32 = 0.18;
 /// Multiple of the key at which the photographic operator reaches white.
 pub(crate) const WHITE: f32 = 6.0;
 
@@ -97,6 +97,7 @@ mod tests {
             window,
             layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
             samples: 1,
+            mean_samples: 1.0,
         }
     }
 

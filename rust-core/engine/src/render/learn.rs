@@ -27,8 +27,8 @@ pub(super) fn learn(
     if settings.samples < LEAST_SAMPLES || !scene.tables.lights.has_tree() {
         return None;
     }
-    let View { camera, filter, transport, window, .. } = View::new(scene, &reduced(settings), execution).ok()?;
-    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport };
+    let View { camera, filter, transport, window, .. } = View::new(scene, &reduced(settings, SIDE, SAMPLES), execution).ok()?;
+    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport, zones: u64::MAX };
     let mut workspace = Workspace::default();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     workspace.arrivals = Some(Vec::new());
@@ -46,10 +46,10 @@ pub(super) fn learn(
     scene.tables.lights.learn(&workspace.arrivals.take()?).map(Arc::new)
 }
 
-/// The same view in a few pixels, without passes.
-fn reduced(settings: &Settings) -> Settings {
+/// The same view in a few pixels, of which the longer side has at most `side`, without passes, of other random numbers.
+pub(super) fn reduced(settings: &Settings, side: u32, samples: u32) -> Settings {
     let [width, height] = settings.resolution;
-    let scale = (f64::from(SIDE) / f64::from(width.max(height))).min(1.0);
+    let scale = (f64::from(side) / f64::from(width.max(height))).min(1.0);
     let part = |pixels: u32| f64::from(pixels) * scale;
     let crop = settings.crop.map(|crop| crate::scene::Crop {
         min: crop.min.map(|pixels| part(pixels).floor() as u32),
@@ -58,7 +58,9 @@ fn reduced(settings: &Settings) -> Settings {
     Settings {
         resolution: [width, height].map(|pixels| (part(pixels).round() as u32).max(1)),
         crop,
-        samples: SAMPLES,
+        samples,
+        sample_range: None,
+        noise_threshold: 0.0,
         seed: settings.seed ^ OTHER_SEED,
         aovs: vec![Aov::Color],
         ..settings.clone()

@@ -1,6 +1,7 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
 mod learn;
+mod meter;
 mod progress;
 mod schedule;
 mod source;
@@ -44,7 +45,7 @@ pub(crate) struct Shared {
     pub(crate) source: Source,
     pub(crate) settings: Settings,
     /// What the first worker learns.
-    pub(crate) known: OnceLock<Option<Arc<KnownLights>>>,
+    pub(crate) learned: OnceLock<Learned>,
     pub(crate) film: Film,
     pub(crate) schedule: Schedule,
     pub(crate) cancel: AtomicBool,
@@ -52,30 +53,46 @@ pub(crate) struct Shared {
     pub(crate) statistics: std::sync::Mutex<Statistics>,
 }
 
+/// What small pictures of the view have told, which nobody sees.
+#[derive(Clone, Debug)]
+pub(crate) struct Learned {
+    /// Which lights arrive where.
+    pub(crate) known: Option<Arc<KnownLights>>,
+    /// The value of the colour pass that is shown as white.
+    pub(crate) white: f32,
+}
+
 impl Render {
     /// Starts rendering; settings are those of the compiled view.
     pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
         let view = View::new(&scene, settings, execution)?;
-        let (window, exposure) = (view.window, view.exposure);
-        Ok(Self::run(scene, settings, Source::View(view), window, exposure))
+        let film = film_of(&scene, settings, view.window, view.exposure);
+        Ok(Self::run(scene, settings, Source::View(view), film))
+    }
+
+    /// Goes on with a film that the same render has left; see [`crate::checkpoint`].
+    pub fn resume(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution, film: Film) -> Result<Self> {
+        let view = View::new(&scene, settings, execution)?;
+        Ok(Self::run(scene, settings, Source::View(view), film))
     }
 
     /// Starts measuring at sensors, whose picture has the resolution of the settings.
     pub(crate) fn sense(scene: Arc<CompiledScene>, sensors: SensorTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
         let transport = Transport { measure: false, ..transport(&scene, settings, execution, [0.0; 3], [0.0; 3]) };
         let window = Crop { min: [0; 2], max: settings.resolution };
-        Self::run(scene, settings, Source::Sensors { sensors, transport }, window, 1.0)
+        let film = film_of(&scene, settings, window, 1.0);
+        Self::run(scene, settings, Source::Sensors { sensors, transport }, film)
     }
 
-    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, window: Crop, exposure: f32) -> Self {
-        let film = Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty());
-        let schedule = Schedule::new(film.tile_count(), settings.samples, settings.time_limit_s);
+    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film) -> Self {
+        let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
+        let schedule = Schedule::new(tiles, settings);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let shared = Arc::new(Shared {
             scene,
             source,
             settings: settings.clone(),
-            known: OnceLock::new(),
+            learned: OnceLock::new(),
             film,
             schedule,
             cancel: AtomicBool::new(false),
@@ -146,6 +163,10 @@ impl Render {
             None => Ok(()),
         }
     }
+}
+
+fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {
+    Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty())
 }
 
 impl Drop for Render {

@@ -35,12 +35,4 @@ impl Source {
             Self::Sensors { transport, .. } => transport,
         }
     }
-
-    /// Factor on the colour pass.
-    pub(crate) fn exposure(&self) -> f32 {
-        match self {
-            Self::View(view) => view.exposure,
-            Self::Sensors { .. } => 1.0,
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Shared, TileReady, learn::learn, schedule::Work, source::Source};
+use super::{Learned, Shared, TileReady, learn::learn, meter::meter, schedule::Work, source::Source};
 use crate::{
     film::Block,
     integrator::{Tracer, Transport, Workspace},
@@ -15,8 +15,7 @@ use std::{
 pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
     let result = catch_unwind(AssertUnwindSafe(|| {
         let mut workspace = Workspace::default();
-        while !shared.cancel.load(Ordering::Relaxed) {
-            let Some(work) = shared.schedule.take() else { break };
+        while let Some(work) = shared.schedule.take(&|| shared.cancel.load(Ordering::Relaxed)) {
             trace_block(shared, &work, &mut workspace, ready);
         }
     }));
@@ -33,13 +32,18 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let learned = || match &shared.source {
-        Source::View(view) => learn(&shared.scene, &shared.settings, view.transport.execution, &cancelled),
+        Source::View(view) => {
+            let (scene, settings, execution) = (&shared.scene, &shared.settings, view.transport.execution);
+            let white = shared.film.looks_at_noise().then(|| meter(scene, settings, execution, &cancelled));
+            Learned { known: learn(scene, settings, execution, &cancelled), white: white.unwrap_or(1.0) }
+        }
         // Sensors have no view to learn from.
-        Source::Sensors { .. } => None,
+        Source::Sensors { .. } => Learned { known: None, white: 1.0 },
     };
-    let known = shared.known.get_or_init(learned).clone();
+    let Learned { known, white } = shared.learned.get_or_init(learned).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };
-    let tracer = Tracer { tables, start: shared.source.start(), transport };
+    let zones = shared.film.state(work.tile).zones;
+    let tracer = Tracer { tables, start: shared.source.start(), transport, zones };
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
     for sample in work.samples.clone() {
         tracer.trace(area.min, area.max, sample, workspace, &cancelled);
@@ -49,13 +53,13 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     }
     let statistics = std::mem::take(&mut workspace.statistics);
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
-    let samples = work.samples.end - work.samples.start;
     let origin = shared.scene.tables.origin;
-    let block = Block::new(&shared.film.layout, &workspace.first_hit, samples, shared.source.exposure(), origin);
+    let block = Block::new(&shared.film, &workspace.first_hit, zones, origin);
     // Counted first, so that the last tile's news finds the progress complete.
-    shared.schedule.finished_one();
-    shared.film.add(work.tile, work.block, block, |samples| {
+    shared.schedule.finished(work);
+    let state = shared.film.add(work.tile, work.block, block, white, |samples| {
         // A slow host misses intermediate news of a tile, never its data.
         let _ = ready.try_send(TileReady { tile: work.tile, samples });
     });
+    shared.schedule.decided(work.tile, state);
 }

@@ -3,24 +3,64 @@
 //! Elsewhere (dictionaries for Python, JSON by hand) arrays are written out as lists. serde hands no context to the parts of a structure, so
 //! the bytes wait in the thread meanwhile.
 
+use crate::checkpoint::Digest;
 use bytemuck::Pod;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::{cell::RefCell, sync::Arc};
 
 thread_local! {
-    static BYTES: RefCell<Option<Vec<u8>>> = const { RefCell::new(None) };
+    static BYTES: RefCell<Option<Bytes>> = const { RefCell::new(None) };
+}
+
+/// Where arrays go.
+enum Bytes {
+    /// Kept.
+    Kept(Vec<u8>),
+    /// Told apart, with how many there were.
+    Digested(Digest, usize),
+}
+
+impl Bytes {
+    fn len(&self) -> usize {
+        match self {
+            Self::Kept(bytes) => bytes.len(),
+            Self::Digested(_, length) => *length,
+        }
+    }
+    fn add(&mut self, more: &[u8]) {
+        match self {
+            Self::Kept(bytes) => bytes.extend_from_slice(more),
+            Self::Digested(digest, length) => {
+                digest.add(more);
+                *length += more.len();
+            }
+        }
+    }
 }
 
 /// Runs `write`, whose arrays go into the bytes that come back.
 pub(super) fn collect<R>(write: impl FnOnce() -> R) -> (R, Vec<u8>) {
-    BYTES.set(Some(Vec::new()));
+    BYTES.set(Some(Bytes::Kept(Vec::new())));
     let result = write();
-    (result, BYTES.take().unwrap_or_default())
+    match BYTES.take() {
+        Some(Bytes::Kept(bytes)) => (result, bytes),
+        _ => (result, Vec::new()),
+    }
+}
+
+/// Runs `write`, whose arrays are told apart by the digest that comes back.
+pub(super) fn digest<R>(write: impl FnOnce() -> R) -> (R, Digest) {
+    BYTES.set(Some(Bytes::Digested(Digest::default(), 0)));
+    let result = write();
+    match BYTES.take() {
+        Some(Bytes::Digested(digest, _)) => (result, digest),
+        _ => (result, Digest::default()),
+    }
 }
 
 /// Runs `read`, whose arrays are taken from the bytes.
 pub(super) fn supply<R>(bytes: Vec<u8>, read: impl FnOnce() -> R) -> R {
-    BYTES.set(Some(bytes));
+    BYTES.set(Some(Bytes::Kept(bytes)));
     let result = read();
     BYTES.set(None);
     result
@@ -42,7 +82,7 @@ impl<T: Pod> Array<T> {
         BYTES.with_borrow_mut(|bytes| {
             let bytes = bytes.as_mut()?;
             let offset = bytes.len();
-            bytes.extend_from_slice(bytemuck::cast_slice(values));
+            bytes.add(bytemuck::cast_slice(values));
             Some(Array::Place { offset, count: values.len() })
         })
     }
@@ -51,7 +91,7 @@ impl<T: Pod> Array<T> {
         match self {
             Array::List(list) => Ok(list.into()),
             Array::Place { offset, count } => BYTES.with_borrow(|bytes| {
-                let bytes = bytes.as_deref().unwrap_or_default();
+                let bytes = if let Some(Bytes::Kept(bytes)) = bytes { bytes.as_slice() } else { &[] };
                 let end = count.checked_mul(size_of::<T>()).and_then(|length| offset.checked_add(length));
                 let range = end.and_then(|end| bytes.get(offset..end));
                 let range = range

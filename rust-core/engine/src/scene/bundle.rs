@@ -5,6 +5,7 @@
 
 use super::{Scene, blob};
 use crate::{
+    checkpoint::Digest,
     error::{Error, Result},
     output::write_atomically,
 };
@@ -39,4 +40,13 @@ pub fn load_bundle(path: &Path) -> Result<Scene> {
     }
     let (json, arrays) = parts.split_at(json);
     blob::supply(arrays.to_vec(), || serde_json::from_slice(json)).map_err(|error| broken(&error.to_string()))
+}
+
+/// A digest of a scene without its settings; of files that it names only the names are in it.
+pub(crate) fn digest_scene(scene: &Scene) -> Digest {
+    let parts = (&scene.meshes, &scene.instances, &scene.materials, &scene.textures, &scene.measured, &scene.lights, &scene.cameras);
+    let (json, mut digest) = blob::digest(|| serde_json::to_vec(&parts));
+    // Descriptions that cannot be written differ from all others in their arrays.
+    digest.add(&json.unwrap_or_default());
+    digest
 }

@@ -20,6 +20,7 @@ mod settings;
 mod texture;
 mod transform;
 
+pub(crate) use bundle::digest_scene;
 pub use bundle::{load_bundle, save_bundle};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use goniogram::{Goniogram, PhotometricType};

@@ -1,6 +1,7 @@
 //! How a scene is rendered.
 
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A rectangle of pixels: `[min, max)`, rows counted from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -210,6 +211,18 @@ pub struct Settings {
     pub camera: u32,
     /// Samples a pixel.
     pub samples: u32,
+    /// Which of them are rendered, `[first, behind the last]`; `None` is all. Ranges start and end where blocks of samples do.
+    #[serde(default)]
+    pub sample_range: Option<[u32; 2]>,
+    /// Estimated error of 8 × 8 pixels, relative to what is shown, at which they have enough samples; 0 is off. On Cycles' scale.
+    #[serde(default)]
+    pub noise_threshold: f32,
+    /// Samples before any estimate; 0 leaves it to the threshold.
+    #[serde(default)]
+    pub min_samples: u32,
+    /// Value of the colour pass that is shown as white, for the estimate; 0 takes it from a small picture of the view.
+    #[serde(default)]
+    pub noise_white: f32,
     /// Seed of the random numbers.
     pub seed: u32,
     /// The light transport.
@@ -260,6 +273,10 @@ impl Default for Settings {
             crop: None,
             camera: 0,
             samples: 64,
+            sample_range: None,
+            noise_threshold: 0.0,
+            min_samples: 0,
+            noise_white: 0.0,
             seed: 0,
             integrator: Integrator::Path,
             max_bounces: 12,
@@ -280,6 +297,16 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The samples that are rendered.
+    pub fn range(&self) -> Range<u32> {
+        self.sample_range.map_or(0..self.samples, |[first, end]| first..end)
+    }
+    /// Samples before the noise is looked at; `None` where it never is. Left to the threshold it is Cycles' choice: 64 for 0.01, 32 for 0.1.
+    pub fn least_samples(&self) -> Option<u32> {
+        let by_threshold = || (16.0 / self.noise_threshold.powf(0.3)).ceil() as u32;
+        let wanted = if self.min_samples > 0 { self.min_samples } else { by_threshold() };
+        (self.noise_threshold > 0.0).then_some(wanted.max(4))
+    }
     /// Sets the passes by their names, in any case of letters but for those with names of their own: shader passes, which are called `aov:`
     /// (colours) or `aov_value:` (numbers) and the name of the output, and `lightgroup:` with the name of the group. Gives the first name
     /// that no pass has.

@@ -30,10 +30,12 @@ from ._gonio import (
     goniogram_figures,
     load_usd,
     measure,
+    merge,
     read_goniogram,
     read_weather,
     simd_level,
 )
+from .oidn import denoise
 
 __all__ = [
     "Array",
@@ -60,11 +62,13 @@ __all__ = [
     "__version__",
     "artist_sky",
     "daylight",
+    "denoise",
     "false_colour",
     "glare",
     "goniogram_figures",
     "load_usd",
     "measure",
+    "merge",
     "read_goniogram",
     "read_weather",
     "simd_level",

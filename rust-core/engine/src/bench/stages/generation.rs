@@ -36,7 +36,7 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
 impl Kernel for Generation {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let Self { view, sampler, paths } = self;
-        let area = TileArea { min: [0; 2], max: [TILE as u32; 2] };
+        let area = TileArea { min: [0; 2], max: [TILE as u32; 2], zones: u64::MAX };
         dispatch!(execution, l => generate(l, &view.camera, &view.filter, sampler, area, 0, paths));
         Ok(())
     }

@@ -35,7 +35,7 @@ pub(super) fn cases() -> Vec<Case> {
     let pixels = SIDE * SIDE;
     let values = (0..pixels as usize).flat_map(|i| [radiance[0][i % BATCH], radiance[1][i % BATCH], radiance[2][i % BATCH], 1.0]).collect();
     let layers = vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }];
-    let image = Image { resolution: [SIDE; 2], window: Crop { min: [0; 2], max: [SIDE; 2] }, layers, samples: 1 };
+    let image = Image { resolution: [SIDE; 2], window: Crop { min: [0; 2], max: [SIDE; 2] }, layers, samples: 1, mean_samples: 1.0 };
     vec![
         Case::new("photographic curve", "pixel", BATCH, Curve { radiance, out: columns3() }),
         Case::new("film to bytes", "pixel", pixels as usize, Display { image, bytes: Vec::new() }),

@@ -1,0 +1,36 @@
+//! How bright the view is: the value that would be shown as white, from a small picture that nobody sees.
+
+use super::learn::reduced;
+use crate::{
+    compile::{CompiledScene, View},
+    integrator::{BATCH, Start, TILE, Tracer, Workspace},
+    output::KEY,
+    scene::Settings,
+};
+use gonio_simd::Execution;
+
+/// Samples a pixel of the picture, which is one tile.
+const SAMPLES: u32 = 8;
+
+/// The value of the colour pass that the photographic operator would show as white before it compresses; what the settings say, if anything.
+///
+/// Its random numbers are others than the picture's, so that what is decided by it does not depend on the picture's noise.
+pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execution, cancelled: &dyn Fn() -> bool) -> f32 {
+    if settings.noise_white > 0.0 {
+        return settings.noise_white;
+    }
+    let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, SAMPLES), execution) else { return 1.0 };
+    let start = Start::Camera(&view.camera, &view.filter);
+    let tracer = Tracer { tables: &scene.tables, start, transport: view.transport, zones: u64::MAX };
+    let mut workspace = Workspace::default();
+    workspace.prepare(&scene.tables, &tracer.transport, false);
+    for sample in 0..SAMPLES {
+        tracer.trace(view.window.min, view.window.max, sample, &mut workspace, cancelled);
+    }
+    let [red, green, blue] = &workspace.first_hit.radiance;
+    let luminance = (0..BATCH).map(|i| 0.2126 * f64::from(red[i]) + 0.7152 * f64::from(green[i]) + 0.0722 * f64::from(blue[i]));
+    let (sum, count) = luminance.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
+    let mean = if count > 0.0 { (sum / count).exp() / f64::from(SAMPLES) } else { 0.0 };
+    let white = mean as f32 * view.exposure / KEY;
+    if white > 0.0 { white } else { 1.0 }
+}

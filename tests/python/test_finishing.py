@@ -1,0 +1,104 @@
+"""Checkpoints, merging, noise thresholds and denoising from Python."""
+
+import sys
+
+import numpy as np
+import pytest
+from small_scenes import finished, floor_scene
+
+gonio = pytest.importorskip("gonio")
+
+PASSES = ["color", "illuminance", "sample_count"]
+
+
+def arrays(film):
+    return {name: np.asarray(film[name]) for name in film.passes}
+
+
+def same(first, second):
+    first, second = arrays(first), arrays(second)
+    return first.keys() == second.keys() and all(np.array_equal(first[name], second[name]) for name in first)
+
+
+def test_a_render_goes_on_from_its_checkpoint(tmp_path):
+    scene = floor_scene(width=130, height=70, samples=48, passes=PASSES)
+    whole = finished(scene)
+    with gonio.Render(scene) as render:
+        next(render)
+        render.checkpoint(tmp_path / "a.checkpoint")
+    with gonio.Render(scene, resume=tmp_path / "a.checkpoint") as render:
+        assert render.wait()
+        assert same(render.film(), whole)
+
+
+def test_parts_merge_to_the_whole(tmp_path):
+    scene = floor_scene(samples=48, passes=PASSES)
+    whole = finished(scene)
+    paths = []
+    for first, end in ((0, 8), (8, 32), (32, 48)):
+        scene.set(sample_range=(first, end))
+        paths.append(tmp_path / f"{first}.part")
+        with gonio.Render(scene) as render:
+            assert render.wait()
+            assert render.film().samples == end - first
+            render.checkpoint(paths[-1])
+    assert same(gonio.merge(paths[::-1]), whole)
+    with pytest.raises(gonio.FormatError, match="samples 8:32 are missing"):
+        gonio.merge([paths[0], paths[2]])
+    scene.set(sample_range=None)
+    assert same(finished(scene), whole)
+
+
+def test_a_checkpoint_of_another_scene_is_refused(tmp_path):
+    path = tmp_path / "a.checkpoint"
+    with gonio.Render(floor_scene()) as render:
+        assert render.wait()
+        render.checkpoint(path)
+    with pytest.raises(gonio.FormatError, match="its samples is 4, 8 was asked for"):
+        gonio.Render(floor_scene(samples=8), resume=path)
+    other = floor_scene()
+    other.add_light("sphere", (1.0, 1.0, 1.0), radius=0.1)
+    with pytest.raises(gonio.FormatError, match="another scene"):
+        gonio.Render(other, resume=path)
+    with pytest.raises(FileNotFoundError):
+        gonio.Render(other, resume=tmp_path / "b.checkpoint")
+
+
+def test_a_noise_threshold_ends_quiet_zones():
+    film = finished(floor_scene(width=64, height=64, samples=512, noise_threshold=0.05, min_samples=16, passes=PASSES))
+    counts = np.asarray(film["sample_count"])
+    assert film.samples == counts.min() and film.mean_samples == pytest.approx(counts.mean())
+    assert 16 <= counts.min() and counts.mean() < 400
+    uniform = finished(floor_scene(width=64, height=64, samples=512, passes=PASSES))
+    assert np.asarray(film["illuminance"]).mean() == pytest.approx(np.asarray(uniform["illuminance"]).mean(), rel=5e-3)
+    with pytest.raises(gonio.SettingError, match="noise threshold"):
+        gonio.Render(floor_scene(noise_threshold=0.1, sample_range=(0, 2)))
+
+
+def test_denoising_takes_noise_out():
+    pytest.importorskip("pyoidn")
+    exact = finished(floor_scene(samples=64, width=96, height=96, passes=["color", "illuminance", "denoising_albedo", "denoising_normal"]))
+    color = np.array(exact["color"])
+    color[..., :3] *= np.random.default_rng(3).gamma(4.0, 0.25, (96, 96, 1)).astype("f4")
+    noisy = exact.with_pass("color", color)
+    film = gonio.denoise(noisy)
+    # The median leaves the lamp's own pixels out.
+    error = lambda each: np.median(np.abs(np.asarray(each["color"]) - np.asarray(exact["color"]))[..., :3])  # noqa: E731
+    assert error(film) < 0.3 * error(noisy)
+    assert all(np.array_equal(film[name], noisy[name]) for name in film.passes if name != "color")
+    assert np.array_equal(np.asarray(film["color"])[..., 3], color[..., 3])
+
+
+def test_denoising_without_the_extra_says_how_to_get_it(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyoidn", None)
+    with pytest.raises(gonio.UnsupportedError, match=r"pip install 'gonio\[denoise\]'"):
+        gonio.denoise(finished(floor_scene()))
+
+
+def test_passes_can_be_replaced():
+    film = finished(floor_scene())
+    doubled = film.with_pass("color", 2.0 * np.asarray(film["color"]))
+    assert np.array_equal(np.asarray(doubled["color"]), 2.0 * np.asarray(film["color"]))
+    assert np.array_equal(doubled["illuminance"], film["illuminance"])
+    with pytest.raises(ValueError, match="shape"):
+        film.with_pass("color", np.zeros((2, 2, 4), "f4"))

@@ -1,0 +1,74 @@
+//! Keeping a render on disk while it runs.
+
+use super::{arguments::CheckpointArguments, say};
+use gonio::{
+    Error, Result,
+    checkpoint::{Checkpoint, Identity, write_checkpoint},
+    film::Film,
+};
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+/// Writing takes at most one part in so many of the time.
+const SHARE: u32 = 20;
+/// Longest time between checkpoints, seconds.
+const MOST_SECONDS: f64 = 1e9;
+
+/// Writes a render's checkpoints.
+pub(super) struct Keeper {
+    path: PathBuf,
+    identity: Identity,
+    resume: bool,
+    every: Duration,
+    due: Instant,
+}
+
+impl Keeper {
+    /// A keeper of one render's checkpoint; a file that is there already and is not to be resumed is an error.
+    pub(super) fn new(path: PathBuf, identity: Identity, arguments: &CheckpointArguments) -> Result<Self> {
+        let seconds = arguments.checkpoint_every;
+        if seconds.is_nan() || seconds < 0.0 {
+            return Err(Error::setting("checkpoint-every", format!("{seconds} was found, expected seconds from 0 on")));
+        }
+        if path.exists() && !arguments.resume {
+            let problem = format!("{} is there already; --resume goes on with it, or remove it", path.display());
+            return Err(Error::setting("checkpoint", problem));
+        }
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
+        }
+        let every = Duration::from_secs_f64(seconds.min(MOST_SECONDS));
+        Ok(Self { path, identity, resume: arguments.resume, every, due: Instant::now() + every })
+    }
+
+    /// What an earlier run has left.
+    pub(super) fn film(&self) -> Result<Option<Film>> {
+        if self.resume && self.path.exists() { Checkpoint::resume(&self.path, &self.identity).map(Some) } else { Ok(None) }
+    }
+
+    /// Writes a checkpoint if it is time. One that cannot be written does not end the render, which may yet find room.
+    pub(super) fn keep_if_due(&mut self, film: &Film) {
+        if Instant::now() >= self.due
+            && let Err(error) = self.keep(film)
+        {
+            say(&format!("warning: the checkpoint could not be written: {error}"));
+        }
+    }
+
+    /// Writes a checkpoint.
+    pub(super) fn keep(&mut self, film: &Film) -> Result<()> {
+        let start = Instant::now();
+        let result = write_checkpoint(&self.path, &self.identity, film);
+        self.due = Instant::now() + self.every.max(SHARE * start.elapsed());
+        result
+    }
+}
+
+/// A range of samples from `FIRST:END`.
+pub(super) fn sample_range(text: &str) -> Result<[u32; 2]> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let range = text.split_once(':').and_then(|(first, end)| Some([number(first)?, number(end)?]));
+    range.ok_or_else(|| Error::setting("samples", format!("'{text}' was found, expected FIRST:END as in 0:256")))
+}

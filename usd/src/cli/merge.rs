@@ -1,0 +1,27 @@
+//! `gonio merge`.
+
+use super::{
+    arguments::MergeArguments,
+    output::{Notes, Writer},
+    say,
+};
+use gonio::{Error, Result, checkpoint::merge as join};
+use gonio_simd::Execution;
+
+/// Joins parts of a render's samples and writes the picture.
+pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
+    if options.files.output.is_empty() {
+        return Err(Error::setting("output", "no file was given; say -o picture.exr"));
+    }
+    let writer = Writer::new(&options.files, Execution::detect())?;
+    let whole = join(&options.parts)?;
+    let range = whole.film.range();
+    if !options.quiet {
+        say(&format!("{} parts, samples {}:{} of {}", options.parts.len(), range.start, range.end, whole.identity.settings.samples));
+    }
+    let notes = Notes { exposure: whole.identity.exposure, interrupted: false, attributes: &whole.identity.notes };
+    let mut image = whole.film.develop();
+    writer.finish(&mut image)?;
+    writer.write_all(&options.files.output, &image, &notes, options.quiet)?;
+    Ok(0)
+}
