@@ -54,8 +54,7 @@ impl PreparedRay {
         // The sum catches NaN, which the maxima drop.
         let sum = x + y + z + ox + oy + oz;
         let t_min = larger(t_min, 0.0);
-        let usable = (largest >= DIRECTION_RANGE[0])
-            & (largest <= DIRECTION_RANGE[1])
+        let usable = (DIRECTION_RANGE[0]..=DIRECTION_RANGE[1]).contains(&largest)
             & (start <= LARGEST_COORDINATE)
             & (sum < f32::INFINITY)
             & (t_min <= t_max);
