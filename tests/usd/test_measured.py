@@ -188,6 +188,45 @@ def test_weights_mix_two_measurements(tmp_path):
     assert mixed == pytest.approx(picture(scene, 256).mean(), rel=0.005)
 
 
+def brushed(path):
+    """Reflects towards azimuths near the tangent's alone: a table of two polar angles and eight azimuths."""
+    axes = [("theta_i linear", [0, 80]), ("phi_i periodic 360", np.arange(0, 360, 45)), ("theta_o linear", [0, 80]), ("phi_o periodic 360", [0, 180])]
+    along = np.abs(np.cos(np.radians(axes[1][1]))) ** 4
+    lines = ["gbsdf 1", "table reflection-front anisotropic"]
+    for name, degrees in axes:
+        lines += [f"axis {name} {len(degrees)}", " ".join(map(str, degrees))]
+    values = np.broadcast_to(along[None, :, None, None] * 0.3, (2, 8, 2, 2))
+    path.write_text("\n".join([*lines, "values text", " ".join(map(str, values.ravel())), "end"]) + "\n")
+
+
+SQUARE = """def Mesh "Square" (prepend apiSchemas = ["MaterialBindingAPI"])
+{{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    texCoord2f[] primvars:st = {st} (interpolation = "vertex")
+    rel material:binding = </Paint>
+}}
+"""
+
+
+def test_tangents_follow_texture_coordinates_that_nothing_else_reads(tmp_path):
+    brushed(tmp_path / "paint.gbsdf")
+    lights = BALL[BALL.index("def DistantLight") :]
+
+    def brightness(st, body=""):
+        path = tmp_path / "square.usda"
+        path.write_text(HEADER + SHADER.format(file="paint.gbsdf", body=body) + SQUARE.format(st=st) + lights)
+        return picture(gonio.load_usd(str(path)), 64)[22, 22, 1]
+
+    # The sun stands in the plane of y and z.
+    across = brightness("[(0, 0), (1, 0), (1, 1), (0, 1)]")
+    along = brightness("[(0, 1), (0, 0), (1, 0), (1, 1)]")
+    assert along > 5 * across
+    # A quarter turn of the tangent and one of the coordinates cancel.
+    assert brightness("[(0, 0), (1, 0), (1, 1), (0, 1)]", "float inputs:rotation = 90") == pytest.approx(along, rel=0.02)
+
+
 def test_a_table_of_ggx_shows_the_ggx_sphere(tmp_path):
     ggx(tmp_path / "paint.gbsdf", 0.25)
     scene = load(tmp_path)

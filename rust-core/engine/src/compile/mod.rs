@@ -85,9 +85,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let none = (kept::KeptImages::default(), lights::KeptLights::default());
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
     let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
-    let names = primvars::used_names(scene);
     let none = measured::CompiledMeasured::default();
     let measured = measured::compile(scene, previous.map_or(&none, |p| &p.measured), &mut diagnostics);
+    let names = primvars::used_names(scene, &measured);
     let materials = materials::compile(scene, &textures, &measured, &names, &mut diagnostics)?;
     check(cancel)?;
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;

@@ -1,24 +1,44 @@
 //! Which primvars materials read, and their layout in the value tables.
 
+use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Operation, Primvar, PrimvarInterpolation, Scene},
+    scene::{Closure, Input, Operation, Primvar, PrimvarInterpolation, Scene},
 };
 
+/// What texture coordinates are called, the likeliest first.
+pub(super) const COORDINATES: [&str; 4] = ["st", "UVMap", "map1", "uv"];
+
 /// Names of the primvars that any material reads; their columns follow the one of the normals.
-pub(super) fn used_names(scene: &Scene) -> Vec<String> {
+pub(super) fn used_names(scene: &Scene, measured: &CompiledMeasured) -> Vec<String> {
     let mut names = Vec::new();
+    let mut add = |name: &str| {
+        if !names.iter().any(|known| known == name) {
+            names.push(name.to_owned());
+        }
+    };
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
-        let name = match &node.operation {
-            Operation::Primvar { name, .. } | Operation::PrimvarStep { name, .. } => name,
-            Operation::UvTangent { uv } | Operation::NormalMap { uv: Some(uv), .. } => uv,
-            _ => continue,
-        };
-        if !names.contains(name) {
-            names.push(name.clone());
+        match &node.operation {
+            Operation::Primvar { name, .. } | Operation::PrimvarStep { name, .. } => add(name),
+            Operation::UvTangent { uv } | Operation::NormalMap { uv: Some(uv), .. } => add(uv),
+            _ => {}
         }
     }
+    let closures = || scene.materials.iter().flat_map(|material| &material.closures);
+    if closures().any(|closure| lies_along_coordinates(closure, measured)) {
+        let there = |name: &str| {
+            let mut primvars = scene.meshes.iter().map(|mesh| &mesh.primvars).chain(scene.instances.iter().map(|placed| &placed.primvars));
+            primvars.any(|primvars| primvars.iter().any(|primvar| primvar.name == name))
+        };
+        COORDINATES.into_iter().filter(|name| there(name)).for_each(add);
+    }
     names
+}
+
+/// Whether a surface depends on its tangent, and that follows texture coordinates.
+fn lies_along_coordinates(closure: &Closure, measured: &CompiledMeasured) -> bool {
+    let anisotropy = closure.input("specular_anisotropy").is_some_and(|input| !matches!(input, Input::Constant([0.0, ..])));
+    closure.tangent.is_none() && (anisotropy || measured.of(closure).is_some_and(|measured| !measured.is_isotropic()))
 }
 
 /// The column of a name.

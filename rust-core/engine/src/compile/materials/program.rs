@@ -1,7 +1,10 @@
 //! A material's graph as steps.
 
 use crate::{
-    compile::{primvars::column, textures::CompiledTextures},
+    compile::{
+        primvars::{COORDINATES, column},
+        textures::CompiledTextures,
+    },
     error::{Error, Result},
     graph::{Arithmetic, Curve, HitValue, Program, Quantity, Source, Step, VectorOperation},
     scene::{self, Channel, Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
@@ -51,7 +54,7 @@ pub(super) fn steps(material: &Material, textures: &CompiledTextures, names: &[S
         facts.push(fact);
     }
     // A tangent is wanted even where no image is: for anisotropy.
-    program.uv = program.uv.or_else(|| ["st", "UVMap", "map1", "uv"].iter().find_map(|name| column(names, name)));
+    program.uv = program.uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name)));
     Ok(program)
 }
 
