@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Shared, TileReady, learn::learn, schedule::Work, source::Source};
+use super::{Shared, TileReady, learn::learn, schedule::Work};
 use crate::{
     film::Block,
     integrator::{Tracer, Transport, Workspace},
@@ -32,11 +32,7 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let tables = &shared.scene.tables;
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let learned = || match &shared.source {
-        Source::View(view) => learn(&shared.scene, &shared.settings, view.transport.execution, &cancelled),
-        // Sensors have no view to learn from.
-        Source::Sensors { .. } => None,
-    };
+    let learned = || learn(&shared.scene, &shared.settings, &shared.source, &cancelled);
     let known = shared.known.get_or_init(learned).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };
     let tracer = Tracer { tables, start: shared.source.start(), transport };
