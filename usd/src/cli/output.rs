@@ -1,6 +1,6 @@
 //! Writing a picture under the names asked for.
 
-use super::arguments::RenderOptions;
+use super::{arguments::RenderOptions, file::make_folder};
 use gonio::{
     Error, Result,
     film::Image,
@@ -40,10 +40,7 @@ impl Writer {
                     problem: format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display()),
                 });
             }
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-            if let Some(folder) = folder {
-                std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
-            }
+            make_folder(path)?;
         }
         Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, execution })
     }

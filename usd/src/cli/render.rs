@@ -216,18 +216,7 @@ impl Job<'_> {
     fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>) -> Result<()> {
         let start = Instant::now();
         let mut render = Render::start(compiled.clone(), &scene.settings, self.execution)?;
-        let mut reporter = Reporter::new(self.options.quiet);
-        while !render.is_finished() {
-            if self.interrupted.load(Ordering::Relaxed) {
-                render.cancel();
-            }
-            // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
-            let _ = render.next_tile(Duration::from_millis(20));
-            while render.next_tile(Duration::ZERO).is_some() {}
-            reporter.show(&render.progress());
-            Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
-        }
-        reporter.clear();
+        drive(&mut render, self.options.quiet, self.interrupted)?;
         let result = render.finish();
         if let Err(error) = &result
             && !matches!(error, Error::Cancelled)
@@ -278,6 +267,23 @@ impl Job<'_> {
         }
         Ok(())
     }
+}
+
+/// Waits until a render has ended or was interrupted, and shows how far it is; what came of it is for [`Render::finish`] to say.
+pub(super) fn drive(render: &mut Render, quiet: bool, interrupted: &AtomicBool) -> Result<()> {
+    let mut reporter = Reporter::new(quiet);
+    while !render.is_finished() {
+        if interrupted.load(Ordering::Relaxed) {
+            render.cancel();
+        }
+        // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
+        let _ = render.next_tile(Duration::from_millis(20));
+        while render.next_tile(Duration::ZERO).is_some() {}
+        reporter.show(&render.progress());
+        Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
+    }
+    reporter.clear();
+    Ok(())
 }
 
 fn aovs(names: &[String]) -> Result<Vec<Aov>> {

@@ -11,6 +11,6 @@ pub use atomic::write_atomically;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS, short_number};
-pub use picture::{encode_png, write_picture};
+pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use tone_map::{ToneMap, display};
 pub(crate) use tone_map::{WHITE, map_lanes};
