@@ -2,6 +2,7 @@
 """What a light's photometric settings say, for its panel and for the export."""
 
 from functools import lru_cache
+from math import degrees
 from pathlib import Path
 
 import bpy
@@ -14,13 +15,13 @@ def is_photometric(light) -> bool:
 
 
 def file_of(light):
-    """The path of a light's file and what tells its versions apart, or None; raises OSError where there is none."""
+    """The path of a light's file, what tells its versions apart, lamp set and tilt, or None; raises OSError where there is none."""
     settings = light.gonio
     if not settings.use_photometry or not settings.file or light.type == "SUN":
         return None
     path = Path(bpy.path.abspath(settings.file, library=light.library))
     state = path.stat()
-    return str(path), state.st_mtime_ns, state.st_size
+    return str(path), state.st_mtime_ns, state.st_size, settings.lamp_set, degrees(settings.tilt)
 
 
 def goniogram(light):
@@ -37,10 +38,10 @@ def figures(light):
 
 # Exports and panels ask again and again.
 @lru_cache(maxsize=64)
-def _goniogram(path, _time, _size):
-    return gonio.read_goniogram(Path(path).read_bytes(), path)
+def _goniogram(path, _time, _size, lamp_set, tilt):
+    return gonio.read_goniogram(Path(path).read_bytes(), path, lamp_set=lamp_set, tilt=tilt)
 
 
 @lru_cache(maxsize=64)
-def _figures(path, _time, _size):
-    return gonio.goniogram_figures(Path(path).read_bytes(), path)
+def _figures(path, _time, _size, lamp_set, tilt):
+    return gonio.goniogram_figures(Path(path).read_bytes(), path, lamp_set=lamp_set, tilt=tilt)

@@ -85,6 +85,7 @@ class Meter:
             spacing=settings.grid_spacing,
             margin=settings.grid_margin,
             height=settings.grid_height,
+            facing=tuple(evaluated.matrix_world.col[1][:3]),
             quantity=settings.grid_quantity,
             name=thing.name,
         )
@@ -111,8 +112,8 @@ def _arrays(mesh):
 
 def grid_lines(reading) -> tuple[str, ...]:
     """The figures of a grid."""
-    unit, symbol = reading.unit, "D" if reading.unit == "%" else "E"
+    unit, symbol = reading.unit, {"%": "D", "": "UGR"}.get(reading.unit, "E")
     figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
-    lines = [f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}" for name, figure in figures]
+    lines = [" ".join(f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}".split()) for name, figure in figures]
     columns, rows = reading.size
     return (*lines, f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points")

@@ -76,7 +76,7 @@ class GONIO_OT_measure_grids(bpy.types.Operator):
         measuring.latest.grids = {reading.name: reading for reading in found.grids}
         _write_text("Gonio grids.csv", found.csv())
         for name, reading in measuring.latest.grids.items():
-            _write_image(f"{name} ({reading.unit})", reading.picture(max=context.scene.gonio.false_color_max or None))
+            _write_image(f"{name} ({reading.unit or reading.quantity})", reading.picture(max=context.scene.gonio.false_color_max or None))
         count = len(found.grids)
         self.report({"INFO"}, f"{count} grid{'s' * (count > 1)} measured; values are in the text 'Gonio grids.csv'")
         return {"FINISHED"}

@@ -4,7 +4,7 @@
 from math import radians
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .switch import switch
 from .tag import tag_data
@@ -72,6 +72,18 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         default=0.0,
         min=radians(-360.0),
         max=radians(360.0),
+        subtype="ANGLE",
+        update=tag_data,
+    )
+    lamp_set: IntProperty(
+        name="Lamp Set", description="Which of the file's alternative lamps are in the luminaire", default=1, min=1, update=tag_data
+    )
+    tilt: FloatProperty(
+        name="Tilt",
+        description="How far the luminaire hangs aslant, for files that state their lamp's flux by it",
+        default=0.0,
+        min=radians(-180.0),
+        max=radians(180.0),
         subtype="ANGLE",
         update=tag_data,
     )

@@ -12,6 +12,7 @@ QUANTITIES = (
     ("illuminance", "Illuminance", "On the surface, in lx", 0),
     ("cylindrical", "Cylindrical Illuminance", "Mean over the side of a small upright cylinder, in lx", 1),
     ("daylight-factor", "Daylight Factor", "Illuminance by the sky alone, in per cent of that on open ground", 2),
+    ("ugr", "Glare (UGR)", "Unified Glare Rating of the lamps (CIE 117), for eyes that look along the object's Y axis", 3),
 )
 
 

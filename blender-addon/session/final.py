@@ -65,7 +65,7 @@ class FinalSession:
         return layer.report
 
     def _render(self, engine, depsgraph, layer: _Layer, preview: bool) -> None:
-        frame, exposure = final_frame(depsgraph.scene.render), depsgraph.scene.gonio.film_exposure
+        frame, settings = final_frame(depsgraph.scene.render), depsgraph.scene.gonio
         kinds = passes.add_passes(engine, depsgraph.view_layer)
         samples = self._settings(depsgraph, layer, frame, kinds, preview)
         with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer, engine) as render:
@@ -77,7 +77,7 @@ class FinalSession:
                     break
                 now = time.monotonic()
                 if now - shown >= pause and render.progress.samples > 0:
-                    passes.write_passes(result, render.film(), kinds, exposure, samples)
+                    passes.write_passes(result, render.film(), kinds, settings, samples)
                     engine.update_result(result)
                     shown = time.monotonic()
                     pause = max(SHOW_EVERY, SHOW_SHARE * (shown - now))
@@ -85,7 +85,7 @@ class FinalSession:
                 engine.update_stats("", status.text(render.progress, samples))
             layer.report.add_render(render.diagnostics)
             if done or render.progress.samples > 0:
-                passes.write_passes(result, render.film(), kinds, exposure, samples)
+                passes.write_passes(result, render.film(), kinds, settings, samples)
 
     def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool) -> int:
         """Puts the settings into the scene; returns the samples of a pixel."""

@@ -9,6 +9,7 @@ import numpy
 
 from .. import compat
 from ..units import LUMENS_PER_WATT
+from . import false_color
 
 
 class Scale(Enum):
@@ -19,6 +20,8 @@ class Scale(Enum):
     RADIANCE = 1
     # The most samples that a pixel may have.
     SAMPLES = 2
+    # Nothing: the values become colours.
+    FALSE_COLOR = 3
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,8 @@ _LAYER_PASSES = {
 _OWN_PASSES = {
     "use_pass_luminance": (Pass("Luminance", "X", "VALUE", "luminance"),),
     "use_pass_illuminance": (Pass("Illuminance", "X", "VALUE", "illuminance"),),
+    "use_pass_luminance_false_color": (Pass("Luminance False Color", "RGBA", "COLOR", "luminance", Scale.FALSE_COLOR),),
+    "use_pass_illuminance_false_color": (Pass("Illuminance False Color", "RGBA", "COLOR", "illuminance", Scale.FALSE_COLOR),),
     "use_pass_albedo": (Pass("Albedo", "RGB", "COLOR", "albedo"),),
     "denoising_store_passes": (
         Pass("Denoising Normal", "XYZ", "VECTOR", "denoising_normal"),
@@ -120,12 +125,19 @@ def sources(kinds: list[Pass]) -> list[str]:
     return list(dict.fromkeys(kind.source for kind in kinds))
 
 
-def write_passes(result, film, kinds: list[Pass], exposure: float, samples: int) -> None:
-    """Copies a film into a render result of the same size, rows from the bottom."""
+def write_passes(result, film, kinds: list[Pass], settings, samples: int) -> None:
+    """Copies a film into a render result of the same size, rows from the bottom; `settings` are the scene's."""
     targets = {target.name: target for target in result.layers[0].passes}
     for kind in kinds:
         if kind.name in targets:
-            targets[kind.name].rect.foreach_set(read_flat(film, kind.source, kind.factor(exposure, samples)))
+            targets[kind.name].rect.foreach_set(_pixels(film, kind, settings, samples))
+
+
+def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
+    """A pass of a film as Blender takes pixels."""
+    if kind.scale is Scale.FALSE_COLOR:
+        return false_color.linear(film, false_color.Style.of_source(kind.source, settings))
+    return read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
 
 
 def read_flat(film, source: str, factor: float) -> numpy.ndarray:

@@ -33,6 +33,9 @@ class GONIO_VIEWLAYER_PT_passes_photometry(LayerPanel, Panel):
         column = layout.column(heading="Include")
         column.prop(layer.gonio, "use_pass_luminance", text="Luminance (cd/m²)")
         column.prop(layer.gonio, "use_pass_illuminance", text="Illuminance (lx)")
+        column = layout.column(heading="False Color")
+        column.prop(layer.gonio, "use_pass_luminance_false_color", text="Luminance")
+        column.prop(layer.gonio, "use_pass_illuminance_false_color", text="Illuminance")
 
 
 class GONIO_VIEWLAYER_PT_passes_data(LayerPanel, Panel):

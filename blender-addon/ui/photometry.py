@@ -75,8 +75,15 @@ def _draw_luminaire(layout, light) -> None:
         found = luminaire.figures(light)
         icon = polar_picture.icon_of(light)
     except (OSError, gonio.Error) as problem:
+        # Either may be what the file has not.
+        column.prop(settings, "lamp_set")
+        column.prop(settings, "tilt")
         column.label(text=str(problem), icon="ERROR")
         return
+    if found["lamp_sets"] > 1:
+        column.prop(settings, "lamp_set")
+    if found["has_tilt"]:
+        column.prop(settings, "tilt")
     box = layout.box()
     row = box.row()
     row.alignment = "CENTER"

@@ -222,3 +222,61 @@ def test_glare_in_a_panoramic_camera(tmp_path: Path):
     assert found["eye_illuminance_lx"] == pytest.approx(of_disk * bright + math.pi * background, rel=0.01)
     shown = [*run, "falsecolor", str(tmp_path / "eye.exr"), "-o", str(tmp_path / "eye.png"), "--contours"]
     subprocess.run(shown, capture_output=True, check=True)
+
+
+@pytest.mark.blender
+def test_observers_on_grids_rate_the_lamps():
+    import importlib
+    import math
+
+    import bpy
+    import numpy
+    import scenes
+
+    scene = scenes.lit_floor()
+    scene.world.gonio.use_luminance, scene.world.gonio.luminance = True, 20.0
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    measuring = importlib.import_module("gonio_extension.measuring")
+    bpy.data.objects.remove(bpy.data.objects["Floor"])
+    # An eye 2 m before the lamp, at its height, looking along the plane's Y axis.
+    bpy.ops.mesh.primitive_plane_add(size=1.0, location=(0, -2, 1))
+    plane = bpy.context.object
+    plane.gonio.is_grid, plane.gonio.is_grid_only, plane.gonio.grid_spacing, plane.gonio.grid_quantity = True, True, 1.0, "ugr"
+    assert bpy.ops.gonio.measure_grids(samples=1024) == {"FINISHED"}
+    reading = measuring.latest.grids[plane.name]
+    intensity = 100 / (4 * math.pi) * scenes.LUMENS_PER_WATT
+    # Straight ahead the position index is 1; small sources count as 0.005 m².
+    expected = 8 * math.log10(0.25 / 20 * 200 * intensity**2 / 4)
+    assert numpy.allclose(numpy.asarray(reading.values), expected, atol=0.05), (reading.average.value, expected)
+    assert measuring.grid_lines(reading)[0].startswith("UGR_avg: ")
+    assert bpy.data.images[f"{plane.name} (ugr)"].size[0] > 0
+    plane.rotation_euler.z = math.pi
+    assert bpy.ops.gonio.measure_grids(samples=16) == {"FINISHED"}
+    assert measuring.latest.grids[plane.name].max.value == 0.0
+
+
+@pytest.mark.blender
+def test_false_colour_is_a_pass_of_final_renders(tmp_path: Path):
+    import numpy
+    import scenes
+
+    scene = scenes.lit_floor(samples=16)
+    scene.render.resolution_x, scene.render.resolution_y, scene.camera.data.ortho_scale = 160, 120, 5.0
+    scene.view_layers[0].gonio.use_pass_illuminance = True
+    scene.view_layers[0].gonio.use_pass_illuminance_false_color = True
+    scene.gonio.false_color_max, scene.gonio.false_color_steps, scene.gonio.use_false_color_contours = 1000.0, 4, False
+    scenes.render(tmp_path / "a.exr")
+    channels = scenes.read(tmp_path / "a.exr")
+    shown = numpy.stack([channels[f"ViewLayer.Illuminance False Color.{name}"] for name in "RGB"], axis=-1)
+    lux = channels["ViewLayer.Illuminance.X"]
+    # The ends of the ramp and two places between, as scene-linear colours.
+    ramp = numpy.array([[68, 1, 84], [49, 104, 142], [53, 183, 121], [253, 231, 37]]) / 255
+    linear = numpy.where(ramp <= 0.04045, ramp / 12.92, ((ramp + 0.055) / 1.055) ** 2.4)
+    expected = linear[numpy.minimum(lux // 250, 3).astype(int)]
+    # The legend covers the lower left corner alone.
+    height, width = lux.shape
+    upper = slice(0, height // 3)
+    assert numpy.allclose(shown[upper], expected[upper], atol=0.01) and len(numpy.unique(lux[upper] // 250)) > 2
+    corner = shown[height - height // 4 :, : width // 12].reshape(-1, 3)
+    assert not numpy.allclose(corner, expected[height - height // 4 :, : width // 12].reshape(-1, 3), atol=0.01)
+    assert len({tuple(numpy.round(pixel, 2)) for pixel in corner}) > 2

@@ -40,3 +40,16 @@ def test_a_broken_file_names_its_line():
 def test_what_is_no_luminaire_is_told():
     with pytest.raises(gonio.FormatError, match="neither"):
         gonio.read_goniogram(b"\x00\x01\x02", "lamp.bin")
+
+
+def test_lamp_sets_and_tilt_are_chosen():
+    tilting = IES.replace("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.5").encode()
+    found, _ = gonio.read_goniogram(tilting, "lamp.ies", lamp_set=1, tilt=45)
+    assert found["factors"][:3] == pytest.approx([225, 150, 75])
+    figures = gonio.goniogram_figures(tilting, "lamp.ies", tilt=90)
+    assert (figures["peak_cd"], figures["lamp_sets"], figures["has_tilt"]) == (150, 1, True)
+    for arguments, words in (({"lamp_set": 2}, "the file has 1"), ({"lamp_set": 0}, "the file has 1"), ({"tilt": float("nan")}, "a number")):
+        with pytest.raises(gonio.FormatError, match=words):
+            gonio.read_goniogram(tilting, "lamp.ies", **arguments)
+    with pytest.raises(gonio.FormatError, match="no tilt factors"):
+        gonio.read_goniogram(IES.encode(), "lamp.ies", tilt=10)

@@ -32,6 +32,21 @@ def test_limits_of_pictures_do_not_hold(floor):
     assert expected > 0 and gonio.measure(scene).meters[0].value == expected
 
 
+def test_observers_rate_luminaires():
+    """A sphere of 0.1 m, 3 m ahead and 1 m up, before an even sky of 25 cd/m²: CIE 117 by hand."""
+    scene = gonio.Scene()
+    scene.add_light("dome", (25.0,) * 3)
+    scene.add_light("sphere", (4000.0,) * 3, radius=0.1, transform=at(0, 3, 1))
+    scene.add_meter((0, 0, 0), facing=(0, 1, 0), quantity="ugr")
+    scene.add_meter((0, 0, 0), facing=(0, -1, 0), quantity="ugr", name="away")
+    found, away = gonio.measure(scene, samples=4096).meters
+    sigma = math.degrees(math.atan2(1, 3))
+    index = math.exp((35.2 - 1.22) * 1e-3 * sigma + 21e-5 * sigma**2)
+    solid_angle = math.pi * 0.01 / 10
+    assert found.value == pytest.approx(8 * math.log10(0.25 / 25 * 4000**2 * solid_angle / index**2), abs=0.05)
+    assert away.value == 0.0
+
+
 def test_half_cylinders_face_somewhere(floor):
     scene = floor()
     scene.add_meter((0, 1, 0), normal=(0, 1, 0), facing=(0, 1, 0), quantity="semicylindrical")
@@ -54,6 +69,7 @@ def test_grids(floor, tmp_path):
     assert plane.uniformity == pytest.approx(values.min() / values.mean())
     assert np.asarray(plane.standard_errors).shape == (16, 16)
     assert rectangle.size == (4, 2) and rectangle.spacing == pytest.approx((0.5, 0.5))
+    assert (plane.area, rectangle.area) == pytest.approx((100.0, 2.0))
     assert found.csv().count("\r\n") == 1 + 256 + 8
     path = tmp_path / "plane.png"
     picture = plane.picture(max=10, steps=5)

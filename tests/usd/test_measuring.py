@@ -121,6 +121,7 @@ def test_what_cannot_be_measured_is_one_line(run, stage):
         (("--at", "0,0,1", "--quantity", "loudness"), "semicylindrical"),
         (("--at", "0,0,1", "--quantity", "daylight-factor"), "dome"),
         (("--at", "0,0,1", "--facing", "0,0,0", "--quantity", "luminance"), "direction"),
+        (("--at", "0,0,1", "--facing", "0,0,1", "--quantity", "ugr"), "line of sight"),
         (("--grid", "/Floor", "--spacing", "0.001"), "wider spacing"),
         (("--at", "0,0,1", "-o", "x.jpg"), "png"),
     ):
@@ -179,6 +180,20 @@ def test_glare_of_a_disk(run, tmp_path):
     from_python = gonio.glare(luminance)
     assert from_python.ugr == pytest.approx(found["ugr"]) and from_python.dgp == pytest.approx(found["dgp"])
     assert run("glare", path, "--fov", 120, check=False).returncode == 1
+
+
+def test_observers_rate_luminaires(run, stage):
+    """UGR of a sphere of 1 cm by hand: below 0.005 m² it counts as that many; before a sky of 20 cd/m² alone, since the floor is black."""
+    black = "color3f[] primvars:displayColor = [(0, 0, 0)]"
+    dome = 'def DomeLight "Sky" {\n    float inputs:intensity = 20\n}'
+    arguments = ("--at", "0,-2,2", "--facing", "0,1,0", "--quantity", "ugr")
+    found = measured(run, stage(black, dome), *arguments)["meters"][0]
+    # Straight ahead the position index is 1; what the floor takes of the sky the illuminance at the eye tells.
+    eye = measured(run, stage(black, dome), "--at", "0,-2,2", "--normal", "0,1,0")["meters"][0]["value"]
+    background = (eye - INTENSITY / 4) / math.pi
+    expected = 8 * math.log10(0.25 / background * 200 * INTENSITY**2 / 4)
+    assert (found["quantity"], found["unit"]) == ("ugr", "")
+    assert found["value"] == pytest.approx(expected, abs=0.05)
 
 
 EYE = """#usda 1.0

@@ -117,6 +117,42 @@ def test_the_lamps_flux_is_exchanged(tmp_path):
     assert lux(scene) == pytest.approx(25.0, rel=2e-3)
 
 
+def write_ldt(path: pathlib.Path) -> None:
+    """An even luminaire of 1000/4π cd/klm with two alternative lamp sets, 1000 and 3000 lm."""
+    head = "ACME;1;1;1;0;3;90;report;Globe;G-1;globe.ldt;today;0;0;50;0;0;0;0;0;0;50;100;1;0;2"
+    values = [*head.split(";"), *"1;LED;1000;3000 K;90;10;2;LED;3000;4000 K;80;24".split(";"), *["0.5"] * 10, 0, 0, 90, 180]
+    path.write_bytes("\r\n".join(str(value) for value in [*values, *[1000 / (4 * math.pi)] * 3]).encode("latin-1"))
+
+
+@pytest.mark.parametrize(("body", "expected"), [("", 1000), ("int gonio:photometry:lampSet = 2", 3000), ("int gonio:photometry:lampSet = 1", 1000)])
+def test_lamp_sets_are_chosen(tmp_path, body, expected):
+    write_ldt(tmp_path / "globe.ldt")
+    scene = load(tmp_path, "SphereLight", f"asset gonio:photometry:file = @globe.ldt@\n    {body}")
+    assert lux(scene) == pytest.approx(expected / (4 * math.pi), rel=2e-3)
+
+
+@pytest.mark.parametrize("number", [0, 3, -1])
+def test_lamp_sets_that_are_not_there_are_told(tmp_path, number):
+    write_ldt(tmp_path / "globe.ldt")
+    scene = load(tmp_path, "SphereLight", f"asset gonio:photometry:file = @globe.ldt@\n    int gonio:photometry:lampSet = {number}")
+    assert "the file has 2" in str(scene.diagnostics)
+    assert lux(scene) == pytest.approx(1000 / (4 * math.pi), rel=2e-3)
+
+
+def test_a_tilt_takes_the_files_factors(tmp_path):
+    write_ies(tmp_path / "lamp.ies")
+    text = (tmp_path / "lamp.ies").read_text()
+    (tmp_path / "tilting.ies").write_text(text.replace("TILT=NONE", "TILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.5"))
+    hung = lambda file, tilt: load(  # noqa: E731
+        tmp_path, "SphereLight", f"asset gonio:photometry:file = @{file}@\n    double gonio:photometry:tilt = {tilt}"
+    )
+    assert lux(hung("tilting.ies", 0)) == pytest.approx(100.0, rel=2e-3)
+    assert lux(hung("tilting.ies", -67.5)) == pytest.approx(70.0, rel=2e-3)
+    upright = hung("lamp.ies", 20)
+    assert "no tilt factors" in str(upright.diagnostics)
+    assert lux(upright) == pytest.approx(100.0, rel=2e-3)
+
+
 def test_rotation_turns_c0(tmp_path):
     write_ies(tmp_path / "lamp.ies", "0.1 1.2 0")
     body = "asset gonio:photometry:file = @lamp.ies@\n    double gonio:photometry:rotation = 90"
@@ -171,6 +207,21 @@ def test_mesh_lights(tmp_path):
     glow = [m for m in scene["materials"] if "emission_color" in str(m)]
     values = dict(glow[-1]["closures"][0]["parameters"])["emission_color"]["Constant"]
     assert values[:3] == pytest.approx([100.0 / (math.pi * 0.0004)] * 3, rel=1e-4)
+
+
+def test_mesh_lights_without_a_quantity_are_dimmed(tmp_path):
+    factors = "float gonio:photometry:dimming = 0.5\n    float gonio:photometry:maintenanceFactor = 0.8"
+    scene = mesh_light(tmp_path, f"float inputs:intensity = 100\n    {factors}").to_dict()
+    glow = [m for m in scene["materials"] if "emission_color" in str(m)]
+    values = dict(glow[-1]["closures"][0]["parameters"])["emission_color"]["Constant"]
+    assert values[:3] == pytest.approx([40.0] * 3, rel=1e-6)
+
+
+def test_files_of_what_has_no_use_for_them_are_told(tmp_path):
+    write_ies(tmp_path / "lamp.ies")
+    file = "asset gonio:photometry:file = @lamp.ies@"
+    assert "gonio:photometry:file of mesh lights" in str(mesh_light(tmp_path, file).diagnostics)
+    assert "gonio:photometry:file of lights at infinity" in str(load(tmp_path, "DomeLight", file).diagnostics)
 
 
 def test_what_makes_no_sense_of_mesh_lights_is_told(tmp_path):

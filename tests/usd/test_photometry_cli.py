@@ -99,3 +99,18 @@ def test_errors_are_one_line_with_place(run, luminaire, tmp_path):
         assert expected in failed.stderr
         assert len(failed.stderr.strip().split("\n")) == 1
     assert [entry.name for entry in tmp_path.iterdir()] == ["broken.ldt"]
+
+
+def test_a_tilt_takes_the_files_factors(run, tmp_path):
+    path = tmp_path / "tilting.ies"
+    path.write_text("IESNA:LM-63-2002\nTILT=INCLUDE\n1\n2\n0 90\n1 0.5\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 90 180\n0\n100 100 100\n")
+    assert facts(run, path)["peak_cd"] == pytest.approx(100)
+    tilted = facts(run, path, "--tilt", -45)
+    assert tilted["peak_cd"] == pytest.approx(75)
+    assert tilted["tilt"]["factors"] == [1, 0.5]
+    assert "factors by tilt from 0° to 90°" in run("photometry", path).stdout
+
+
+def test_a_tilt_that_no_file_tells_of_is_refused(run, luminaire):
+    ended = run("photometry", luminaire, "--tilt", 10, check=False)
+    assert ended.returncode == 1 and "no tilt factors" in ended.stderr

@@ -1,5 +1,6 @@
 //! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
 
+use crate::goniogram::LuminaireFile;
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
@@ -52,6 +53,8 @@ pub struct Context<'a, 'py> {
     pub measured_ids: HashMap<String, Option<MeasuredId>>,
     /// Goniograms by a key of their reader's choice; `None` for those that could not be read.
     pub goniograms: HashMap<String, Option<Arc<Goniogram>>>,
+    /// The files that goniograms were read from, in the order of their reading.
+    pub luminaires: Vec<LuminaireFile>,
     /// Prims met, by type.
     pub prim_counts: HashMap<String, usize>,
     diagnostics: Vec<Diagnostic>,
@@ -80,6 +83,7 @@ impl<'a, 'py> Context<'a, 'py> {
             texture_ids: HashMap::new(),
             measured_ids: HashMap::new(),
             goniograms: HashMap::new(),
+            luminaires: Vec::new(),
             prim_counts: HashMap::new(),
             diagnostics: Vec::new(),
             tallies: HashMap::new(),

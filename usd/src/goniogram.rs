@@ -5,9 +5,26 @@ use crate::context::Context;
 use crate::prim::Prim;
 use crate::vt::AssetPath;
 use gonio::Error;
-use gonio::scene::{Goniogram, Origin, PhotometricType};
-use gonio_formats::photometry;
+use gonio::scene::{Goniogram, Light, Origin, PhotometricType};
+use gonio_formats::{FormatError, photometry};
 use std::{f64::consts::PI, sync::Arc};
+
+/// A luminaire's file that lights of a stage name, with what it says beside the intensities.
+#[derive(Clone, Debug)]
+pub struct LuminaireFile {
+    /// The path as the stage has it.
+    pub path: String,
+    /// What the file holds.
+    pub photometry: photometry::Goniogram,
+    goniogram: Arc<Goniogram>,
+}
+
+impl LuminaireFile {
+    /// Whether a light of the scene that was read with it has its goniogram from this file.
+    pub fn is_of(&self, light: &Light) -> bool {
+        light.goniogram.as_ref().is_some_and(|goniogram| Arc::ptr_eq(goniogram, &self.goniogram))
+    }
+}
 
 /// What a light asks of its file.
 #[derive(Clone, Copy, Debug)]
@@ -31,20 +48,67 @@ pub(crate) fn goniogram<'py>(
         return known.clone();
     }
     let origin = prim.origin();
-    let read = read(context, path, &origin).map(|found| Arc::new(requested(context, &origin, &found, request)));
+    let read = read(context, path, &origin).map(|found| {
+        let goniogram = Arc::new(requested(context, &origin, &found, request));
+        kept(context, path, found, goniogram)
+    });
     context.goniograms.insert(key, read.clone());
     read
 }
 
-/// The goniogram of a luminaire's file in candela, the same one for all lights that name it; `None`, with a warning, where there is none.
-pub(crate) fn absolute<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &AssetPath) -> Option<Arc<Goniogram>> {
-    let key = format!("{}\n{}\nabsolute", path.authored, path.resolved);
+/// How a luminaire is lamped and hung.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lamping {
+    /// Number of the file's lamp set, from 1.
+    pub(crate) lamp_set: Option<i32>,
+    /// Degrees for the file's tilt factors.
+    pub(crate) tilt_deg: f64,
+}
+
+/// The goniogram of a luminaire's file in candela, the same one for all lights that ask the same of it; `None`, with a warning, where there is
+/// none. What the file has not is a warning, and the luminaire is as the file has it.
+pub(crate) fn absolute<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    path: &AssetPath,
+    lamping: Lamping,
+) -> Option<Arc<Goniogram>> {
+    let key = format!("{}\n{}\nabsolute {:?} {}", path.authored, path.resolved, lamping.lamp_set, lamping.tilt_deg.to_bits());
     if let Some(known) = context.goniograms.get(&key) {
         return known.clone();
     }
-    let read = read(context, path, &prim.origin()).map(|found| Arc::new(Goniogram::from(&found)));
+    let read = read(context, path, &prim.origin()).map(|found| {
+        let found = lamped(context, &prim.origin(), path, found, lamping);
+        let goniogram = Arc::new(Goniogram::from(&found));
+        kept(context, path, found, goniogram)
+    });
     context.goniograms.insert(key, read.clone());
     read
+}
+
+/// The luminaire with its lamps and its tilt.
+fn lamped(
+    context: &mut Context<'_, '_>,
+    origin: &Origin,
+    path: &AssetPath,
+    found: photometry::Goniogram,
+    lamping: Lamping,
+) -> photometry::Goniogram {
+    let set = lamping.lamp_set.map(|number| found.with_lamp_set(usize::try_from(i64::from(number) - 1).unwrap_or(usize::MAX)));
+    let chosen = or_warn(context, origin, path, set).unwrap_or(found);
+    let tilted = chosen.tilted(lamping.tilt_deg);
+    or_warn(context, origin, path, Some(tilted)).unwrap_or(chosen)
+}
+
+fn or_warn<T>(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath, result: Option<Result<T, FormatError>>) -> Option<T> {
+    let failed = |error: &FormatError| context.warn(origin, format!("{}; it is ignored", Error::in_file(&path.resolved, error)));
+    result?.inspect_err(failed).ok()
+}
+
+/// The goniogram, after its file has been noted down.
+fn kept(context: &mut Context<'_, '_>, path: &AssetPath, photometry: photometry::Goniogram, goniogram: Arc<Goniogram>) -> Arc<Goniogram> {
+    context.luminaires.push(LuminaireFile { path: path.authored.clone(), photometry, goniogram: goniogram.clone() });
+    goniogram
 }
 
 fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {

@@ -16,6 +16,7 @@ pub mod light;
 pub mod material;
 pub mod memory_limit;
 pub mod mesh;
+mod mesh_light;
 mod meter;
 pub mod model;
 mod nesting;
@@ -35,5 +36,6 @@ pub mod view;
 pub mod vt;
 pub mod xform;
 
+pub use goniogram::LuminaireFile;
 pub use options::{Complexity, Purpose, SampleTime, StageOptions, VariantSelection};
 pub use stage::{CameraInfo, Loaded, Stage, StageInfo, load_stage};

@@ -7,10 +7,7 @@ use crate::photometry;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::{AssetPath, FromValue};
-use gonio::scene::{
-    Channel, DomeFormat, Emission, Goniogram, Input, Light, LightShape, Material, MaterialId, Operation, Shaping, TextureId, Transform,
-    Visibility,
-};
+use gonio::scene::{DomeFormat, Emission, Goniogram, Light, LightShape, Shaping, TextureId, Transform, Visibility};
 use pyo3::{intern, prelude::*};
 use std::sync::Arc;
 
@@ -84,7 +81,7 @@ pub fn group<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> String {
 }
 
 /// A light's input; stages of before USD 21.02 have the names without prefix.
-fn input<'py, T: FromValue>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<T> {
+pub(crate) fn input<'py, T: FromValue>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<T> {
     let full_name = format!("inputs:{name}");
     let is_old = prim.has_authored(name) && !prim.has_authored(&full_name);
     context.get(prim, if is_old { name } else { &full_name })
@@ -133,14 +130,14 @@ fn dome_format<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> DomeFor
 }
 
 /// `color`, times the colour of the temperature if that is enabled.
-fn tint<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
+pub(crate) fn tint<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
     let colour = colour(context, prim);
     let temperature = if input(context, prim, "enableColorTemperature").unwrap_or(false) { temperature(context, prim) } else { [1.0; 3] };
     std::array::from_fn(|i| colour[i] * temperature[i])
 }
 
 /// `intensity · 2^exposure · color`, times the colour of the temperature if that is enabled.
-fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<[f32; 3]> {
+pub(crate) fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<[f32; 3]> {
     let intensity: f32 = input(context, prim, "intensity").unwrap_or(1.0);
     let exposure: f32 = input(context, prim, "exposure").unwrap_or(0.0);
     let strength = intensity * exposure.exp2();
@@ -248,7 +245,7 @@ fn casts_shadow<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
 }
 
 /// Says once by name what changes the light and is not done.
-fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
+pub(crate) fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
     let origin = prim.origin();
     for name in ["diffuse", "specular"] {
         if input::<f32>(context, prim, name).is_some_and(|factor| factor != 1.0) {
@@ -307,64 +304,6 @@ fn karma_shows_primary(expression: &str) -> bool {
     if is_exclusion { !names_primary } else { names_primary || expression.is_empty() || expression.contains('*') }
 }
 
-/// Whether a light is made of the prim's geometry.
-pub fn is_geometry_light(prim: &Prim<'_>) -> bool {
-    prim.applied_schemas().iter().any(|schema| matches!(schema.as_str(), "MeshLightAPI" | "VolumeLightAPI"))
-}
-
-/// The material of a prim that `MeshLightAPI` makes a light: the bound one with the light's emission. `area` is the mesh's in square units of
-/// the stage, for `normalize`.
-pub fn mesh_light_material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bound: MaterialId, area: Option<f64>) -> MaterialId {
-    let origin = prim.origin();
-    if !prim.applied_schemas().iter().any(|schema| schema == "MeshLightAPI") {
-        context.unsupported("VolumeLightAPI", &origin);
-        return bound;
-    }
-    let Some(mut radiance) = radiance(context, prim) else {
-        return bound;
-    };
-    let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
-    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres) {
-        let tint = tint(context, prim);
-        let own = f64::from(0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2]);
-        radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });
-    } else if input(context, prim, "normalize").unwrap_or(false) {
-        match area.filter(|area| *area > 0.0) {
-            Some(area) => radiance = radiance.map(|x| (f64::from(x) / area) as f32),
-            None => context.warn(&origin, "normalize of a mesh light needs the mesh's area, which is zero or unknown; it is ignored"),
-        }
-    }
-    report_left_out(context, prim);
-    if prim.has_authored_prefix("inputs:shaping:") {
-        context.unsupported("shaping of mesh lights", &origin);
-    }
-    let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
-    let Some(base) = context.scene.materials.get(bound.index()) else {
-        return bound;
-    };
-    let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
-    material.origin = origin;
-    emit(&mut material, radiance, mode != "independent");
-    context.scene.add_material(material)
-}
-
-/// Adds the light to what the material emits itself, or tints a material's glow with it.
-fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
-    let light = Input::Constant([r, g, b, 1.0]);
-    let Some(surface) = material.closures.first_mut() else { return };
-    let glow = surface.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
-    let emission = match (glow, tints) {
-        (None, _) => light,
-        (Some(Input::Constant(glow)), true) => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
-        (Some(Input::Constant(glow)), false) => Input::Constant([glow[0] + r, glow[1] + g, glow[2] + b, 1.0]),
-        (Some(node), tints) => {
-            let operation = if tints { Operation::Multiply } else { Operation::Add };
-            Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
-        }
-    };
-    surface.set_input("emission_color", emission);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -383,16 +322,5 @@ mod tests {
         assert_eq!(Y_TO_Z.vector([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
         assert_eq!(Y_TO_Z.vector([0.0, 0.0, 1.0]), [0.0, -1.0, 0.0]);
         assert!((Y_TO_Z.determinant() - 1.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_light_tints_a_glow_or_adds_to_it() {
-        let mut material = Material::default();
-        material.closures[0].set_colour("emission_color", [1.0, 0.5, 0.0]);
-        let mut sum = material.clone();
-        emit(&mut material, [2.0; 3], true);
-        emit(&mut sum, [2.0; 3], false);
-        assert_eq!(material.closures[0].input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
-        assert_eq!(sum.closures[0].input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
     }
 }

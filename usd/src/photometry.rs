@@ -1,7 +1,7 @@
 //! Absolute photometry of UsdLux lights: `gonio:photometry` attributes; `docs/photometry.md` lists them.
 
 use crate::context::Context;
-use crate::goniogram;
+use crate::goniogram::{self, Lamping};
 use crate::prim::Prim;
 use crate::vt::{AssetPath, FromValue};
 use gonio::scene::{Goniogram, LightQuantity, LightShape, Opening, OpeningShape, Transform};
@@ -38,6 +38,9 @@ pub(crate) fn photometry<'py>(
     if !prim.has_authored_prefix(PREFIX) {
         return None;
     }
+    if shape.is_at_infinity() && prim.has_authored(&format!("{PREFIX}file")) {
+        context.unsupported(&format!("{PREFIX}file of lights at infinity"), &prim.origin());
+    }
     let goniogram = if shape.is_at_infinity() { None } else { file(context, prim) };
     let opening = opening(context, prim, shape, goniogram.as_deref());
     let is_luminaire = opening.is_some();
@@ -48,8 +51,8 @@ pub(crate) fn photometry<'py>(
     Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
 }
 
-/// Dimming times maintenance.
-fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
+/// Dimming times maintenance; 1 where nothing is said.
+pub(crate) fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
     let mut factor = |name: &str| {
         let found: f32 = attribute(context, prim, name).unwrap_or(1.0);
         if found.is_finite() && found >= 0.0 {
@@ -63,7 +66,11 @@ fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
 
 fn file<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<Goniogram>> {
     let path: AssetPath = attribute(context, prim, "file")?;
-    if path.authored.is_empty() { None } else { goniogram::absolute(context, prim, &path) }
+    if path.authored.is_empty() {
+        return None;
+    }
+    let lamping = Lamping { lamp_set: attribute(context, prim, "lampSet"), tilt_deg: attribute(context, prim, "tilt").unwrap_or(0.0) };
+    goniogram::absolute(context, prim, &path, lamping)
 }
 
 /// The emitter of a luminaire's file: its own opening, a point, or the light's shape.
@@ -120,7 +127,16 @@ fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Lig
     })
 }
 
-/// Luminance in cd/m² of a mesh light of an area in m² whose attributes say how strong it is, before its colour.
+/// Reports what mesh lights have no use for.
+pub(crate) fn report_unused_of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
+    for name in ["file", "opening", "rotation", "lampSet", "tilt"].map(|name| format!("{PREFIX}{name}")) {
+        if prim.has_authored(&name) {
+            context.unsupported(&format!("{name} of mesh lights"), &prim.origin());
+        }
+    }
+}
+
+/// Luminance in cd/m² of a mesh light of an area in m² whose attributes say how strong it is, before its colour and its dimming.
 pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, area: Option<f64>) -> Option<f64> {
     use std::f64::consts::PI;
     let area = area.filter(|area| *area > 0.0);
@@ -140,5 +156,5 @@ pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, are
         );
         return None;
     }
-    Some(luminance * f64::from(dimming(context, prim)))
+    Some(luminance)
 }

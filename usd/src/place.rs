@@ -5,7 +5,7 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
 use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::view::shines;
-use crate::{camera, daylight, light, material, meter, primvar};
+use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
 use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
 use std::collections::{HashMap, HashSet};
@@ -218,7 +218,7 @@ impl<'py> Placer<'_, '_, 'py> {
             return *known;
         }
         let Some(prim) = self.context.prim_at(path) else { return material };
-        let glowing = light::mesh_light_material(self.context, &prim, material, area);
+        let glowing = mesh_light::material(self.context, &prim, material, area);
         self.geometry_lights.insert(key, glowing);
         glowing
     }

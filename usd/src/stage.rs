@@ -1,6 +1,7 @@
 //! Opening stages and reading them into scenes.
 
 use crate::context::{Context, UpAxis};
+use crate::goniogram::LuminaireFile;
 use crate::memory_limit::MemoryLimit;
 use crate::options::{SampleTime, StageOptions};
 use crate::prim::Prim;
@@ -63,6 +64,8 @@ pub struct Loaded {
     pub info: StageInfo,
     /// What the stage's RenderSettings prim says; applied to the scene already.
     pub settings: Option<RenderSettings>,
+    /// The IES and EULUMDAT files that its lights name.
+    pub luminaires: Vec<LuminaireFile>,
 }
 
 /// An open stage; it can be read at many times.
@@ -165,25 +168,21 @@ impl Stage {
         let trap = Trap::set(py);
         let result = self.read(py, options, cancel);
         let messages = trap.release();
-        let (scene, settings, mut diagnostics, info) = result?;
-        diagnostics.extend(passed_on(messages, &[], &self.path));
+        let mut loaded = result?;
         let mut all = self.diagnostics.clone();
-        all.append(&mut diagnostics);
+        all.append(&mut loaded.diagnostics);
+        all.extend(passed_on(messages, &[], &self.path));
         if options.strict
             && let Some(worst) = all.iter().find(|diagnostic| diagnostic.severity == Severity::Warning)
         {
             let count = all.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).count();
             return Err(Error::scene(&worst.origin, format!("{} ({count} warnings, and warnings are errors)", worst.message)));
         }
-        Ok(Loaded { scene, diagnostics: all, info, settings })
+        Ok(Loaded { diagnostics: all, ..loaded })
     }
 
-    fn read(
-        &self,
-        py: Python<'_>,
-        options: &StageOptions,
-        cancel: &AtomicBool,
-    ) -> Result<(Scene, Option<RenderSettings>, Vec<Diagnostic>, StageInfo)> {
+    /// What a reading gives by itself: without what opening the stage told, and what `pxr` says.
+    fn read(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
         let unreadable = |error: PyErr| unreadable(py, &self.path, &error);
         let _ = self.baked.bind(py).call_method0("Clear").map_err(unreadable)?;
         let time = time_code(py, self.info.time_range, options.time).map_err(unreadable)?;
@@ -203,12 +202,13 @@ impl Stage {
         }
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
+        let luminaires = std::mem::take(&mut context.luminaires);
         let (mut scene, of_world) = context.finish();
         diagnostics.extend(of_world);
         let wanted = settings.as_ref().and_then(|settings| settings.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
-        Ok((scene, settings, diagnostics, info))
+        Ok(Loaded { scene, diagnostics, info, settings, luminaires })
     }
 }
 

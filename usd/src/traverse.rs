@@ -7,7 +7,7 @@ use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, instancer, light, material, mesh, meter, primvar, quadrics, skeleton};
+use crate::{daylight, instancer, light, material, mesh, mesh_light, meter, primvar, quadrics, skeleton};
 use gonio::mesh::Interpolation;
 use gonio::scene::{Mesh, MeshId, Origin, Transform};
 use gonio::{Error, Result};
@@ -265,7 +265,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
     fn mesh(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
         let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(()) };
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
-        let is_light = light::is_geometry_light(prim);
+        let is_light = mesh_light::is_geometry_light(prim);
         let shape = Shape { mesh: self.submit(source)?, slots: vec![Slot::Unbound; slot_prims.len()], slot_prims, has_opacity, is_light };
         if meter::is_measured(prim) {
             push(model, prim, branch, Kind::Measured(Some(shape.mesh)));
@@ -295,7 +295,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         if meter::is_measured(prim) {
             push(model, prim, branch, Kind::Measured(Some(mesh)));
         }
-        let is_light = light::is_geometry_light(prim);
+        let is_light = mesh_light::is_geometry_light(prim);
         let shape = Shape { mesh, slots: vec![Slot::Unbound], slot_prims: vec![prim.path()], has_opacity, is_light };
         let branch = Branch { primvars: primvar::merged(&own, &branch.primvars), ..branch.clone() };
         push(model, prim, &branch, Kind::Shape(shape));

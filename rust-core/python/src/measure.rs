@@ -89,6 +89,11 @@ impl GridReading {
     fn spacing(&self) -> (f64, f64) {
         self.grid.spacing.into()
     }
+    /// Square metres of the whole surface, margins included, seen along its normal.
+    #[getter]
+    fn area(&self) -> f64 {
+        self.grid.area
+    }
     /// Mean of all points.
     #[getter]
     fn average(&self) -> Reading {

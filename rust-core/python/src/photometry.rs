@@ -6,18 +6,43 @@ use gonio_formats::photometry;
 use pyo3::prelude::*;
 use serde_json::json;
 
+/// A file's luminaire with the lamp set of a number, from 1, and tilted by so many degrees.
+fn read(data: &[u8], name: &str, lamp_set: Option<usize>, tilt: f64) -> PyResult<photometry::Goniogram> {
+    let read = || {
+        let found = photometry::read(data, name)?;
+        let lamped = lamp_set.map_or(Ok(found.clone()), |number| found.with_lamp_set(number.wrapping_sub(1)))?;
+        lamped.tilted(tilt)
+    };
+    read().map_err(|error| exception(gonio::Error::in_file(name, &error)))
+}
+
 /// The goniogram of an IES or EULUMDAT file's bytes as a light's description has it, its factors in cd, and warnings; `name` says which file it is.
+/// lamp_set: number of the file's alternative lamps, from 1; tilt: degrees by which the luminaire hangs aslant, for files with tilt factors.
 #[pyfunction]
-pub(crate) fn read_goniogram<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
-    let found = photometry::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+#[pyo3(signature = (data, name, *, lamp_set = None, tilt = 0.0))]
+pub(crate) fn read_goniogram<'py>(
+    py: Python<'py>,
+    data: &[u8],
+    name: &str,
+    lamp_set: Option<usize>,
+    tilt: f64,
+) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
+    let found = read(data, name, lamp_set, tilt)?;
     let warnings = found.warnings.iter().map(|warning| format!("{name}: {warning}")).collect();
     Ok((to_python(py, &Goniogram::from(&found))?, warnings))
 }
 
 /// What an IES or EULUMDAT file's bytes say of a luminaire, in lm, cd, W and degrees, and its `cuts`: γ (negative across) and cd in the planes C0–C180 and C90–C270.
 #[pyfunction]
-pub(crate) fn goniogram_figures<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyAny>> {
-    let found = photometry::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+#[pyo3(signature = (data, name, *, lamp_set = None, tilt = 0.0))]
+pub(crate) fn goniogram_figures<'py>(
+    py: Python<'py>,
+    data: &[u8],
+    name: &str,
+    lamp_set: Option<usize>,
+    tilt: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let found = read(data, name, lamp_set, tilt)?;
     let figures = found.figures();
     let lamps = found.lamps();
     let description = json!({
@@ -27,6 +52,8 @@ pub(crate) fn goniogram_figures<'py>(py: Python<'py>, data: &[u8], name: &str) -
         "lamp_flux_lm": lamps.and_then(|lamps| lamps.flux),
         "flux_lm": figures.flux,
         "downward_fraction": figures.downward_fraction,
+        "lamp_sets": found.lamp_sets.len(),
+        "has_tilt": found.tilt.is_some(),
         "watts": figures.watts,
         "efficacy_lm_per_w": figures.efficacy,
         "peak_cd": figures.peak,

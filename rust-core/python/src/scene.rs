@@ -291,7 +291,7 @@ impl Scene {
     }
 
     /// Adds a meter at a point in metres; gives its number. quantity: illuminance (of the plane across `normal`), cylindrical or semicylindrical (`normal`
-    /// is the axis), daylight-factor, or luminance (towards `facing`).
+    /// is the axis), daylight-factor, luminance (towards `facing`), or ugr (of the luminaires, along `facing`, upright along `normal`).
     #[pyo3(signature = (position, *, normal = [0.0, 0.0, 1.0], facing = [0.0, 1.0, 0.0], quantity = "illuminance", name = "meter"))]
     fn add_meter(&mut self, position: [f64; 3], normal: [f64; 3], facing: [f64; 3], quantity: &str, name: &str) -> PyResult<u32> {
         let meter = Meter { origin: Origin::new(name), position, normal, facing, measurand: measurand(quantity)? };

@@ -42,10 +42,15 @@ pub(super) fn scale(arguments: &ScaleArguments, values: &[f32]) -> Result<FalseC
     FalseColourScale::new(max, arguments.steps, arguments.log)
 }
 
+/// A canvas as a PNG file's bytes, for the file at a path.
+pub(super) fn encoded(path: &Path, canvas: &Canvas) -> Result<Vec<u8>> {
+    let [width, height] = canvas.size.map(|side| side as u32);
+    encode_png(&canvas.rgba, width, height).map_err(|error| Error::io(path, error))
+}
+
 /// Writes a canvas as PNG.
 pub(super) fn write(path: &Path, canvas: &Canvas) -> Result<()> {
-    let [width, height] = canvas.size.map(|side| side as u32);
-    let bytes = encode_png(&canvas.rgba, width, height).map_err(|error| Error::io(path, error))?;
+    let bytes = encoded(path, canvas)?;
     write_atomically(path, true, |file| file.write_all(&bytes))
 }
 

@@ -28,3 +28,11 @@ pub(super) fn check_ending(option: &str, path: &Path, endings: &[&str]) -> Resul
     }
     Err(Error::setting(option, format!("{}: the ending is '{found}', expected {}", path.display(), endings.join(" or "))))
 }
+
+/// Makes the folder that a file is to be written to.
+pub(super) fn make_folder(path: &Path) -> Result<()> {
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) => std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error)),
+        None => Ok(()),
+    }
+}

@@ -77,7 +77,8 @@ fn ugr_line(glare: &Glare) -> String {
     }
 }
 
-fn as_text(glare: &Glare) -> Vec<String> {
+/// The rating, line by line.
+pub(super) fn as_text(glare: &Glare) -> Vec<String> {
     let mut lines = vec![
         ugr_line(glare),
         format!("DGP: {:.3} ({:.3} with the correction for little light)", glare.dgp(), glare.dgp_low_light()),

@@ -1,11 +1,11 @@
 //! `gonio info`.
 
-use super::{arguments::InfoOptions, print, render::stage_options};
+use super::{arguments::InfoOptions, light_words::describe, print, render::stage_options};
 use crate::{SampleTime, load_stage};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
-    scene::{Light, LightQuantity, LightShape, Opening, Scene},
+    scene::Scene,
 };
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -74,48 +74,6 @@ fn as_text(loaded: &crate::Loaded, compiled: &CompiledScene, diagnostics: &[&Dia
     lines.extend(emissive(&loaded.scene));
     lines.extend(diagnostics.iter().map(|d| format!("{}: {d}", if d.severity == gonio::Severity::Warning { "warning" } else { "note" })));
     lines
-}
-
-/// A light in words, with units.
-fn describe(light: &Light) -> String {
-    let [r, g, b] = light.emission.radiance;
-    let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    let shape = match light.shape {
-        LightShape::Rectangle { width, height } => format!("rectangle {width} x {height} units"),
-        LightShape::Disk { radius } => format!("disk of radius {radius} units"),
-        LightShape::Ellipse { width, height } => format!("ellipse {width} x {height} units"),
-        LightShape::Sphere { radius } => format!("sphere of radius {radius} units"),
-        LightShape::FacingDisk { radius } => format!("facing disk of radius {radius} units"),
-        LightShape::Point => "point".to_owned(),
-        LightShape::Opening(Opening { shape, size: [x, y, z], .. }) => format!("luminaire's opening, {shape:?} {x} x {y} x {z} units"),
-        LightShape::Cylinder { radius, length } => format!("cylinder of radius {radius}, length {length} units"),
-        LightShape::Distant { angle_deg } => format!("distant, {angle_deg} degrees"),
-        LightShape::Dome { .. } => "dome".to_owned(),
-    };
-    let textured = if light.texture.is_some() { ", textured" } else { "" };
-    if let Some(quantity) = light.quantity {
-        return format!("{shape}, {}{textured}", strength(quantity));
-    }
-    let unit = match (light.emission.normalized, light.shape) {
-        (true, LightShape::Distant { .. }) => "lx on a facing surface",
-        (_, LightShape::Point | LightShape::Opening(_)) => "cd",
-        (true, LightShape::Dome { .. }) | (false, _) => "cd/m²",
-        (true, _) => "cd/m² times its area in square units",
-    };
-    format!("{shape}, {y} {unit}{textured}")
-}
-
-/// A light's quantity with its unit.
-fn strength(quantity: LightQuantity) -> String {
-    match quantity {
-        LightQuantity::Lumens(flux) => format!("{flux} lm"),
-        LightQuantity::LampLumens(flux) => format!("lamps of {flux} lm"),
-        LightQuantity::Candela(intensity) => format!("{intensity} cd"),
-        LightQuantity::Lux { illuminance, distance } => format!("{illuminance} lx at {distance} m"),
-        LightQuantity::Nits(luminance) => format!("{luminance} cd/m²"),
-        LightQuantity::Watts(watts) => format!("{watts} W"),
-        LightQuantity::Measured => "as measured".to_owned(),
-    }
 }
 
 fn emissive(scene: &Scene) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! `gonio measure`.
 
 use super::{
-    arguments::{IntegratorArgument, MeasureOptions},
+    arguments::{GridArguments, IntegratorArgument, MeasureOptions},
     daylight, falsecolor,
     file::check_ending,
     list, print,
@@ -36,12 +36,16 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
-    for prim in &options.grid {
-        stage.author_grid(py, prim, measurand.name(), [options.spacing, options.margin, options.height])?;
-    }
+    author_grids(py, &stage, &options.grids, measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     loaded.scene.meters.extend(points(options, measurand, loaded.info.up_axis)?);
     py.detach(|| run(options, loaded, interrupted))
+}
+
+/// Makes the prims that the command line names grids.
+pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments, measurand: Measurand) -> Result<()> {
+    let lengths = [grids.spacing, grids.margin, grids.height];
+    grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.name(), lengths))
 }
 
 fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -76,7 +80,8 @@ fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static Atomi
     Ok(0)
 }
 
-fn evaluated(scene: &Scene, mut reporter: Reporter, interrupted: &AtomicBool) -> Result<Measurements> {
+/// What the scene's meters and grids show, with its settings.
+pub(super) fn evaluated(scene: &Scene, mut reporter: Reporter, interrupted: &AtomicBool) -> Result<Measurements> {
     let mut progress = |progress: &gonio::render::Progress| {
         reporter.show(progress);
         let heard = Python::attach(|py| py.check_signals()).is_ok();
@@ -145,17 +150,23 @@ fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
 }
 
 fn meter_line(meter: &MeterReading) -> String {
-    let unit = meter.meter.measurand.unit();
-    let [x, y, z] = meter.meter.position;
+    let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
     let Reading { value, standard_error } = meter.reading;
-    format!("{}: {} {value:.4} {unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m", meter.meter.origin, meter.meter.measurand.name())
+    let (name, unit) = (measurand.name(), spaced(measurand));
+    format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m", meter.meter.origin)
+}
+
+/// The unit's sign with a blank before it; nothing where there is none.
+fn spaced(measurand: Measurand) -> String {
+    let unit = measurand.unit();
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 fn grid_lines(grid: &GridReading) -> Vec<String> {
-    let (unit, summary) = (grid.measurand.unit(), &grid.summary);
+    let (unit, summary) = (spaced(grid.measurand), &grid.summary);
     let [columns, rows] = grid.size;
     let [along, across] = grid.spacing;
-    let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2} {unit} ± {:.2}", reading.value, reading.standard_error);
+    let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2}{unit} ± {:.2}", reading.value, reading.standard_error);
     vec![
         format!(
             "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
@@ -192,6 +203,7 @@ fn as_json(found: &Measurements) -> Value {
             "rows": grid.size[1],
             "spacing_m": grid.spacing,
             "points": grid.summary.points,
+            "area_m2": grid.area,
             "average": reading(&grid.summary.average),
             "min": reading(&grid.summary.min),
             "max": reading(&grid.summary.max),

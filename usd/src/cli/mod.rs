@@ -14,6 +14,7 @@ mod file_name;
 mod frames;
 mod glare;
 mod info;
+mod light_words;
 mod measure;
 mod merge;
 mod output;
@@ -21,6 +22,7 @@ mod photometry;
 mod progress;
 mod relight;
 mod render;
+mod report;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -56,6 +58,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
+        Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
     };

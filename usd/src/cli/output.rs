@@ -1,6 +1,6 @@
 //! Writing a picture under the names asked for.
 
-use super::{arguments::OutputArguments, denoise::Denoiser, print};
+use super::{arguments::OutputArguments, denoise::Denoiser, file::make_folder, print};
 use gonio::{
     Error, Result,
     film::Image,
@@ -42,10 +42,7 @@ impl Writer {
                     problem: format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display()),
                 });
             }
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-            if let Some(folder) = folder {
-                std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
-            }
+            make_folder(path)?;
         }
         let denoiser = options.denoise.then(Denoiser::new).transpose()?;
         Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, denoiser, execution })

@@ -7,7 +7,7 @@ use super::{
 };
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::photometry::{
-    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, cone_diagram, ies, ldt,
+    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, Tilt, cone_diagram, ies, ldt,
     polar_diagram, read,
 };
 use serde_json::{Value, json};
@@ -57,6 +57,7 @@ fn load(options: &PhotometryOptions) -> Result<Goniogram> {
         let chosen = goniogram.with_lamp_set(number as usize - 1);
         goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;
     }
+    goniogram = goniogram.tilted(options.tilt).map_err(|error| Error::Setting { name: "tilt".into(), problem: error.problem })?;
     match options.rotate {
         Some(degrees) if !degrees.is_finite() => {
             Err(Error::Setting { name: "rotate".into(), problem: format!("{degrees} was found, expected degrees") })
@@ -90,6 +91,11 @@ fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures
         }),
         "lamp_set": goniogram.lamp_set + 1,
         "lamp_sets": goniogram.lamp_sets.iter().map(lamps_json).collect::<Vec<_>>(),
+        "tilt": goniogram.tilt.as_ref().map(|tilt| json!({
+            "lamp_to_luminaire": tilt.lamp_to_luminaire,
+            "angles_deg": tilt.angles,
+            "factors": tilt.factors,
+        })),
         "header": goniogram.header.iter().map(|line| [&line.keyword, &line.text]).collect::<Vec<_>>(),
         "warnings": goniogram.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
@@ -107,7 +113,8 @@ fn lamps_json(set: &LampSet) -> Value {
     })
 }
 
-fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
+/// What a file says, line by line.
+pub(super) fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
     let mut lines = Vec::new();
     for (keyword, name) in
         [("MANUFAC", "manufacturer"), ("LUMINAIRE", "luminaire"), ("LUMCAT", "number"), ("TEST", "test"), ("DATE", "date")]
@@ -136,6 +143,7 @@ fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
         let here = if index == goniogram.lamp_set && goniogram.lamp_sets.len() > 1 { " (in use)" } else { "" };
         lines.push(format!("lamp set {}{here}: {}", index + 1, lamps(set)));
     }
+    lines.extend(goniogram.tilt.as_ref().map(tilt));
     lines.extend(goniogram.warnings.iter().map(|warning| format!("warning: {warning}")));
     // Texts of a file must not reach into the terminal.
     lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
@@ -160,6 +168,12 @@ fn lamps(set: &LampSet) -> String {
     let texts = [set.name.as_str(), flux.as_str(), kind, set.colour.as_str(), set.colour_rendering.as_str()];
     let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
     format!("{} × {}, {} W", set.count, texts.join(", "), set.watts)
+}
+
+fn tilt(tilt: &Tilt) -> String {
+    let [first, last] = [tilt.angles.first(), tilt.angles.last()].map(|angle| angle.copied().unwrap_or(0.0));
+    let least = tilt.factors.iter().copied().fold(f64::INFINITY, f64::min);
+    format!("factors by tilt from {first}° to {last}°, {least} at least; --tilt applies them")
 }
 
 fn type_name(photometric_type: PhotometricType) -> &'static str {

@@ -18,6 +18,7 @@ use gonio::{
     Error, Result,
     checkpoint::Identity,
     compile::{CompiledScene, compile},
+    film::{Film, Image},
     render::Render,
     scene::{Aov, Crop, Filter, Integrator, Scene},
 };
@@ -235,21 +236,8 @@ impl Job<'_> {
             Some(film) => Render::resume(compiled.clone(), &scene.settings, self.execution, film)?,
             None => Render::start(compiled.clone(), &scene.settings, self.execution)?,
         };
-        let mut reporter = Reporter::new(self.options.quiet);
-        while !render.is_finished() {
-            if self.interrupted.load(Ordering::Relaxed) {
-                render.cancel();
-            }
-            // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
-            let _ = render.next_tile(Duration::from_millis(20));
-            while render.next_tile(Duration::ZERO).is_some() {}
-            reporter.show(&render.progress());
-            if let Some(keeper) = &mut keeper {
-                keeper.keep_if_due(render.film());
-            }
-            Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
-        }
-        reporter.clear();
+        let keep = |film: &Film| keeper.iter_mut().for_each(|keeper| keeper.keep_if_due(film));
+        drive(&mut render, self.options.quiet, self.interrupted, keep)?;
         let result = render.finish();
         if let Err(error) = &result
             && !matches!(error, Error::Cancelled)
@@ -285,7 +273,7 @@ impl Job<'_> {
     }
 
     /// Writes all files at once: the wait is that for the slowest.
-    fn write(&self, scene: &Scene, image: &gonio::film::Image, interrupted: bool) -> Result<()> {
+    fn write(&self, scene: &Scene, image: &Image, interrupted: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
         let notes = Notes { exposure, interrupted, attributes: &self.attributes(scene) };
         self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
@@ -307,6 +295,24 @@ impl Job<'_> {
         let identity = Identity::new(scene, self.execution, self.attributes(scene).to_vec());
         Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
     }
+}
+
+/// Waits until a render has ended or was interrupted, shows how far it is, and has `look` see its film now and then; what came of it is for [`Render::finish`] to say.
+pub(super) fn drive(render: &mut Render, quiet: bool, interrupted: &AtomicBool, mut look: impl FnMut(&Film)) -> Result<()> {
+    let mut reporter = Reporter::new(quiet);
+    while !render.is_finished() {
+        if interrupted.load(Ordering::Relaxed) {
+            render.cancel();
+        }
+        // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
+        let _ = render.next_tile(Duration::from_millis(20));
+        while render.next_tile(Duration::ZERO).is_some() {}
+        reporter.show(&render.progress());
+        look(render.film());
+        Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
+    }
+    reporter.clear();
+    Ok(())
 }
 
 fn aovs(names: &[String]) -> Result<Vec<Aov>> {

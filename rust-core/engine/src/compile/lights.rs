@@ -80,7 +80,7 @@ pub(super) fn compile(
                 instance_light.push(records.len() as u32);
                 instances.push(instance);
             }
-            records.push(LightRecord { goniogram, opening: part.opening, ..plain });
+            records.push(LightRecord { goniogram, ..plain });
         }
         let group = groups.number(&light.group);
         groups.of_light.resize(records.len(), group);
@@ -96,7 +96,7 @@ pub(super) fn compile(
 }
 
 /// What the light is made of, in the rebased world.
-fn emitters(light: &Light, origin: [f64; 3], goniogram: Option<&Arc<Goniogram>>) -> Vec<Part> {
+pub(super) fn emitters(light: &Light, origin: [f64; 3], goniogram: Option<&Arc<Goniogram>>) -> Vec<Part> {
     match &light.shape {
         LightShape::Opening(opening) => openings::parts(opening, &rebased(&light.transform, origin), goniogram.map(|table| &**table)),
         shape => vec![Part { kind: kind(*shape), placed: rebased(&sized(light), origin), opening: None }],
@@ -133,7 +133,8 @@ fn kind(shape: LightShape) -> LightKind {
     }
 }
 
-fn record(light: &Light, part: &Part, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
+/// One emitter of a light, which wants its goniogram yet.
+pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnostics: &mut Vec<Diagnostic>) -> LightRecord {
     let (kind, placed) = (part.kind, &part.placed);
     let angle = if let LightShape::Distant { angle_deg } = light.shape { angle_deg.to_radians() } else { 0.0 };
     let mut radiance = light.emission.radiance;
@@ -166,6 +167,7 @@ fn record(light: &Light, part: &Part, texture: Option<u32>, diagnostics: &mut Ve
         visible_to_camera: light.visibility.camera,
         visible_to_scattered: light.visibility.diffuse || light.visibility.glossy || light.visibility.transmission,
         casts_shadow: light.casts_shadow,
+        opening: part.opening,
         ..LightRecord::new(kind)
     }
 }

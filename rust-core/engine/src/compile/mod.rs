@@ -10,6 +10,7 @@ mod instances;
 mod kept;
 mod light_groups;
 mod lights;
+mod luminaires;
 mod materials;
 mod measured;
 mod openings;
@@ -21,6 +22,8 @@ mod trees;
 mod view;
 
 pub use bounds::Bounds;
+pub use luminaires::luminous_fluxes;
+pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
 pub(crate) use view::{transport, window};
 

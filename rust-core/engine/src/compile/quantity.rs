@@ -132,6 +132,12 @@ fn flux(first: &LightRecord, known: &mut Known, goniograms: &mut CompiledGoniogr
     }
 }
 
+/// Flux in lm of a light's records as they are, none of them at infinity.
+pub(super) fn flux_of(records: &[LightRecord], goniograms: &mut CompiledGoniograms, far_fields: &mut FarFields) -> f64 {
+    let Some(first) = records.first() else { return 0.0 };
+    luminance(first.radiance) * flux(first, far_fields.of(records), goniograms)
+}
+
 fn at_infinity(record: &LightRecord, quantity: LightQuantity) -> Result<f64, String> {
     let is_dome = record.kind == LightKind::Dome;
     let solid_angle = if is_dome { PI } else { size_factor(record.kind, [[0.0; 3]; 3], f64::from(record.angle)) };

@@ -19,7 +19,8 @@ fn is_dome(light: &Light) -> bool {
     matches!(light.shape, LightShape::Dome { .. })
 }
 
-fn without_emission(material: &Material) -> Material {
+/// The material as it is in the dark.
+pub(super) fn without_emission(material: &Material) -> Material {
     let mut material = material.clone();
     for closure in material.closures.iter_mut().filter(|closure| closure.input("emission_color").is_some()) {
         closure.set_colour("emission_color", [0.0; 3]);

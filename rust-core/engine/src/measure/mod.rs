@@ -8,6 +8,7 @@ mod picture;
 mod points;
 mod reading;
 mod sense;
+mod ugr;
 mod vector;
 
 #[cfg(test)]
@@ -98,7 +99,7 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     Ok(Measurements { meters, grids, diagnostics })
 }
 
-/// Readings of all meters: those under all lights in one go, daylight factors in another.
+/// Readings of all meters: those under all lights in one go, daylight factors and glare in others.
 fn read(
     scene: &Scene,
     meters: &[Meter],
@@ -107,7 +108,10 @@ fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Reading>> {
     let mut readings = vec![Reading::default(); meters.len()];
-    let (daylit, lit): (Vec<usize>, Vec<usize>) = (0..meters.len()).partition(|i| meters[*i].measurand == Measurand::DaylightFactor);
+    let of = |measurand: Measurand| (0..meters.len()).filter(move |i| meters[*i].measurand == measurand);
+    let (daylit, rated): (Vec<usize>, Vec<usize>) = (of(Measurand::DaylightFactor).collect(), of(Measurand::Ugr).collect());
+    let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr);
+    let lit: Vec<usize> = (0..meters.len()).filter(is_lit).collect();
     let chosen = |numbers: &[usize]| numbers.iter().map(|i| Probe::new(&meters[*i])).collect::<Result<Vec<_>>>();
     let (daylit_probes, lit_probes) = (chosen(&daylit)?, chosen(&lit)?);
     let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
@@ -128,6 +132,11 @@ fn read(
         }
         let values = sense(&sky, &daylit_probes, diagnostics)?;
         daylit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.percent_of(&outside));
+    }
+    if !rated.is_empty() {
+        let observers: Vec<&Meter> = rated.iter().map(|i| &meters[*i]).collect();
+        let values = ugr::ratings(scene, &observers, execution, watch, diagnostics)?;
+        rated.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading);
     }
     Ok(readings)
 }

@@ -50,6 +50,11 @@ impl Outline {
         self.axes[2]
     }
 
+    /// Square metres in the plane.
+    pub(super) fn area(&self) -> f64 {
+        self.triangles.iter().map(|[(a, _), (b, _), (c, _)]| 0.5 * twice_area(*a, *b, *c)).sum()
+    }
+
     /// Least and greatest coordinates in the plane.
     pub(super) fn extent(&self) -> [Point; 2] {
         let points = || self.triangles.iter().flatten().map(|(point, _)| point);
@@ -162,12 +167,16 @@ fn longest_border(triangles: &[[Vector; 3]]) -> Vector {
     edges.into_iter().map(along).max_by(longer).unwrap_or([1.0, 0.0, 0.0])
 }
 
+/// Positive where the corners go round against the clock.
+fn twice_area(p: Point, q: Point, r: Point) -> f64 {
+    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+}
+
 /// The height of a triangle over a point of the plane, where it is there.
 fn height_in(triangle: &[(Point, f64); 3], point: Point) -> Option<f64> {
     let [(a, ha), (b, hb), (c, hc)] = *triangle;
-    let side = |p: Point, q: Point, r: Point| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-    let whole = side(a, b, c);
-    let weights = [side(b, c, point), side(c, a, point), side(a, b, point)].map(|w| w / whole);
+    let whole = twice_area(a, b, c);
+    let weights = [twice_area(b, c, point), twice_area(c, a, point), twice_area(a, b, point)].map(|w| w / whole);
     let inside = whole != 0.0 && weights.iter().all(|w| *w >= -1e-12);
     inside.then(|| weights[0] * ha + weights[1] * hb + weights[2] * hc)
 }

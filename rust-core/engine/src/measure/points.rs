@@ -23,6 +23,8 @@ pub struct GridPoints {
     pub positions: Vec<Option<Vector>>,
     /// Unit normal of the area.
     pub normal: Vector,
+    /// Square metres of the whole surface, margins included, seen along the normal.
+    pub area: f64,
 }
 
 impl GridPoints {
@@ -79,7 +81,8 @@ fn rectangle(grid: &Grid, corner: Vector, edges: [Vector; 2]) -> Result<GridPoin
     let normal = unit(cross(edges[0], edges[1])).ok_or_else(flat)?;
     let sides = edges.map(length);
     // The margin is across the edges, which a parallelogram's other edge meets at an angle.
-    let inset = grid.margin * sides[0] * sides[1] / length(cross(edges[0], edges[1]));
+    let area = length(cross(edges[0], edges[1]));
+    let inset = grid.margin * sides[0] * sides[1] / area;
     let (size, spacing) = cells(grid, sides.map(|side| side - 2.0 * inset))?;
     let along = [0, 1].map(|axis| scaled(edges[axis], 1.0 / sides[axis]));
     let first = add(add(corner, scaled(normal, grid.height)), scaled(add(along[0], along[1]), inset));
@@ -87,7 +90,7 @@ fn rectangle(grid: &Grid, corner: Vector, edges: [Vector; 2]) -> Result<GridPoin
         let [column, row] = [index % size[0], index / size[0]].map(|number| number as f64 + 0.5);
         Some(add(first, add(scaled(along[0], column * spacing[0]), scaled(along[1], row * spacing[1]))))
     };
-    Ok(GridPoints { size, spacing, positions: (0..size[0] * size[1]).map(place).collect(), normal })
+    Ok(GridPoints { size, spacing, positions: (0..size[0] * size[1]).map(place).collect(), normal, area })
 }
 
 fn mesh(scene: &Scene, grid: &Grid, mesh: MeshId, transform: &Transform) -> Result<GridPoints> {
@@ -100,7 +103,7 @@ fn mesh(scene: &Scene, grid: &Grid, mesh: MeshId, transform: &Transform) -> Resu
     if positions.iter().all(Option::is_none) {
         return Err(Error::scene(&grid.origin, "the margin leaves nothing of the grid's surface, or it is narrower than a cell"));
     }
-    Ok(GridPoints { size, spacing, positions, normal: outline.normal() })
+    Ok(GridPoints { size, spacing, positions, normal: outline.normal(), area: outline.area() })
 }
 
 /// Two unit vectors across a normal: the first as near to `wish` as can be.

@@ -94,6 +94,8 @@ pub struct GridReading {
     pub spacing: [f64; 2],
     /// Unit normal of the area.
     pub normal: Vector,
+    /// Square metres of the whole surface, margins included, seen along the normal.
+    pub area: f64,
     /// Position (world space, metres) and reading of each point, row by row; none where the area does not reach.
     pub points: Vec<Option<(Vector, Reading)>>,
     /// The figures.
@@ -110,6 +112,7 @@ impl GridReading {
             size: points.size,
             spacing: points.spacing,
             normal: points.normal,
+            area: points.area,
             points: placed,
             summary: Summary::new(readings.iter().copied()),
         }

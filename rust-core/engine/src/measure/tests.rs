@@ -118,6 +118,7 @@ fn figures_are_those_of_the_points() {
         spacing: [1.0; 2],
         positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])],
         normal: [0.0, 0.0, 1.0],
+        area: 3.0,
     };
     let grid = GridReading::new(&Grid::default(), points, &[reading(100.0), reading(300.0)]);
     assert_eq!((grid.summary.average.value, grid.summary.min.value, grid.summary.max.value), (200.0, 100.0, 300.0));

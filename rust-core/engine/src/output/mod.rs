@@ -12,6 +12,6 @@ pub(crate) use atomic::write_through;
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS, short_number};
-pub use picture::{encode_png, write_picture};
+pub use picture::{encode_jpeg, encode_png, write_picture};
 pub(crate) use tone_map::{KEY, WHITE, map_lanes};
 pub use tone_map::{ToneMap, display};

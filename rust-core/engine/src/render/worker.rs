@@ -31,14 +31,15 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let tables = &shared.scene.tables;
     let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let learned = || match &shared.source {
-        Source::View(view) => {
-            let (scene, settings, execution) = (&shared.scene, &shared.settings, view.transport.execution);
-            let white = shared.film.looks_at_noise().then(|| meter(scene, settings, execution, &cancelled));
-            Learned { known: learn(scene, settings, execution, &cancelled), white: white.unwrap_or(1.0) }
-        }
-        // Sensors have no view to learn from.
-        Source::Sensors { .. } => Learned { known: None, white: 1.0 },
+    let learned = || {
+        let known = learn(&shared.scene, &shared.settings, &shared.source, &cancelled);
+        let white = match &shared.source {
+            Source::View(view) if shared.film.looks_at_noise() => {
+                meter(&shared.scene, &shared.settings, view.transport.execution, &cancelled)
+            }
+            _ => 1.0,
+        };
+        Learned { known, white }
     };
     let Learned { known, white } = shared.learned.get_or_init(learned).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };

@@ -17,16 +17,19 @@ pub enum Measurand {
     DaylightFactor,
     /// Towards `facing`, cd/m².
     Luminance,
+    /// Of the luminaires' glare, as an eye rates it that looks along `facing` and stands upright along `normal`; without a unit (CIE 117).
+    Ugr,
 }
 
 impl Measurand {
     /// All with their names.
-    pub const NAMES: [(Self, &'static str); 5] = [
+    pub const NAMES: [(Self, &'static str); 6] = [
         (Self::Illuminance, "illuminance"),
         (Self::Cylindrical, "cylindrical"),
         (Self::Semicylindrical, "semicylindrical"),
         (Self::DaylightFactor, "daylight-factor"),
         (Self::Luminance, "luminance"),
+        (Self::Ugr, "ugr"),
     ];
 
     /// The name.
@@ -43,6 +46,7 @@ impl Measurand {
             Self::Illuminance | Self::Cylindrical | Self::Semicylindrical => "lx",
             Self::DaylightFactor => "%",
             Self::Luminance => "cd/m²",
+            Self::Ugr => "",
         }
     }
 }
@@ -55,9 +59,9 @@ pub struct Meter {
     pub origin: Origin,
     /// World space, metres.
     pub position: [f64; 3],
-    /// The plane's normal, or the cylinder's axis; any length.
+    /// The plane's normal, the cylinder's axis, or the way up of an observer; any length.
     pub normal: [f64; 3],
-    /// Where half a cylinder or a luminance meter faces; any length. Cylinders take what stands across their axis of it.
+    /// Where half a cylinder, a luminance meter or an observer faces; any length. Cylinders take what stands across their axis of it.
     pub facing: [f64; 3],
     /// What is measured.
     pub measurand: Measurand,

@@ -1,4 +1,4 @@
-//! Other lamps, another flux, another C0.
+//! Other lamps, another flux, another tilt, another C0.
 
 use super::text::LARGEST;
 use super::{Goniogram, PhotometricType, Symmetry};
@@ -39,6 +39,23 @@ impl Goniogram {
             return Err(FormatError::whole(format!("lamp set {} or the present one states no flux", index + 1)));
         };
         Ok(Self { lamp_set: index, ..self.clone().times(wanted / current) })
+    }
+
+    /// The luminaire tilted by `degrees` from the way it was measured: intensities times its lamp's factor there (LM-63, TILT). A luminaire that
+    /// is not tilted is as it was measured, whatever its file says.
+    ///
+    /// # Errors
+    /// A file without tilt factors, or a tilt that is not a number.
+    pub fn tilted(&self, degrees: f64) -> Result<Self> {
+        if degrees == 0.0 {
+            return Ok(self.clone());
+        }
+        let problem = |problem| Err(FormatError::whole(format!("a tilt of {degrees} degrees was asked for, {problem}")));
+        match &self.tilt {
+            _ if !degrees.is_finite() => problem("expected a number"),
+            None => problem("the file has no tilt factors"),
+            Some(tilt) => Ok(self.clone().times(tilt.factor(degrees.abs()))),
+        }
     }
 
     /// The luminaire turned about its vertical axis by `degrees`, from C0 towards C90: what shone along C0 shines along C(degrees).

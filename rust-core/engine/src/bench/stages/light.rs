@@ -10,7 +10,10 @@ use crate::{
     compile::CompiledScene,
     error::Result,
     integrator::{Tables, kernels},
-    scene::{Closure, DomeFormat, Goniogram, Light, LightShape, Material, Mesh, Opening, OpeningShape, Origin, Scene, Texture, Transform},
+    scene::{
+        Closure, DomeFormat, Goniogram, Light, LightShape, Material, Mesh, Opening, OpeningShape, Origin, Scene, Shaping, Spot, Texture,
+        Transform,
+    },
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
 use std::sync::{Arc, atomic::AtomicBool};
@@ -43,17 +46,33 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
         ("facing disk", LightShape::FacingDisk { radius: 0.3 }),
         ("point", LightShape::Point),
         ("distant", LightShape::Distant { angle_deg: 0.53 }),
+        ("parallel", LightShape::Distant { angle_deg: 0.0 }),
         ("dome", LightShape::Dome { format: DomeFormat::LatLong }),
     ];
     let mut cases = Vec::new();
     for (name, shape) in shapes {
         cases.push(case(name, &alone(shape))?);
     }
+    for (name, beam) in beams() {
+        cases.push(case(name, &Scene { lights: vec![beam], ..Scene::default() })?);
+    }
     cases.push(case("dome with an image", &sky())?);
     cases.push(case("triangle", &triangle())?);
     cases.push(case("luminaire", &luminaire())?);
     cases.push(case("nine lights of five kinds", &scenes::room())?);
     Ok(cases)
+}
+
+/// Points whose intensity depends on the direction: a spot's cone, a power of the cosine, a table.
+fn beams() -> [(&'static str, Light); 3] {
+    let point = || light(LightShape::Point, 1.0, aimed([0.0, 2.0, 0.0], [0.0; 3]));
+    let spot = Spot { angle_deg: 120.0, blend: 0.3, stretch: [1.0; 2] };
+    let shaping = Shaping { focus: 4.0, cone_angle_deg: Some(90.0), ..Shaping::default() };
+    [
+        ("spot", Light { spot: Some(spot), ..point() }),
+        ("directed", Light { shaping, ..point() }),
+        ("goniogram", Light { goniogram: Some(goniogram()), ..point() }),
+    ]
 }
 
 /// One light two metres above the floor, facing it.
@@ -71,16 +90,20 @@ fn sky() -> Scene {
     scene
 }
 
-/// A box of a luminaire that shines to all sides, by planes of 15° and polar angles of 5°.
-fn luminaire() -> Scene {
+/// Intensities to all sides, by planes of 15° and polar angles of 5°.
+fn goniogram() -> Arc<Goniogram> {
     let horizontal_deg: Vec<f32> = (0..=24).map(|plane| 15.0 * plane as f32).collect();
     let vertical_deg: Vec<f32> = (0..=36).map(|angle| 5.0 * angle as f32).collect();
     let factor = |plane: f32, angle: f32| 120.0 + 80.0 * angle.to_radians().cos() * plane.to_radians().cos();
     let factors = horizontal_deg.iter().flat_map(|plane| vertical_deg.iter().map(move |angle| factor(*plane, *angle))).collect();
-    let goniogram = Goniogram { horizontal_deg, vertical_deg, factors, ..Goniogram::default() };
+    Arc::new(Goniogram { horizontal_deg, vertical_deg, factors, ..Goniogram::default() })
+}
+
+/// A box of a luminaire that shines so.
+fn luminaire() -> Scene {
     let shape = LightShape::Opening(Opening::new(OpeningShape::Box, [1.2, 0.3, 0.1]));
     let plain = light(shape, 1.0, aimed([0.0, 2.0, 0.0], [0.0; 3]));
-    Scene { lights: vec![Light { goniogram: Some(Arc::new(goniogram)), ..plain }], ..Scene::default() }
+    Scene { lights: vec![Light { goniogram: Some(goniogram()), ..plain }], ..Scene::default() }
 }
 
 /// An emissive triangle, its front down.

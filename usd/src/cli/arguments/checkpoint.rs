@@ -1,0 +1,35 @@
+//! What `gonio render` takes for checkpoints, and `gonio merge` for joining them.
+
+use super::OutputArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Renders that are interrupted, and parts of renders.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Checkpoints")]
+pub(crate) struct CheckpointArguments {
+    /// Keep the sums so far in this file, from time to time and at the end; '####' or '$F4' stand for the frame number.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// Seconds between checkpoints; where writing one takes long, at least twenty times as long as that.
+    #[arg(long = "checkpoint-every", value_name = "SECONDS", default_value_t = 60.0, requires = "checkpoint")]
+    pub(crate) checkpoint_every: f64,
+    /// Go on with the checkpoint where there is one, to the same bits as without the interruption.
+    #[arg(long, requires = "checkpoint")]
+    pub(crate) resume: bool,
+    /// Render a part of the samples, from the first to the one before the last number; 'gonio merge' joins the checkpoints of the parts.
+    #[arg(long, value_name = "FIRST:END")]
+    pub(crate) samples: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct MergeArguments {
+    /// The checkpoints of the parts, in any order.
+    #[arg(required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) files: OutputArguments,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+}

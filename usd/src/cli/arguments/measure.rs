@@ -1,0 +1,83 @@
+//! What `gonio measure` takes, and the grids that it shares with `gonio report`.
+
+use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The end of `gonio measure --help`.
+pub(super) const MEASURE_EXAMPLES: &str = "Examples:
+  gonio measure office.usda --grid /Office/Floor --height 0.75 --margin 0.5 -o plane.png --csv plane.csv
+  gonio measure office.usda --at 2,3,1.2 --quantity cylindrical
+  gonio measure office.usda --at 2,3,1.2 --quantity ugr --facing 1,0,0
+  gonio measure office.usda --grid /Office/Floor --quantity daylight-factor --sun 48.21,16.37,2025-03-21T12:00+01:00 --sky overcast";
+
+/// Calculation grids beside the stage's own.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct GridArguments {
+    /// Lay a grid over this prim's surface; may be given several times.
+    #[arg(long, value_name = "PRIMPATH")]
+    pub(crate) grid: Vec<String>,
+    /// Metres from point to point of these grids; without it as EN 12464-1 has it.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
+    pub(crate) spacing: f64,
+    /// Metres along the edges that these grids leave out.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
+    pub(crate) margin: f64,
+    /// Metres from the surface to these grids.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true, requires = "grid")]
+    pub(crate) height: f64,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct MeasureOptions {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    /// The frame to measure.
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    pub(crate) frame: Option<f64>,
+    #[command(flatten)]
+    pub(crate) grids: GridArguments,
+    /// Measure at this point of the world, in metres; may be given several times.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub(crate) at: Vec<String>,
+    /// The normal of the plane that these points measure, or the axis of their cylinders; without it up.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
+    pub(crate) normal: Option<String>,
+    /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
+    pub(crate) facing: Option<String>,
+    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), ugr (the luminaires' glare at an eye there).
+    #[arg(long, value_name = "QUANTITY", default_value = "illuminance")]
+    pub(crate) quantity: String,
+    /// Draw the grid in false colour with its values; with several grids the prim's name is put before the ending.
+    #[arg(long, short = 'o', value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write every point with its value and standard error.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) csv: Option<PathBuf>,
+    /// For machines.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) scale: ScaleArguments,
+    /// Samples a point.
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(crate) spp: u32,
+    /// Limit of the bounces; without one all count that matter.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(crate) max_bounces: Option<u32>,
+    /// The light transport: full global illumination, or direct light alone.
+    #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
+    pub(crate) integrator: IntegratorArgument,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub(crate) seed: u32,
+    /// Worker threads; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    pub(crate) threads: u32,
+    /// Write nothing but answers and errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) daylight: DaylightArguments,
+}

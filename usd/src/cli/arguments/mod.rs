@@ -1,0 +1,92 @@
+//! What the command line takes, by command.
+
+mod bench;
+mod bsdf;
+mod checkpoint;
+mod daylight;
+mod falsecolor;
+mod glare;
+mod info;
+mod measure;
+mod output;
+mod photometry;
+mod picture;
+mod render;
+mod report;
+mod stage;
+
+pub(super) use bench::BenchOptions;
+pub(super) use bsdf::BsdfOptions;
+pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
+pub(super) use daylight::DaylightArguments;
+pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
+pub(super) use glare::GlareArguments;
+pub(super) use info::InfoOptions;
+pub(super) use measure::{GridArguments, MeasureOptions};
+pub(super) use output::OutputArguments;
+pub(super) use photometry::PhotometryOptions;
+pub(super) use picture::{CompareOptions, RelightOptions};
+pub(super) use render::{FilterArgument, RenderOptions};
+pub(super) use report::ReportOptions;
+pub(super) use stage::{ComplexityArgument, StageArguments};
+
+use bsdf::BSDF_EXAMPLES;
+use clap::{Parser, Subcommand, ValueEnum};
+use measure::MEASURE_EXAMPLES;
+use report::REPORT_EXAMPLES;
+
+/// Physically exact rendering of USD stages, with answers in cd/m² and lux.
+#[derive(Debug, Parser)]
+#[command(name = "gonio", version, about, propagate_version = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Render a USD stage to EXR, PNG or JPEG.
+    Render(Box<RenderOptions>),
+    /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
+    Merge(MergeArguments),
+    /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
+    Info(Box<InfoOptions>),
+    /// Compare two EXR files: relative mean squared error and block differences.
+    Compare(CompareOptions),
+    /// Dim and recolour the light groups of a rendered EXR file.
+    Relight(RelightOptions),
+    /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
+    Photometry(PhotometryOptions),
+    /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it.
+    ///
+    /// Takes MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML of Radiance and WINDOW, Zemax .bsdf and gonio's own .gbsdf; content
+    /// decides, not the name. Front is the side of the normal; 'reflected' and 'transmitted' are shares of the light that arrives from the
+    /// angle named.
+    #[command(after_long_help = BSDF_EXAMPLES)]
+    Bsdf(BsdfOptions),
+    /// Measure light at points and on calculation grids of a USD stage, in lux, cd/m² or per cent of the daylight outside.
+    ///
+    /// Measures what the stage's gonio:grid and gonio:meter attributes ask for, the prims that --grid names, and the points of --at.
+    #[command(after_long_help = MEASURE_EXAMPLES)]
+    Measure(Box<MeasureOptions>),
+    /// Draw the luminance or the illuminance of an EXR file in fixed steps with a legend, or as isolines over the picture.
+    Falsecolor(FalsecolorOptions),
+    /// Put a stage's light on one page: luminaires with flux and watts, pictures, calculation grids, polar diagrams.
+    ///
+    /// Writes one HTML file that holds everything, pictures too, and needs nothing from elsewhere. Luminaires are the lights that name an IES or
+    /// EULUMDAT file; the other lights stand in the schedule with what is known of them.
+    #[command(after_long_help = REPORT_EXAMPLES)]
+    Report(Box<ReportOptions>),
+    /// Rate glare in a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
+    Glare(GlareArguments),
+    /// Measure every stage of rendering at every SIMD level against one lane.
+    Bench(BenchOptions),
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum IntegratorArgument {
+    /// Path tracing.
+    Path,
+    /// The same, stopped after direct light.
+    Direct,
+}

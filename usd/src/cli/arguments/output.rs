@@ -1,0 +1,24 @@
+//! What every command takes that writes pictures.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Files that pictures are written to.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct OutputArguments {
+    /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(crate) exposure: f32,
+    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
+    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
+    pub(crate) tonemap: String,
+    /// Half floats for the passes of EXR files that are not absolute.
+    #[arg(long)]
+    pub(crate) half: bool,
+    /// Take the noise out of the colour with Intel's Open Image Denoise (pip install 'gonio[denoise]'); other passes stay as they were rendered.
+    #[arg(long)]
+    pub(crate) denoise: bool,
+}

@@ -1,0 +1,97 @@
+//! What `gonio render` takes.
+
+use super::{CheckpointArguments, DaylightArguments, IntegratorArgument, OutputArguments, StageArguments};
+use clap::{Args, ValueEnum};
+
+#[derive(Args, Debug)]
+pub(crate) struct RenderOptions {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    #[command(flatten)]
+    pub(crate) files: OutputArguments,
+    /// Camera by name or path; without it the stage's own choice.
+    #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
+    pub(crate) camera: Option<String>,
+    /// Frames: '1', '1:10', '1:10x2', separated by commas.
+    #[arg(long, short = 'f', alias = "frame", value_name = "FRAMES")]
+    pub(crate) frames: Option<String>,
+    /// Width and height in pixels.
+    #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], overrides_with = "res")]
+    pub(crate) res: Option<Vec<u32>>,
+    /// Width in pixels; the height follows the camera's shape.
+    #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", conflicts_with = "res")]
+    pub(crate) image_width: Option<u32>,
+    /// Factor on the resolution.
+    #[arg(long = "res-scale", value_name = "FACTOR", default_value_t = 1.0)]
+    pub(crate) res_scale: f64,
+    /// Samples a pixel.
+    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(crate) spp: Option<u32>,
+    /// Stop sampling where the estimated noise is below this, on Cycles' scale: 0.01 is a clean picture, 0.1 a preview; 0 is off. --spp is the most that a pixel gets, the pass sample_count shows what it got.
+    #[arg(long = "noise-threshold", value_name = "ERROR", default_value_t = 0.0)]
+    pub(crate) noise_threshold: f32,
+    /// Samples a pixel before its noise is estimated; 0 leaves it to the threshold (64 for 0.01).
+    #[arg(long = "min-spp", value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1 << 20))]
+    pub(crate) min_spp: u32,
+    /// Bounces after the first surface.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(crate) max_bounces: Option<u32>,
+    /// The light transport: full global illumination, or direct light alone.
+    #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
+    pub(crate) integrator: IntegratorArgument,
+    /// The pixel filter.
+    #[arg(long, value_enum, default_value_t = FilterArgument::BlackmanHarris)]
+    pub(crate) filter: FilterArgument,
+    /// Width of the pixel filter in pixels.
+    #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
+    pub(crate) filter_width: f32,
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
+    #[arg(long, value_name = "PASSES", value_delimiter = ',')]
+    pub(crate) aov: Vec<String>,
+    /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
+    #[arg(long = "light-groups")]
+    pub(crate) light_groups: bool,
+    /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
+    #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
+    pub(crate) crop: Option<Vec<String>>,
+    /// Stop after this many seconds, with whole passes over the picture.
+    #[arg(long = "time-limit", aliases = ["timelimit", "time"], value_name = "SECONDS", default_value_t = 0.0)]
+    pub(crate) time_limit: f64,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub(crate) seed: u32,
+    /// Worker threads; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    pub(crate) threads: u32,
+    /// Limit of a direct sample's components in nits; 0 is off.
+    #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
+    pub(crate) clamp_direct: f32,
+    /// Limit of an indirect sample's components in nits; 0 is off.
+    #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
+    pub(crate) clamp_indirect: f32,
+    /// No neutral dome for stages without lights.
+    #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
+    pub(crate) disable_camera_light: bool,
+    /// List the stage's cameras and end.
+    #[arg(long = "list-cameras")]
+    pub(crate) list_cameras: bool,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) checkpoint: CheckpointArguments,
+    #[command(flatten)]
+    pub(crate) daylight: DaylightArguments,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum FilterArgument {
+    /// Constant.
+    Box,
+    /// Linear.
+    Tent,
+    /// Gaussian.
+    Gaussian,
+    /// Blackman–Harris.
+    BlackmanHarris,
+}

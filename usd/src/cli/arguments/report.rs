@@ -1,0 +1,77 @@
+//! What `gonio report` takes.
+
+use super::{DaylightArguments, GridArguments, StageArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The end of `gonio report --help`.
+pub(super) const REPORT_EXAMPLES: &str = "Examples:
+  gonio report office.usda -o office.html
+  gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
+  gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
+
+What stands in it:
+  luminaires      count, flux as lit (dimming included), power by the file, efficacy, file and maker of each type, and totals
+  power density   W/m² and W/m² per 100 lx over the largest grid that measures illuminance, all luminaires of the stage counted
+  pictures        what each camera sees, and its luminance in false colour; the glare of fisheye cameras of 180° or more
+  grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
+  files           the polar diagram and the figures of each IES or EULUMDAT file
+  notes           what the stage asks for and was not done";
+
+#[derive(Args, Debug)]
+pub(crate) struct ReportOptions {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    /// The page to write; it takes its name when it is complete.
+    #[arg(long, short = 'o', value_name = "FILE.html")]
+    pub(crate) output: PathBuf,
+    /// The page's title; without it the stage's file name.
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+    /// The frame to report on.
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    pub(crate) frame: Option<f64>,
+    /// Show what this camera sees, by name or path; may be given several times. Without it all cameras of the stage.
+    #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
+    pub(crate) camera: Vec<String>,
+    /// No pictures of cameras.
+    #[arg(long = "no-pictures", conflicts_with = "camera")]
+    pub(crate) no_pictures: bool,
+    /// Width of the pictures in pixels; the height follows the camera's shape.
+    #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub(crate) image_width: u32,
+    /// Samples a pixel of the pictures.
+    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(crate) spp: u32,
+    /// Stops by which the pictures are brightened.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(crate) exposure: f32,
+    /// Samples a point of grids and meters.
+    #[arg(long = "point-spp", value_name = "COUNT", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(crate) point_spp: u32,
+    /// The upper end of the false colours of grids, in their unit; without it a round number for each.
+    #[arg(long = "max-illuminance", value_name = "LUX")]
+    pub(crate) max_illuminance: Option<f32>,
+    /// The upper end of the pictures' false colours, three decades in even steps of the logarithm; without it a round number for each.
+    #[arg(long = "max-luminance", value_name = "CD/M2")]
+    pub(crate) max_luminance: Option<f32>,
+    /// Steps of the false colours.
+    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    pub(crate) steps: u32,
+    /// Limit of the bounces of pictures, grids and meters; without one that of the stage for pictures, and none for the others.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(crate) max_bounces: Option<u32>,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub(crate) seed: u32,
+    /// Worker threads; 0 takes one a core.
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    pub(crate) threads: u32,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) grids: GridArguments,
+    #[command(flatten)]
+    pub(crate) daylight: DaylightArguments,
+}

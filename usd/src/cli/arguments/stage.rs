@@ -1,0 +1,47 @@
+//! What of a stage is read.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// What of the stage is read.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct StageArguments {
+    /// The stage: a .usd, .usda, .usdc or .usdz file.
+    pub(crate) stage: PathBuf,
+    /// Purposes shown beside 'default': render, proxy, guide, separated by commas; without it those of the render settings, or render.
+    #[arg(long, value_name = "PURPOSES", value_delimiter = ',')]
+    pub(crate) purposes: Vec<String>,
+    /// How finely subdivision surfaces are refined.
+    #[arg(long, short = 'C', value_enum, default_value_t = ComplexityArgument::High)]
+    pub(crate) complexity: ComplexityArgument,
+    /// Read only these prims (and what they need), separated by commas.
+    #[arg(long, value_name = "PRIMPATHS", value_delimiter = ',')]
+    pub(crate) mask: Vec<String>,
+    /// Choose a variant: '/Prim{set=variant}'; may be given several times.
+    #[arg(long, value_name = "SELECTION")]
+    pub(crate) variant: Vec<String>,
+    /// A layer put on top of the stage.
+    #[arg(long = "session-layer", alias = "sessionLayer", value_name = "LAYER")]
+    pub(crate) session_layer: Option<PathBuf>,
+    /// The RenderSettings prim to follow.
+    #[arg(long, short = 's', alias = "renderSettingsPrimPath", value_name = "PRIMPATH")]
+    pub(crate) settings: Option<String>,
+    /// Treat every warning as an error.
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// List all warnings and notes, and timings.
+    #[arg(long, short = 'v')]
+    pub(crate) verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ComplexityArgument {
+    /// No refinement.
+    Low,
+    /// Once.
+    Medium,
+    /// Twice.
+    High,
+    /// Three times.
+    Veryhigh,
+}

@@ -1,0 +1,111 @@
+//! One HTML page that needs nothing beside itself.
+
+use super::base64;
+
+/// How the page looks; plain enough to be printed.
+const STYLE: &str = "body{font:15px/1.45 sans-serif;color:#222;max-width:60rem;margin:2rem auto;padding:0 1rem}\
+h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.2rem;border-bottom:1px solid #ccc}h3{font-size:1rem;margin-bottom:.3rem}\
+table{border-collapse:collapse;margin:.6rem 0;width:100%}th,td{padding:.25rem .6rem;border-bottom:1px solid #ddd;text-align:right}\
+th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #888}tfoot td{font-weight:bold}\
+figure{display:inline-block;margin:.5rem .8rem .5rem 0;vertical-align:top}img,svg{max-width:100%;height:auto}\
+figcaption{color:#555;font-size:.85rem}.note{color:#555}@media print{h2,h3,figcaption{break-after:avoid}figure,table{break-inside:avoid}}";
+
+/// A page that grows; texts that are handed in stand in it as they are, whatever signs they hold.
+#[derive(Debug)]
+pub(super) struct Page {
+    text: String,
+}
+
+impl Page {
+    pub(super) fn new(title: &str) -> Self {
+        let title = escaped(title);
+        let head = format!("<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>{STYLE}</style>");
+        Self { text: format!("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}\n</head>\n<body>\n<h1>{title}</h1>\n") }
+    }
+
+    fn element(&mut self, tag: &str, content: &str) {
+        self.text.push_str(&format!("<{tag}>{content}</{tag}>\n"));
+    }
+
+    pub(super) fn section(&mut self, title: &str) {
+        self.element("h2", &escaped(title));
+    }
+
+    pub(super) fn part(&mut self, title: &str) {
+        self.element("h3", &escaped(title));
+    }
+
+    pub(super) fn paragraph(&mut self, text: &str) {
+        self.element("p", &escaped(text));
+    }
+
+    pub(super) fn note(&mut self, text: &str) {
+        self.text.push_str(&format!("<p class=\"note\">{}</p>\n", escaped(text)));
+    }
+
+    pub(super) fn list(&mut self, lines: &[String]) {
+        let items: String = lines.iter().map(|line| format!("<li>{}</li>\n", escaped(line))).collect();
+        self.element("ul", &format!("\n{items}"));
+    }
+
+    /// A table with its columns' names above and, unless it is empty, a row of totals below.
+    pub(super) fn table(&mut self, names: &[&str], rows: &[Vec<String>], totals: &[String]) {
+        let row = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
+            let cells: String = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+            format!("<tr>{cells}</tr>\n")
+        };
+        let head = row("th", &mut names.iter().copied());
+        let body: String = rows.iter().map(|cells| row("td", &mut cells.iter().map(String::as_str))).collect();
+        let foot = if totals.is_empty() { String::new() } else { row("td", &mut totals.iter().map(String::as_str)) };
+        self.element("table", &format!("\n<thead>{head}</thead>\n<tbody>{body}</tbody>\n<tfoot>{foot}</tfoot>\n"));
+    }
+
+    /// A picture's file in the page itself; `format` as in `png`.
+    pub(super) fn picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
+        let (data, caption) = (base64::encoded(bytes), escaped(caption));
+        let image = format!("<img alt=\"{caption}\" src=\"data:image/{format};base64,{data}\">");
+        self.element("figure", &format!("{image}<figcaption>{caption}</figcaption>"));
+    }
+
+    /// A drawing as `gonio_formats` makes it, whose own texts are escaped already.
+    pub(super) fn drawing(&mut self, svg: &str, caption: &str) {
+        self.element("figure", &format!("{svg}<figcaption>{}</figcaption>", escaped(caption)));
+    }
+
+    pub(super) fn finish(mut self) -> String {
+        self.text.push_str("</body>\n</html>\n");
+        self.text
+    }
+}
+
+/// A text as HTML holds it; control characters, which a file may have brought along, become blanks.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_cannot_leave_their_element() {
+        assert_eq!(escaped("a<b>&\u{1}\"'"), "a&lt;b&gt;&amp; &quot;&#39;");
+        let mut page = Page::new("</title><script>");
+        page.table(&["name"], &[vec!["<i>".into()]], &[]);
+        page.picture("png", b"", "\" onload=\"");
+        let text = page.finish();
+        assert!(!text.contains("<script>") && !text.contains("<i>") && !text.contains("\" onload"), "{text}");
+    }
+}

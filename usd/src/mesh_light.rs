@@ -1,0 +1,84 @@
+//! Meshes that `MeshLightAPI` makes lights: their materials shine.
+
+use crate::context::Context;
+use crate::light::{input, radiance, report_left_out, tint};
+use crate::photometry;
+use crate::prim::Prim;
+use gonio::scene::{Channel, Input, Material, MaterialId, Operation};
+
+/// Whether a light is made of the prim's geometry.
+pub(crate) fn is_geometry_light(prim: &Prim<'_>) -> bool {
+    prim.applied_schemas().iter().any(|schema| matches!(schema.as_str(), "MeshLightAPI" | "VolumeLightAPI"))
+}
+
+/// The material of a prim that `MeshLightAPI` makes a light: the bound one with the light's emission. `area` is the mesh's in square units of
+/// the stage, for `normalize`.
+pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bound: MaterialId, area: Option<f64>) -> MaterialId {
+    let origin = prim.origin();
+    if !prim.applied_schemas().iter().any(|schema| schema == "MeshLightAPI") {
+        context.unsupported("VolumeLightAPI", &origin);
+        return bound;
+    }
+    let Some(mut radiance) = radiance(context, prim) else {
+        return bound;
+    };
+    let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
+    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres) {
+        let tint = tint(context, prim);
+        let own = f64::from(0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2]);
+        radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });
+    } else if input(context, prim, "normalize").unwrap_or(false) {
+        match area.filter(|area| *area > 0.0) {
+            Some(area) => radiance = radiance.map(|x| (f64::from(x) / area) as f32),
+            None => context.warn(&origin, "normalize of a mesh light needs the mesh's area, which is zero or unknown; it is ignored"),
+        }
+    }
+    let dimming = photometry::dimming(context, prim);
+    radiance = radiance.map(|x| x * dimming);
+    photometry::report_unused_of_mesh(context, prim);
+    report_left_out(context, prim);
+    if prim.has_authored_prefix("inputs:shaping:") {
+        context.unsupported("shaping of mesh lights", &origin);
+    }
+    let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
+    let Some(base) = context.scene.materials.get(bound.index()) else {
+        return bound;
+    };
+    let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
+    material.origin = origin;
+    emit(&mut material, radiance, mode != "independent");
+    context.scene.add_material(material)
+}
+
+/// Adds the light to what the material emits itself, or tints a material's glow with it.
+fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
+    let light = Input::Constant([r, g, b, 1.0]);
+    let Some(surface) = material.closures.first_mut() else { return };
+    let glow = surface.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
+    let emission = match (glow, tints) {
+        (None, _) => light,
+        (Some(Input::Constant(glow)), true) => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
+        (Some(Input::Constant(glow)), false) => Input::Constant([glow[0] + r, glow[1] + g, glow[2] + b, 1.0]),
+        (Some(node), tints) => {
+            let operation = if tints { Operation::Multiply } else { Operation::Add };
+            Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
+        }
+    };
+    surface.set_input("emission_color", emission);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_tints_a_glow_or_adds_to_it() {
+        let mut material = Material::default();
+        material.closures[0].set_colour("emission_color", [1.0, 0.5, 0.0]);
+        let mut sum = material.clone();
+        emit(&mut material, [2.0; 3], true);
+        emit(&mut sum, [2.0; 3], false);
+        assert_eq!(material.closures[0].input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
+        assert_eq!(sum.closures[0].input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
+    }
+}
