@@ -190,7 +190,12 @@ def test_weights_mix_two_measurements(tmp_path):
 
 def brushed(path):
     """Reflects towards azimuths near the tangent's alone: a table of two polar angles and eight azimuths."""
-    axes = [("theta_i linear", [0, 80]), ("phi_i periodic 360", np.arange(0, 360, 45)), ("theta_o linear", [0, 80]), ("phi_o periodic 360", [0, 180])]
+    axes = [
+        ("theta_i linear", [0, 80]),
+        ("phi_i periodic 360", np.arange(0, 360, 45)),
+        ("theta_o linear", [0, 80]),
+        ("phi_o periodic 360", [0, 180]),
+    ]
     along = np.abs(np.cos(np.radians(axes[1][1]))) ** 4
     lines = ["gbsdf 1", "table reflection-front anisotropic"]
     for name, degrees in axes:
