@@ -40,6 +40,9 @@ CONTESTS = [
     Contest("hall", (Entrant("gonio", "hall"), Entrant("gonio", "hall.bay"))),
 ]
 
+# What adaptive sampling and denoising are measured on.
+BENCHMARKS = ("cornell", "nine_lights", "glass", "car", "field")
+
 
 @dataclass(frozen=True)
 class Standing:

@@ -31,14 +31,19 @@ class Engine:
 
     def render(self, samples: int, seed: int) -> tuple[numpy.ndarray, float, int]:
         """A picture, the seconds that its samples took, and how many they were."""
-        self._scene.set(samples=samples, seed=seed)
+        film, seconds = self.film(samples, seed)
+        return colour(film), seconds, samples
+
+    def film(self, samples: int, seed: int, **settings: Any) -> tuple[gonio.Film, float]:
+        """A film with other settings of `gonio.Scene.set`, which stay, and the seconds that its samples took."""
+        self._scene.set(samples=samples, seed=seed, **settings)
         render = gonio.Render(self._scene, self._previous)
         start = time.perf_counter()
         render.wait()
         seconds = time.perf_counter() - start
         assert not render.diagnostics, render.diagnostics
         self._previous = render
-        return numpy.asarray(render.film()["color"])[:, :, :3].astype("f8"), seconds, samples
+        return render.film(), seconds
 
     def _place(self, mesh: Mesh) -> None:
         uvs = mesh.uvs if isinstance(mesh.surface, Textured) else None
@@ -64,6 +69,11 @@ class Engine:
     def _surround(self, image: numpy.ndarray) -> None:
         dome = {"shape": {"Dome": {"format": "LatLong"}}, "texture": self._texture("sky", image)}
         self._scene.put_light(light_fields("sky", numpy.eye(4), (1.0, 1.0, 1.0), **dome))
+
+
+def colour(film: gonio.Film) -> numpy.ndarray:
+    """Radiance in cd/m², (height, width, 3) float64, the top row first."""
+    return numpy.asarray(film["color"])[:, :, :3].astype("f8")
 
 
 def texture_nodes(texture: int) -> list[dict[str, Any]]:

@@ -5,6 +5,7 @@
 
 use super::{
     generate::{TileArea, morton_even},
+    runs::Runs,
     state::{BATCH, PathLanes, TILE, Workspace, append3, flag, gather3},
 };
 use crate::sampler::{Sampler, dimension};
@@ -94,7 +95,7 @@ impl SensorTable {
 
 /// Lists the points that the tile's sensors measure this time, and starts the paths of those that look.
 #[inline(always)]
-pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, sample: u32, ws: &mut Workspace) {
+pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, runs: &Runs, ws: &mut Workspace) {
     (ws.paths.count, ws.next.count, ws.measure.count) = (0, 0, 0);
     for first in (0..BATCH as u32).step_by(L::COUNT) {
         let pixel = l.iota() + first;
@@ -105,7 +106,7 @@ pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
             continue;
         }
         let sensor = sensor.keep_if(inside);
-        let [u, _] = sampler.pair(l, sampler.index(l, pixel, sample), dimension::PIXEL);
+        let [u, _] = sampler.pair(l, runs.index(l, sampler, pixel), dimension::PIXEL);
         let (sin, cos) = ((u * 2.0 - 1.0) * l.gather(&sensors.turn, sensor)).sin_cos();
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);

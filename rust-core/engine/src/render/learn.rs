@@ -3,7 +3,7 @@
 use super::source::Source;
 use crate::{
     compile::{CompiledScene, View},
-    integrator::{Start, TILE, Tracer, Transport, Workspace},
+    integrator::{Runs, Start, TILE, Tracer, Transport, Workspace},
     light::KnownLights,
     scene::{Aov, Crop, Settings},
 };
@@ -28,12 +28,12 @@ pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source,
         Source::View(view) => {
             let View { camera, filter, transport, window, .. } =
                 View::new(scene, &reduced(settings, SIDE, SAMPLES), view.transport.execution).ok()?;
-            let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport, zones: u64::MAX };
+            let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport };
             from_paths(scene, &tracer, window, SAMPLES, cancelled)
         }
         Source::Sensors { sensors, transport } => {
             let transport = Transport { seed: settings.seed ^ OTHER_SEED, samples: SENSOR_SAMPLES, ..transport.clone() };
-            let tracer = Tracer { tables: &scene.tables, start: Start::Sensors(sensors), transport, zones: u64::MAX };
+            let tracer = Tracer { tables: &scene.tables, start: Start::Sensors(sensors), transport };
             from_paths(scene, &tracer, Crop { min: [0; 2], max: settings.resolution }, SENSOR_SAMPLES, cancelled)
         }
     }
@@ -54,7 +54,7 @@ fn from_paths(
         for x in (window.min[0]..window.max[0]).step_by(TILE) {
             let end = [(x + TILE as u32).min(window.max[0]), (y + TILE as u32).min(window.max[1])];
             for sample in 0..samples {
-                tracer.trace([x, y], end, sample, &mut workspace, cancelled);
+                tracer.trace([x, y], end, &Runs::whole(sample), &mut workspace, cancelled);
                 if cancelled() {
                     return None;
                 }

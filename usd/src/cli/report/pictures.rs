@@ -11,7 +11,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     film::Image,
     measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions},
-    output::{FalseColour, ToneMap, display, encode_jpeg},
+    output::{FalseColour, Look, display, encode_jpeg},
     render::Render,
     scene::{Aov, Integrator, Projection},
 };
@@ -103,7 +103,7 @@ fn picture(options: &ReportOptions, loaded: &Loaded, compiled: &Arc<CompiledScen
 
 /// The picture as the eye would see it, over black.
 fn as_jpeg(image: &Image, options: &ReportOptions, execution: Execution) -> Result<Vec<u8>> {
-    let rgba = display(image, ToneMap::Photographic, options.exposure, execution);
+    let rgba = display(image, &Look { stops: options.exposure, ..Look::default() }, execution);
     let [width, height] = image.size().map(|side| side as u32);
     encode_jpeg(&rgba, width, height).map_err(|error| Error::io(&options.output, error))
 }
