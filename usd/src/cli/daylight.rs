@@ -41,7 +41,7 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
     daylight.model = SkyModel::parse(&arguments.sky)?;
     daylight.turbidity = arguments.turbidity;
     daylight.ground = arguments.ground;
-    daylight.is_coloured = !arguments.white;
+    daylight.is_coloured = !arguments.white_daylight;
     if let Some(text) = &arguments.irradiance {
         let problem = || {
             Error::setting(

@@ -33,5 +33,5 @@ pub(crate) struct DaylightArguments {
     pub(crate) elevation: f64,
     /// White sun and sky with the same luminances.
     #[arg(long = "white-daylight", requires = "sun")]
-    pub(crate) white: bool,
+    pub(crate) white_daylight: bool,
 }
