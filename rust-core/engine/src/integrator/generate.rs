@@ -1,7 +1,7 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
 use super::{
-    runs::{RUN, Runs},
+    runs::Runs,
     state::{PathLanes, Paths, flag},
 };
 use crate::{
@@ -32,9 +32,7 @@ pub(crate) fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.count = 0;
-    let parts =
-        runs.each().flat_map(|[slot, code, sample]| (0..RUN as u32).step_by(L::COUNT).map(move |at| [slot + at, code + at, sample]));
-    for [slot, code, sample] in parts {
+    for [slot, code, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + code;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
         let inside = (x + area.min[0]).lt(area.max[0]) & (y + area.min[1]).lt(area.max[1]);

@@ -56,8 +56,13 @@ impl Runs {
     }
 
     /// The runs that are wanted: first slot, Morton number of the first pixel, sample.
-    pub(super) fn each(&self) -> impl Iterator<Item = [u32; 3]> {
+    fn each(&self) -> impl Iterator<Item = [u32; 3]> {
         bits(self.wanted).map(|run| [(run * RUN) as u32, self.zones[run] << RUN_BITS, self.samples[run]])
+    }
+
+    /// The same for each register of so many lanes.
+    pub(super) fn registers(&self, lanes: usize) -> impl Iterator<Item = [u32; 3]> {
+        self.each().flat_map(move |[slot, code, sample]| (0..RUN as u32).step_by(lanes).map(move |at| [slot + at, code + at, sample]))
     }
 
     /// The number in the tile's sequence of the sample that a slot of any kind of path belongs to.

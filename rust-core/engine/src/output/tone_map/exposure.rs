@@ -1,34 +1,67 @@
 //! How bright a picture is, and how an eye follows from frame to frame.
 
-use super::KEY;
+use super::{CHUNK, KEY};
 use crate::{film::Image, scene::Aov};
-use gonio_simd::{Execution, Lanes, Rgb, dispatch, padded};
+use gonio_simd::{Execution, Lanes, Rgb, dispatch};
 
 /// Pixels that make one of the low-resolution copy.
 const BLOCK: usize = 16;
-/// Pixels whose luminance is at hand at a time; a multiple of `BLOCK` and of all registers.
-const CHUNK: usize = 4096;
+/// Blocks of a large picture that are looked at, at least.
+const ENOUGH: usize = 1 << 16;
 /// Darker blocks are left out.
-const BLACK: f64 = 1e-9;
+const BLACK: f32 = 1e-9;
 
-/// The geometric mean of the luminance of a low-resolution copy of the colour pass: runs of 16 pixels first averaged, black ones left out; 0.18
-/// where all are black.
+/// The geometric mean of the luminance of a low-resolution copy of the colour pass: runs of 16 pixels first averaged, of large pictures every few
+/// runs, black ones left out; 0.18 where all are black.
 pub fn log_average(image: &Image, execution: Execution) -> f32 {
     let Some(layer) = image.layer(Aov::Color) else { return KEY };
+    let (blocks, rest) = layer.values.as_chunks::<{ 4 * BLOCK }>();
     let (mut sum, mut count) = (0.0, 0.0);
-    let mut luminance = [0.0; CHUNK];
-    for pixels in layer.values.chunks(4 * CHUNK).filter(|pixels| pixels.len() >= 4) {
-        let length = pixels.len() / 4;
-        dispatch!(execution, l => luminance_batch(l, pixels, 1.0, &mut luminance[..padded(length)]));
-        for block in luminance[..length].chunks(BLOCK) {
-            let mean = f64::from(total(block)) / block.len() as f64;
-            if mean > BLACK && mean.is_finite() {
-                sum += mean.ln();
-                count += 1.0;
-            }
+    let mut add = |mean: f32, logarithm: f64| {
+        if mean > BLACK && mean.is_finite() {
+            sum += logarithm;
+            count += 1.0;
         }
+    };
+    let mut copy = SmallCopy { means: [0.0; CHUNK], logarithms: [0.0; CHUNK] };
+    // Odd, so that columns of pictures are not passed over.
+    let step = (blocks.len() / (2 * ENOUGH)) * 2 + 1;
+    for blocks in blocks.chunks(CHUNK * step) {
+        dispatch!(execution, l => shrink(l, blocks.as_flattened(), step, &mut copy));
+        copy.means
+            .iter()
+            .zip(&copy.logarithms)
+            .take(blocks.len().div_ceil(step))
+            .for_each(|(mean, logarithm)| add(*mean, f64::from(*logarithm)));
+    }
+    if !rest.is_empty() {
+        let total: f32 = rest.as_chunks::<4>().0.iter().map(|[r, g, b, _]| 0.2126 * r + 0.7152 * g + 0.0722 * b).sum();
+        let mean = total / (rest.len() / 4) as f32;
+        add(mean, f64::from(mean).ln());
     }
     if count > 0.0 { (sum / count).exp() as f32 } else { KEY }
+}
+
+/// A part of the low-resolution copy.
+struct SmallCopy {
+    means: [f32; CHUNK],
+    logarithms: [f32; CHUNK],
+}
+
+/// Averages the luminance of every `step`-th block of interleaved RGBA, a block a lane.
+#[inline(always)]
+fn shrink<L: Lanes>(l: L, rgba: &[f32], step: usize, copy: &mut SmallCopy) {
+    for at in (0..rgba.len().div_ceil(4 * BLOCK * step)).step_by(L::COUNT) {
+        let first = (l.iota() + at as u32) * ((4 * BLOCK * step) as u32);
+        let mut sum = l.f(0.0);
+        for pixel in 0..BLOCK as u32 {
+            let [r, g, b, _] = l.gather_quads(rgba, first + 4 * pixel);
+            sum += Rgb::new(r, g, b).luminance();
+        }
+        let mean = sum * (1.0 / BLOCK as f32);
+        mean.store(&mut copy.means, at);
+        mean.max(BLACK).ln().store(&mut copy.logarithms, at);
+    }
 }
 
 /// Luminance of interleaved RGBA.
@@ -38,13 +71,6 @@ pub(super) fn luminance_batch<L: Lanes>(l: L, rgba: &[f32], scale: f32, out: &mu
         let [r, g, b, _] = l.gather_quads(rgba, (l.iota() + at as u32) << 2);
         (Rgb::new(r, g, b).luminance() * scale).store(out, at);
     }
-}
-
-/// In four sums, which take a register's lanes.
-fn total(values: &[f32]) -> f32 {
-    let (fours, rest) = values.as_chunks::<4>();
-    let [a, b, c, d] = fours.iter().fold([0.0; 4], |sums, four| std::array::from_fn(|k| sums[k] + four[k]));
-    a + b + c + d + rest.iter().sum::<f32>()
 }
 
 /// An eye that adapts to the brightness of an animation's frames: exponentially in the logarithm, with a time constant.

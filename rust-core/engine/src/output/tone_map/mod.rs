@@ -16,7 +16,10 @@ use crate::{
     film::Image,
     scene::Aov,
 };
-use gonio_simd::{Execution, F, Lanes, Rgb, U, dispatch, padded};
+use gonio_simd::{Execution, F, Lanes, Rgb, U, dispatch};
+
+/// Pixels that are worked on at a time; a multiple of all registers.
+const CHUNK: usize = 4096;
 
 /// How radiance becomes display values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -88,47 +91,48 @@ impl Look {
 
 /// The colour pass as 8-bit RGBA, rows from the top.
 pub fn display(image: &Image, look: &Look, execution: Execution) -> Vec<u8> {
-    let bytes = |pixels: Vec<u32>| pixels.into_iter().flat_map(u32::to_le_bytes).collect();
-    shown(image, look, execution, |values, around, curve, length| {
-        let mut pixels = vec![0; padded(length)];
+    let mut pixels = [0; CHUNK];
+    shown(image, look, execution, |values, around, curve, bytes| {
         dispatch!(execution, l => bytes_batch(l, values, around, curve, &mut pixels));
-        pixels.truncate(length);
-        bytes(pixels)
+        bytes.extend_from_slice(bytemuck::cast_slice(&pixels[..values.len() / 4]));
     })
 }
 
 /// The colour pass as 16-bit RGBA, rows from the top.
 pub fn display_deep(image: &Image, look: &Look, execution: Execution) -> Vec<u16> {
-    shown(image, look, execution, |values, around, curve, length| {
-        let mut halves = [vec![0; padded(length)], vec![0; padded(length)]];
+    let mut halves = [[0; CHUNK], [0; CHUNK]];
+    shown(image, look, execution, |values, around, curve, words| {
         dispatch!(execution, l => words_batch(l, values, around, curve, &mut halves));
-        let [first, second] = &halves;
-        let words = |x: u32| [x as u16, (x >> 16) as u16];
-        first[..length].iter().zip(second).flat_map(|(rg, ba)| [words(*rg), words(*ba)]).flatten().collect()
+        let both = halves[0].iter().zip(&halves[1]).take(values.len() / 4);
+        words.extend(both.flat_map(|(rg, ba)| [*rg as u16, (*rg >> 16) as u16, *ba as u16, (*ba >> 16) as u16]));
     })
 }
 
-/// Runs `encode` on the colour pass, the luminance around each pixel (empty unless the operator is local), the curve and the number of pixels.
-fn shown<T>(image: &Image, look: &Look, execution: Execution, encode: impl FnOnce(&[f32], &[f32], &ToneCurve, usize) -> Vec<T>) -> Vec<T> {
+/// Runs `encode` on pieces of the colour pass, the luminance around each pixel (empty unless the operator is local), and the curve.
+fn shown<T>(image: &Image, look: &Look, execution: Execution, mut encode: impl FnMut(&[f32], &[f32], &ToneCurve, &mut Vec<T>)) -> Vec<T> {
     let Some(layer) = image.layer(Aov::Color).filter(|layer| layer.values.len() >= 4) else { return Vec::new() };
     let average = || look.adapted.unwrap_or_else(|| log_average(image, execution));
     let curve = ToneCurve::new(look, if look.tone_map.adapts() { average() } else { KEY });
     let around =
         if look.tone_map == ToneMap::Local { local::surroundings(layer, image.size(), curve.scale, execution) } else { Vec::new() };
-    encode(&layer.values, &around, &curve, layer.values.len() / 4)
+    let mut out = Vec::with_capacity(layer.values.len());
+    for (number, values) in layer.values.chunks(4 * CHUNK).enumerate() {
+        encode(values, around.get(number * CHUNK..).unwrap_or_default(), &curve, &mut out);
+    }
+    out
 }
 
 #[inline(always)]
 fn bytes_batch<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve, out: &mut [u32]) {
-    for at in (0..out.len()).step_by(L::COUNT) {
+    for at in (0..values.len() / 4).step_by(L::COUNT) {
         let ([r, g, b], a) = pixels(l, values, around, curve, at);
         (whole(r, 255.0) | (whole(g, 255.0) << 8) | (whole(b, 255.0) << 16) | (whole(a, 255.0) << 24)).store(out, at);
     }
 }
 
 #[inline(always)]
-fn words_batch<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve, [first, second]: &mut [Vec<u32>; 2]) {
-    for at in (0..first.len()).step_by(L::COUNT) {
+fn words_batch<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve, [first, second]: &mut [[u32; CHUNK]; 2]) {
+    for at in (0..values.len() / 4).step_by(L::COUNT) {
         let ([r, g, b], a) = pixels(l, values, around, curve, at);
         (whole(r, 65_535.0) | (whole(g, 65_535.0) << 16)).store(first, at);
         (whole(b, 65_535.0) | (whole(a, 65_535.0) << 16)).store(second, at);
