@@ -8,7 +8,7 @@ use super::{
     sums::{Place, Rules, Sums},
 };
 use crate::{
-    integrator::{BATCH, FirstHit, TILE, code, tile_code},
+    integrator::{BATCH, FirstHit, TILE, code, tile_code, unpack},
     scene::{Aov, LightPart, Settings},
 };
 use std::{borrow::Cow, collections::BTreeMap, ops::Range};
@@ -187,7 +187,11 @@ impl Block {
         if let Some(first) = layout.catchers {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
-        let luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
+        for (channel, sums) in sums.chunks_exact_mut(BATCH).enumerate() {
+            unpack(zones, sums, film.plan.index_channels.contains(&channel));
+        }
+        let mut luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
+        unpack(zones, &mut luminance, false);
         Self { sums, zones, luminance }
     }
 }

@@ -7,7 +7,7 @@ use super::{
     kernels,
     material::{Mix, Shading, Tables},
     path::{SampleContext, Transport},
-    state::{Workspace, pixel},
+    state::Workspace,
     surface::ChunkSource,
 };
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 use gonio_simd::{F, Lanes, PADDING, Rgb, dispatch};
 
 /// Chooses closures for all hits on mixes: material numbers become surface numbers.
-pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace) {
+pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
     if tables.materials.mixes.is_empty() {
         return;
     }
@@ -47,7 +47,7 @@ pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &
 fn choose_chunk<L: Lanes>(
     l: L,
     tables: &Tables,
-    context: &SampleContext,
+    context: &SampleContext<'_>,
     mix: &Mix,
     order: &[u32; CHUNK + PADDING],
     count: usize,
@@ -59,8 +59,8 @@ fn choose_chunk<L: Lanes>(
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
-        let pixel = pixel(l.gather_integers(&ws.paths.slot, path));
-        let [u, _] = context.sampler.pair(l, context.sampler.index(l, pixel, context.sample), dimension);
+        let index = context.index(l, l.gather_integers(&ws.paths.slot, path));
+        let [u, _] = context.sampler.pair(l, index, dimension);
         let mut total = l.f(0.0);
         for closure in 0..mix.count {
             total += share(weight(l, &ws.outputs, closure, at));

@@ -4,7 +4,7 @@ use super::{
     bounce::scatter,
     direct_light::light,
     shade::{Point, Stage},
-    state::{Workspace, pixel},
+    state::Workspace,
 };
 use crate::{bsdf::subsurface, sampler::dimension};
 use gonio_simd::{Lanes, Vec3};
@@ -15,7 +15,7 @@ pub(super) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, base: u32,
     let Stage { l, tables, context, .. } = *stage;
     let lobes = subsurface::exit(l);
     let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);
-    let index = context.sampler.index(l, pixel(point.slot), context.sample);
+    let index = context.index(l, point.slot);
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if !tables.lights.is_empty() {
         let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);

@@ -1,15 +1,15 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
-use super::state::{BATCH, PathLanes, Paths, flag};
+use super::{
+    runs::Runs,
+    state::{PathLanes, Paths, flag},
+};
 use crate::{
     camera::CameraTable,
     film::FilterTable,
     sampler::{Sampler, dimension},
 };
 use gonio_simd::{F, Lanes, Rgb, U, Vec3};
-
-/// Pixels of a zone.
-const ZONE_PIXELS: u32 = BATCH as u32 / u64::BITS;
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -18,11 +18,9 @@ pub(crate) struct TileArea {
     pub(crate) min: [u32; 2],
     /// Behind the last column and row, at most [`super::TILE`] further.
     pub(crate) max: [u32; 2],
-    /// Bits of the runs of 64 pixels that are wanted.
-    pub(crate) zones: u64,
 }
 
-/// Starts a path through every pixel of a tile; four by four pixels follow one another, so that sixteen rays make a packet.
+/// Starts a path through every pixel of a tile that a batch holds; four by four pixels follow one another, so that sixteen rays make a packet.
 #[inline(always)]
 pub(crate) fn generate<L: Lanes>(
     l: L,
@@ -30,18 +28,18 @@ pub(crate) fn generate<L: Lanes>(
     filter: &FilterTable,
     sampler: &Sampler,
     area: TileArea,
-    sample: u32,
+    runs: &Runs,
     paths: &mut Paths,
 ) {
     paths.count = 0;
-    for first in (0..BATCH as u32).step_by(L::COUNT).filter(|first| area.zones >> (first / ZONE_PIXELS) & 1 == 1) {
-        let pixel = l.iota() + first;
+    for [slot, code, sample] in runs.registers(L::COUNT) {
+        let pixel = l.iota() + code;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
         let inside = (x + area.min[0]).lt(area.max[0]) & (y + area.min[1]).lt(area.max[1]);
         if !inside.any() {
             continue;
         }
-        let index = sampler.index(l, pixel, sample);
+        let index = sampler.index(pixel, l.u(sample));
         let [u, v] = sampler.pair(l, index, dimension::PIXEL);
         let lens = if camera.lens_radius > 0.0 { sampler.pair(l, index, dimension::LENS) } else { [l.f(0.5); 2] };
         let raster = [
@@ -60,7 +58,7 @@ pub(crate) fn generate<L: Lanes>(
             pdf: l.f(0.0),
             width: ray.width,
             spread: ray.spread,
-            slot: pixel,
+            slot: l.iota() + slot,
             flags: l.u(flag::CAMERA | flag::DELTA),
             counts: l.u(0),
             medium: Rgb::zero(l),

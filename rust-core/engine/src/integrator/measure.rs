@@ -32,12 +32,11 @@ struct Point<L: Lanes> {
 
 /// Lights the measured points and starts a path from each.
 #[inline(always)]
-pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace) {
+pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
     let count = ws.measure.count;
     for at in (0..count).step_by(L::COUNT) {
         let point = load_point(l, at, l.first(count - at), ws);
-        let pixel = point.slot - BATCH as u32;
-        let index = context.sampler.index(l, pixel, context.sample);
+        let index = context.index(l, point.slot);
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
         let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {

@@ -9,6 +9,7 @@ use super::{
     light_groups::GroupPasses,
     material::Tables,
     measure::measure,
+    runs::Runs,
     sensors::{SensorTable, place},
     shade::{Stage, shade_chunk},
     shader_passes::ShaderPasses,
@@ -18,7 +19,7 @@ use super::{
     surface::ChunkSource,
 };
 use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, light::KnownLights, sampler::Sampler};
-use gonio_simd::{Execution, Lanes, dispatch};
+use gonio_simd::{Execution, Lanes, U, dispatch};
 use std::{sync::Arc, time::Instant};
 
 /// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
@@ -89,12 +90,20 @@ impl Transport {
     }
 }
 
-/// Which sample is under way, and how deep its paths are.
+/// Which samples are under way, and how deep their paths are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SampleContext {
+pub(super) struct SampleContext<'a> {
     pub(super) sampler: Sampler,
-    pub(super) sample: u32,
+    pub(super) runs: &'a Runs,
     pub(super) depth: u32,
+}
+
+impl SampleContext<'_> {
+    /// The number in the sampler's sequence for the path of a slot.
+    #[inline(always)]
+    pub(super) fn index<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
+        self.runs.index(l, &self.sampler, slot)
+    }
 }
 
 /// Where paths start.
@@ -115,28 +124,26 @@ pub struct Tracer<'a> {
     pub start: Start<'a>,
     /// What does not change.
     pub transport: Transport,
-    /// Bits of the zones of the tile, runs of 64 Morton numbers, in which camera rays start.
-    pub zones: u64,
 }
 
 impl Tracer<'_> {
-    /// Adds one sample of every pixel in `[min, max)` (at most a tile's width) to the workspace's sums.
+    /// Adds the samples of a batch to the workspace's sums, those of pixels in `[min, max)` (at most a tile's width).
     ///
     /// `cancelled` is asked once a stage; a cancelled batch leaves the sums incomplete.
-    pub fn trace(&self, min: [u32; 2], max: [u32; 2], sample: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+    pub fn trace(&self, min: [u32; 2], max: [u32; 2], runs: &Runs, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
         let execution = self.transport.execution;
         let tile = [min[0] / super::TILE as u32, min[1] / super::TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
-        let area = TileArea { min, max, zones: self.zones };
+        let area = TileArea { min, max };
         let mut time = Instant::now();
         let first = match self.start {
             Start::Camera(camera, filter) => {
-                dispatch!(execution, l => generate(l, camera, filter, &sampler, area, sample, &mut ws.paths));
+                dispatch!(execution, l => generate(l, camera, filter, &sampler, area, runs, &mut ws.paths));
                 0
             }
             Start::Sensors(sensors) => {
-                dispatch!(execution, l => place(l, sensors, &sampler, area, sample, ws));
-                self.light_sensors(&SampleContext { sampler, sample, depth: 0 }, ws);
+                dispatch!(execution, l => place(l, sensors, &sampler, area, runs, ws));
+                self.light_sensors(&SampleContext { sampler, runs, depth: 0 }, ws);
                 1
             }
         };
@@ -145,7 +152,7 @@ impl Tracer<'_> {
             if ws.paths.count == 0 || cancelled() {
                 break;
             }
-            let context = SampleContext { sampler, sample, depth };
+            let context = SampleContext { sampler, runs, depth };
             intersect(self.tables, &self.transport, depth, ws);
             choose_closures(self.tables, &self.transport, &context, ws);
             sort_by_material(self.tables, ws);
@@ -167,7 +174,7 @@ impl Tracer<'_> {
     }
 
     /// Lights the sensors and starts their paths.
-    fn light_sensors(&self, context: &SampleContext, ws: &mut Workspace) {
+    fn light_sensors(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
         dispatch!(self.transport.execution, l => measure(l, self.tables, &self.transport, context, ws));
         trace_shadows(self.tables, &self.transport, true, ws);
         std::mem::swap(&mut ws.paths, &mut ws.next);
@@ -176,7 +183,7 @@ impl Tracer<'_> {
     }
 
     /// Shades all surface hits, material by material, a chunk at a time.
-    fn shade(&self, context: &SampleContext, ws: &mut Workspace) {
+    fn shade(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
         let mut first = 0;
         for material in 0..self.tables.materials.surfaces.len() {
             let end = ws.material_start[material + 1] as usize;
@@ -189,7 +196,7 @@ impl Tracer<'_> {
     }
 
     #[inline(always)]
-    fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext, material: usize, first: usize, count: usize, ws: &mut Workspace) {
+    fn shade_one<L: Lanes>(&self, l: L, context: &SampleContext<'_>, material: usize, first: usize, count: usize, ws: &mut Workspace) {
         let shader = ws.shader_program(&self.transport, material, first, count);
         let material = &self.tables.materials.surfaces[material];
         let start = Instant::now();

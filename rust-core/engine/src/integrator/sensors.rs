@@ -5,7 +5,8 @@
 
 use super::{
     generate::{TileArea, morton_even},
-    state::{BATCH, PathLanes, TILE, Workspace, append3, flag, gather3},
+    runs::Runs,
+    state::{PathLanes, TILE, Workspace, append3, flag, gather3},
 };
 use crate::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes, Rgb};
@@ -94,10 +95,10 @@ impl SensorTable {
 
 /// Lists the points that the tile's sensors measure this time, and starts the paths of those that look.
 #[inline(always)]
-pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, sample: u32, ws: &mut Workspace) {
+pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, runs: &Runs, ws: &mut Workspace) {
     (ws.paths.count, ws.next.count, ws.measure.count) = (0, 0, 0);
-    for first in (0..BATCH as u32).step_by(L::COUNT) {
-        let pixel = l.iota() + first;
+    for [slot, code, sample] in runs.registers(L::COUNT) {
+        let (slot, pixel) = (l.iota() + slot, l.iota() + code);
         let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
         let sensor = ((y >> sensors.side_log2) << sensors.across_log2) + (x >> sensors.side_log2);
         let inside = x.lt(area.max[0]) & y.lt(area.max[1]) & sensor.lt(sensors.count);
@@ -105,7 +106,7 @@ pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
             continue;
         }
         let sensor = sensor.keep_if(inside);
-        let [u, _] = sampler.pair(l, sampler.index(l, pixel, sample), dimension::PIXEL);
+        let [u, _] = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
         let (sin, cos) = ((u * 2.0 - 1.0) * l.gather(&sensors.turn, sensor)).sin_cos();
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
@@ -119,7 +120,7 @@ pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
         append3(normal, chosen, &mut points.shading_normal, count);
         append3(Rgb::grey(l.f(1.0)).into(), chosen, &mut points.throughput, count);
         l.f(0.0).append(chosen, &mut points.width, count);
-        pixel.append(chosen, &mut points.slot, count);
+        slot.append(chosen, &mut points.slot, count);
         points.count += chosen.count();
         let state = PathLanes {
             origin: position,
@@ -132,7 +133,7 @@ pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
             pdf: l.f(0.0),
             width: l.f(0.0),
             spread: l.f(0.0),
-            slot: pixel,
+            slot,
             flags: l.u(flag::CAMERA | flag::DELTA),
             counts: l.u(0),
             medium: Rgb::zero(l),

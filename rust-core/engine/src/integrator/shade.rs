@@ -12,7 +12,7 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::{SampleContext, Transport},
     scatter::{add_light, code_of},
-    state::{Workspace, flag, gather3, load3, pixel},
+    state::{Workspace, flag, gather3, load3},
 };
 use crate::{
     bsdf::{Hits, Lobes, ParameterValues, normals::Normals, parameter::COUNT},
@@ -74,7 +74,7 @@ pub(super) struct Stage<'a, L> {
     pub(super) l: L,
     pub(super) tables: &'a Tables,
     pub(super) transport: &'a Transport,
-    pub(super) context: &'a SampleContext,
+    pub(super) context: &'a SampleContext<'a>,
     /// What computed the chunk's shader passes, where any are wanted.
     pub(super) shader: Option<&'a Program>,
 }
@@ -169,7 +169,7 @@ fn shade_lanes<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, context, .. } = *stage;
-    let index = context.sampler.index(l, pixel(point.slot), context.sample);
+    let index = context.index(l, point.slot);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
     let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
     let present = if material.surface.lobes.cut_out {

@@ -9,7 +9,7 @@ use super::{
     material::Tables,
     path::{SampleContext, Transport},
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3, pixel},
+    state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3},
     surface::{ChunkSource, store3},
 };
 use crate::{
@@ -133,7 +133,7 @@ impl Walks {
 }
 
 /// Walks until all walks are out or lost; those that are out are lit and scatter.
-pub(super) fn walk(tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+pub(super) fn walk(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
     for step in 0..MAXIMUM_STEPS {
         if ws.walks.count == 0 || cancelled() {
             break;
@@ -155,19 +155,18 @@ pub(super) fn walk(tables: &Tables, transport: &Transport, context: &SampleConte
 }
 
 /// The random numbers of a step: two pairs beyond those of all surfaces.
-fn step_dimension(context: &SampleContext, step: u32) -> u32 {
+fn step_dimension(context: &SampleContext<'_>, step: u32) -> u32 {
     (1 << 16) + (context.depth * MAXIMUM_STEPS + step) * 2
 }
 
 #[inline(always)]
-fn random<L: Lanes>(l: L, context: &SampleContext, slot: U<L>, dimension: u32) -> [F<L>; 2] {
-    let index = context.sampler.index(l, pixel(slot), context.sample);
-    context.sampler.pair(l, index, dimension)
+fn random<L: Lanes>(l: L, context: &SampleContext<'_>, slot: U<L>, dimension: u32) -> [F<L>; 2] {
+    context.sampler.pair(l, context.index(l, slot), dimension)
 }
 
 /// Draws the length of every walk's next flight.
 #[inline(always)]
-fn fly<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks) {
+fn fly<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
         if step == REDUCED_FROM {
@@ -209,7 +208,7 @@ fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
 }
 
 /// Lights the walks that reached the surface and sends them on, a chunk at a time.
-fn come_out(tables: &Tables, transport: &Transport, context: &SampleContext, ws: &mut Workspace) {
+fn come_out(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
     let out = std::mem::take(&mut ws.out);
     let nothing = Program::default();
     for chunk in out.chunks(CHUNK) {
@@ -226,7 +225,7 @@ fn come_out_chunk<L: Lanes>(
     l: L,
     tables: &Tables,
     transport: &Transport,
-    context: &SampleContext,
+    context: &SampleContext<'_>,
     program: &Program,
     order: &[u32; CHUNK + PADDING],
     count: usize,
@@ -274,7 +273,7 @@ fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Worksp
 
 /// Scatters the walks that are still inside and closes the ranks.
 #[inline(always)]
-fn turn<L: Lanes>(l: L, context: &SampleContext, step: u32, walks: &mut Walks, hits: &Hits) {
+fn turn<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks, hits: &Hits) {
     let count = walks.count;
     walks.count = 0;
     for at in (0..count).step_by(L::COUNT) {

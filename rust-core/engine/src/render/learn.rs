@@ -2,7 +2,7 @@
 
 use crate::{
     compile::{CompiledScene, View},
-    integrator::{Start, TILE, Tracer, Workspace},
+    integrator::{Runs, Start, TILE, Tracer, Workspace},
     light::KnownLights,
     scene::{Aov, Settings},
 };
@@ -28,7 +28,7 @@ pub(super) fn learn(
         return None;
     }
     let View { camera, filter, transport, window, .. } = View::new(scene, &reduced(settings, SIDE, SAMPLES), execution).ok()?;
-    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport, zones: u64::MAX };
+    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport };
     let mut workspace = Workspace::default();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     workspace.arrivals = Some(Vec::new());
@@ -36,7 +36,7 @@ pub(super) fn learn(
         for x in (window.min[0]..window.max[0]).step_by(TILE) {
             let end = [(x + TILE as u32).min(window.max[0]), (y + TILE as u32).min(window.max[1])];
             for sample in 0..SAMPLES {
-                tracer.trace([x, y], end, sample, &mut workspace, cancelled);
+                tracer.trace([x, y], end, &Runs::whole(sample), &mut workspace, cancelled);
                 if cancelled() {
                     return None;
                 }

@@ -3,7 +3,7 @@
 use super::learn::reduced;
 use crate::{
     compile::{CompiledScene, View},
-    integrator::{BATCH, Start, TILE, Tracer, Workspace},
+    integrator::{BATCH, Runs, Start, TILE, Tracer, Workspace},
     output::KEY,
     scene::Settings,
 };
@@ -21,11 +21,11 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
     }
     let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, SAMPLES), execution) else { return 1.0 };
     let start = Start::Camera(&view.camera, &view.filter);
-    let tracer = Tracer { tables: &scene.tables, start, transport: view.transport, zones: u64::MAX };
+    let tracer = Tracer { tables: &scene.tables, start, transport: view.transport };
     let mut workspace = Workspace::default();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     for sample in 0..SAMPLES {
-        tracer.trace(view.window.min, view.window.max, sample, &mut workspace, cancelled);
+        tracer.trace(view.window.min, view.window.max, &Runs::whole(sample), &mut workspace, cancelled);
     }
     let [red, green, blue] = &workspace.first_hit.radiance;
     let luminance = (0..BATCH).map(|i| 0.2126 * f64::from(red[i]) + 0.7152 * f64::from(green[i]) + 0.0722 * f64::from(blue[i]));

@@ -3,7 +3,7 @@
 use super::{Learned, Shared, TileReady, learn::learn, meter::meter, schedule::Work, source::Source};
 use crate::{
     film::Block,
-    integrator::{Tracer, Transport, Workspace},
+    integrator::{Runs, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{
@@ -43,10 +43,10 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
     let Learned { known, white } = shared.learned.get_or_init(learned).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
-    let tracer = Tracer { tables, start: shared.source.start(), transport, zones };
+    let tracer = Tracer { tables, start: shared.source.start(), transport };
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
-    for sample in work.samples.clone() {
-        tracer.trace(area.min, area.max, sample, workspace, &cancelled);
+    for runs in Runs::batches(zones, work.samples.clone()) {
+        tracer.trace(area.min, area.max, &runs, workspace, &cancelled);
         if cancelled() {
             return;
         }

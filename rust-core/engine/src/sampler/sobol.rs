@@ -24,9 +24,9 @@ impl Sampler {
 
     /// The number in the tile's sequence of a sample of a pixel, the pixel given by its Morton number in the tile.
     #[inline(always)]
-    pub fn index<L: Lanes>(&self, l: L, pixel: U<L>, sample: u32) -> U<L> {
+    pub fn index<L: Lanes>(&self, pixel: U<L>, sample: U<L>) -> U<L> {
         // Samples beyond the announced number wrap into other scrambles of the same block.
-        (pixel << self.log2_samples) | l.u(sample & ((1 << self.log2_samples) - 1))
+        (pixel << self.log2_samples) | (sample & ((1 << self.log2_samples) - 1))
     }
 
     /// Two numbers in [0, 1) of a pair of dimensions.
@@ -89,7 +89,7 @@ mod tests {
     use gonio_simd::One;
 
     fn points(sampler: &Sampler, pixel: u32, count: u32, dimension: u32) -> Vec<[f32; 2]> {
-        let at = |sample| sampler.pair(One, sampler.index(One, U(pixel), sample), dimension);
+        let at = |sample| sampler.pair(One, sampler.index::<One>(U(pixel), U(sample)), dimension);
         (0..count).map(at).map(|[x, y]| [x.0, y.0]).collect()
     }
 

@@ -8,7 +8,7 @@ use crate::{
     },
     compile::View,
     error::Result,
-    integrator::{BATCH, Paths, TILE, TileArea, generate},
+    integrator::{BATCH, Paths, Runs, TILE, TileArea, generate},
     sampler::Sampler,
     scene::Settings,
 };
@@ -36,8 +36,8 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
 impl Kernel for Generation {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let Self { view, sampler, paths } = self;
-        let area = TileArea { min: [0; 2], max: [TILE as u32; 2], zones: u64::MAX };
-        dispatch!(execution, l => generate(l, &view.camera, &view.filter, sampler, area, 0, paths));
+        let area = TileArea { min: [0; 2], max: [TILE as u32; 2] };
+        dispatch!(execution, l => generate(l, &view.camera, &view.filter, sampler, area, &Runs::whole(0), paths));
         Ok(())
     }
     fn outcome(&self) -> Outcome {
