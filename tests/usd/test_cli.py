@@ -11,7 +11,7 @@ import pytest
 OPTIONS = """--purposes --complexity --mask --variant --session-layer --settings --strict --verbose --output --camera --frames --res --image-width
 --res-scale --spp --max-bounces --integrator --filter --filter-width --aov --exposure --tonemap --crop --time-limit --seed --threads
 --clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet --noise-threshold --min-spp --checkpoint
---checkpoint-every --resume --samples --denoise""".split()
+--checkpoint-every --resume --samples --denoise --white --adaptation --color-space""".split()
 
 SETTINGS = """
 def RenderSettings "Settings"
@@ -392,6 +392,10 @@ def test_exposure_and_tone_map_change_the_png_alone(run, room, tmp_path):
         "darker": ("--exposure", "-2"),
         "none": ("--tonemap", "none"),
         "ev": ("--tonemap", "ev100=5"),
+        "local": ("--tonemap", "local"),
+        "white": ("--white", "2"),
+        "wide": ("--color-space", "display-p3"),
+        "absolute": ("--color-space", "rec2020-pq"),
     }.items():
         other = both(name, *options)
         assert same(plain[0], other[0]), name
@@ -401,6 +405,33 @@ def test_exposure_and_tone_map_change_the_png_alone(run, room, tmp_path):
 @pytest.mark.parametrize("operator", ["filmic", "ev100=", "ev100=x", "ev100=nan"])
 def test_bad_tone_map(run, room, tmp_path, operator):
     assert "tonemap" in fails(run, "render", room, "-o", tmp_path / "a.png", "--tonemap", operator)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"), [("--white", "0"), ("--adaptation", "-1"), ("--adaptation", "nan"), ("--color-space", "p3"), ("--exposure", "inf")]
+)
+def test_bad_looks(run, room, tmp_path, option, value):
+    assert option.lstrip("-") in fails(run, "render", room, "-o", tmp_path / "a.png", option, value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_jpeg_is_srgb(run, room, tmp_path):
+    assert "JPEG files are sRGB" in fails(run, "render", room, "-o", tmp_path / "a.jpg", "--color-space", "display-p3")
+
+
+def test_eyes_adapt_to_the_frames_of_an_animation(run, tmp_path):
+    lamp = pictures.LAMP.replace("inputs:intensity = 400", "inputs:intensity.timeSamples = { 1: 400, 2: 40000 }")
+    stage = pictures.stage(tmp_path / "lamp.usda", pictures.ROOM, lamp, pictures.camera())
+
+    def frames(name, *options):
+        done = run("render", stage, "-f", "1:2", "-o", tmp_path / f"{name}.#.png", "--res", 16, 16, "--spp", 4, *options)
+        assert done.returncode == 0, done.stderr
+        return [(tmp_path / f"{name}.{frame}.png").read_bytes() for frame in (1, 2)]
+
+    alone, quick = frames("alone"), frames("quick", "--adaptation", 0)
+    slow, still = frames("slow", "--adaptation", 0.1), frames("still", "--adaptation", "inf")
+    assert alone == quick and alone[0] == slow[0] == still[0]
+    assert len({alone[1], slow[1], still[1]}) == 3
 
 
 def test_folders_of_the_output_are_made(run, room, tmp_path):

@@ -3,7 +3,7 @@
 use crate::{error::exception, pass::Pass, picture::flat};
 use gonio::{
     film::{Image, Layer, channel_names},
-    output::{ExrOptions, ToneMap, write_exr, write_picture},
+    output::{DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_exr, write_picture},
 };
 use gonio_simd::Execution;
 use pyo3::{
@@ -96,17 +96,27 @@ impl Film {
         let options = ExrOptions { half, exposure: self.exposure, ..ExrOptions::default() };
         py.detach(|| write_exr(&path, &self.image, &options)).map_err(exception)
     }
-    /// Writes the tone-mapped colour pass as PNG or JPEG; `tonemap` is "photographic" or "none".
-    #[pyo3(signature = (path, tonemap = "photographic", exposure = 0.0))]
-    fn write_picture(&self, py: Python<'_>, path: PathBuf, tonemap: &str, exposure: f32) -> PyResult<()> {
-        let operator = match tonemap {
-            "photographic" => ToneMap::Photographic,
-            "none" => ToneMap::None,
-            other => {
-                let problem = format!("'{other}' was found, expected photographic or none");
-                return Err(exception(gonio::Error::Setting { name: "tonemap".into(), problem }));
-            }
-        };
-        py.detach(|| write_picture(&path, &self.image, operator, exposure, Execution::detect())).map_err(exception)
+    /// The log-average luminance of the colour pass, which the photographic operators adapt to.
+    fn log_average(&self, py: Python<'_>) -> f32 {
+        py.detach(|| log_average(&self.image, Execution::detect()))
+    }
+    /// Writes the tone-mapped colour pass as PNG or JPEG. `tonemap` is "photographic", "local", "none" or "ev100=NUMBER", `exposure` brightens by
+    /// powers of two, `white` is the luminance that becomes white where the log-average is 0.18; `adapted` takes the place of the picture's own
+    /// log-average; `space` is "srgb", "display-p3" or "rec2020-pq" (16 bits, absolute luminance).
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[pyo3(signature = (path, tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None, space = "srgb"))]
+    fn write_picture(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        tonemap: &str,
+        exposure: f32,
+        white: f32,
+        adapted: Option<f32>,
+        space: &str,
+    ) -> PyResult<()> {
+        let look = || Look::new(ToneMap::by_name(tonemap)?, exposure, white, adapted, DisplaySpace::by_name(space)?);
+        let look = look().map_err(exception)?;
+        py.detach(|| write_picture(&path, &self.image, &look, Execution::detect())).map_err(exception)
     }
 }

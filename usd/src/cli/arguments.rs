@@ -179,9 +179,18 @@ pub(super) struct OutputArguments {
     /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
     pub(super) exposure: f32,
-    /// How radiance becomes display values: 'photographic', 'none' (sRGB as it is), or 'ev100=12'.
+    /// How radiance becomes display values: 'photographic', 'local' (the same, compressed by each pixel's surroundings), 'none' (the display's curve as it is), or 'ev100=12'.
     #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
     pub(super) tonemap: String,
+    /// Luminance that the photographic operators show as white, where the picture's log-average is 0.18.
+    #[arg(long, value_name = "LUMINANCE", default_value_t = 6.0, allow_hyphen_values = true)]
+    pub(super) white: f32,
+    /// Seconds in which the photographic operators follow the brightness of an animation's frames; 'inf' stays with the first. Without it each frame is by itself.
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub(super) adaptation: Option<f64>,
+    /// What display values mean: srgb, display-p3 or rec2020-pq (PNG with 16 bits, 203 cd/m² for white without tone mapping).
+    #[arg(long = "color-space", value_name = "SPACE", default_value = "srgb")]
+    pub(super) color_space: String,
     /// Half floats for the passes of EXR files that are not absolute.
     #[arg(long)]
     pub(super) half: bool,

@@ -9,7 +9,7 @@ use super::{
 use gonio::{
     Error, Result,
     film::{Image, Layer},
-    output::{Canvas, FalseColour, FalseColourScale, ToneMap, display, encode_png, write_atomically},
+    output::{Canvas, FalseColour, FalseColourScale, Look, display, encode_png, write_atomically},
     scene::{Aov, Crop},
 };
 use gonio_simd::Execution;
@@ -66,5 +66,5 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
         samples: 1,
         mean_samples: 1.0,
     };
-    Ok(Canvas { rgba: display(&image, ToneMap::Photographic, 0.0, Execution::detect()), size: picture.size })
+    Ok(Canvas { rgba: display(&image, &Look::default(), Execution::detect()), size: picture.size })
 }

@@ -4,17 +4,22 @@ use super::{arguments::OutputArguments, denoise::Denoiser, print};
 use gonio::{
     Error, Result,
     film::Image,
-    output::{ExrOptions, ToneMap, write_exr, write_picture},
+    output::{Adaptation, DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_exr, write_picture},
     scene::{Aov, Settings},
 };
 use gonio_simd::Execution;
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
+};
 
 /// What a file says about its picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Notes<'a> {
     /// Exposure of the camera.
     pub(super) exposure: f32,
+    /// When the picture is, seconds.
+    pub(super) time: f64,
     /// The render did not end by itself, and somebody waits.
     pub(super) interrupted: bool,
     /// Further text attributes.
@@ -24,8 +29,9 @@ pub(super) struct Notes<'a> {
 /// What file names and options say about writing.
 #[derive(Debug)]
 pub(super) struct Writer {
-    tone_map: ToneMap,
-    stops: f32,
+    look: Look,
+    /// What follows the brightness of an animation's frames.
+    eye: Option<Mutex<Adaptation>>,
     half: bool,
     denoiser: Option<Denoiser>,
     execution: Execution,
@@ -42,13 +48,24 @@ impl Writer {
                     problem: format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display()),
                 });
             }
+            if matches!(ending.as_str(), "jpg" | "jpeg") && options.color_space != "srgb" {
+                let problem = format!("{}: JPEG files are sRGB, '{}' goes to PNG", path.display(), options.color_space);
+                return Err(Error::setting("color-space", problem));
+            }
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
             if let Some(folder) = folder {
                 std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
             }
         }
         let denoiser = options.denoise.then(Denoiser::new).transpose()?;
-        Ok(Self { tone_map: tone_map(&options.tonemap)?, stops: options.exposure, half: options.half, denoiser, execution })
+        let (tone_map, space) = (ToneMap::by_name(&options.tonemap)?, DisplaySpace::by_name(&options.color_space)?);
+        let look = Look::new(tone_map, options.exposure, options.white, None, space)?;
+        let seconds = options.adaptation.filter(|_| tone_map.adapts());
+        if let Some(wrong) = seconds.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
+            return Err(Error::setting("adaptation", format!("{wrong} was found, expected seconds from 0 on")));
+        }
+        let eye = seconds.map(|seconds| Mutex::new(Adaptation::new(seconds)));
+        Ok(Self { look, eye, half: options.half, denoiser, execution })
     }
 
     /// Asks for the passes that writing needs; gives those that no file shows.
@@ -63,8 +80,9 @@ impl Writer {
 
     /// Writes all files at once: the wait is that for the slowest.
     pub(super) fn write_all(&self, paths: &[PathBuf], image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
+        let look = self.look_at(image, about.time);
         let written: Vec<Result<()>> = std::thread::scope(|scope| {
-            let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, about))).collect();
+            let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, &look, about))).collect();
             let broken = |_| Err(Error::Internal("the writing of a file broke off".into()));
             writers.into_iter().map(|writer| writer.join().unwrap_or_else(broken)).collect()
         });
@@ -77,27 +95,23 @@ impl Writer {
         Ok(())
     }
 
+    /// How a picture is shown, by an eye that has adapted to those before it.
+    fn look_at(&self, image: &Image, time: f64) -> Look {
+        let adapted = self.eye.as_ref().map(|eye| {
+            let measured = log_average(image, self.execution);
+            eye.lock().unwrap_or_else(PoisonError::into_inner).follow(measured, time)
+        });
+        Look { adapted, ..self.look }
+    }
+
     /// Writes one file.
-    fn write(&self, path: &Path, image: &Image, about: &Notes<'_>) -> Result<()> {
+    fn write(&self, path: &Path, image: &Image, look: &Look, about: &Notes<'_>) -> Result<()> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-            let Notes { exposure, interrupted, attributes } = *about;
+            let Notes { exposure, interrupted, attributes, .. } = *about;
             let options = ExrOptions { half: self.half, exposure, hasty: interrupted, attributes: attributes.to_vec() };
             write_exr(path, image, &options)
         } else {
-            write_picture(path, image, self.tone_map, self.stops, self.execution)
-        }
-    }
-}
-
-fn tone_map(text: &str) -> Result<ToneMap> {
-    let unknown =
-        || Error::Setting { name: "tonemap".into(), problem: format!("'{text}' was found, expected photographic, none or ev100=NUMBER") };
-    match text {
-        "photographic" => Ok(ToneMap::Photographic),
-        "none" => Ok(ToneMap::None),
-        _ => {
-            let ev = text.strip_prefix("ev100=").and_then(|ev| ev.parse::<f32>().ok()).filter(|ev| ev.is_finite());
-            ev.map(ToneMap::Ev100).ok_or_else(unknown)
+            write_picture(path, image, look, self.execution)
         }
     }
 }

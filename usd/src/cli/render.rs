@@ -57,10 +57,11 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
         let start = Instant::now();
         let loaded = stage.load(py, &stage_options, interrupted)?;
         let loading = start.elapsed();
+        let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
         let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
         let outputs = options.files.output.iter().map(of_frame).collect();
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
-        let job = Job { options, writer: &writer, execution, outputs, checkpoint, loading, interrupted };
+        let job = Job { options, writer: &writer, execution, outputs, checkpoint, loading, time, interrupted };
         let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
         previous = Some(compiled);
     }
@@ -123,6 +124,8 @@ struct Job<'a> {
     outputs: Vec<PathBuf>,
     checkpoint: Option<PathBuf>,
     loading: Duration,
+    /// Of the frame, seconds.
+    time: f64,
     interrupted: &'static AtomicBool,
 }
 
@@ -287,7 +290,7 @@ impl Job<'_> {
     /// Writes all files at once: the wait is that for the slowest.
     fn write(&self, scene: &Scene, image: &gonio::film::Image, interrupted: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
-        let notes = Notes { exposure, interrupted, attributes: &self.attributes(scene) };
+        let notes = Notes { exposure, time: self.time, interrupted, attributes: &self.attributes(scene) };
         self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
     }
 

@@ -7,14 +7,14 @@ use crate::{
     },
     error::Result,
     film::{Image, Layer},
-    output::{ToneMap, WHITE, display, map_lanes},
+    output::{KEY, Look, ToneCurve, display, map_lanes},
     scene::{Aov, Crop},
 };
 use gonio_simd::{Column, Execution, Lanes, Rgb, dispatch};
 use std::hint::black_box;
 
-/// Pixels a side of the picture.
-const SIDE: u32 = 256;
+/// Width and height of the picture in pixels.
+const SIZE: [u32; 2] = [3840, 2160];
 
 /// The photographic operator and the sRGB curve.
 struct Curve {
@@ -32,28 +32,29 @@ pub(super) fn cases() -> Vec<Case> {
     let mut radiance = cube();
     // Two decades about the key.
     radiance.iter_mut().for_each(|column| column.iter_mut().for_each(|x| *x = 0.01 * 100f32.powf(*x)));
-    let pixels = SIDE * SIDE;
-    let values = (0..pixels as usize).flat_map(|i| [radiance[0][i % BATCH], radiance[1][i % BATCH], radiance[2][i % BATCH], 1.0]).collect();
+    let pixels = (SIZE[0] * SIZE[1]) as usize;
+    let values = (0..pixels).flat_map(|i| [radiance[0][i % BATCH], radiance[1][i % BATCH], radiance[2][i % BATCH], 1.0]).collect();
     let layers = vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }];
-    let image = Image { resolution: [SIDE; 2], window: Crop { min: [0; 2], max: [SIDE; 2] }, layers, samples: 1, mean_samples: 1.0 };
+    let image = Image { resolution: SIZE, window: Crop { min: [0; 2], max: SIZE }, layers, samples: 1, mean_samples: 1.0 };
     vec![
         Case::new("photographic curve", "pixel", BATCH, Curve { radiance, out: columns3() }),
-        Case::new("film to bytes", "pixel", pixels as usize, Display { image, bytes: Vec::new() }),
+        Case::new("film to bytes", "pixel", pixels, Display { image, bytes: Vec::new() }),
     ]
 }
 
 #[inline(always)]
 fn map<L: Lanes>(l: L, radiance: &[Column; 3], out: &mut [Column; 3]) {
     let ([r, g, b], [x, y, z]) = (radiance, out);
+    let curve = ToneCurve::new(&Look::default(), KEY);
     for at in (0..BATCH).step_by(L::COUNT) {
-        map_lanes(Rgb::load(l, [r, g, b], at), 1.0, true).store([x, y, z], at);
+        map_lanes(Rgb::load(l, [r, g, b], at), None, &curve).store([x, y, z], at);
     }
 }
 
 /// The same pixel by pixel.
-fn map_standard(colour: [f32; 3]) -> [f32; 3] {
+fn map_standard(colour: [f32; 3], white: f32) -> [f32; 3] {
     let y = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
-    let factor = (y / (WHITE * WHITE) + 1.0) / (y + 1.0);
+    let factor = (y / (white * white) + 1.0) / (y + 1.0);
     colour.map(|x| {
         let x = (x * factor).clamp(0.0, 1.0);
         if x < 0.003_130_8 { x * 12.92 } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
@@ -70,8 +71,9 @@ impl Kernel for Curve {
         true
     }
     fn run_standard(&mut self) {
+        let white = Look::default().white;
         for i in (0..BATCH).map(black_box) {
-            let mapped = map_standard([self.radiance[0][i], self.radiance[1][i], self.radiance[2][i]]);
+            let mapped = map_standard([self.radiance[0][i], self.radiance[1][i], self.radiance[2][i]], white);
             (self.out[0][i], self.out[1][i], self.out[2][i]) = (mapped[0], mapped[1], mapped[2]);
         }
     }
@@ -82,7 +84,7 @@ impl Kernel for Curve {
 
 impl Kernel for Display {
     fn run(&mut self, execution: Execution) -> Result<()> {
-        self.bytes = display(&self.image, ToneMap::Photographic, 0.0, execution);
+        self.bytes = display(&self.image, &Look::default(), execution);
         Ok(())
     }
     fn outcome(&self) -> Outcome {

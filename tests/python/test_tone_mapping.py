@@ -1,0 +1,89 @@
+"""Looks of pictures from Python: operators, white, adaptation and colour spaces of PNG files."""
+
+import struct
+import zlib
+
+import numpy as np
+import pytest
+from small_scenes import finished, floor_scene
+
+gonio = pytest.importorskip("gonio")
+
+
+@pytest.fixture(scope="module")
+def film():
+    return finished(floor_scene(width=24, height=16, samples=8))
+
+
+def png(path):
+    """Pixels (height, width, 4) and the chunks of a PNG file."""
+    data, at, chunks = path.read_bytes(), 8, {}
+    while at < len(data):
+        (length,), kind = struct.unpack(">I", data[at : at + 4]), data[at + 4 : at + 8]
+        body = data[at + 8 : at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length : at + 12 + length])[0] == zlib.crc32(kind + body)
+        chunks[kind] = chunks.get(kind, b"") + body
+        at += 12 + length
+    width, height, depth = struct.unpack(">IIB", chunks[b"IHDR"][:9])
+    size, rows = 4 * depth // 8, zlib.decompress(chunks[b"IDAT"])
+    line = np.frombuffer(rows, np.uint8).reshape(height, 1 + width * size)
+    pixels = np.zeros((height, width * size), np.uint8)
+    for y in range(height):
+        pixels[y] = unfiltered(line[y, 0], line[y, 1:], pixels[y - 1] if y else np.zeros(width * size, np.uint8), size)
+    return pixels.view(">u2" if depth == 16 else np.uint8).reshape(height, width, 4), chunks
+
+
+def unfiltered(kind, line, above, size):
+    """A row of a PNG file without its filter."""
+    row = np.zeros(len(line), int)
+    for x, value in enumerate(line.astype(int)):
+        left, up, corner = (row[x - size] if x >= size else 0), int(above[x]), (int(above[x - size]) if x >= size else 0)
+        paeth = min((left, up, corner), key=lambda each: abs(left + up - corner - each))
+        row[x] = (value + (0, left, up, (left + up) // 2, paeth)[kind]) % 256
+    return row.astype(np.uint8)
+
+
+def shown(film, path, **look):
+    film.write_picture(path, **look)
+    return png(path)
+
+
+def test_the_default_is_the_photographic_operator(film, tmp_path):
+    color = np.asarray(film["color"]).astype("f8")[..., :3] * 0.18 / film.log_average()
+    luminance = color @ [0.2126, 0.7152, 0.0722]
+    value = np.clip(color * ((1 + luminance / 36) / (1 + luminance))[..., None], 0, 1)
+    expected = np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1 / 2.4) - 0.055)
+    pixels, chunks = shown(film, tmp_path / "a.png")
+    assert np.abs(pixels[..., :3] - 255 * expected).max() < 0.51
+    assert b"cICP" not in chunks
+
+
+def test_adapted_eyes_and_white(film, tmp_path):
+    usual, _ = shown(film, tmp_path / "a.png")
+    same, _ = shown(film, tmp_path / "b.png", adapted=film.log_average(), white=6.0)
+    brighter, _ = shown(film, tmp_path / "c.png", adapted=0.5 * film.log_average())
+    stops, _ = shown(film, tmp_path / "d.png", exposure=1.0)
+    earlier_white, _ = shown(film, tmp_path / "e.png", white=1.0)
+    assert np.array_equal(usual, same) and np.array_equal(brighter, stops)
+    assert brighter.sum() > usual.sum() and earlier_white.sum() > usual.sum()
+
+
+def test_colour_spaces_say_what_they_are(film, tmp_path):
+    wide, chunks = shown(film, tmp_path / "a.png", space="display-p3")
+    assert chunks[b"cICP"] == bytes([12, 13, 0, 1]) and wide.dtype == np.uint8
+    absolute, chunks = shown(film, tmp_path / "b.png", space="rec2020-pq")
+    assert chunks[b"cICP"] == bytes([9, 16, 0, 1]) and absolute.dtype.itemsize == 2
+    # A display value of 1 is 203 cd/m²: 0.5807 of the curve.
+    white = film.with_pass("color", np.full((16, 24, 4), 1.0, "f4"))
+    pixels, _ = shown(white, tmp_path / "c.png", space="rec2020-pq", tonemap="none")
+    assert pixels[..., :3] / 65535 == pytest.approx(0.5807, abs=1e-4)
+
+
+def test_operators_by_name(film, tmp_path):
+    for tonemap in ("local", "none", "ev100=9.5"):
+        film.write_picture(tmp_path / "a.jpg", tonemap=tonemap)
+    for wrong in ({"tonemap": "filmic"}, {"space": "p3"}, {"white": 0.0}, {"adapted": -1.0}, {"exposure": float("nan")}):
+        with pytest.raises(gonio.SettingError):
+            film.write_picture(tmp_path / "a.png", **wrong)
+    with pytest.raises(gonio.SettingError, match="JPEG files are sRGB"):
+        film.write_picture(tmp_path / "a.jpg", space="display-p3")
