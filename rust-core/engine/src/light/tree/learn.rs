@@ -19,9 +19,9 @@ pub struct Arrival {
 /// A cell is this part of the way to the lights wide, in the median.
 const CELL: f32 = 0.3;
 /// Most draws that are among known lights, however sure: the others find what was overlooked.
-const MOST_CERTAIN: f32 = 0.97;
+const MOST_CERTAIN: f32 = 0.99;
 /// After so many arrivals half of what they tell is trusted.
-const DOUBTS: f32 = 4.0;
+const DOUBTS: f32 = 2.0;
 
 /// An arrival in its cell.
 #[derive(Clone, Copy, Debug)]

@@ -1,21 +1,43 @@
 //! One point's way through the tree, with nodes in the lanes instead of points: for the few points of a register that need it.
 
-use super::{Below, Drawn, LightTree, Node, Receiver, TOP, draw};
+use super::{Below, Drawn, LightTree, Node, Receiver, TOP, below_one};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Room for the estimates of the top and of the lights at infinity, written a register at a time.
 const ROOM: usize = 1 + TOP + 16;
 
-/// Draws one of the weights.
+/// Weights that are added up together: sums of several groups do not wait for one another.
+const GROUP: usize = 8;
+
+/// Draws one of the weights: first a group of them, then one of it.
 #[inline(always)]
 fn draw_one(weights: &[f32], u: F<One>) -> Drawn<One> {
-    let mut lanes = [F(0.0); ROOM];
-    let mut total = F(0.0);
-    for (lane, weight) in lanes.iter_mut().zip(weights) {
-        *lane = F(*weight);
-        total += *lane;
+    let mut sums = [0.0; ROOM.div_ceil(GROUP)];
+    for (sum, group) in sums.iter_mut().zip(weights.chunks(GROUP)) {
+        *sum = group.iter().sum();
     }
-    draw(One, &lanes[..weights.len()], total, u)
+    let total: f32 = sums.iter().sum();
+    let target = u.0 * total;
+    let (group, before) = reached(&sums, 0.0, target);
+    let first = group * GROUP;
+    let members = weights.get(first..).map_or(&[][..], |rest| &rest[..rest.len().min(GROUP)]);
+    let (member, before) = reached(members, before, target);
+    let own = F(members.get(member).copied().unwrap_or(0.0));
+    let rest = below_one((F(target) - F(before)) / own.max(f32::MIN_POSITIVE));
+    Drawn { index: U((first + member) as u32), probability: own.share_of(F(total)), rest }
+}
+
+/// The last weight above zero up to whose start the weights, added to `sum`, do not exceed the target, and that start.
+#[inline(always)]
+fn reached(weights: &[f32], mut sum: f32, target: f32) -> (usize, f32) {
+    let (mut index, mut before) = (0, sum);
+    for (number, weight) in weights.iter().enumerate() {
+        if sum <= target && *weight > 0.0 {
+            (index, before) = (number, sum);
+        }
+        sum += weight;
+    }
+    (index, before)
 }
 
 impl LightTree {
