@@ -15,9 +15,9 @@ pytest.importorskip("pyoidn")
 
 from engine_gonio import Engine, colour  # noqa: E402
 
-FEW, MANY, CONVERGED = 16, 256, 4096
-# Of the pictures' sides.
-SCALE = 0.5
+FEW, MANY, CONVERGED = 16, 256, 2048
+# Of the pictures' sides: details of a few pixels are lost to any denoiser.
+SCALE = 2.0
 GUIDED = ["color", "denoising_albedo", "denoising_normal"]
 SEEDS = (1, 2, 3)
 # Of the five scenes.
