@@ -57,7 +57,7 @@ def test_all_passes_are_in_the_file(tmp_path: Path):
     scenes.render(tmp_path / "a.exr")
     channels = scenes.read(tmp_path / "a.exr")
     wanted = list(part("session.passes").enabled_passes(layer))
-    assert len(wanted) == 25, [kind.name for kind in wanted]
+    assert len(wanted) == 27, [kind.name for kind in wanted]
     for kind in wanted:
         for channel in kind.channels:
             assert f"ViewLayer.{kind.name}.{channel}" in channels, kind.name
