@@ -1,7 +1,7 @@
 //! Sixteen rays made ready for box and triangle tests; lane for lane the numbers of `PreparedRay`.
 
 use super::node::{LARGEST_COORDINATE, ROUNDING_PAD};
-use super::prepared::{DIRECTION_RANGE, Padded, PreparedRay, SMALLEST_SHARE};
+use super::prepared::{AXES, DIRECTION_RANGE, Padded, PreparedRay, SMALLEST_SHARE};
 use super::transform::Affine;
 use fearless_simd::{f32x16, mask32x16, prelude::*};
 
@@ -124,7 +124,7 @@ impl<S: Simd> Group<S> {
     pub(super) fn new(simd: S, rays: &PacketRays<S>, lanes: u32) -> Self {
         let first = lanes & lanes.wrapping_neg();
         let major = if rays.major[0] & first != 0 { 0 } else { 2 - usize::from(rays.major[1] & first != 0) };
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][major];
+        let axes = AXES[major];
         let along = rays.reciprocal[major];
         let shear = [-(rays.direction[axes[0]] * along), -(rays.direction[axes[1]] * along), along];
         let mask = mask32x16::from_bitmask(simd, u64::from(lanes));

@@ -10,7 +10,7 @@ use super::node::{LARGEST_COORDINATE, ROUNDING_PAD};
 pub(super) type Padded = [f32; 4];
 
 /// The lesser axes and the largest, by the largest.
-static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+pub(super) static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 /// The larger number, and the second where one is NaN: one instruction, which `f32::max` is not.
 #[inline(always)]
