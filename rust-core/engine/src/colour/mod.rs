@@ -13,3 +13,8 @@ pub use gamut::{Gamut, Primaries};
 pub use matrix::{Matrix3, apply, inverse, product};
 pub use space::{ColourSpace, UnknownColourSpace, file_rule};
 pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};
+
+/// Luminance of a linear Rec.709 colour, in the colour's unit (ITU-R BT.709).
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}

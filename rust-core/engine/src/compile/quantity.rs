@@ -2,17 +2,12 @@
 
 use super::goniograms::CompiledGoniograms;
 use crate::{
+    colour::luminance,
     error::Diagnostic,
     light::{FarField, LightKind, LightRecord, Shaping, size_factor},
     scene::{LUMENS_PER_WATT, Light, LightQuantity},
 };
 use std::f64::consts::PI;
-
-/// Luminance by Rec.709's weights.
-fn luminance(c: [f32; 3]) -> f64 {
-    let [r, g, b] = c.map(f64::from);
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
 
 /// What lights send in all, once for all that are alike but for their place.
 #[derive(Debug, Default)]
@@ -68,7 +63,7 @@ pub(super) fn apply(
     let factor = match light.quantity {
         None => Ok(1.0),
         Some(quantity) => {
-            let colour = luminance(light.emission.radiance);
+            let colour = luminance(light.emission.radiance.map(f64::from));
             let unit = if colour > 0.0 { 1.0 / colour } else { 0.0 };
             for record in records.iter_mut() {
                 record.radiance = light.emission.radiance.map(|x| (f64::from(x) * unit) as f32);
@@ -135,7 +130,7 @@ fn flux(first: &LightRecord, known: &mut Known, goniograms: &mut CompiledGoniogr
 /// Flux in lm of a light's records as they are, none of them at infinity.
 pub(super) fn flux_of(records: &[LightRecord], goniograms: &mut CompiledGoniograms, far_fields: &mut FarFields) -> f64 {
     let Some(first) = records.first() else { return 0.0 };
-    luminance(first.radiance) * flux(first, far_fields.of(records), goniograms)
+    luminance(first.radiance.map(f64::from)) * flux(first, far_fields.of(records), goniograms)
 }
 
 fn at_infinity(record: &LightRecord, quantity: LightQuantity) -> Result<f64, String> {

@@ -2,6 +2,7 @@
 
 use super::develop::{Developing, Part};
 use crate::{
+    colour::luminance,
     integrator::{BATCH, FirstHit},
     scene::Aov,
 };
@@ -35,7 +36,7 @@ pub(super) fn show(aov: Aov, tile: &Developing<'_>, first: usize, exposure: f32,
                 values.iter_mut().zip(shown).for_each(|(value, shown)| *value += shown as f32);
             }
             Aov::Alpha => values[0] += alpha as f32,
-            _ => values[0] += (0.2126 * behind[0] + 0.7152 * behind[1] + 0.0722 * behind[2]) as f32,
+            _ => values[0] += luminance(behind) as f32,
         }
     });
 }

@@ -40,6 +40,6 @@ pub fn blackbody_rgb(kelvin: f32) -> [f32; 3] {
         let cubic = 2.0 * b + t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
         *value = (0.5 * cubic).max(0.0);
     }
-    let luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    let luminance = crate::colour::luminance(colour);
     colour.map(|x| (x / luminance) as f32)
 }

@@ -131,8 +131,7 @@ impl Geometry {
 
 /// Luminance by Rec.709's weights, of magnitudes.
 pub(crate) fn luminance(c: [f32; 3]) -> f64 {
-    let c = c.map(|x| f64::from(x).abs());
-    0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]
+    crate::colour::luminance(c.map(|x| f64::from(x).abs()))
 }
 
 /// Fills in a distant light's cone: its radiance, its illuminance and whether it is parallel.

@@ -95,7 +95,7 @@ fn blocks(a: &[f32], b: &[f32], width: usize, height: usize) -> [f64; 2] {
 pub fn difference_picture(a: &[(String, Vec<f32>)], b: &[(String, Vec<f32>)]) -> Vec<u8> {
     let luminance = |image: &[(String, Vec<f32>)], i: usize| {
         let value = |name: &str| image.iter().find(|(n, _)| n == name).map_or(0.0, |(_, v)| f64::from(v[i]));
-        0.2126 * value("R") + 0.7152 * value("G") + 0.0722 * value("B")
+        crate::colour::luminance(["R", "G", "B"].map(value))
     };
     let pixels = a.first().map_or(0, |(_, v)| v.len()).min(b.first().map_or(0, |(_, v)| v.len()));
     let mean = (0..pixels).map(|i| luminance(b, i)).sum::<f64>() / pixels.max(1) as f64;

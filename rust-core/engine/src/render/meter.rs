@@ -2,6 +2,7 @@
 
 use super::learn::reduced;
 use crate::{
+    colour::luminance,
     compile::{CompiledScene, View},
     integrator::{BATCH, Runs, Start, TILE, Tracer, Workspace},
     output::KEY,
@@ -28,8 +29,8 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
         tracer.trace(view.window.min, view.window.max, &Runs::whole(sample), &mut workspace, cancelled);
     }
     let [red, green, blue] = &workspace.first_hit.radiance;
-    let luminance = (0..BATCH).map(|i| 0.2126 * f64::from(red[i]) + 0.7152 * f64::from(green[i]) + 0.0722 * f64::from(blue[i]));
-    let (sum, count) = luminance.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
+    let luminances = (0..BATCH).map(|i| luminance([red[i], green[i], blue[i]].map(f64::from)));
+    let (sum, count) = luminances.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
     let mean = if count > 0.0 { (sum / count).exp() / f64::from(SAMPLES) } else { 0.0 };
     let white = mean as f32 * view.exposure / KEY;
     if white > 0.0 { white } else { 1.0 }

@@ -5,20 +5,13 @@
 //! relation of turbidity to its β; Preetham, Shirley and Smits, SIGGRAPH 1999).
 
 use super::HosekWilkie;
-use crate::colour::{Gamut, apply};
+use crate::colour::{Gamut, apply, luminance};
 use gonio_formats::bsdf::cie_1931;
 
-/// Shares of the linear Rec.709 components in luminance.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// Temperature of the sun's surface, K.
 const SUN_KELVIN: f64 = 5778.0;
 /// Of the sun's disc, sr.
 const SUN_SOLID_ANGLE: f64 = 6.79e-5;
-
-/// Luminance of a linear Rec.709 triple.
-pub(super) fn luminance(rgb: [f64; 3]) -> f64 {
-    rgb.iter().zip(LUMINANCE).map(|(value, share)| value * share).sum()
-}
 
 /// The triple without negative parts, scaled to a luminance of 1; white where there is nothing.
 fn normalized(rgb: [f64; 3]) -> [f64; 3] {

@@ -1,6 +1,7 @@
 //! One of the models at work: relative luminance in a direction, and its sum over a level surface.
 
-use super::{CieSky, HosekWilkie, PerezSky, colour};
+use super::{CieSky, HosekWilkie, PerezSky};
+use crate::colour::luminance;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps from the zenith to the horizon and in half a turn.
@@ -26,7 +27,7 @@ impl Distribution {
             Self::Dark => 0.0,
             Self::Cie(sky) => sky.relative_luminance(up, angle),
             Self::Perez(sky) => sky.relative_luminance(up, angle),
-            Self::HosekWilkie(sky) => colour::luminance(sky.radiance(up, angle)),
+            Self::HosekWilkie(sky) => luminance(sky.radiance(up, angle)),
         }
     }
 
