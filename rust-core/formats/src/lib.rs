@@ -13,3 +13,4 @@ mod error;
 mod svg;
 
 pub use error::{FormatError, Place};
+pub use svg::escape;

@@ -79,7 +79,7 @@ fn joined(points: &[[f64; 2]]) -> String {
 }
 
 /// A text as XML holds it; control characters, which XML forbids, become blanks.
-fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

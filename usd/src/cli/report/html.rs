@@ -1,6 +1,7 @@
 //! One HTML page that needs nothing beside itself.
 
 use super::base64;
+use gonio_formats::escape;
 
 /// How the page looks; plain enough to be printed.
 const STYLE: &str = "body{font:15px/1.45 sans-serif;color:#222;max-width:60rem;margin:2rem auto;padding:0 1rem}\
@@ -78,21 +79,9 @@ impl Page {
     }
 }
 
-/// A text as HTML holds it; control characters, which a file may have brought along, become blanks.
+/// A text as HTML holds it, in attributes too; control characters, which a file may have brought along, become blanks.
 fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            c if c.is_control() => escaped.push(' '),
-            c => escaped.push(c),
-        }
-    }
-    escaped
+    escape(text).replace('"', "&quot;").replace('\'', "&#39;")
 }
 
 #[cfg(test)]
