@@ -11,6 +11,7 @@ use super::{
 use crate::{Loaded, SampleTime, Stage, context::UpAxis};
 use gonio::{
     Error, Result,
+    compile::CompiledScene,
     measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
     output::{FalseColour, write_atomically},
     scene::{Integrator, Measurand, Meter, Origin, Scene},
@@ -61,7 +62,7 @@ fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static Atomi
         return Err(Error::setting("grid", problem));
     }
     let reporter = Reporter::new(options.quiet);
-    let found = evaluated(scene, reporter, interrupted)?;
+    let found = evaluated(scene, None, reporter, interrupted)?;
     if !options.quiet {
         list(&found.diagnostics, most);
     }
@@ -80,14 +81,19 @@ fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static Atomi
     Ok(0)
 }
 
-/// What the scene's meters and grids show, with its settings.
-pub(super) fn evaluated(scene: &Scene, mut reporter: Reporter, interrupted: &AtomicBool) -> Result<Measurements> {
+/// What the scene's meters and grids show, with its settings; the trees of `previous` are used again.
+pub(super) fn evaluated(
+    scene: &Scene,
+    previous: Option<&CompiledScene>,
+    mut reporter: Reporter,
+    interrupted: &AtomicBool,
+) -> Result<Measurements> {
     let mut progress = |progress: &gonio::render::Progress| {
         reporter.show(progress);
         let heard = Python::attach(|py| py.check_signals()).is_ok();
         heard && !interrupted.load(Ordering::Relaxed)
     };
-    let found = evaluate(scene, Execution::detect(), &mut Watch { previous: None, cancel: interrupted, progress: &mut progress });
+    let found = evaluate(scene, Execution::detect(), &mut Watch { previous, cancel: interrupted, progress: &mut progress });
     reporter.clear();
     found
 }
@@ -100,7 +106,7 @@ fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
         IntegratorArgument::Path => Integrator::Path,
         IntegratorArgument::Direct => Integrator::Direct,
     };
-    (settings.seed, settings.threads) = (options.seed, options.threads);
+    options.work.apply(settings);
 }
 
 /// The meters of `--at`.

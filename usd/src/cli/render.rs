@@ -182,8 +182,7 @@ impl Job<'_> {
             FilterArgument::BlackmanHarris => Filter::BlackmanHarris,
         };
         settings.filter_width = options.filter_width;
-        settings.seed = options.seed;
-        settings.threads = options.threads;
+        options.work.apply(settings);
         settings.clamp_direct = options.clamp_direct;
         settings.clamp_indirect = options.clamp_indirect;
         settings.time_limit_s = options.time_limit;

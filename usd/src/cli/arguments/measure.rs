@@ -1,6 +1,6 @@
 //! What `gonio measure` takes, and the grids that it shares with `gonio report`.
 
-use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments};
+use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -69,12 +69,8 @@ pub(crate) struct MeasureOptions {
     /// The light transport: full global illumination, or direct light alone.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
-    /// Seed of the random numbers.
-    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
-    pub(crate) seed: u32,
-    /// Worker threads; 0 takes one a core.
-    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
-    pub(crate) threads: u32,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

@@ -14,6 +14,7 @@ mod picture;
 mod render;
 mod report;
 mod stage;
+mod work;
 
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::BsdfOptions;
@@ -29,6 +30,7 @@ pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
+pub(super) use work::WorkArguments;
 
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};

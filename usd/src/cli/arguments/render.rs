@@ -1,6 +1,6 @@
 //! What `gonio render` takes.
 
-use super::{CheckpointArguments, DaylightArguments, IntegratorArgument, OutputArguments, StageArguments};
+use super::{CheckpointArguments, DaylightArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
 
 #[derive(Args, Debug)]
@@ -57,12 +57,8 @@ pub(crate) struct RenderOptions {
     /// Stop after this many seconds, with whole passes over the picture.
     #[arg(long = "time-limit", aliases = ["timelimit", "time"], value_name = "SECONDS", default_value_t = 0.0)]
     pub(crate) time_limit: f64,
-    /// Seed of the random numbers.
-    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
-    pub(crate) seed: u32,
-    /// Worker threads; 0 takes one a core.
-    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
-    pub(crate) threads: u32,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
     /// Limit of a direct sample's components in nits; 0 is off.
     #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_direct: f32,

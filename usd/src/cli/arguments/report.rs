@@ -1,6 +1,6 @@
 //! What `gonio report` takes.
 
-use super::{DaylightArguments, GridArguments, StageArguments};
+use super::{DaylightArguments, GridArguments, StageArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -61,12 +61,8 @@ pub(crate) struct ReportOptions {
     /// Limit of the bounces of pictures, grids and meters; without one that of the stage for pictures, and none for the others.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(crate) max_bounces: Option<u32>,
-    /// Seed of the random numbers.
-    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
-    pub(crate) seed: u32,
-    /// Worker threads; 0 takes one a core.
-    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
-    pub(crate) threads: u32,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
     /// Write nothing but errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

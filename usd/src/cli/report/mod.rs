@@ -19,6 +19,7 @@ use super::{
 use crate::{Loaded, SampleTime, Stage, camera::choose};
 use gonio::{
     Diagnostic, Result, Severity,
+    compile::CompiledScene,
     measure::{MOST_BOUNCES, Measurements},
     output::{FalseColourScale, write_atomically},
     scene::{Integrator, Measurand},
@@ -47,8 +48,8 @@ fn run(options: &ReportOptions, mut loaded: Loaded, interrupted: &'static Atomic
     daylight::add(&options.daylight, &mut loaded, options.quiet)?;
     let cameras = cameras(options, &loaded)?;
     let mut diagnostics = loaded.diagnostics.clone();
-    let pictures = pictures::pictures(options, &mut loaded, &cameras, interrupted, &mut diagnostics)?;
-    let measured = measured(options, &mut loaded, interrupted, &mut diagnostics)?;
+    let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, interrupted, &mut diagnostics)?;
+    let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
     if !options.quiet {
         list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
     }
@@ -90,6 +91,7 @@ fn cameras(options: &ReportOptions, loaded: &Loaded) -> Result<Vec<Option<String
 fn measured(
     options: &ReportOptions,
     loaded: &mut Loaded,
+    previous: Option<&CompiledScene>,
     interrupted: &'static AtomicBool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Measurements> {
@@ -101,8 +103,8 @@ fn measured(
     settings.samples = options.point_spp;
     settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
     settings.integrator = Integrator::Path;
-    (settings.seed, settings.threads) = (options.seed, options.threads);
-    let found = evaluated(scene, Reporter::new(options.quiet), interrupted)?;
+    options.work.apply(settings);
+    let found = evaluated(scene, previous, Reporter::new(options.quiet), interrupted)?;
     diagnostics.extend(found.diagnostics.iter().filter(|new| !diagnostics.contains(new)).cloned().collect::<Vec<_>>());
     Ok(found)
 }

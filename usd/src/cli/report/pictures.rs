@@ -36,14 +36,14 @@ pub(super) struct Picture {
     glare: Vec<String>,
 }
 
-/// Pictures of cameras by path, one after the other; what compiling finds goes to `diagnostics`.
+/// Pictures of cameras by path, one after the other, and the scene as it was compiled last; what compiling finds goes to `diagnostics`.
 pub(super) fn pictures(
     options: &ReportOptions,
     loaded: &mut Loaded,
     cameras: &[Option<String>],
     interrupted: &'static AtomicBool,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Vec<Picture>> {
+) -> Result<(Vec<Picture>, Option<Arc<CompiledScene>>)> {
     let mut previous: Option<Arc<CompiledScene>> = None;
     let mut found = Vec::new();
     for camera in cameras {
@@ -60,7 +60,7 @@ pub(super) fn pictures(
         previous = Some(compiled);
         (loaded.scene.cameras, loaded.scene.settings) = (known, settings);
     }
-    Ok(found)
+    Ok((found, previous))
 }
 
 fn apply_settings(options: &ReportOptions, loaded: &mut Loaded) {
@@ -68,7 +68,7 @@ fn apply_settings(options: &ReportOptions, loaded: &mut Loaded) {
     settings.samples = options.spp;
     settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
     settings.integrator = Integrator::Path;
-    (settings.seed, settings.threads) = (options.seed, options.threads);
+    options.work.apply(settings);
     (settings.crop, settings.time_limit_s) = (None, 0.0);
     settings.aovs = vec![Aov::Color, Aov::Luminance];
 }
