@@ -43,17 +43,11 @@ pub(crate) fn goniogram<'py>(
     path: &AssetPath,
     request: Request,
 ) -> Option<Arc<Goniogram>> {
-    let key = format!("{}\n{}\n{}\n{}", path.authored, path.resolved, request.angle_scale.to_bits(), request.normalized);
-    if let Some(known) = context.goniograms.get(&key) {
-        return known.clone();
-    }
-    let origin = prim.origin();
-    let read = read(context, path, &origin).map(|found| {
-        let goniogram = Arc::new(requested(context, &origin, &found, request));
-        kept(context, path, found, goniogram)
-    });
-    context.goniograms.insert(key, read.clone());
-    read
+    let asked = format!("{}\n{}", request.angle_scale.to_bits(), request.normalized);
+    known_or_read(context, prim, path, &asked, |context, origin, found| {
+        let goniogram = requested(context, origin, &found, request);
+        (found, goniogram)
+    })
 }
 
 /// How a luminaire is lamped and hung.
@@ -73,14 +67,32 @@ pub(crate) fn absolute<'py>(
     path: &AssetPath,
     lamping: Lamping,
 ) -> Option<Arc<Goniogram>> {
-    let key = format!("{}\n{}\nabsolute {:?} {}", path.authored, path.resolved, lamping.lamp_set, lamping.tilt_deg.to_bits());
+    let asked = format!("absolute {:?} {}", lamping.lamp_set, lamping.tilt_deg.to_bits());
+    known_or_read(context, prim, path, &asked, |context, origin, found| {
+        let found = lamped(context, origin, path, found, lamping);
+        let goniogram = Goniogram::from(&found);
+        (found, goniogram)
+    })
+}
+
+/// The goniogram that was made of a file for the same wishes before, or is made of it now; the file is noted down then.
+fn known_or_read<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    path: &AssetPath,
+    asked: &str,
+    make: impl FnOnce(&mut Context<'_, 'py>, &Origin, photometry::Goniogram) -> (photometry::Goniogram, Goniogram),
+) -> Option<Arc<Goniogram>> {
+    let key = format!("{}\n{}\n{asked}", path.authored, path.resolved);
     if let Some(known) = context.goniograms.get(&key) {
         return known.clone();
     }
-    let read = read(context, path, &prim.origin()).map(|found| {
-        let found = lamped(context, &prim.origin(), path, found, lamping);
-        let goniogram = Arc::new(Goniogram::from(&found));
-        kept(context, path, found, goniogram)
+    let origin = prim.origin();
+    let read = read(context, path, &origin).map(|found| {
+        let (photometry, goniogram) = make(context, &origin, found);
+        let goniogram = Arc::new(goniogram);
+        context.luminaires.push(LuminaireFile { path: path.authored.clone(), photometry, goniogram: goniogram.clone() });
+        goniogram
     });
     context.goniograms.insert(key, read.clone());
     read
@@ -103,12 +115,6 @@ fn lamped(
 fn or_warn<T>(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath, result: Option<Result<T, FormatError>>) -> Option<T> {
     let failed = |error: &FormatError| context.warn(origin, format!("{}; it is ignored", Error::in_file(&path.resolved, error)));
     result?.inspect_err(failed).ok()
-}
-
-/// The goniogram, after its file has been noted down.
-fn kept(context: &mut Context<'_, '_>, path: &AssetPath, photometry: photometry::Goniogram, goniogram: Arc<Goniogram>) -> Arc<Goniogram> {
-    context.luminaires.push(LuminaireFile { path: path.authored.clone(), photometry, goniogram: goniogram.clone() });
-    goniogram
 }
 
 fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {
