@@ -2,6 +2,7 @@
 
 use super::{
     accumulate::clamped,
+    arrivals::note_lost,
     catcher, kernels,
     light_groups::add_of_lights,
     scatter::{add_sampled, code_of_sampled},
@@ -26,6 +27,7 @@ pub(super) fn light<L: Lanes>(
     let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u[0], [u[1], u[2]]);
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::knows(l, tables, point.slot, sample.light);
     if !usable.any() {
+        note_lost(point.position, present, ws);
         return;
     }
     let wi = point.frame.to_local(sample.wi);
@@ -33,6 +35,7 @@ pub(super) fn light<L: Lanes>(
     let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf));
     let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
+    note_lost(point.position, present.and_not(lit), ws);
     let free = lit.and_not(sample.casts_shadow);
     let code = code_of_sampled(point.flags);
     let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };

@@ -3,6 +3,7 @@
 //! Irradiance E = ∫ L cosθ dω equals π times the radiance that a white Lambertian surface sends out, so the same estimators serve.
 
 use super::{
+    arrivals::note_lost,
     kernels,
     material::Tables,
     path::{SampleContext, Transport},
@@ -68,11 +69,13 @@ fn light<L: Lanes>(l: L, tables: &Tables, transport: &Transport, point: &Point<L
     let cosine = point.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {
+        note_lost(point.position, point.alive, ws);
         return;
     }
     let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, cosine * FRAC_1_PI));
     let contribution = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
+    note_lost(point.position, point.alive.and_not(lit), ws);
     add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
     let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
     let ray = ShadowLanes { segment, contribution, slot: point.slot, code: l.u(0), light: sample.light, shares: None };

@@ -1,6 +1,7 @@
 //! Light transport in stages over batches of paths: generate, intersect, shade by material, sample lights, trace shadows, accumulate.
 
 mod accumulate;
+mod arrivals;
 mod bounce;
 mod catcher;
 mod closure;

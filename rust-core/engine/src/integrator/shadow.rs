@@ -1,6 +1,7 @@
 //! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
 
 use super::{
+    arrivals::note_arrivals,
     catcher, kernels,
     light_groups::add_of_lights,
     material::{Shading, Tables},
@@ -15,7 +16,6 @@ use crate::{
     accel::{PassedHit, RayBatch},
     bsdf::parameter::OPACITY,
     graph::CHUNK,
-    light::Arrival,
 };
 use gonio_simd::{Execution, Frame, Lanes, Rgb, dispatch};
 
@@ -59,19 +59,6 @@ fn rays_of(shadows: &ShadowRays) -> RayBatch<'_> {
         t_max: &shadows.t_max[..n],
         mask: &shadows.mask[..n],
     }
-}
-
-/// Notes the light that arrives, where somebody learns from it.
-fn note_arrivals(ws: &mut Workspace) {
-    let Some(arrivals) = &mut ws.arrivals else { return };
-    let rays = &ws.shadows;
-    let arrived = (0..rays.count).filter(|ray| ws.blocked[*ray] == 0);
-    arrivals.extend(arrived.map(|ray| Arrival {
-        position: [0, 1, 2].map(|axis| rays.origin[axis][ray]),
-        distance: rays.t_max[ray],
-        light: rays.light[ray],
-        value: rays.contribution.iter().map(|channel| channel[ray]).sum(),
-    }));
 }
 
 #[inline(always)]

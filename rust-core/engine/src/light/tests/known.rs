@@ -22,7 +22,7 @@ fn walled() -> (Vec<LightRecord>, LightTable, Vec<u32>, KnownLights) {
     let arrival = |i: usize| {
         let light = nearest[i % 10];
         let distance = away(&lamps[light as usize]);
-        Arrival { position: HERE, distance, light, value: distance.powi(-2) }
+        Arrival { position: HERE, distance, light: Some(light), value: distance.powi(-2) }
     };
     let arrivals: Vec<Arrival> = (0..200).map(arrival).collect();
     let known = table.learn(&arrivals).expect("there is a tree");
@@ -54,6 +54,23 @@ fn what_is_known_changes_no_light() {
     }
 }
 
+/// Where no draw has brought anything most are given up, and the others weigh what those would have brought.
+#[test]
+fn draws_in_vain_are_given_up_and_change_no_light() {
+    let (lamps, table, ..) = walled();
+    let elsewhere = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0 };
+    let arrivals: Vec<Arrival> = [elsewhere].into_iter().chain((0..200).map(|_| Arrival::nothing(HERE))).collect();
+    let known = table.learn(&arrivals).expect("something has arrived");
+    let count = 1 << 18;
+    let drawn = draw_known(Execution::best(), &table, Some(&known), HERE, UP, &numbers(53, count));
+    let going_on = (0..count).filter(|i| drawn.pdf[*i] > 0.0).count();
+    assert!(going_on < count / 8, "{going_on} of {count}");
+    let lit = |lamp: &LightRecord| super::shape::illuminance(lamp, HERE.map(f64::from), UP.map(f64::from), 40)[1];
+    let expected: f64 = lamps.iter().map(lit).sum();
+    let (mean, error) = estimate(&drawn, UP.map(f64::from), count);
+    assert!((mean[1] - expected).abs() < 4.9 * error[1] + 1e-3 * expected, "{} ± {} for {expected}", mean[1], error[1]);
+}
+
 #[test]
 fn rays_that_meet_a_light_weigh_it_as_it_was_drawn() {
     let (_, table, _, known) = walled();
@@ -74,5 +91,5 @@ fn few_lights_and_no_arrivals_teach_nothing() {
     let (_, table, ..) = walled();
     assert!(table.learn(&[]).is_none());
     let few = LightTable::build(&hall(3), NO_IMAGES, &[]);
-    assert!(few.learn(&[Arrival { position: HERE, distance: 1.0, light: 0, value: 1.0 }]).is_none());
+    assert!(few.learn(&[Arrival { position: HERE, distance: 1.0, light: Some(0), value: 1.0 }]).is_none());
 }

@@ -40,9 +40,8 @@ impl Cone {
 pub(super) struct Bound {
     pub(super) low: Vector,
     pub(super) high: Vector,
-    /// Of the light's own sphere; of a set, of the sphere around its box.
+    /// The box's middle.
     pub(super) centre: Vector,
-    pub(super) radius: f64,
     /// Bound of intensity in cd, added up.
     pub(super) strength: f64,
     /// Where surfaces face, or beams go.
@@ -75,17 +74,22 @@ impl Bound {
             (normals, edge) = (Cone { axis, spread: 0.0 }, cone);
         }
         let (centre, radius) = (vector(field::BOUND_CENTRE), f64::from(row[field::BOUND_RADIUS]));
+        let half = if flat { normal.map(|x| radius * (1.0 - x * x).max(0.0).sqrt()) } else { [radius; 3] };
         Self {
-            low: centre.map(|x| x - radius),
-            high: centre.map(|x| x + radius),
+            low: std::array::from_fn(|k| centre[k] - half[k]),
+            high: std::array::from_fn(|k| centre[k] + half[k]),
             centre,
-            radius,
             strength: f64::from(row[field::STRENGTH]) * gain.max(1.0),
             normals,
             edge,
             cosine: flat && (!beam || dot(axis, normal) > 0.999),
             two_sided: flat && !beam && flags & flag::TWO_SIDED != 0,
         }
+    }
+
+    /// Half of the box's edges.
+    pub(super) fn half(&self) -> Vector {
+        scale(add(self.high, scale(self.low, -1.0)), 0.5)
     }
 
     /// Both together.
@@ -103,7 +107,6 @@ impl Bound {
             low,
             high,
             centre: scale(add(low, high), 0.5),
-            radius: 0.5 * length(add(high, scale(low, -1.0))),
             strength: self.strength + other.strength,
             normals: if mixed { Cone::ALL } else { self.normals.union(theirs) },
             edge: self.edge.max(other.edge),

@@ -2,7 +2,6 @@
 
 use super::bound::Bound;
 use super::node;
-use crate::light::vector::{add, length, scale};
 use std::ops::Range;
 
 /// Children of a node below the top.
@@ -58,7 +57,7 @@ impl Builder<'_> {
             let lights = &self.lights[range.clone()];
             let words = match lights {
                 [(light, bound)] => node::leaf(bound, *light),
-                _ => node::inner(&tight(lights)),
+                _ => node::inner(&united(lights)),
             };
             self.nodes.words.extend_from_slice(&words);
             if lights.len() > 1 {
@@ -112,14 +111,6 @@ fn united(lights: &[(u32, Bound)]) -> Bound {
     for (_, bound) in &lights[1..] {
         all = all.union(bound);
     }
-    all
-}
-
-/// The same with the smallest sphere about the box's centre.
-fn tight(lights: &[(u32, Bound)]) -> Bound {
-    let mut all = united(lights);
-    let reach = |bound: &Bound| length(add(bound.centre, scale(all.centre, -1.0))) + bound.radius;
-    all.radius = lights.iter().map(|(_, bound)| reach(bound)).fold(0.0, f64::max);
     all
 }
 

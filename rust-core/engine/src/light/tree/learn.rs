@@ -3,25 +3,38 @@
 use super::known::{KnownLights, MOST, WORDS, place};
 use super::{LightTree, NONE};
 
-/// Light that arrived at a surface.
+/// Light that arrived at a surface, or did not.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival {
     /// The surface's place, rebased world space.
     pub position: [f32; 3],
     /// The way it came, metres.
     pub distance: f32,
-    /// The light.
-    pub light: u32,
+    /// The light; none where the one that was drawn did not arrive.
+    pub light: Option<u32>,
     /// What it brought to the picture.
     pub value: f32,
+}
+
+impl Arrival {
+    /// A light was drawn and did not arrive.
+    pub fn nothing(position: [f32; 3]) -> Self {
+        Self { position, distance: 0.0, light: None, value: 0.0 }
+    }
 }
 
 /// A cell is this part of the way to the lights wide, in the median.
 const CELL: f32 = 0.3;
 /// Most draws that are among known lights, however sure: the others find what was overlooked.
 const MOST_CERTAIN: f32 = 0.99;
+/// Most draws that are given up in a cell where none has arrived: one that was overlooked weighs no more than ten.
+const MOST_DARK: f32 = 0.9;
 /// After so many arrivals half of what they tell is trusted.
 const DOUBTS: f32 = 2.0;
+
+/// Places of the table for each cell: of two that fall on the same one, one is lost, and with it its walls are forgotten. Of twice as many places as
+/// cells an eighth of a room's surface was.
+const SPARSE: usize = 8;
 
 /// An arrival in its cell.
 #[derive(Clone, Copy, Debug)]
@@ -33,9 +46,9 @@ struct Entry {
 }
 
 impl KnownLights {
-    /// What arrivals tell; none if no light of the tree arrived anywhere.
+    /// What arrivals tell, and draws in vain; none if no light of the tree arrived anywhere.
     pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
-        let leaf = |arrival: &Arrival| tree.leaves.get(arrival.light as usize).copied().unwrap_or(NONE);
+        let leaf = |arrival: &Arrival| arrival.light.and_then(|light| tree.leaves.get(light as usize).copied()).unwrap_or(NONE);
         let mut ways: Vec<f32> = arrivals.iter().filter(|arrival| leaf(arrival) != NONE).map(|arrival| arrival.distance).collect();
         if ways.is_empty() {
             return None;
@@ -55,7 +68,7 @@ impl KnownLights {
 
     fn of_entries(entries: &[Entry], per_metre: f32) -> Self {
         let in_cells = || entries.chunk_by(|a, b| (a.place, a.key) == (b.place, b.key));
-        let count = (2 * in_cells().count()).next_power_of_two();
+        let count = (SPARSE * in_cells().count()).next_power_of_two();
         let mut known = Self { cells: vec![0.0; count * WORDS], mask: count as u32 - 1, per_metre };
         // Of cells that share a place, the one that more arrived in stays.
         let mut arrived = vec![0; count];
@@ -70,22 +83,32 @@ impl KnownLights {
     }
 }
 
-/// Writes a cell's words: the lights that brought most, and how much of the draws is theirs.
+/// Writes a cell's words: the lights that brought most, and how much of the draws is theirs. Where none brought anything, it is draws given up.
 ///
 /// What none of the arrivals has told of is as likely as lights that one alone has told of (Good, The Population Frequencies of Species and the
 /// Estimation of Population Parameters, Biometrika 40, 1953).
 fn fill(entries: &[Entry], words: &mut [f32]) {
     let sum = |entries: &[Entry]| entries.iter().map(|entry| entry.value).sum::<f32>();
-    let by_light = entries.chunk_by(|a, b| a.leaf == b.leaf);
-    let mut lights: Vec<(u32, f32)> = by_light.map(|entries| (entries[0].leaf, sum(entries))).filter(|light| light.0 != NONE).collect();
+    // Draws in vain stand behind all leaves.
+    let arrived = &entries[..entries.partition_point(|entry| entry.leaf != NONE)];
+    let by_light = || arrived.chunk_by(|a, b| a.leaf == b.leaf);
+    let mut lights: Vec<(u32, f32)> = by_light().map(|entries| (entries[0].leaf, sum(entries))).collect();
     lights.sort_by(|a, b| b.1.total_cmp(&a.1));
     lights.truncate(MOST);
-    let (all, of_known) = (sum(entries), lights.iter().map(|light| light.1).sum::<f32>());
-    let count = entries.len() as f32;
-    let once = entries.chunk_by(|a, b| a.leaf == b.leaf).filter(|entries| entries.len() == 1).count() as f32;
-    let certain = (1.0 - once / count).min(MOST_CERTAIN) * count / (count + DOUBTS);
-    let share = if all > 0.0 { certain * (of_known / all).min(1.0) } else { 0.0 };
+    let of_known = lights.iter().map(|light| light.1).sum::<f32>();
+    let share = match arrived.len() {
+        0 => MOST_DARK * trust(entries.len()),
+        count => {
+            let once = by_light().filter(|entries| entries.len() == 1).count() as f32;
+            (1.0 - once / count as f32).min(MOST_CERTAIN) * trust(count) * (of_known / sum(arrived).max(f32::MIN_POSITIVE)).min(1.0)
+        }
+    };
     words.fill(0.0);
     words[..3].copy_from_slice(&[f32::from_bits(entries[0].key), share, f32::from_bits(lights.len() as u32)]);
     words[3..].iter_mut().zip(&lights).for_each(|(word, light)| *word = f32::from_bits(light.0));
+}
+
+/// How far so many draws are trusted.
+fn trust(count: usize) -> f32 {
+    count as f32 / (count as f32 + DOUBTS)
 }

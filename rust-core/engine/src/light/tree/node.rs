@@ -5,7 +5,7 @@ use crate::light::choice::{EMITTER_FLOOR, lifted};
 use crate::light::vector::narrow;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
-/// Values of a node: centre (3), radius, strength, axis, cosines, and what is below.
+/// Values of a node: centre (3), half the box's edges, strength, axis, cosines, and what is below.
 pub(super) const WORDS: usize = 8;
 
 /// In the last word: a light instead of children.
@@ -19,6 +19,13 @@ const INDEX: u32 = (1 << COUNT_SHIFT) - 1;
 const STEPS: f32 = 32767.0;
 /// Steps of an axis' coordinate in ten bits.
 const AXIS_STEPS: f32 = 511.0;
+/// Steps of a length, and their exponent.
+const LENGTH_STEPS: f64 = 256.0;
+const LENGTH_SHIFT: i32 = 8;
+/// The least exponent of lengths whose step is a normal number.
+const LEAST_EXPONENT: i32 = -118;
+/// Of the middle's squared distance, the share of the box's half diagonal's square that is added for its lights around the middle.
+const SCATTERED: f32 = 0.5;
 /// What rounding the axis takes from a cosine at most.
 const SLACK: f64 = 3e-3;
 
@@ -50,12 +57,22 @@ fn words(bound: &Bound, below: u32) -> [f32; WORDS] {
     let sine = if spread < std::f64::consts::FRAC_PI_2 { spread.sin() } else { 1.0 };
     let edge = (spread + bound.edge).min(std::f64::consts::PI).cos();
     let switches = if bound.cosine { COSINE } else { 0 } | if bound.two_sided { TWO_SIDED } else { 0 };
-    // A hair larger than told: its centre was rounded to single precision.
-    let radius = (bound.radius * 1.0001) as f32;
     let [x_axis, y_axis, z_axis] = narrow(axis).map(|x| (x * AXIS_STEPS).round() as i32 as u32 & 1023);
     let packed = [x_axis | y_axis << 10 | z_axis << 20, pair((sine + SLACK).min(1.0), (edge - SLACK).max(-1.0)), below | switches];
     let [axis, angles, last] = packed.map(f32::from_bits);
-    [x, y, z, radius, bound.strength as f32, axis, angles, last]
+    [x, y, z, f32::from_bits(lengths(bound.half())), bound.strength as f32, axis, angles, last]
+}
+
+/// Three lengths in eight bits each, with the exponent of the longest in the upper eight, rounded up.
+///
+/// A hair longer than told, and none is nothing beside the others: the centre was rounded to single precision.
+fn lengths(lengths: [f64; 3]) -> u32 {
+    let longest = lengths.into_iter().fold(0.0, f64::max);
+    let exponent = (longest * 1.01).log2().ceil().clamp(f64::from(LEAST_EXPONENT), 126.0);
+    let step = exponent.exp2() / LENGTH_STEPS;
+    let least = if longest > 0.0 { 1.0 } else { 0.0 };
+    let [x, y, z] = lengths.map(|length| (length * 1.0001 / step).ceil().clamp(least, LENGTH_STEPS - 1.0) as u32);
+    x | y << 8 | z << 16 | ((exponent as i32 - LENGTH_SHIFT + 127) as u32) << 24
 }
 
 /// Two numbers of −1 to 1 in sixteen bits each, the first rounded up and the second down.
@@ -99,7 +116,8 @@ impl<L: Lanes> Below<L> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node<L: Lanes> {
     centre: Vec3<L>,
-    radius: F<L>,
+    /// Half the box's edges.
+    half: Vec3<L>,
     strength: F<L>,
     /// About unit.
     axis: Vec3<L>,
@@ -115,12 +133,13 @@ impl<L: Lanes> Node<L> {
     #[inline(always)]
     pub(super) fn gather(l: L, words: &[f32], node: U<L>) -> Self {
         let base = node * WORDS as u32;
-        let [x, y, z, radius] = l.gather_quads(words, base);
+        let [x, y, z, half] = l.gather_quads(words, base);
         let [strength, axis, angles, last] = l.gather_quads(words, base + 4);
-        let (axis, angles) = (axis.to_bits(), angles.to_bits());
+        let (half, axis, angles) = (half.to_bits(), axis.to_bits(), angles.to_bits());
+        let step = F::from_bits((half >> 24) << 23);
         Self {
             centre: Vec3::new(x, y, z),
-            radius,
+            half: Vec3::new(length(half, step), length(half >> 8, step), length(half >> 16, step)),
             strength,
             axis: Vec3::new(coordinate(axis << 22), coordinate(axis << 12), coordinate(axis << 2)),
             spread: angle(angles << 16),
@@ -132,53 +151,58 @@ impl<L: Lanes> Node<L> {
     #[inline(always)]
     pub(super) fn splat(l: L, node: &Node<One>) -> Self {
         let vector = |v: Vec3<One>| Vec3::new(l.f(v.x.0), l.f(v.y.0), l.f(v.z.0));
-        let Node { centre, radius, strength, axis, spread, edge, below } = *node;
-        let (centre, axis) = (vector(centre), vector(axis));
-        Self {
-            centre,
-            radius: l.f(radius.0),
-            strength: l.f(strength.0),
-            axis,
-            spread: l.f(spread.0),
-            edge: l.f(edge.0),
-            below: Below(l.u(below.0.0)),
-        }
+        let Node { centre, half, strength, axis, spread, edge, below } = *node;
+        let [centre, half, axis] = [centre, half, axis].map(vector);
+        Self { centre, half, strength: l.f(strength.0), axis, spread: l.f(spread.0), edge: l.f(edge.0), below: Below(l.u(below.0.0)) }
     }
     /// About the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
+    ///
+    /// Cosines are means over the box, which for lamps of one ceiling are those of all of them, seen from the box's nearest point: near ones count most.
     #[inline(always)]
     pub(super) fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
-        let nearness = squared.sqrt().recip();
-        // The cosine of an angle less another one is at most the cosine of the one plus the sine of the other.
-        let sine = (self.radius * nearness).min(1.0);
-        let inside = squared.le(self.radius * self.radius);
+        let scatter = self.half.length_squared() * SCATTERED;
+        let nearness = self.gap(towards).length_squared().max(f32::MIN_POSITIVE).sqrt().recip();
+        let receiver = (mean_above(n.dot(towards), self.reach(n)) * nearness).min(1.0);
 
-        let facing = n.dot(towards) * nearness;
-        let receiver = self.typical(l, facing + sine, facing, inside);
-        let leaving = -self.axis.dot(towards) * nearness;
+        let leaving = -self.axis.dot(towards);
         let leaving = (self.below.0 & TWO_SIDED).ne(0).select(leaving.abs(), leaving);
-        let nearest = (leaving + sine).max(-1.0);
-        let fading = self.typical(l, nearest + self.spread, leaving, inside).max(EMITTER_FLOOR);
-        let emitter = (self.below.0 & COSINE).ne(0).select(fading, l.f(1.0)).keep_if(inside | nearest.ge(self.edge));
-        let widening = inside.select(self.mean_square(squared), squared);
-        (self.strength * lifted(l, n, receiver) * emitter / widening).min(1e30)
+        let distance = squared.sqrt();
+        let slack = self.reach(self.axis) + self.spread * distance;
+        let fading = (mean_above(leaving, slack) * nearness).clamp(EMITTER_FLOOR, 1.0);
+        let flat = (self.below.0 & COSINE).ne(0);
+        let in_front = !flat | (leaving + slack).ge(0.0);
+        let in_beam = (squared * SCATTERED).le(scatter) | (leaving + self.half.x + self.half.y + self.half.z).ge(self.edge * distance);
+        let emitter = flat.select(fading, l.f(1.0)).keep_if(in_front & in_beam);
+
+        // One light comes no nearer than its own size; of several, some are farther than their middle.
+        let widening = self.below.is_leaf().select(squared.max(scatter), squared + scatter);
+        (self.strength * lifted(l, n, receiver) * emitter / widening.max(f32::MIN_POSITIVE)).min(1e30)
     }
-    /// A cosine between the best that any light of the node may have and that of its middle; all directions occur from inside.
+    /// From the point to the box, along each axis.
     #[inline(always)]
-    fn typical(&self, l: L, best: F<L>, middle: F<L>, inside: M<L>) -> F<L> {
-        let best = best.min(1.0);
-        let single = inside.select(l.f(1.0), best);
-        let several = inside.select(l.f(0.6), 0.5 * (best + middle.max(0.0)));
-        self.below.is_leaf().select(single, several)
+    fn gap(&self, towards: Vec3<L>) -> Vec3<L> {
+        let beyond = |way: F<L>, half: F<L>| (way.abs() - half).max(0.0);
+        Vec3::new(beyond(towards.x, self.half.x), beyond(towards.y, self.half.y), beyond(towards.z, self.half.z))
     }
-    /// Squared distance that stands for the lights around a point inside the node's sphere: about the harmonic mean over a full ball; no light comes
-    /// nearer than its own size.
+    /// How far the box reaches along a direction from its middle.
     #[inline(always)]
-    fn mean_square(&self, squared: F<L>) -> F<L> {
-        let own = self.radius * self.radius;
-        self.below.is_leaf().select(own, (own + squared) * (1.0 / 3.0)).max(f32::MIN_POSITIVE)
+    fn reach(&self, direction: Vec3<L>) -> F<L> {
+        direction.x.abs() * self.half.x + direction.y.abs() * self.half.y + direction.z.abs() * self.half.z
     }
+}
+
+/// About the mean of what is above zero of values spread evenly about `middle`, zero only if none is.
+#[inline(always)]
+fn mean_above<L: Lanes>(middle: F<L>, spread: F<L>) -> F<L> {
+    middle.max((middle + spread).max(0.0) * 0.25)
+}
+
+/// A length of so many steps in the lower eight bits.
+#[inline(always)]
+fn length<L: Lanes>(bits: U<L>, step: F<L>) -> F<L> {
+    (bits & 255).i32_to_float() * step
 }
 
 /// A sine or cosine in the upper sixteen bits.
