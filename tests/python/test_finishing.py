@@ -4,7 +4,7 @@ import sys
 
 import numpy as np
 import pytest
-from small_scenes import finished, floor_scene
+from small_scenes import FLOOR, QUAD, finished, floor_scene
 
 gonio = pytest.importorskip("gonio")
 
@@ -87,6 +87,21 @@ def test_denoising_takes_noise_out():
     assert error(film) < 0.3 * error(noisy)
     assert all(np.array_equal(film[name], noisy[name]) for name in film.passes if name != "color")
     assert np.array_equal(np.asarray(film["color"])[..., 3], color[..., 3])
+
+
+@pytest.mark.parametrize("sharp", [{"metalness": 1.0, "base_color": (0.8, 0.6, 0.4)}, {"transmission_weight": 1.0}])
+def test_denoisers_are_guided_by_what_mirrors_and_glass_show(sharp):
+    scene = floor_scene(width=16, height=16, samples=64, passes=["color", "albedo", "denoising_albedo", "denoising_normal"])
+    pane = scene.add_material("pane", specular_roughness=0.0, **sharp)
+    scene.add_instance(scene.add_mesh(0.2 * FLOOR + [0, 6, 0], QUAD, name="pane"), [pane], name="pane")
+    film = finished(scene)
+    albedo, shown, normal = (np.asarray(film[name])[4, 4] for name in ("albedo", "denoising_albedo", "denoising_normal"))
+    if "metalness" in sharp:
+        # Above there is nothing.
+        assert albedo.min() > 0.3 and not shown.any() and not normal.any()
+    else:
+        # The floor below, but for what the pane reflects.
+        assert albedo.min() > 0.9 and shown == pytest.approx(np.full(3, 0.48), abs=0.03) and normal[1] > 0.9
 
 
 def test_denoising_without_the_extra_says_how_to_get_it(monkeypatch):

@@ -75,6 +75,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
                 depth: settings.mist.depth,
                 falloff: settings.mist.falloff,
             }),
+            guides: [Aov::DenoisingAlbedo, Aov::DenoisingNormal].iter().any(|aov| settings.aovs.contains(aov)),
             numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
         },
         measure: settings.aovs.contains(&Aov::Illuminance),

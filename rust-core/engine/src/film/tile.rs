@@ -225,8 +225,10 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &First
         }
         Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
         Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
-        Aov::Normal | Aov::DenoisingNormal => copy3(channels, &gathered.normal),
-        Aov::Albedo | Aov::DenoisingAlbedo => copy3(channels, &gathered.albedo),
+        Aov::Normal => copy3(channels, &gathered.normal),
+        Aov::Albedo => copy3(channels, &gathered.albedo),
+        Aov::DenoisingAlbedo => copy3(channels, &gathered.guides[0]),
+        Aov::DenoisingNormal => copy3(channels, &gathered.guides[1]),
         Aov::Uv => copy3(channels, &gathered.uv),
         Aov::Shader(..) => {
             for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.shader.columns[layout.shader_column(aov)..]) {

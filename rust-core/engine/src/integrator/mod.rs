@@ -9,6 +9,7 @@ mod direct_light;
 mod exit;
 mod first_surface;
 mod generate;
+mod guides;
 mod intersect;
 pub(crate) mod kernels;
 mod light_groups;

@@ -63,6 +63,8 @@ pub struct FirstPasses {
     pub uv: bool,
     /// Start, depth and falloff of the mist.
     pub mist: Option<Mist>,
+    /// Albedo and normal for denoisers.
+    pub guides: bool,
     /// Numbers and pass indices of instances and materials.
     pub numbers: bool,
     /// What materials compute for passes of their own.

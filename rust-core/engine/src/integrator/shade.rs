@@ -6,6 +6,7 @@ use super::{
     catcher,
     direct_light::light,
     first_surface::{append_measure, covered, record_first},
+    guides,
     kernels::{self, LightHit},
     light_groups::add_of_surfaces,
     light_sums::code,
@@ -196,6 +197,7 @@ fn shade_lanes<L: Lanes>(
     }
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;
+    guides::record(stage, point, lobes, present, ws);
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
     let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
     if transport.measure {

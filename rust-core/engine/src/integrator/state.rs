@@ -327,6 +327,8 @@ pub struct FirstHit {
     pub position: Columns3,
     /// Albedos.
     pub albedo: Columns3,
+    /// Albedo and normal for denoisers.
+    pub guides: [Columns3; 2],
     /// Instance sets; of the block's first sample that met one, plus one, zero for none.
     pub prim_id: Column<u32>,
     /// Pass indices of instances and of materials, kept like `prim_id`.
@@ -356,6 +358,7 @@ impl Default for FirstHit {
             normal: columns3(BATCH),
             position: columns3(BATCH),
             albedo: columns3(BATCH),
+            guides: [columns3(BATCH), columns3(BATCH)],
             prim_id: Column::new(BATCH),
             object_index: Column::new(BATCH),
             material_index: Column::new(BATCH),
@@ -383,6 +386,7 @@ impl FirstHit {
         let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness];
         threes
             .into_iter()
+            .chain(&mut self.guides)
             .flatten()
             .chain(ones)
             .chain(&mut self.shader.columns)
