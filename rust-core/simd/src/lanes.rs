@@ -140,6 +140,8 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_pairs_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 2];
     /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`: one 128-bit load a lane. The table has four values at least.
     fn gather_quads_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 4];
+    /// `values[4 i]` to `values[4 i + 3]` with `i` = `at` + lane; all of them must be there.
+    fn load_quads_f(self, values: &[f32], at: usize) -> [Self::F32; 4];
     /// The sum over up to 8 terms of `weight · table[i + offset..][..8]`, with `i = min(index, len - 8 - largest offset)`: one load a lane
     /// and term. The table is long enough for index 0.
     fn sum_octets_f(self, table: &[f32], index: Self::U32, offsets: &[u32], weights: &[Self::F32]) -> [Self::F32; 8];
@@ -202,6 +204,12 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     #[inline(always)]
     fn gather_quads(self, table: &[f32], index: U<Self>) -> [F<Self>; 4] {
         let [a, b, c, d] = self.gather_quads_f(table, index.0);
+        [F(a), F(b), F(c), F(d)]
+    }
+    /// The items of four values each, one item a lane from item `at` on; all of them must be there.
+    #[inline(always)]
+    fn load_quads(self, values: &[f32], at: usize) -> [F<Self>; 4] {
+        let [a, b, c, d] = self.load_quads_f(values, at);
         [F(a), F(b), F(c), F(d)]
     }
     /// The sum over up to 8 terms of `weight · table[i + offset..][..8]`, with `i = min(index, len - 8 - largest offset)`.

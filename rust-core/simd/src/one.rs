@@ -256,6 +256,10 @@ impl Lanes for One {
         [table[i], table[i + 1], table[i + 2], table[i + 3]]
     }
     #[inline(always)]
+    fn load_quads_f(self, values: &[f32], at: usize) -> [f32; 4] {
+        [values[4 * at], values[4 * at + 1], values[4 * at + 2], values[4 * at + 3]]
+    }
+    #[inline(always)]
     fn sum_octets_f(self, table: &[f32], index: u32, offsets: &[u32], weights: &[f32]) -> [f32; 8] {
         sum_of_lane(
             table,

@@ -251,6 +251,14 @@ impl<S: Simd> Lanes for Wide<S> {
         self.0.gather_quads(table, index)
     }
     #[inline(always)]
+    fn load_quads_f(self, values: &[f32], at: usize) -> [S::f32s; 4] {
+        let values = &values[4 * at..4 * (at + Self::COUNT)];
+        let register = |number: usize| S::f32s::from_slice(self.0, &values[number * Self::COUNT..(number + 1) * Self::COUNT]);
+        let ((even, odd), (even_too, odd_too)) = (register(0).deinterleave(register(1)), register(2).deinterleave(register(3)));
+        let ((a, c), (b, d)) = (even.deinterleave(even_too), odd.deinterleave(odd_too));
+        [a, b, c, d]
+    }
+    #[inline(always)]
     fn sum_octets_f(self, table: &[f32], index: S::u32s, offsets: &[u32], weights: &[S::f32s]) -> [S::f32s; 8] {
         self.0.sum_octets(table, index, offsets, weights)
     }

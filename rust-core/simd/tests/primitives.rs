@@ -266,6 +266,12 @@ fn check_table_reads<L: Lanes>(l: L) {
     }
     let table: [f32; 32] = core::array::from_fn(|i| i as f32 * 0.25);
     pairs_of_integers(l, |_, y, _, b| floats_are("lookup32", l.lookup32(&table, y), |i| table[b[i] as usize % 32]));
+    let items: [f32; 4 * 20] = core::array::from_fn(|i| i as f32);
+    for at in 0..4 {
+        for (k, value) in l.load_quads(&items, at).into_iter().enumerate() {
+            floats_are("load_quads", value, |i| items[4 * (at + i) + k]);
+        }
+    }
     for at in 0..32 {
         floats_are("lookup32", l.lookup32(&table, l.iota() + at), |i| table[(i + at as usize) % 32]);
     }
