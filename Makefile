@@ -73,7 +73,7 @@ compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
 validation: extension $(CURDIR)/.venv-bpy50/ready
 	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
 	rm -rf out/validation
-	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/blender/test_lumens.py -m validate; \
+	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/blender/test_lamps_lux.py -m validate; \
 	    held=$$?; $(BIN)/python tests/validate/lighting/page.py && exit $$held
 
 # Every reader of untrusted files, ten minutes each.
@@ -84,7 +84,7 @@ fuzz:
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
 validate: test-blender compare-cycles validation fuzz
 	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
-	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/blender/test_lumens.py
+	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/blender/test_lamps_lux.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 # Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.
