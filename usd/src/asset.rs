@@ -23,6 +23,22 @@ pub fn bytes(py: Python<'_>, place: &str) -> Result<Vec<u8>, String> {
     }
 }
 
+/// The bytes of the file of a name that lies beside a resolved one, in its package if it is in one. The message says what is wrong without naming
+/// the place.
+pub fn beside(py: Python<'_>, place: &str, name: &str) -> Result<Vec<u8>, String> {
+    let resolve = || -> PyResult<String> {
+        let resolver = Module::Ar.item(py, "GetResolver")?.call0()?;
+        let anchor = Module::Ar.item(py, "ResolvedPath")?.call1((place,))?;
+        let identifier = resolver.call_method1(intern!(py, "CreateIdentifier"), (name, anchor))?;
+        resolver.call_method1(intern!(py, "Resolve"), (identifier,))?.call_method0(intern!(py, "GetPathString"))?.extract()
+    };
+    match resolve() {
+        Ok(place) if place.is_empty() => Err("it does not exist".to_owned()),
+        Ok(place) => bytes(py, &place),
+        Err(error) => Err(pxr::message_of(py, &error)),
+    }
+}
+
 /// What a reader makes of the file that an attribute names. The message names the file and says what it is, and what is wrong with it.
 pub fn read<T>(
     py: Python<'_>,
