@@ -30,13 +30,13 @@ fn rated(scene: &Scene) -> Reading {
     measure(&scene, Execution::best(), &mut watch).expect("a rating").meters[0].reading
 }
 
-/// Guth's index as CIE 117's references state it, of a place so far ahead, to the side and up.
+/// Guth's index as CIE 117's references state it, of a place so far ahead, to the side and up; 16 at most, where its table ends.
 fn guth(ahead: f64, side: f64, up: f64) -> f64 {
     let tau = side.abs().atan2(up).to_degrees();
     let sigma = side.hypot(up).atan2(ahead).to_degrees();
     let first = 35.2 - 0.31889 * tau - 1.22 * (-2.0 * tau / 9.0).exp();
     let second = 21.0 + 0.26667 * tau - 0.002963 * tau * tau;
-    (first * 1e-3 * sigma + second * 1e-5 * sigma * sigma).exp()
+    (first * 1e-3 * sigma + second * 1e-5 * sigma * sigma).exp().min(16.0)
 }
 
 /// By Σ L² ω / p² before the sky alone.
