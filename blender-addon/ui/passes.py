@@ -36,6 +36,10 @@ class GONIO_VIEWLAYER_PT_passes_photometry(LayerPanel, Panel):
         column = layout.column(heading="False Color")
         column.prop(layer.gonio, "use_pass_luminance_false_color", text="Luminance")
         column.prop(layer.gonio, "use_pass_illuminance_false_color", text="Illuminance")
+        asked = layer.gonio.use_pass_luminance_false_color or layer.gonio.use_pass_illuminance_false_color
+        if asked and changes_colors(layer.id_data.view_settings):
+            layout.label(text="The view transform changes these colors", icon="INFO")
+            layout.label(text="They are true under Standard, without a look, exposure or gamma", icon="BLANK1")
 
 
 class GONIO_VIEWLAYER_PT_passes_data(LayerPanel, Panel):
@@ -87,6 +91,11 @@ class GONIO_VIEWLAYER_PT_passes_aov(LayerPanel, Panel):
         buttons.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
         if layer.active_aov is not None and not layer.active_aov.is_valid:
             layout.label(text="Another pass has this name", icon="ERROR")
+
+
+def changes_colors(view) -> bool:
+    """Whether a scene's view settings show display colors, such as those of a false-color pass, as others."""
+    return view.view_transform != "Standard" or view.look != "None" or view.exposure != 0.0 or view.gamma != 1.0 or view.use_curve_mapping
 
 
 PANELS = (

@@ -280,3 +280,19 @@ def test_false_colour_is_a_pass_of_final_renders(tmp_path: Path):
     corner = shown[height - height // 4 :, : width // 12].reshape(-1, 3)
     assert not numpy.allclose(corner, expected[height - height // 4 :, : width // 12].reshape(-1, 3), atol=0.01)
     assert len({tuple(numpy.round(pixel, 2)) for pixel in corner}) > 2
+
+
+@pytest.mark.blender
+def test_the_panel_knows_when_a_view_changes_false_colours():
+    import importlib
+
+    import scenes
+
+    view = scenes.lit_floor().view_settings
+    passes = importlib.import_module("gonio_extension.ui.passes")
+    view.view_transform = "Standard"
+    assert not passes.changes_colors(view)
+    for name, value in (("exposure", 1.0), ("gamma", 2.2), ("use_curve_mapping", True), ("view_transform", "AgX")):
+        setattr(view, name, value)
+        assert passes.changes_colors(view), name
+        view.exposure, view.gamma, view.use_curve_mapping, view.view_transform = 0.0, 1.0, False, "Standard"

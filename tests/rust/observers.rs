@@ -30,36 +30,101 @@ fn rated(scene: &Scene) -> Reading {
     measure(&scene, Execution::best(), &mut watch).expect("a rating").meters[0].reading
 }
 
-/// Guth's index as CIE 117's references state it, of a place so far ahead, to the side and up.
+/// Guth's index as CIE 117's references state it, of a place so far ahead, to the side and up; 16 at most, where its table ends.
 fn guth(ahead: f64, side: f64, up: f64) -> f64 {
     let tau = side.abs().atan2(up).to_degrees();
     let sigma = side.hypot(up).atan2(ahead).to_degrees();
     let first = 35.2 - 0.31889 * tau - 1.22 * (-2.0 * tau / 9.0).exp();
     let second = 21.0 + 0.26667 * tau - 0.002963 * tau * tau;
-    (first * 1e-3 * sigma + second * 1e-5 * sigma * sigma).exp()
+    (first * 1e-3 * sigma + second * 1e-5 * sigma * sigma).exp().min(16.0)
+}
+
+/// By Σ L² ω / p² before the sky alone.
+fn rating_of(sum: f64) -> f64 {
+    8.0 * (0.25 / SKY * sum).log10()
 }
 
 fn assert_rated(found: Reading, sum: f64) {
-    let expected = 8.0 * (0.25 / SKY * sum).log10();
+    let expected = rating_of(sum);
     assert!(found.standard_error < 0.05, "{found:?}");
     assert!((found.value - expected).abs() < 5.0 * found.standard_error + 1e-3, "{found:?} instead of {expected}");
 }
 
+/// ∫ L² / p² dω of a level face below which the eye at the origin is, by the midpoint rule over its points.
+fn of_face(luminance: f64, points: impl Iterator<Item = [f64; 3]>, area: f64) -> f64 {
+    let part = |[x, y, z]: [f64; 3]| {
+        let square = x * x + y * y + z * z;
+        luminance * luminance * area * (y / square.sqrt()) / square / guth(-z, x, y).powi(2)
+    };
+    points.map(part).sum()
+}
+
+/// Of a disk.
+fn of_disk(luminance: f64, [x, y, z]: [f64; 3], radius: f64) -> f64 {
+    const RINGS: usize = 100;
+    let at = move |k: usize| {
+        // Points of equal areas.
+        let (r, angle) = (radius * ((k / RINGS) as f64 + 0.5).sqrt() / 10.0, (k % RINGS) as f64 * 2.0 * PI / RINGS as f64);
+        [x + r * angle.cos(), y, z + r * angle.sin()]
+    };
+    of_face(luminance, (0..100 * RINGS).map(at), PI * radius * radius / (100 * RINGS) as f64)
+}
+
+/// Of a rectangle with these sides.
+fn of_rectangle(luminance: f64, [x, y, z]: [f64; 3], [width, depth]: [f64; 2]) -> f64 {
+    const SIDE: usize = 100;
+    let share = |k: usize| (k as f64 + 0.5) / SIDE as f64 - 0.5;
+    let points = (0..SIDE * SIDE).map(|k| [x + width * share(k % SIDE), y, z + depth * share(k / SIDE)]);
+    of_face(luminance, points, width * depth / (SIDE * SIDE) as f64)
+}
+
 #[test]
 fn flat_luminaires_glare_by_luminance_solid_angle_and_place() {
-    let (radius, luminance) = (0.3, 4000.0);
-    let places = [[0.0, 1.8, -3.0], [1.5, 1.8, -3.0], [-1.5, 1.8, -6.0]];
+    let (radius, luminance) = (0.15, 40_000.0);
+    let places = [[0.0, 5.4, -9.0], [4.5, 5.4, -9.0], [-4.5, 5.4, -18.0]];
     let mut scene = under_sky();
     let lamp = |place| light(LightShape::Disk { radius }, facing_down(place), [luminance as f32; 3]);
     scene.lights.extend(places.map(lamp));
     // Behind the eye, and seen from above, which is its dark side.
-    scene.lights.extend([lamp([0.0, 1.8, 3.0]), lamp([0.0, -1.0, -3.0])]);
-    let term = |[x, y, z]: [f64; 3]| {
-        let square = x * x + y * y + z * z;
-        let solid_angle = PI * radius * radius * (y / square.sqrt()) / square;
-        luminance * luminance * solid_angle / guth(-z, x, y).powi(2)
-    };
+    scene.lights.extend([lamp([0.0, 5.4, 9.0]), lamp([0.0, -1.0, -3.0])]);
+    // So small that one place stands for the whole.
+    let term = |place| of_face(luminance, [place].into_iter(), PI * radius * radius);
     assert_rated(rated(&scene), places.map(term).iter().sum());
+}
+
+#[test]
+fn large_luminaires_glare_part_by_part() {
+    let (luminance, place) = (4000.0, [0.5, 1.2, -1.5]);
+    let mut scene = under_sky();
+    let sides = [0.6, 1.2];
+    let panel = LightShape::Rectangle { width: sides[0], height: sides[1] };
+    scene.lights.push(light(panel, facing_down(place), [luminance as f32; 3]));
+    assert_rated(rated(&scene), of_rectangle(luminance, place, sides));
+    scene.lights[1] = light(LightShape::Disk { radius: 0.5 }, facing_down(place), [luminance as f32; 3]);
+    assert_rated(rated(&scene), of_disk(luminance, place, 0.5));
+    // Its centre stands above the eye, so that half of it is ahead.
+    let overhead = [0.0, 1.2, 0.0];
+    scene.lights[1] = light(panel, facing_down(overhead), [luminance as f32; 3]);
+    let ahead = of_rectangle(luminance, [0.0, 1.2, -0.25 * sides[1]], [sides[0], 0.5 * sides[1]]);
+    assert_rated(rated(&scene), ahead);
+}
+
+#[test]
+fn what_is_partly_hidden_glares_with_the_rest() {
+    let (luminance, place, sides) = (4000.0, [0.0, 1.2, -2.0], [1.2, 0.6]);
+    let mut scene = under_sky();
+    let panel = LightShape::Rectangle { width: sides[0], height: sides[1] };
+    scene.lights.push(light(panel, facing_down(place), [luminance as f32; 3]));
+    let whole = of_rectangle(luminance, place, sides);
+    assert_rated(rated(&scene), whole);
+    // A black screen before the left half.
+    add_quad(&mut scene, [-1.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], Material::diffuse(Origin::new("screen"), [0.0; 3]));
+    let found = rated(&scene);
+    // The screen takes of the sky what it covers: the background is what the eye has left.
+    let (half, all) = (rating_of(whole / 2.0), rating_of(whole));
+    assert!(found.value > half - 0.1 && found.value < all, "{found:?}: {half} to {all}");
+    scene.lights[1].casts_shadow = false;
+    assert!((rated(&scene).value - found.value - 8.0 * 2f64.log10()).abs() < 0.1);
 }
 
 #[test]

@@ -122,7 +122,7 @@ def test_errors_are_one_line_with_place(run, matt, tmp_path):
         ((broken,), "broken.gbsdf:8: theta_o: axis value 0"),
         ((cut,), "cut.bsdf: byte "),
         ((tmp_path / "none.bsdf",), "none.bsdf"),
-        ((matt, "--lobes", tmp_path / "lobes.png"), "the ending is 'png', expected svg"),
+        ((matt, "--lobes", tmp_path / "lobes.jpg"), "the ending is 'jpg', expected svg or png"),
         ((matt, "-o", tmp_path / "out.txt"), "the ending is 'txt', expected gbsdf"),
         ((matt, "-o", tmp_path / "out.gbsdf", "--grid", 720, 720), "expected 268435456 at most"),
     ]:

@@ -4,6 +4,7 @@ import json
 import math
 import xml.etree.ElementTree as ET
 
+import pictures
 import pytest
 
 LAMBERTIAN_LM = 500.0
@@ -63,6 +64,15 @@ def test_drawings(run, luminaire, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cone.svg", "polar.svg"]
 
 
+@pytest.mark.parametrize("option", ["--polar", "--cone"])
+def test_drawings_as_pictures_have_twice_the_pixels(run, luminaire, tmp_path, option):
+    drawing, picture = tmp_path / "drawing.svg", tmp_path / "drawing.png"
+    for path in (drawing, picture):
+        run("photometry", luminaire, option, path)
+    root = ET.parse(drawing).getroot()
+    assert pictures.png_size(picture) == tuple(2 * int(root.get(side)) for side in ("width", "height"))
+
+
 def test_conversion_keeps_the_light(run, luminaire, tmp_path):
     whole = facts(run, luminaire)
     for name in ("out.ies", "out.ldt"):
@@ -71,6 +81,18 @@ def test_conversion_keeps_the_light(run, luminaire, tmp_path):
         assert again["flux_lm"] == pytest.approx(whole["flux_lm"], rel=1e-6)
         assert again["opening"]["size_m"] == pytest.approx(whole["opening"]["size_m"])
         assert again["light_output_ratio"] == pytest.approx(whole["light_output_ratio"], rel=1e-6)
+
+
+def test_symmetries_are_given_and_keep_the_flux(run, tmp_path):
+    path, even = tmp_path / "skew.ies", tmp_path / "even.ies"
+    path.write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 3 1 2 0 0 0\n1 1 10\n0 90\n0 90 180\n100 80\n100 60\n100 10\n")
+    whole = facts(run, path)
+    assert whole["symmetry_found"] == "about C0-C180"
+    for name, found in (("rotational", "rotational"), ("quadrants", "quadrants"), ("c90", "quadrants"), ("none", "about C0-C180")):
+        run("photometry", path, "--symmetry", name, "--convert", even)
+        again = facts(run, even)
+        assert (again["symmetry_found"], again["flux_lm"]) == (found, pytest.approx(whole["flux_lm"], rel=1e-6))
+    assert run("photometry", path, "--symmetry", "odd").returncode == 2
 
 
 def test_a_stated_flux_that_is_wrong_is_told(run, luminaire, tmp_path):
@@ -90,7 +112,7 @@ def test_errors_are_one_line_with_place(run, luminaire, tmp_path):
     for arguments, expected in [
         ((path,), "broken.ldt:61: 'rubbish' was found"),
         ((tmp_path / "none.ies",), "none.ies"),
-        ((luminaire, "--polar", tmp_path / "polar.png"), "the ending is 'png', expected svg"),
+        ((luminaire, "--polar", tmp_path / "polar.jpg"), "the ending is 'jpg', expected svg or png"),
         ((luminaire, "--convert", tmp_path / "out.txt"), "the ending is 'txt', expected ies or ldt"),
         ((luminaire, "--rotate", "nan"), "expected degrees"),
     ]:
@@ -109,6 +131,20 @@ def test_a_tilt_takes_the_files_factors(run, tmp_path):
     assert tilted["peak_cd"] == pytest.approx(75)
     assert tilted["tilt"]["factors"] == [1, 0.5]
     assert "factors by tilt from 0° to 90°" in run("photometry", path).stdout
+
+
+def test_tilt_factors_are_read_from_the_file_beside(run, tmp_path):
+    path = tmp_path / "tilting.ies"
+    path.write_text("IESNA:LM-63-2002\nTILT=LAMP.TLT\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 90 180\n0\n100 100 100\n")
+    alone = facts(run, path)
+    assert alone["tilt"] is None
+    (warning,) = alone["warnings"]
+    assert "line 2: the TILT file 'LAMP.TLT' cannot be read: No such file" in warning and "TILT=NONE" in warning
+    (tmp_path / "LAMP.TLT").write_text("1\n2\n0 90\n1 0.5\n")
+    assert facts(run, path, "--tilt", 45)["peak_cd"] == pytest.approx(75)
+    (tmp_path / "LAMP.TLT").unlink()
+    (tmp_path / "LAMP.TLT").mkdir()
+    assert "cannot be read" in facts(run, path)["warnings"][0]
 
 
 def test_a_tilt_that_no_file_tells_of_is_refused(run, luminaire):

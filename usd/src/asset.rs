@@ -23,6 +23,19 @@ pub fn bytes(py: Python<'_>, place: &str) -> Result<Vec<u8>, String> {
     }
 }
 
+/// The bytes of the file of a name that lies beside a resolved one, in its package if it is in one. The message says what is wrong without naming
+/// the place.
+pub fn beside(py: Python<'_>, place: &str, name: &str) -> Result<Vec<u8>, String> {
+    bytes(py, &place_beside(place, name))
+}
+
+/// A resolved path with another last part: `folder/a.ies` gives `folder/NAME`, `package.usdz[folder/a.ies]` gives `package.usdz[folder/NAME]`.
+fn place_beside(place: &str, name: &str) -> String {
+    let path = place.trim_end_matches(']');
+    let folder = path.rfind(['/', '\\', '[']).map_or("", |end| &path[..=end]);
+    format!("{folder}{name}{}", &place[path.len()..])
+}
+
 /// What a reader makes of the file that an attribute names. The message names the file and says what it is, and what is wrong with it.
 pub fn read<T>(
     py: Python<'_>,
@@ -36,4 +49,21 @@ pub fn read<T>(
     }
     let bytes = bytes(py, resolved).map_err(|problem| format!("the {what} '{resolved}' {problem}"))?;
     reader(&bytes, resolved).map_err(|error| Error::in_file(resolved, &error).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_lie_beside_one_another_in_folders_and_packages() {
+        for (place, expected) in [
+            ("/stages/a.ies", "/stages/lamp.tlt"),
+            ("a.ies", "lamp.tlt"),
+            ("/stages/b.usdz[lamps/a.ies]", "/stages/b.usdz[lamps/lamp.tlt]"),
+            ("/stages/b.usdz[c.usdz[a.ies]]", "/stages/b.usdz[c.usdz[lamp.tlt]]"),
+        ] {
+            assert_eq!(place_beside(place, "lamp.tlt"), expected);
+        }
+    }
 }

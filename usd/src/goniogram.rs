@@ -118,7 +118,9 @@ fn or_warn<T>(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath, 
 }
 
 fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {
-    match asset::read(context.py, path, "light distribution", photometry::read) {
+    let py = context.py;
+    let reader = |bytes: &[u8], name: &str| photometry::read_with(bytes, name, &mut |tilt| asset::beside(py, name, tilt));
+    match asset::read(py, path, "light distribution", reader) {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {
                 context.note(origin, Error::in_file(&path.resolved, warning).to_string());

@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::light::{input, radiance, report_left_out, tint};
 use crate::photometry;
 use crate::prim::Prim;
+use gonio::colour::luminance_of_pixel;
 use gonio::scene::{Channel, Input, Material, MaterialId, Operation};
 
 /// Whether a light is made of the prim's geometry.
@@ -25,7 +26,7 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
     if let Some(luminance) = photometry::of_mesh(context, prim, square_metres) {
         let tint = tint(context, prim);
-        let own = f64::from(0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2]);
+        let own = f64::from(luminance_of_pixel(tint));
         radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });
     } else if input(context, prim, "normalize").unwrap_or(false) {
         match area.filter(|area| *area > 0.0) {

@@ -10,7 +10,9 @@ pub mod photometry;
 pub mod weather;
 
 mod error;
+mod short;
 mod svg;
 
 pub use error::{FormatError, Place};
+pub use short::short_number;
 pub use svg::escape;

@@ -94,21 +94,9 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// A number for a reader: three significant digits, whole ones from 100 on.
-pub(crate) fn short(value: f64) -> String {
-    let digits = if value.abs() > 0.0 { (2 - value.abs().log10().floor() as i32).clamp(0, 6) } else { 0 };
-    let text = format!("{value:.*}", digits as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!([0.0, 0.5, 7.9577, 31.83, 1234.5, 1000.0].map(short), ["0", "0.5", "7.96", "31.8", "1234", "1000"]);
-    }
 
     #[test]
     fn texts_cannot_leave_their_element() {

@@ -5,18 +5,20 @@ use gonio::scene::Goniogram;
 use gonio_formats::photometry;
 use pyo3::prelude::*;
 use serde_json::json;
+use std::path::Path;
 
 /// A file's luminaire with the lamp set of a number, from 1, and tilted by so many degrees.
 fn read(data: &[u8], name: &str, lamp_set: Option<usize>, tilt: f64) -> PyResult<photometry::Goniogram> {
     let read = || {
-        let found = photometry::read(data, name)?;
+        let found = photometry::read_with(data, name, &mut photometry::beside(Path::new(name)))?;
         let lamped = lamp_set.map_or(Ok(found.clone()), |number| found.with_lamp_set(number.wrapping_sub(1)))?;
         lamped.tilted(tilt)
     };
     read().map_err(|error| exception(gonio::Error::in_file(name, &error)))
 }
 
-/// The goniogram of an IES or EULUMDAT file's bytes as a light's description has it, its factors in cd, and warnings; `name` says which file it is.
+/// The goniogram of an IES or EULUMDAT file's bytes as a light's description has it, its factors in cd, and warnings; `name` says which file it is,
+/// and beside which a file of tilt factors lies.
 /// lamp_set: number of the file's alternative lamps, from 1; tilt: degrees by which the luminaire hangs aslant, for files with tilt factors.
 #[pyfunction]
 #[pyo3(signature = (data, name, *, lamp_set = None, tilt = 0.0))]

@@ -1,11 +1,11 @@
 //! Lights in words.
 
+use gonio::colour::luminance_of_pixel;
 use gonio::scene::{Light, LightQuantity, LightShape, Opening};
 
 /// A light in words, with units.
 pub(super) fn describe(light: &Light) -> String {
-    let [r, g, b] = light.emission.radiance;
-    let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let y = luminance_of_pixel(light.emission.radiance);
     let shape = match light.shape {
         LightShape::Rectangle { width, height } => format!("rectangle {} x {} units", short(width), short(height)),
         LightShape::Disk { radius } => format!("disk of radius {} units", short(radius)),

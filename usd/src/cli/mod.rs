@@ -8,6 +8,7 @@ mod checkpoint;
 mod compare;
 mod daylight;
 mod denoise;
+mod drawing;
 mod falsecolor;
 mod file;
 mod file_name;

@@ -1,14 +1,15 @@
 //! `gonio photometry`.
 
 use super::{
-    arguments::PhotometryOptions,
+    arguments::{PhotometryOptions, SymmetryName},
+    drawing,
     file::{self, check_ending, ending},
     print,
 };
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::photometry::{
-    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, Tilt, cone_diagram, ies, ldt,
-    polar_diagram, read,
+    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, Tilt, beside, cone_diagram, ies, ldt,
+    polar_diagram, read_with,
 };
 use serde_json::{Value, json};
 use std::io::Write;
@@ -26,8 +27,8 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
     let figures = goniogram.figures();
     for (option, path, _) in outputs(options) {
         let bytes = match option {
-            "polar" => polar_diagram(&goniogram, PolarUnit::CandelaPerKilolumen).into_bytes(),
-            "cone" => cone_diagram(&goniogram).into_bytes(),
+            "polar" => drawing::encoded(polar_diagram(&goniogram, PolarUnit::CandelaPerKilolumen), path)?,
+            "cone" => drawing::encoded(cone_diagram(&goniogram), path)?,
             _ if ending(path) == "ldt" => ldt::write(&goniogram),
             _ => ies::write(&goniogram),
         };
@@ -43,8 +44,11 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
 
 /// The files asked for, with their option and the endings it takes.
 fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &Path, &'static [&'static str])> {
-    let all: [(_, _, &'static [&'static str]); 3] =
-        [("polar", &options.polar, &["svg"]), ("cone", &options.cone, &["svg"]), ("convert", &options.convert, &["ies", "ldt"])];
+    let all: [(_, _, &'static [&'static str]); 3] = [
+        ("polar", &options.polar, drawing::ENDINGS),
+        ("cone", &options.cone, drawing::ENDINGS),
+        ("convert", &options.convert, &["ies", "ldt"]),
+    ];
     all.into_iter().filter_map(|(option, path, endings)| Some((option, path.as_deref()?, endings)))
 }
 
@@ -52,18 +56,33 @@ fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &
 fn load(options: &PhotometryOptions) -> Result<Goniogram> {
     let path = &options.file;
     let bytes = file::read(path, LONGEST, "luminaire's file")?;
-    let mut goniogram = read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(path, &error))?;
+    let mut goniogram = read_with(&bytes, &path.to_string_lossy(), &mut beside(path)).map_err(|error| Error::in_file(path, &error))?;
     if let Some(number) = options.lamp_set {
         let chosen = goniogram.with_lamp_set(number as usize - 1);
         goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;
     }
     goniogram = goniogram.tilted(options.tilt).map_err(|error| Error::Setting { name: "tilt".into(), problem: error.problem })?;
-    match options.rotate {
-        Some(degrees) if !degrees.is_finite() => {
-            Err(Error::Setting { name: "rotate".into(), problem: format!("{degrees} was found, expected degrees") })
+    if let Some(degrees) = options.rotate {
+        if !degrees.is_finite() {
+            return Err(Error::Setting { name: "rotate".into(), problem: format!("{degrees} was found, expected degrees") });
         }
-        Some(degrees) => Ok(goniogram.rotated(degrees)),
-        None => Ok(goniogram),
+        goniogram = goniogram.rotated(degrees);
+    }
+    Ok(match options.symmetry {
+        Some(name) => goniogram.symmetrised(name.into()),
+        None => goniogram,
+    })
+}
+
+impl From<SymmetryName> for Symmetry {
+    fn from(name: SymmetryName) -> Self {
+        match name {
+            SymmetryName::None => Self::None,
+            SymmetryName::Rotational => Self::Rotational,
+            SymmetryName::C0 => Self::AboutC0,
+            SymmetryName::C90 => Self::AboutC90,
+            SymmetryName::Quadrants => Self::Quadrants,
+        }
     }
 }
 

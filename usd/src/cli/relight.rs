@@ -3,6 +3,7 @@
 use super::{arguments::RelightOptions, file::check_ending, print, say};
 use gonio::{
     Error, Result,
+    colour::luminance_of_pixel,
     film::{Image, Layer},
     light::blackbody_rgb,
     output::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr},
@@ -96,7 +97,7 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
         layers.push(Layer { aov: Aov::LightGroup(number as u16), name: format!("{PREFIX}{name}"), values, channels: 3 });
     }
     if find(channels, "Luminance").is_some() {
-        let luminance = |c: &[f32]| (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / exposure;
+        let luminance = |c: &[f32]| luminance_of_pixel([c[0], c[1], c[2]]) / exposure;
         let values = colour.chunks_exact(4).map(luminance).collect();
         layers.push(Layer { aov: Aov::Luminance, name: "luminance".into(), values, channels: 1 });
     }

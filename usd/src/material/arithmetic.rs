@@ -1,9 +1,7 @@
 //! Arithmetic on node inputs that folds constants, so that only what varies over a surface becomes a node.
 
+use gonio::colour::luminance_of_pixel;
 use gonio::scene::{Channel, Graph, Input, Operation};
-
-/// Linear Rec.709 weights of luminance.
-const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A number as an input.
 pub(super) fn scalar(value: f32) -> Input {
@@ -104,7 +102,7 @@ pub(super) fn combine(graph: &mut Graph, parts: &[Input]) -> Input {
 /// The luminance of a linear Rec.709 colour.
 pub(super) fn luminance(graph: &mut Graph, input: Input) -> Input {
     match input {
-        Input::Constant([r, g, b, _]) => scalar(LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b),
+        Input::Constant([r, g, b, _]) => scalar(luminance_of_pixel([r, g, b])),
         Input::Node(_, Channel::Rgb) => Input::Node(graph.add(Operation::Luminance, vec![input]), Channel::R),
         single @ Input::Node(..) => single,
     }

@@ -14,7 +14,16 @@ pub use matrix::{Matrix3, apply, inverse, product};
 pub use space::{ColourSpace, UnknownColourSpace, file_rule};
 pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};
 
-/// Luminance of a linear Rec.709 colour, in the colour's unit (ITU-R BT.709).
+/// Weights of luminance in linear Rec.709 (ITU-R BT.709).
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Luminance of a linear Rec.709 colour, in the colour's unit.
 pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+    LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
+}
+
+/// The same in single precision, as pixels are.
+#[inline]
+pub fn luminance_of_pixel([r, g, b]: [f32; 3]) -> f32 {
+    LUMINANCE[0] as f32 * r + LUMINANCE[1] as f32 * g + LUMINANCE[2] as f32 * b
 }

@@ -1,4 +1,4 @@
-//! A scene's lights as luminaires: what they send in all, and what they show to an eye.
+//! A scene's lights as luminaires: what they send in all, and what shines of them.
 
 use super::{
     goniograms::CompiledGoniograms,
@@ -7,7 +7,7 @@ use super::{
     quantity::{self, FarFields},
 };
 use crate::{
-    light::{FarField, LightRecord},
+    light::{LightRecord, LightTable, LightTexture},
     scene::{Light, Scene},
 };
 
@@ -18,31 +18,30 @@ pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
     let mut far_fields = FarFields::default();
     let flux = |light: &Light| {
         is_luminaire(light).then(|| {
-            let records = records(light, &mut goniograms, &mut far_fields);
+            let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
             quantity::flux_of(&records, &mut goniograms, &mut far_fields)
         })
     };
     scene.lights.iter().map(flux).collect()
 }
 
-/// A light as it is seen from afar.
+/// A light as an eye sees it.
 #[derive(Debug)]
 pub(crate) struct Luminaire {
-    /// World space, metres.
-    pub(crate) centre: [f64; 3],
-    pub(crate) far_field: FarField,
+    /// What shines of it, each part in a table of its own.
+    pub(crate) emitters: Vec<LightTable>,
     /// Whether things hide it.
     pub(crate) casts_shadow: bool,
 }
 
-/// The scene's lights that have a place and no image over them.
-pub(crate) fn luminaires(scene: &Scene) -> Vec<Luminaire> {
+/// The scene's lights that have a place and no image over them, seen from an origin in world space.
+pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let luminaire = |light: &Light| {
-        let records = records(light, &mut goniograms, &mut far_fields);
-        let far_field = FarField::new(&records, &goniograms.tables);
-        Luminaire { centre: light.transform.point([0.0; 3]), far_field, casts_shadow: light.casts_shadow }
+        let records = records(light, origin, &mut goniograms, &mut far_fields);
+        let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
+        Luminaire { emitters: records.into_iter().map(alone).collect(), casts_shadow: light.casts_shadow }
     };
     scene.lights.iter().filter(|light| is_luminaire(light)).map(luminaire).collect()
 }
@@ -53,11 +52,11 @@ pub(crate) fn is_luminaire(light: &Light) -> bool {
 }
 
 /// The light's emitters as strong as it is; what cannot be used is reported when the scene is compiled.
-fn records(light: &Light, goniograms: &mut CompiledGoniograms, far_fields: &mut FarFields) -> Vec<LightRecord> {
+fn records(light: &Light, origin: [f64; 3], goniograms: &mut CompiledGoniograms, far_fields: &mut FarFields) -> Vec<LightRecord> {
     let mut unheard = Vec::new();
     let number = goniograms.number(light, &mut unheard);
     let table = number.and_then(|number| goniograms.tables.get(number as usize));
-    let parts = emitters(light, [0.0; 3], table);
+    let parts = emitters(light, origin, table);
     let with_goniogram = |part: &Part| LightRecord { goniogram: number, ..record(light, part, None, &mut unheard) };
     let mut records: Vec<LightRecord> = parts.iter().map(with_goniogram).collect();
     quantity::apply(light, &mut records, goniograms, far_fields, &mut unheard);

@@ -8,6 +8,7 @@ use super::{
     sums::{Place, Rules, Sums},
 };
 use crate::{
+    colour::luminance_of_pixel,
     integrator::{BATCH, FirstHit, TILE, code, tile_code, unpack},
     scene::{Aov, LightPart, Settings},
 };
@@ -205,7 +206,7 @@ fn shown_luminance(gathered: &FirstHit, layout: &ChannelLayout, exposure: f32) -
 
 fn luminance(gathered: &FirstHit, slot: usize) -> f32 {
     let [red, green, blue] = &gathered.radiance;
-    0.2126 * red[slot] + 0.7152 * green[slot] + 0.0722 * blue[slot]
+    luminance_of_pixel([red[slot], green[slot], blue[slot]])
 }
 
 fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {

@@ -55,19 +55,7 @@ impl FarField {
     /// Luminous intensity in cd, and the greatest luminance of an emitter in cd/m² (0 for points), towards a direction in the luminaire's frame.
     pub fn towards(&self, direction: [f64; 3]) -> [f64; 2] {
         let world: [f64; 3] = std::array::from_fn(|k| (0..3).map(|axis| self.frame[axis][k] * direction[axis]).sum());
-        let [intensity, luminance, _] = self.sent(world);
-        [intensity, luminance]
-    }
-
-    /// Luminous intensity in cd and luminous area in m² (0 of points) that a direction of the world sees; unit.
-    pub fn seen_from(&self, direction: [f64; 3]) -> [f64; 2] {
-        let [intensity, _, area] = self.sent(direction);
-        [intensity, area]
-    }
-
-    /// Intensity, greatest luminance and area that shows, towards a direction of the world.
-    fn sent(&self, world: [f64; 3]) -> [f64; 3] {
-        let mut total = [0.0; 3];
+        let mut total = [0.0; 2];
         for (part, area) in self.areas.iter().enumerate() {
             let shown = area.map_or(1.0, |area| area.towards(world));
             if shown > 0.0 {
@@ -77,7 +65,6 @@ impl FarField {
                 let luminance = f64::from(sent.luminance().to_array()[0]);
                 total[0] += luminance * shown;
                 total[1] = f64::max(total[1], if area.is_some() { luminance } else { 0.0 });
-                total[2] += area.map_or(0.0, |_| shown);
             }
         }
         total

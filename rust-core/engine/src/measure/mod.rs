@@ -2,6 +2,7 @@
 
 mod csv;
 mod daylight_factor;
+mod eye;
 pub mod glare;
 mod outline;
 mod picture;

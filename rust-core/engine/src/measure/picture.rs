@@ -1,7 +1,8 @@
 //! A grid as a picture: false colour between the points, isolines, and the values where they were measured.
 
 use super::GridReading;
-use crate::output::{Canvas, FalseColour, short_number};
+use crate::output::{Canvas, FalseColour};
+use gonio_formats::short_number;
 
 /// Pixels of the picture's longer side, about.
 const SIDE: usize = 960;
@@ -21,7 +22,7 @@ pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {
     let mut canvas = style.draw(&pixels, size);
     let dot = (cell / 32).max(1);
     for (index, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-        let text = short_number(*value);
+        let text = short_number(f64::from(*value));
         let [width, height] = Canvas::text_size(&text, dot);
         if width + 2 * dot < cell {
             let middle = [index % columns * cell + cell / 2, (rows - 1 - index / columns) * cell + cell / 2];

@@ -1,26 +1,13 @@
 //! How a light's emission depends on direction, as measured.
 
-use super::Opening;
-use gonio_formats::photometry;
+use gonio_formats::photometry::{self, Opening, PhotometricType};
 use serde::{Deserialize, Serialize};
-
-/// How two angles make a direction (CIE 121, LM-63). The luminaire's nadir is the light's −z, its C0 the light's +x.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum PhotometricType {
-    /// Polar axis −z: tan C = y / x, cos γ = −z.
-    #[default]
-    C,
-    /// Polar axis y: tan V = x / −z, sin H = y.
-    B,
-    /// Polar axis x: tan H = y / −z, sin V = x.
-    A,
-}
 
 /// Factors on a light's emission on a grid of two angles, linear in both between its lines and zero beyond its ends. A point light of 1 cd whose
 /// factors are candela has the intensities themselves.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Goniogram {
-    /// What the angles are.
+    /// What the angles are. The luminaire's nadir is the light's −z, its C0 the light's +x.
     pub photometric_type: PhotometricType,
     /// Strictly increasing; type C: from 0 to 360, both included.
     pub horizontal_deg: Vec<f32>,
@@ -36,28 +23,18 @@ pub struct Goniogram {
     pub opening: Opening,
 }
 
-impl From<photometry::PhotometricType> for PhotometricType {
-    fn from(found: photometry::PhotometricType) -> Self {
-        match found {
-            photometry::PhotometricType::C => Self::C,
-            photometry::PhotometricType::B => Self::B,
-            photometry::PhotometricType::A => Self::A,
-        }
-    }
-}
-
 impl From<&photometry::Goniogram> for Goniogram {
     /// A file's goniogram with all its planes; the factors are candela.
     fn from(found: &photometry::Goniogram) -> Self {
         let photometry::Grid { horizontal, vertical, intensities } = found.expanded();
         let narrow = |values: Vec<f64>| values.into_iter().map(|value| value as f32).collect();
         Self {
-            photometric_type: found.photometric_type.into(),
+            photometric_type: found.photometric_type,
             horizontal_deg: narrow(horizontal),
             vertical_deg: narrow(vertical),
             factors: narrow(intensities),
             lamp_flux: found.lamps().and_then(|lamps| lamps.flux),
-            opening: found.opening.into(),
+            opening: found.opening,
         }
     }
 }

@@ -6,7 +6,13 @@ use gonio_formats::photometry::{Goniogram, PolarUnit, Symmetry, cone_diagram, ie
 /// The readers, and everything that is done with what they give.
 pub(crate) fn readers() -> Vec<Reader> {
     vec![
-        Reader { name: "ies", seeds: ies_seeds, read: |bytes| ies::read(bytes).is_ok(), memory: 1 << 20 },
+        // A file of tilt factors is as hostile as the one that names it.
+        Reader {
+            name: "ies",
+            seeds: ies_seeds,
+            read: |bytes| ies::read_with(bytes, &mut |_| Ok(tilt_file(bytes))).is_ok(),
+            memory: 1 << 20,
+        },
         Reader { name: "ldt", seeds: ldt_seeds, read: |bytes| ldt::read(bytes).is_ok(), memory: 1 << 20 },
         // Resampling to type C has a grid of its own size.
         Reader {
@@ -16,6 +22,11 @@ pub(crate) fn readers() -> Vec<Reader> {
             memory: 64 << 20,
         },
     ]
+}
+
+/// The lines behind the first one that names a file of tilt factors.
+fn tilt_file(bytes: &[u8]) -> Vec<u8> {
+    bytes.split_inclusive(|byte| *byte == b'\n').skip_while(|line| !line.starts_with(b"TILT=")).skip(1).flatten().copied().collect()
 }
 
 /// Calls everything that takes a goniogram.

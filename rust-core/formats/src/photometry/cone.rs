@@ -1,7 +1,8 @@
 //! The cone diagram: illuminance on the axis and the beam's width by distance.
 
 use super::Goniogram;
-use crate::svg::{Anchor, Canvas, short};
+use crate::short_number;
+use crate::svg::{Anchor, Canvas};
 
 /// Distances in metres.
 const DISTANCES: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
@@ -34,13 +35,13 @@ pub fn cone_diagram(goniogram: &Goniogram) -> String {
     for distance in DISTANCES {
         let y = TIP[1] + HEIGHT * distance / DISTANCES[4];
         let lux = on_axis / (distance * distance);
-        canvas.text([14.0, y - 4.0], Anchor::Start, &format!("{} m, {} lx", short(distance), short(lux)));
-        let [c0, c90] = ends.map(|[from, to]| short((to - from) * distance));
+        canvas.text([14.0, y - 4.0], Anchor::Start, &format!("{} m, {} lx", short_number(distance), short_number(lux)));
+        let [c0, c90] = ends.map(|[from, to]| short_number((to - from) * distance));
         canvas.text([PAGE[0] - 14.0, y - 4.0], Anchor::End, &format!("{c0} m, {c90} m"));
     }
     let [c0, c90] = beam.map(|beam| format!("{:.1}°", beam.angle()));
     let side = if beam[0].up { "about zenith" } else { "about nadir" };
-    let bottom = format!("beam {c0} (C0–C180), {c90} (C90–C270), {} cd {side}", short(on_axis));
+    let bottom = format!("beam {c0} (C0–C180), {c90} (C90–C270), {} cd {side}", short_number(on_axis));
     canvas.text([PAGE[0] / 2.0, PAGE[1] - 14.0], Anchor::Middle, &bottom);
     canvas.finish()
 }

@@ -2,6 +2,7 @@
 
 use super::Opening;
 use crate::FormatError;
+use serde::{Deserialize, Serialize};
 
 /// Luminous intensity of a luminaire by direction, with what its maker says of it.
 ///
@@ -43,9 +44,10 @@ pub struct Goniogram {
 /// The photometric coordinate system (CIE 121, LM-63).
 ///
 /// With x, y, z a direction in the luminaire's frame and nadir at −Z:
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PhotometricType {
     /// Polar axis −Z: tan C = y/x, cos γ = −z. Interiors and streets.
+    #[default]
     C,
     /// Polar axis Y: the vertical angle turns about it, tan V = x/−z; the horizontal angle is sin H = y. Floodlights.
     B,
@@ -87,7 +89,7 @@ pub struct LampSet {
     pub colour_rendering: String,
 }
 
-/// The lamp's flux by the luminaire's tilt (LM-63, TILT=INCLUDE).
+/// The lamp's flux by the luminaire's tilt (LM-63, TILT=).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tilt {
     /// How the lamp stands in the luminaire: 1 upright, 2 lying and tilted about its own axis, 3 lying and tilted across it.

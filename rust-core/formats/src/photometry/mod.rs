@@ -11,6 +11,7 @@ pub mod ldt;
 
 mod arrange;
 mod axis;
+mod beside;
 mod check;
 mod cone;
 mod convert;
@@ -25,6 +26,7 @@ mod polar;
 mod symmetry;
 pub(crate) mod text;
 
+pub use beside::{Beside, beside};
 pub use cone::cone_diagram;
 pub use figures::{Figures, Spread};
 pub use goniogram::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Symmetry, Tilt};
@@ -39,13 +41,21 @@ use crate::error::{FormatError, Result};
 /// # Errors
 /// What the format's own reader says, or that the bytes are neither.
 pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
+    read_with(bytes, name, &mut beside::nothing_beside)
+}
+
+/// The same, with the files beside it that it names (`TILT=` and a name); [`beside`] reads them from a folder.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Goniogram> {
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     if ies::looks_like(bytes) {
-        ies::read(bytes)
+        ies::read_with(bytes, beside)
     } else if ending == "ldt" || ldt::looks_like(bytes) {
         ldt::read(bytes)
     } else if ending == "ies" {
-        ies::read(bytes)
+        ies::read_with(bytes, beside)
     } else {
         Err(FormatError::line(1, "neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
     }

@@ -1,10 +1,15 @@
 //! The luminous opening: which part of a luminaire shines.
 
+use serde::{Deserialize, Serialize};
+
 /// What shines, in metres in the luminaire's frame, centred on the photometric centre.
 ///
 /// LM-63's length runs along C0–C180 and its width along C90–C270. EULUMDAT's length is the lamps' direction, across C0, so that it runs
 /// along C90–C270. Both are kept by axis here, and a file converted between the two formats keeps its body in step with its intensities.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+///
+/// A scene's lights have theirs in local units. What is flat and sends light beyond its plane all the same is as thick as a hundredth of its
+/// greatest extent there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Opening {
     /// The shape.
     pub shape: OpeningShape,
@@ -15,7 +20,7 @@ pub struct Opening {
 }
 
 /// The shape of a luminous opening (LM-63-2002 table 1 and its forerunners; EULUMDAT lines 16 to 21).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OpeningShape {
     /// No extent.
     #[default]

@@ -1,7 +1,8 @@
 //! The polar diagram: intensity as a radius, nadir down.
 
 use super::Goniogram;
-use crate::svg::{Anchor, Canvas, short};
+use crate::short_number;
+use crate::svg::{Anchor, Canvas};
 
 /// Page, centre and radius of the outermost ring in pixels.
 const PAGE: [f64; 2] = [520.0, 580.0];
@@ -70,7 +71,7 @@ fn frame(canvas: &mut Canvas, rings: f64, step: f64) {
         let radius = RADIUS * f64::from(ring) / rings;
         canvas.circle(CENTRE, radius, GREY);
         let [x, y] = at(0.0, radius);
-        canvas.text([x + 3.0, y - 3.0], Anchor::Start, &short(f64::from(ring) * step));
+        canvas.text([x + 3.0, y - 3.0], Anchor::Start, &short_number(f64::from(ring) * step));
     }
     for gamma in (-150..=180).step_by(30).map(f64::from) {
         let [x, y] = at(gamma, RADIUS + 16.0);
@@ -86,5 +87,5 @@ fn legend(canvas: &mut Canvas, goniogram: &Goniogram, unit: &str) {
     canvas.text([86.0, y], Anchor::Start, "C0–C180");
     canvas.curve(&[[170.0, y - 4.0], [210.0, y - 4.0]], BLUE, "7 4");
     canvas.text([216.0, y], Anchor::Start, "C90–C270");
-    canvas.text([PAGE[0] - 40.0, y], Anchor::End, &format!("{unit}, {} lm", short(goniogram.flux())));
+    canvas.text([PAGE[0] - 40.0, y], Anchor::End, &format!("{unit}, {} lm", short_number(goniogram.flux())));
 }

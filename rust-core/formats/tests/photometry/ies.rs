@@ -1,7 +1,7 @@
 //! LM-63's own ways.
 
 use crate::{close, ies_text, type_c};
-use gonio_formats::photometry::{OpeningShape, PhotometricType, Symmetry, ies, read};
+use gonio_formats::photometry::{OpeningShape, PhotometricType, Symmetry, ies, read, read_with};
 
 fn candela(version: &str, factors: &str) -> f64 {
     let text = ies_text(version, "2 1000 1.5 V H 1 2 0 0 0", factors, &[0.0, 90.0], &[0.0], |_, _| 10.0);
@@ -87,9 +87,59 @@ fn tilt_is_kept_and_not_applied() {
     close(tilt.factor(60.0), 0.9 - 0.1 / 3.0, 1e-12);
     assert_eq!([tilt.factor(-10.0), tilt.factor(100.0)], [1.0, 0.8]);
     assert_eq!(goniogram.peak(), 10.0);
-    let named = text.replace("INCLUDE\n2\n3\n0 45 90\n1 0.9 0.8", "lamp.tlt");
-    let goniogram = ies::read(named.as_bytes()).unwrap();
-    assert!(goniogram.warnings[0].to_string().contains("'lamp.tlt'"), "{:?}", goniogram.warnings);
+}
+
+/// A file that names another one for its tilt factors.
+fn naming(tilt_file: &str) -> String {
+    format!("IESNA:LM-63-1995\n[MANUFAC] test\nTILT={tilt_file}\n1 1000 1 2 1 1 2 0 0 0\n1 1 20\n0 90\n0\n10 10\n")
+}
+
+#[test]
+fn tilt_factors_may_stand_in_a_file_beside() {
+    for name in ["lamp.tlt", "C:\\TILTS\\lamp.tlt", "../../etc/lamp.tlt", "c:lamp.tlt"] {
+        let mut asked = Vec::new();
+        let mut beside = |name: &str| {
+            asked.push(name.to_owned());
+            Ok(b"2\r\n3\r\n0 45 90\r\n1 0.9 0.8\r\n\x1a".to_vec())
+        };
+        let goniogram = read_with(naming(name).as_bytes(), "lamp.ies", &mut beside).unwrap();
+        assert_eq!(asked, ["lamp.tlt"]);
+        assert_eq!(goniogram.warnings, []);
+        assert_eq!(goniogram.tilted(45.0).unwrap().peak(), 9.0);
+        assert_eq!(ies::read(&ies::write(&goniogram)).unwrap().tilt, goniogram.tilt);
+    }
+}
+
+#[test]
+fn without_its_tilt_file_a_luminaire_has_no_factors() {
+    let warned = |name: &str, found: Result<&str, &str>| {
+        let mut beside = |_: &str| found.map(|text| text.as_bytes().to_vec()).map_err(str::to_owned);
+        let goniogram = read_with(naming(name).as_bytes(), "lamp.ies", &mut beside).unwrap();
+        assert_eq!((goniogram.tilt, goniogram.intensities), (None, vec![10.0, 10.0]));
+        assert_eq!(goniogram.warnings.len(), 1);
+        goniogram.warnings[0].to_string()
+    };
+    assert_eq!(
+        warned("lamp.tlt", Err("no such file")),
+        "line 3: the TILT file 'lamp.tlt' cannot be read: no such file; TILT=NONE is taken"
+    );
+    for (text, problem) in [
+        ("", "line 1: the file ends, expected the lamp-to-luminaire geometry"),
+        ("1\n2\n0 90\n1 x\n", "line 4: 'x' was found, expected a tilt factor"),
+        ("1\n2\n0 90\n1 -0.5\n", "line 4: a tilt factor is -0.5, expected 0 or more"),
+        ("1\n2\n90 0\n1 1\n", "line 3: tilt angles do not increase"),
+        (
+            "1\n1000000000\n0 90\n1 1\n",
+            "line 2: the number of tilt angles is 1000000000, expected a whole number from 1: the rest of the file has room for 5",
+        ),
+    ] {
+        assert_eq!(warned("lamp.tlt", Ok(text)), format!("line 3: the TILT file 'lamp.tlt', {problem}; TILT=NONE is taken"));
+    }
+    for name in ["", "..", "tilts/", "/"] {
+        assert!(warned(name, Ok("1\n1\n0\n1\n")).contains("this is no file's name"));
+    }
+    let from_memory = ies::read(naming("lamp.tlt").as_bytes()).unwrap();
+    assert!(from_memory.warnings[0].to_string().contains("'lamp.tlt' cannot be read"), "{:?}", from_memory.warnings);
 }
 
 #[test]

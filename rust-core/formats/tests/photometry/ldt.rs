@@ -51,6 +51,11 @@ fn thirties(from: i32, to: i32) -> Vec<f64> {
 }
 
 #[test]
+fn an_empty_file_ends_in_its_first_line() {
+    assert_eq!(ldt::read(b"").unwrap_err().to_string(), "line 1: the file ends, expected the company");
+}
+
+#[test]
 fn every_symmetry_stores_its_planes() {
     let value = |c: f64, gamma: f64| 100.0 + c.rem_euclid(360.0) + gamma / 10.0;
     for (symmetry, stored, found) in [

@@ -19,10 +19,10 @@ pub(crate) struct BsdfOptions {
     #[arg(long)]
     pub(crate) json: bool,
     /// Draw the lobes of light at 0°, 30°, 60° and 75° in the plane of incidence, four decades of 1/sr.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub(crate) lobes: Option<PathBuf>,
     /// Draw the same lobes over whole hemispheres, as colours.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub(crate) map: Option<PathBuf>,
     /// Write it as .gbsdf: tables as they are, everything else evaluated on a grid of angles; how far that is from the file is told.
     #[arg(long, short = 'o', value_name = "FILE.gbsdf")]

@@ -25,7 +25,7 @@ pub(super) use glare::GlareArguments;
 pub(super) use info::InfoOptions;
 pub(super) use measure::{GridArguments, MeasureOptions};
 pub(super) use output::OutputArguments;
-pub(super) use photometry::PhotometryOptions;
+pub(super) use photometry::{PhotometryOptions, SymmetryName};
 pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, RenderOptions};
 pub(super) use report::ReportOptions;

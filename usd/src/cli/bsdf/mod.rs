@@ -6,6 +6,7 @@ mod fit;
 
 use super::{
     arguments::BsdfOptions,
+    drawing,
     file::{self, check_ending},
     print,
 };
@@ -26,23 +27,23 @@ struct Loaded {
 
 /// Reads the file, says what it holds, and writes what was asked for.
 pub(super) fn bsdf(options: &BsdfOptions) -> Result<i32> {
-    let outputs = [
-        ("lobes", &options.lobes, "svg"),
-        ("map", &options.map, "svg"),
-        ("output", &options.output, "gbsdf"),
-        ("material", &options.material, "usda"),
+    let outputs: [(_, _, &[&str]); 4] = [
+        ("lobes", &options.lobes, drawing::ENDINGS),
+        ("map", &options.map, drawing::ENDINGS),
+        ("output", &options.output, &["gbsdf"]),
+        ("material", &options.material, &["usda"]),
     ];
     for (option, path, expected) in outputs {
-        path.as_deref().map_or(Ok(()), |path| check_ending(option, path, &[expected]))?;
+        path.as_deref().map_or(Ok(()), |path| check_ending(option, path, expected))?;
     }
     let loaded = load(&options.file)?;
     let name = options.file.file_name().unwrap_or_default().to_string_lossy();
     let mut description = describe::as_json(&options.file, &loaded);
     if let Some(path) = &options.lobes {
-        write(path, lobe_diagram(&loaded.measured, &name).as_bytes())?;
+        write(path, &drawing::encoded(lobe_diagram(&loaded.measured, &name), path)?)?;
     }
     if let Some(path) = &options.map {
-        write(path, lobe_map(&loaded.measured, &name).as_bytes())?;
+        write(path, &drawing::encoded(lobe_map(&loaded.measured, &name), path)?)?;
     }
     if let Some(path) = &options.output {
         description["conversion"] = convert::convert(options, &loaded.measured, &name, path)?;

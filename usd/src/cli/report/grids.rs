@@ -1,6 +1,6 @@
 //! The figures and pictures of calculation grids and meters, and the installed power over them.
 
-use super::{figure, html::Page, schedule::Schedule};
+use super::{html::Page, schedule::Schedule};
 use crate::cli::{arguments::ReportOptions, falsecolor};
 use gonio::{
     Result,
@@ -8,6 +8,7 @@ use gonio::{
     output::FalseColour,
     scene::Measurand,
 };
+use gonio_formats::short_number;
 
 /// The grids' figures, then each with its picture.
 pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], schedule: &Schedule<'_>, page: &mut Page) -> Result<()> {
@@ -55,7 +56,7 @@ fn row(grid: &GridReading) -> Vec<String> {
 
 /// A value, its standard error and unit.
 fn with_error(reading: &Reading, unit: &str) -> String {
-    let text = format!("{} ± {}", figure(reading.value), figure(reading.standard_error));
+    let text = format!("{} ± {}", short_number(reading.value), short_number(reading.standard_error));
     format!("{text} {unit}").trim_end().to_owned()
 }
 
@@ -73,7 +74,7 @@ fn power_density(grids: &[GridReading], schedule: &Schedule<'_>) -> Option<Strin
     let without = if unknown > 0 { format!("; the power of {unknown} lights is unknown and not counted") } else { String::new() };
     Some(format!(
         "Installed power density: {} W over {:.2} m² of {} are {density:.2} W/m²{of_light}{without}.",
-        figure(watts),
+        short_number(watts),
         largest.area,
         largest.origin
     ))

@@ -124,14 +124,3 @@ fn write_notes(diagnostics: &[Diagnostic], page: &mut Page) {
 fn scale(options: &ReportOptions, max: Option<f32>, log: Option<f32>, values: &[f32]) -> Result<FalseColourScale> {
     falsecolor::scale(&ScaleArguments { max, steps: options.steps, log }, values)
 }
-
-/// A number for readers: three significant digits at least, whole from 100 on.
-fn figure(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        100.0.. => format!("{value:.0}"),
-        10.0.. => format!("{value:.1}"),
-        1.0.. => format!("{value:.2}"),
-        _ => format!("{value:.3}"),
-    }
-}

@@ -1,6 +1,6 @@
 //! What a stage's cameras see, as it looks and in false colour.
 
-use super::{figure, html::Page};
+use super::html::Page;
 use crate::{
     Loaded,
     cli::{arguments::ReportOptions, falsecolor, glare, render::drive},
@@ -15,6 +15,7 @@ use gonio::{
     render::Render,
     scene::{Aov, Integrator, Projection},
 };
+use gonio_formats::short_number;
 use gonio_simd::Execution;
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -127,7 +128,7 @@ pub(super) fn write(pictures: &[Picture], page: &mut Page) {
     for picture in pictures {
         page.part(&picture.camera);
         page.picture("jpeg", &picture.colour, &format!("{}, {} samples a pixel", picture.camera, picture.samples));
-        let [mean, greatest] = picture.figures.map(figure);
+        let [mean, greatest] = picture.figures.map(short_number);
         page.picture("png", &picture.luminance, &format!("luminance: mean {mean} cd/m², greatest {greatest} cd/m²"));
         if !picture.glare.is_empty() {
             page.list(&picture.glare);

@@ -1,13 +1,16 @@
 //! The luminaire schedule: a scene's lights by type, with flux and power.
 
-use super::{figure, html::Page};
+use super::html::Page;
 use crate::{
     Loaded, LuminaireFile,
     cli::{light_words::describe, photometry},
     view::shines,
 };
 use gonio::{compile::luminous_fluxes, scene::Light};
-use gonio_formats::photometry::{PolarUnit, polar_diagram};
+use gonio_formats::{
+    photometry::{PolarUnit, polar_diagram},
+    short_number,
+};
 
 /// Lights that differ in nothing but their place.
 #[derive(Debug)]
@@ -94,8 +97,8 @@ impl<'a> Schedule<'a> {
             let unknown: usize = unknown.iter().map(|kind| kind.count).sum();
             match (known.is_empty(), unknown) {
                 (true, _) => "–".to_owned(),
-                (_, 0) => figure(sum),
-                (_, unknown) => format!("{} without {unknown} unknown", figure(sum)),
+                (_, 0) => short_number(sum),
+                (_, unknown) => format!("{} without {unknown} unknown", short_number(sum)),
             }
         };
         let blank = String::new;
@@ -139,7 +142,7 @@ fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f
 
 impl Kind {
     fn row(&self) -> Vec<String> {
-        let shown = |value: Option<f64>| value.map_or("–".to_owned(), figure);
+        let shown = |value: Option<f64>| value.map_or("–".to_owned(), short_number);
         let of_all = |value: Option<f64>| shown(value.map(|value| value * self.count as f64));
         // The lamp's own efficacy: what a dimmer leaves of its power no file tells.
         let full = self.flux.filter(|_| self.dimming > 0.0).map(|flux| flux / f64::from(self.dimming));

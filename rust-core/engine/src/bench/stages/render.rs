@@ -8,6 +8,7 @@ use crate::{
         report::{LanesAlive, LevelBreakdown, Share},
         scenes,
     },
+    colour::luminance_of_pixel,
     compile::CompiledScene,
     error::Result,
     integrator::{LANE_STAGES, LaneCount, STAGES, Statistics},
@@ -84,7 +85,7 @@ impl Kernel for Whole {
         let image = self.last.as_ref().map(|render| render.film().develop());
         let layer = image.as_ref().and_then(|image| image.layer(Aov::Color));
         let pixels = layer.map_or(&[][..], |layer| &layer.values);
-        let luminance: Vec<f64> = pixels.chunks_exact(4).map(|p| f64::from(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2])).collect();
+        let luminance: Vec<f64> = pixels.chunks_exact(4).map(|p| f64::from(luminance_of_pixel([p[0], p[1], p[2]]))).collect();
         let count = luminance.len().max(1) as f64;
         let mean = luminance.iter().sum::<f64>() / count;
         let variance = luminance.iter().map(|y| (y - mean) * (y - mean)).sum::<f64>() / count;

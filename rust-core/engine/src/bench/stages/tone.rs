@@ -5,6 +5,7 @@ use crate::{
         kernel::{Case, Kernel, Outcome},
         numbers::{BATCH, columns3, cube},
     },
+    colour::luminance_of_pixel,
     error::Result,
     film::{Image, Layer},
     output::{KEY, Look, ToneCurve, display, map_lanes},
@@ -53,7 +54,7 @@ fn map<L: Lanes>(l: L, radiance: &[Column; 3], out: &mut [Column; 3]) {
 
 /// The same pixel by pixel.
 fn map_standard(colour: [f32; 3], white: f32) -> [f32; 3] {
-    let y = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    let y = luminance_of_pixel(colour);
     let factor = (y / (white * white) + 1.0) / (y + 1.0);
     colour.map(|x| {
         let x = (x * factor).clamp(0.0, 1.0);

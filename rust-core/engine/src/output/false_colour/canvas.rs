@@ -61,13 +61,3 @@ impl Canvas {
         [font::width(text) * dot, font::SIZE[1] * dot]
     }
 }
-
-/// A number as a legend shows it: three digits that count, without zeros behind the point.
-pub fn short_number(value: f32) -> String {
-    if !(1e-4..1e7).contains(&value.abs()) {
-        return if value == 0.0 { "0".into() } else { format!("{value:.0e}") };
-    }
-    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}

@@ -4,8 +4,10 @@ mod canvas;
 mod font;
 mod scale;
 
-pub use canvas::{Canvas, short_number};
+pub use canvas::Canvas;
 pub use scale::{FalseColourScale, MOST_STEPS};
+
+use gonio_formats::short_number;
 
 /// What a false-colour picture shows beside the colours.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +87,7 @@ impl FalseColour {
     /// The legend for a picture of a height, at least as tall as its text wants.
     pub fn legend(&self, height: usize) -> Canvas {
         let dot = (height / 240).clamp(1, 6);
-        let labels: Vec<String> = self.scale.edges().iter().map(|edge| short_number(*edge)).collect();
+        let labels: Vec<String> = self.scale.edges().iter().map(|edge| short_number(f64::from(*edge))).collect();
         let widest = labels.iter().chain([&self.unit]).map(|label| Canvas::text_size(label, dot)[0]).max().unwrap_or(0);
         let (margin, swatch, text) = (4 * dot, 12 * dot, Canvas::text_size("0", dot)[1]);
         let line = text + 3 * dot;
@@ -199,14 +201,5 @@ mod tests {
         assert!(canvas.size[0] > 320 && canvas.size[1] == 240, "{:?}", canvas.size);
         let colours: std::collections::HashSet<_> = canvas.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
         assert!((0..5).all(|step| colours.contains(&picture.scale.colour(step))));
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in
-            [(0.0, "0"), (500.0, "500"), (0.25, "0.25"), (12.5, "12.5"), (1234.0, "1234"), (1e9, "1e9"), (0.0333, "0.0333")]
-        {
-            assert_eq!(short_number(value), text);
-        }
     }
 }

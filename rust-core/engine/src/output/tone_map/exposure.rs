@@ -1,7 +1,7 @@
 //! How bright a picture is, and how an eye follows from frame to frame.
 
 use super::{CHUNK, KEY};
-use crate::{film::Image, scene::Aov};
+use crate::{colour::luminance_of_pixel, film::Image, scene::Aov};
 use gonio_simd::{Execution, Lanes, Rgb, dispatch};
 
 /// Pixels that make one of the low-resolution copy.
@@ -35,7 +35,7 @@ pub fn log_average(image: &Image, execution: Execution) -> f32 {
             .for_each(|(mean, logarithm)| add(*mean, f64::from(*logarithm)));
     }
     if !rest.is_empty() {
-        let total: f32 = rest.as_chunks::<4>().0.iter().map(|[r, g, b, _]| 0.2126 * r + 0.7152 * g + 0.0722 * b).sum();
+        let total: f32 = rest.as_chunks::<4>().0.iter().map(|[r, g, b, _]| luminance_of_pixel([*r, *g, *b])).sum();
         let mean = total / (rest.len() / 4) as f32;
         add(mean, f64::from(mean).ln());
     }

@@ -82,8 +82,9 @@ impl Look {
         if !stops.is_finite() {
             return Err(Error::setting("exposure", format!("{stops} was found, expected a finite number of stops")));
         }
-        if let Some(wrong) = [Some(white), adapted].into_iter().flatten().find(|x| !positive(*x)) {
-            return Err(Error::setting("white", format!("a luminance of {wrong} was found, expected more than 0")));
+        let luminances = [("white", Some(white)), ("adapted", adapted)];
+        if let Some((name, Some(wrong))) = luminances.into_iter().find(|(_, x)| x.is_some_and(|x| !positive(x))) {
+            return Err(Error::setting(name, format!("a luminance of {wrong} was found, expected more than 0")));
         }
         Ok(Self { tone_map, stops, white, adapted, space })
     }

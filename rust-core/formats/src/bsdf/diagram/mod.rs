@@ -62,5 +62,5 @@ fn height(value: f64, top: f64) -> f64 {
 
 /// A power of ten in a drawing.
 fn power_of_ten(exponent: f64) -> String {
-    if (-3.0..=3.0).contains(&exponent) { crate::svg::short(10_f64.powf(exponent)) } else { format!("1e{exponent}") }
+    if (-3.0..=3.0).contains(&exponent) { crate::short_number(10_f64.powf(exponent)) } else { format!("1e{exponent}") }
 }

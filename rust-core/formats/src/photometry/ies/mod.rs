@@ -3,9 +3,10 @@
 mod numbers;
 mod opening;
 mod read;
+mod tilt;
 mod write;
 
-pub use read::read;
+pub use read::{read, read_with};
 pub use write::write;
 
 /// A revision of the standard.

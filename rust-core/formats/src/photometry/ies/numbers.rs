@@ -17,7 +17,7 @@ impl<'a> Numbers<'a> {
 
     /// The line of the number given last.
     pub(super) fn line(&self) -> u64 {
-        self.lines.count
+        self.lines.count.max(1)
     }
 
     /// The next number.

@@ -2,13 +2,15 @@
 
 use super::numbers::Numbers;
 use super::opening::opening;
+use super::tilt::tilt;
 use super::{Version, tilt_of};
 use crate::error::{FormatError, Result};
 use crate::photometry::arrange::arrange;
 use crate::photometry::axis::Table;
+use crate::photometry::beside::{Beside, nothing_beside};
 use crate::photometry::check::Least;
 use crate::photometry::text::{LARGEST, Lines, decode, number, quote};
-use crate::photometry::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Tilt};
+use crate::photometry::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated};
 
 /// Metres in a foot.
 const FOOT: f64 = 0.3048;
@@ -31,18 +33,26 @@ struct Head {
 /// Reads an IES LM-63 file of any revision, photometric type and unit.
 ///
 /// Candela are the file's values times its multiplier and ballast factor, and until LM-63-1991 times the ballast-lamp photometric factor;
-/// the number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. `TILT=INCLUDE` is kept
-/// and not applied; a named TILT file is reported as a warning.
+/// the number of lamps and their lumens never scale them. Text before the `TILT=` line is kept as header lines. Tilt factors are kept and
+/// not applied; where they stand in a file beside this one, that is a warning: [`read_with`] gets it.
 ///
 /// # Errors
 /// Anything without one sensible reading, with the line.
 pub fn read(bytes: &[u8]) -> Result<Goniogram> {
+    read_with(bytes, &mut nothing_beside)
+}
+
+/// The same, with the files beside it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with(bytes: &[u8], beside: &mut Beside<'_>) -> Result<Goniogram> {
     let text = decode(bytes)?;
     let mut lines = Lines::new(&text);
     let mut warnings = Vec::new();
-    let (version, header, tilt) = header(&mut lines)?;
+    let (version, header, tilt_word) = header(&mut lines)?;
     let mut numbers = Numbers::new(lines);
-    let tilt = read_tilt(tilt, &mut numbers, &mut warnings)?;
+    let tilt = tilt(tilt_word, &mut numbers, beside, &mut warnings)?;
     let head = head(version, &mut numbers, &mut warnings)?;
     let mut table = table(&head, &mut numbers, &mut warnings)?;
     table.order(&mut warnings)?;
@@ -94,31 +104,6 @@ fn header<'a>(lines: &mut Lines<'a>) -> Result<(Version, Vec<HeaderLine>, &'a st
         }
     }
     Err(FormatError::line(lines.count.max(1), "the file ends, expected a line that starts with TILT="))
-}
-
-fn read_tilt(word: &str, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatError>) -> Result<Option<Tilt>> {
-    if word.eq_ignore_ascii_case("NONE") {
-        return Ok(None);
-    }
-    if !word.eq_ignore_ascii_case("INCLUDE") {
-        warnings.push(FormatError::line(numbers.line(), format!("the TILT file {} is not read: the factor is 1", quote(word))));
-        return Ok(None);
-    }
-    let geometry = numbers.next("the lamp-to-luminaire geometry")?;
-    if ![1.0, 2.0, 3.0].contains(&geometry) {
-        let problem = format!("the lamp-to-luminaire geometry is {}, expected 1, 2 or 3", number(geometry));
-        return Err(FormatError::line(numbers.line(), problem));
-    }
-    let count = numbers.count("tilt angles")?;
-    let angles = numbers.axis("tilt angle", count)?;
-    if let Some(index) = angles.angles.windows(2).position(|pair| pair[1] <= pair[0]) {
-        return Err(FormatError::line(angles.line(index + 1), "tilt angles do not increase"));
-    }
-    let mut factors = Vec::with_capacity(count);
-    for _ in 0..count {
-        factors.push(numbers.next("a tilt factor")?);
-    }
-    Ok(Some(Tilt { lamp_to_luminaire: geometry as u32, angles: angles.angles, factors }))
 }
 
 fn head(version: Version, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatError>) -> Result<Head> {

@@ -23,7 +23,7 @@ impl<'a> Fields<'a> {
 
     /// The line read last.
     pub(super) fn line(&self) -> u64 {
-        self.lines.count
+        self.lines.count.max(1)
     }
 
     /// An error in the line read last.

@@ -1,0 +1,126 @@
+//! What an observer's eye sees of luminaires.
+
+use super::{
+    glare::position_index,
+    vector::{Vector, cross, dot, subtract, unit},
+};
+use crate::{
+    accel::RayBatch,
+    compile::{CompiledScene, Luminaire},
+    error::{Error, Result},
+    integrator::ray_mask,
+    light::{LightSample, LightTable},
+    scene::Meter,
+};
+use gonio_simd::{Lanes, One, Vec3};
+
+/// Square metres of luminous area below which a source counts as small (CIE 147).
+const SMALL: f64 = 0.005;
+/// Share of the way to a luminous part that must be free: the luminaire's own housing may begin there.
+const FREE: f32 = 1.0 - 1e-4;
+/// Parts along a side of an emitter of 1 sr, and the fewest and most along one of any solid angle.
+const FINENESS: f64 = 60.0;
+const PARTS: [f64; 2] = [3.0, 16.0];
+
+/// An observer's eye.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eye {
+    position: Vector,
+    /// Right, up and ahead; unit.
+    axes: [Vector; 3],
+}
+
+/// A part of a luminaire as an eye sees it.
+struct Part {
+    /// Unit, from the eye, and the way in metres.
+    direction: [f32; 3],
+    distance: f32,
+    /// L² ω / p²; 0 of what is dark or not ahead.
+    glare: f64,
+    /// Luminous area that shows to the eye, m²; 0 of points.
+    area: f64,
+}
+
+impl Eye {
+    /// A meter's `facing` is the line of sight, its `normal` tells where up is.
+    pub(super) fn new(meter: &Meter) -> Result<Self> {
+        let found = || {
+            let ahead = unit(meter.facing)?;
+            let right = unit(cross(ahead, unit(meter.normal)?))?;
+            Some([right, cross(right, ahead), ahead])
+        };
+        let problem = "an observer wants a line of sight (facing) and a way up (normal) that is not along it";
+        Ok(Self { position: meter.position, axes: found().ok_or_else(|| Error::scene(&meter.origin, problem))? })
+    }
+
+    /// Σ L² ω / p² over the parts of a luminaire that nothing opaque hides: L is the luminance towards the eye, p the position index of the part.
+    /// What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too.
+    pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene) -> f64 {
+        let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
+        let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
+        let area: f64 = parts.iter().map(|part| part.area).sum();
+        parts.retain(|part| part.glare > 0.0);
+        if luminaire.casts_shadow {
+            retain_seen(&mut parts, place, scene);
+        }
+        let seen: f64 = parts.iter().map(|part| part.glare).sum();
+        if area > 0.0 { seen * (area / SMALL).min(1.0) } else { seen }
+    }
+
+    /// An emitter in parts of like solid angles.
+    fn parts(&self, emitter: &LightTable, place: [f32; 3]) -> Vec<Part> {
+        let middle = drawn(emitter, place, [0.5; 2]);
+        if middle.delta.0 {
+            return vec![self.part(&middle, 1.0)];
+        }
+        let density = f64::from(middle.pdf.0);
+        let along = if density > 0.0 { (FINENESS / density.sqrt()).ceil().clamp(PARTS[0], PARTS[1]) } else { PARTS[0] };
+        let at = |k: usize| ((k as f64 + 0.5) / along) as f32;
+        let count = along as usize;
+        (0..count * count).map(|k| self.part(&drawn(emitter, place, [at(k % count), at(k / count)]), along * along)).collect()
+    }
+
+    /// One of so many parts of an emitter.
+    fn part(&self, sample: &LightSample<One>, count: f64) -> Part {
+        let direction = [sample.wi.x.0, sample.wi.y.0, sample.wi.z.0];
+        let [luminance, pdf, distance] = [sample.radiance.luminance().0, sample.pdf.0, sample.distance.0].map(f64::from);
+        let dark = Part { direction, distance: sample.distance.0, glare: 0.0, area: 0.0 };
+        if pdf <= 0.0 {
+            return dark;
+        }
+        let in_view = self.axes.map(|axis| dot(axis, direction.map(f64::from)));
+        let weight = if in_view[2] > 0.0 { position_index(in_view).powi(-2) } else { 0.0 };
+        let square = distance * distance;
+        if sample.delta.0 {
+            // Its illuminance is I / r².
+            return Part { glare: luminance * luminance * square / SMALL * weight, ..dark };
+        }
+        let solid_angle = 1.0 / (pdf * count);
+        Part { glare: luminance * luminance * solid_angle * weight, area: solid_angle * square, ..dark }
+    }
+}
+
+/// A direction from a place to a light that is alone in its table, for `u` in `[0, 1)`.
+fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One> {
+    let no_surface = Vec3::splat(One, [0.0; 3]);
+    emitter.sample(One, None, Vec3::splat(One, place), no_surface, One.f(0.5), u.map(|x| One.f(x)))
+}
+
+/// Drops the parts that something opaque hides.
+fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) {
+    let count = parts.len();
+    let origin = place.map(|x| vec![x; count]);
+    let direction = [0, 1, 2].map(|k| parts.iter().map(|part| part.direction[k]).collect::<Vec<f32>>());
+    let t_max: Vec<f32> = parts.iter().map(|part| part.distance * FREE).collect();
+    let rays = RayBatch {
+        origin: origin.each_ref().map(|x| &x[..]),
+        direction: direction.each_ref().map(|x| &x[..]),
+        t_min: &vec![0.0; count],
+        t_max: &t_max,
+        mask: &vec![ray_mask::SHADOW; count],
+    };
+    let mut blocked = vec![0; count];
+    scene.tables.bvh.blocked_or_passed_scalar(&rays, &mut blocked, &mut Vec::new());
+    let mut blocked = blocked.into_iter();
+    parts.retain(|_| blocked.next() == Some(0));
+}

@@ -1,0 +1,36 @@
+//! Numbers for readers.
+
+/// Three digits that count, whole from 100 on, without zeros behind the point; a power of ten where that would be long.
+pub fn short_number(value: f64) -> String {
+    if !(1e-4..1e7).contains(&value.abs()) {
+        return if value == 0.0 { "0".into() } else { format!("{value:.0e}") };
+    }
+    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (500.0, "500"),
+            (0.25, "0.25"),
+            (12.5, "12.5"),
+            (7.9577, "7.96"),
+            (31.83, "31.8"),
+            (1234.0, "1234"),
+            (1e9, "1e9"),
+            (0.0333, "0.0333"),
+            (f64::from(0.0333_f32), "0.0333"),
+            (-2.0, "-2"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(short_number(value), text);
+        }
+    }
+}
