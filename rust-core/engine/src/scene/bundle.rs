@@ -3,11 +3,12 @@
 //! Layout: the line `gonio2`, a line with the lengths of both parts in bytes, the JSON, the arrays (little-endian) one behind the other.
 //! Textures stay files by path; those given in memory travel along.
 
-use super::{Scene, blob};
+use super::{Scene, TextureSource, blob};
 use crate::{
     checkpoint::Digest,
     error::{Error, Result},
     output::write_atomically,
+    texture::is_udim,
 };
 use std::{fs, io::Write, path::Path};
 
@@ -23,6 +24,20 @@ pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
         file.write_all(&json)?;
         file.write_all(&arrays)
     })
+}
+
+/// The scene with the bytes of its image files in memory. Sets of UDIM tiles, and files that cannot be read, stay names.
+pub fn with_images(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    for texture in &mut scene.textures {
+        if let TextureSource::File(path) = &texture.source
+            && !is_udim(&path.to_string_lossy())
+            && let Ok(bytes) = fs::read(path)
+        {
+            texture.source = TextureSource::Encoded { name: path.to_string_lossy().into_owned(), bytes: bytes.into() };
+        }
+    }
+    scene
 }
 
 /// Loads a scene.
