@@ -385,11 +385,14 @@ impl Scene {
         py.import("json")?.call_method1("loads", (text,))
     }
 
-    /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with `images`, but
-    /// for sets of UDIM tiles.
+    /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with
+    /// `images`; sets of UDIM tiles cannot.
     #[pyo3(signature = (path, *, images = false))]
     fn save(&self, py: Python<'_>, path: PathBuf, images: bool) -> PyResult<()> {
-        let save = || if images { scene::save_bundle(&scene::with_images(&self.scene), &path) } else { scene::save_bundle(&self.scene, &path) };
+        let save = || match images {
+            true => scene::save_bundle(&scene::with_images(&self.scene)?, &path),
+            false => scene::save_bundle(&self.scene, &path),
+        };
         py.detach(save).map_err(exception)
     }
 

@@ -26,18 +26,22 @@ pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
     })
 }
 
-/// The scene with the bytes of its image files in memory. Sets of UDIM tiles, and files that cannot be read, stay names.
-pub fn with_images(scene: &Scene) -> Scene {
+/// The scene with the bytes of its image files in memory; files that cannot be read stay names, as the picture is made without them.
+///
+/// Sets of UDIM tiles have no place in memory: they are an error.
+pub fn with_images(scene: &Scene) -> Result<Scene> {
     let mut scene = scene.clone();
     for texture in &mut scene.textures {
-        if let TextureSource::File(path) = &texture.source
-            && !is_udim(&path.to_string_lossy())
-            && let Ok(bytes) = fs::read(path)
-        {
-            texture.source = TextureSource::Encoded { name: path.to_string_lossy().into_owned(), bytes: bytes.into() };
+        let TextureSource::File(path) = &texture.source else { continue };
+        let name = path.to_string_lossy().into_owned();
+        if is_udim(&name) {
+            return Err(Error::scene(&texture.origin, format!("{name} is a set of UDIM tiles, which cannot travel along")));
+        }
+        if let Ok(bytes) = fs::read(path) {
+            texture.source = TextureSource::Encoded { name, bytes: bytes.into() };
         }
     }
-    scene
+    Ok(scene)
 }
 
 /// Loads a scene.
