@@ -6,15 +6,19 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from small_scenes import finished, floor_scene
+from small_scenes import at, finished, floor_scene
 
 gonio = pytest.importorskip("gonio")
 
 PARTS = [((0, 1), (0, 16)), ((0, 1), (16, 32)), ((1, 2), (0, 16)), ((1, 2), (16, 32))]
 
 
-def test_parts_are_settings_of_the_scene(tmp_path):
+@pytest.mark.parametrize("lights", [1, 100])
+def test_parts_are_settings_of_the_scene(tmp_path, lights):
     scene = floor_scene(width=130, height=70, samples=32)
+    # Beyond 64 lights a render learns which arrive where, from all of the view.
+    for number in range(1, lights):
+        scene.add_light("sphere", (100.0,) * 3, radius=0.05, transform=at(number % 10 - 5, 1, number // 10 - 5), name=f"lamp {number}")
     parts = scene.parts(12)
     assert len(parts) == 12 and parts[0] == {"tile_range": (0, 1), "sample_range": (0, 16)}
     paths = []

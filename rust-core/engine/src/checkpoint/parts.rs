@@ -68,7 +68,9 @@ mod tests {
 
     #[test]
     fn parts_cover_every_sample_of_every_tile_once() {
-        for (resolution, samples, count) in [([130, 70], 64, 4), ([64, 64], 1000, 7), ([640, 360], 1, 16), ([100, 100], 4096, 60), ([64, 64], 33, 9)] {
+        for (resolution, samples, count) in
+            [([130, 70], 64, 4), ([64, 64], 1000, 7), ([640, 360], 1, 16), ([100, 100], 4096, 60), ([64, 64], 33, 9)]
+        {
             let settings = settings(resolution, samples, 0.0);
             let tiles = resolution[0].div_ceil(64) * resolution[1].div_ceil(64);
             let parts = parts(&settings, count).expect("parts");
