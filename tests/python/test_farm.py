@@ -3,6 +3,7 @@
 import sys
 import types
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -95,7 +96,7 @@ def test_frames_come_in_order_and_their_files_go(job, tmp_path):
     client = Client()
     job, said = job(3, client)
     for frame, files in enumerate(job.frames()):
-        found = sorted(open(file, "rb").read() for file in files)
+        found = sorted(Path(file).read_bytes() for file in files)
         assert found == [b"%d of %d" % (part, frame) for part in range(4)]
     assert not list(tmp_path.iterdir())
     assert client.priorities == sorted(client.priorities, reverse=True)

@@ -18,7 +18,9 @@ def line(room, *options, spp=16):
     return ["render", str(room), "--res", "130", "96", "--spp", str(spp), "--aov", PASSES, "-q", *map(str, options)]
 
 
-@pytest.mark.parametrize("others", [("--checkpoint", "c"), ("--samples", "0:16"), ("--part", "1/2"), ("--time-limit", "5"), ("--threads", "2")])
+@pytest.mark.parametrize(
+    "others", [("--checkpoint", "c"), ("--samples", "0:16"), ("--part", "1/2"), ("--time-limit", "5"), ("--threads", "2")]
+)
 def test_parts_are_the_clusters_affair(run, room, others):
     done = run(*line(room, "-o", "a.exr", "--dask", "tcp://127.0.0.1:9", *others))
     assert done.returncode == 2 and "--dask <ADDRESS>' cannot be used with" in done.stderr

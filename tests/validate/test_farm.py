@@ -67,7 +67,9 @@ class Farm:
 
     def add(self):
         name = f"worker{len(self.workers)}"
-        worker = self._start("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", name, "--local-directory", str(self._folder / name))
+        worker = self._start(
+            "worker", "--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", name, "--local-directory", str(self._folder / name)
+        )
         self.workers.append(worker)
 
     def kill(self, chance):
@@ -182,7 +184,13 @@ film = gonio.farm.render(scene, sys.argv[1])
 one = finished(scene)
 assert all(numpy.array_equal(numpy.asarray(film[name]), numpy.asarray(one[name])) for name in one.passes)
 """
-    done = subprocess.run([python, "-c", script, farm.address, environments.ROOT / "tests" / "python"], env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [python, "-c", script, farm.address, environments.ROOT / "tests" / "python"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
     assert done.returncode == 0, done.stderr
 
 
@@ -197,7 +205,23 @@ def test_the_open_job_description(python, environment, render, room, tmp_path):
     words = [word for name, value in parameters.items() for word in ("-p", f"{name}={value}")]
     done = subprocess.run([openjd, "run", TEMPLATE, *words], env=environment, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
-    line = [python, "-m", "gonio.cli", "render", room, "--image-width", "128", "--spp", "32", "--aov", PASSES, "--frames", "1:2", "-o", tmp_path / "one.#.exr"]
+    line = [
+        python,
+        "-m",
+        "gonio.cli",
+        "render",
+        room,
+        "--image-width",
+        "128",
+        "--spp",
+        "32",
+        "--aov",
+        PASSES,
+        "--frames",
+        "1:2",
+        "-o",
+        tmp_path / "one.#.exr",
+    ]
     subprocess.run(line, env=environment, check=True, timeout=120)
     for frame in (1, 2):
         assert same(tmp_path / f"one.{frame}.exr", tmp_path / f"picture.{frame}.exr")

@@ -62,9 +62,9 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
     let parts = parts(&first.scene.settings, count.map_err(|error: PyErr| failure(py, &error))?)?;
     let parts: Vec<_> = parts.iter().map(|part| (part.tiles, part.samples)).collect();
     let started = || -> PyResult<_> {
-        let source = (words, folder, inputs, options.farm.dask_send);
+        let stages = cluster.call_method1("stages", (words, folder, inputs, options.farm.dask_send, &frames))?;
         let report = PyCFunction::new_closure(py, None, None, reporting(options.quiet))?;
-        cluster.call_method1("render", (source, &frames, parts, report))?.try_iter()
+        cluster.call_method1("gather", (stages, parts, report))?.try_iter()
     };
     for (frame, files) in frames.iter().zip(started().map_err(|error| failure(py, &error))?) {
         let files: Vec<PathBuf> = files.and_then(|files| files.extract()).map_err(|error| failure(py, &error))?;

@@ -7,7 +7,7 @@ use clap::Args;
 #[command(next_help_heading = "Many machines")]
 pub(crate) struct FarmArguments {
     /// Spread the render over the workers of a Dask cluster (pip install 'gonio[farm]'): its scheduler's address, as in tcp://farm:8786, or the path of its scheduler file.
-    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["checkpoint", "samples", "part", "time_limit", "threads"])]
+    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["list_cameras", "checkpoint", "samples", "part", "time_limit", "threads"])]
     pub(crate) dask: Option<String>,
     /// Parts that each frame is cut into; without it as many as give every worker four, over all frames.
     #[arg(long = "dask-parts", value_name = "COUNT", requires = "dask", value_parser = clap::value_parser!(u32).range(1..=100_000))]

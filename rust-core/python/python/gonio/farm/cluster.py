@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import tempfile
 import time
@@ -10,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from .._gonio import Cancelled, Error, __version__
-from . import source as sources
-from . import worker
 from .extra import PATIENCE, connect
-from .job import Job, Range, Report
+from .job import Job, Range, Report, Source
+from .source import REMEDY, Bundle, Stage, files_of, unseen
+from .worker import census
 
 # Parts that each of a worker's threads gets: enough for the quick to help out the slow.
 PARTS_A_THREAD = 4
@@ -28,8 +29,12 @@ class Cluster:
         """Connects to a scheduler's address or scheduler file; `gonio.Error` says in one line why the cluster cannot be used."""
         self.cancelled = cancelled
         self.client = connect(address)
-        self._wait_for_workers(address)
-        self.level = self._common_level()
+        try:
+            self._wait_for_workers(address)
+            self.level = self._common_level()
+        except BaseException:
+            self.client.close()
+            raise
 
     def parts_for(self, frames: int) -> int:
         """Parts that each of so many frames is best cut into."""
@@ -39,25 +44,33 @@ class Cluster:
         """Threads of all workers there are at the moment."""
         return sum(self.client.nthreads().values())
 
-    def render(self, source: tuple[Any, ...], frames: Sequence[float | None], parts: Sequence[Range], report: Report) -> Iterator[list[str]]:
-        """For each frame in order the files of its parts, which are gone when the next is asked for.
+    def stages(
+        self, arguments: Sequence[str], folder: str, inputs: Sequence[str], send: bool, frames: Sequence[float | None]
+    ) -> list[Callable[[], Source]]:
+        """What `gonio render` with these arguments would trace at each frame, for `gather`; paths are relative to `folder`.
 
-        `source` is what `gonio.farm.source.sources` takes before the frames. Leaving the iterator cancels what is under way.
+        With `send` the stage is read here, else by workers, all of which must see the files that `inputs` are made of.
         """
-        *_, inputs, send = source
-        if not send:
-            self._check_seen(sources.files_of(inputs))
-        with tempfile.TemporaryDirectory(prefix="gonio-farm-") as folder:
-            yield from self.gather(sources.sources(*source, frames), parts, Path(folder), report)
+        if send:
+            return [functools.partial(Bundle.of_stage, arguments, folder, frame) for frame in frames]
+        files = files_of(inputs)
+        for address, paths in self._on_all(unseen, files).items():
+            if paths:
+                raise Error(f"worker {address} cannot read {paths[0]}; {REMEDY}")
+        return [functools.partial(Stage, arguments, folder, files, frame) for frame in frames]
 
-    def gather(self, frames: Sequence[Callable[[], Any]], parts: Sequence[Range], folder: Path, report: Report) -> Iterator[list[str]]:
-        """The same for sources that functions give, with the files in `folder`."""
-        job = Job(self, frames, parts, folder, report)
-        try:
-            yield from job.frames()
-        finally:
-            job.cancel()
-            self.client.close()
+    def gather(self, sources: Sequence[Callable[[], Source]], parts: Sequence[Range], report: Report) -> Iterator[list[str]]:
+        """For each frame, whose source a function gives when its turn comes, the files of its parts; they are gone when the next is asked for.
+
+        Leaving the iterator cancels what is under way, and closes the connection.
+        """
+        with tempfile.TemporaryDirectory(prefix="gonio-farm-") as folder:
+            job = Job(self, sources, parts, Path(folder), report)
+            try:
+                yield from job.frames()
+            finally:
+                job.cancel()
+                self.client.close()
 
     def _wait_for_workers(self, address: str) -> None:
         end = time.monotonic() + PATIENCE
@@ -78,16 +91,12 @@ class Cluster:
 
     def _common_level(self) -> str:
         """The widest SIMD level that all workers have: others would give other bits."""
-        answers = self._on_all(worker.census)
+        answers = self._on_all(census)
         for address, (version, _) in answers.items():
             if version != __version__:
                 raise Error(f"worker {address} has gonio {version}, this is {__version__}")
         levels = {level for _, level in answers.values()}
         if "neon" in levels and len(levels) > 1:
             raise Error(f"the workers' SIMD levels {', '.join(sorted(levels))} have none in common but scalar: set GONIO_SIMD=scalar")
-        return min([*levels, *filter(None, [os.environ.get("GONIO_SIMD")])], key=LEVELS.index)
-
-    def _check_seen(self, files: Sequence[str]) -> None:
-        for address, unseen in self._on_all(sources.unseen, list(files)).items():
-            if unseen:
-                raise Error(f"worker {address} cannot read {unseen[0]}; {sources.REMEDY}")
+        here = {os.environ.get("GONIO_SIMD", "").lower()}.intersection(LEVELS)
+        return min(levels | here, key=LEVELS.index)

@@ -6,12 +6,14 @@ import functools
 import queue
 import time
 import uuid
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._gonio import Cancelled, Error
 from .extra import require
+from .source import Bundle, Stage
 from .worker import hold, render_part
 
 if TYPE_CHECKING:
@@ -19,8 +21,10 @@ if TYPE_CHECKING:
 
 # Tiles and samples of a part, first and behind the last.
 Range = tuple[Sequence[int], Sequence[int]]
+# What of a frame is sent to workers.
+Source = Stage | Bundle
 # Told how much is done, from 0 to 1 and in words, the seconds left if they can be told, and what goes on.
-Report = Callable[[float, str, "float | None", str], Any]
+Report = Callable[[float, str, float | None, str], Any]
 
 # Seconds between two looks at whether the render was cancelled.
 POLL = 0.2
@@ -35,13 +39,15 @@ class Job:
     same name, so that no sample is lost or doubled.
     """
 
-    def __init__(self, cluster: Cluster, frames: Sequence[Callable[[], Any]], parts: Sequence[Range], folder: Path, report: Report) -> None:
+    def __init__(
+        self, cluster: Cluster, frames: Sequence[Callable[[], Source]], parts: Sequence[Range], folder: Path, report: Report
+    ) -> None:
         self._cluster, self._frames, self._parts, self._folder, self._report = cluster, frames, parts, folder, report
         self._name = f"gonio-{uuid.uuid4().hex[:12]}"
         self._futures: dict[tuple[int, int], Any] = {}
         self._held: dict[int, Any] = {}
         self._arrivals: queue.SimpleQueue[tuple[tuple[int, int], BaseException | None]] = queue.SimpleQueue()
-        self._files: list[dict[int, str]] = [{} for _ in frames]
+        self._files: list[list[str]] = [[] for _ in frames]
         self._handed_out = 0
         self._start = time.monotonic()
         self._workers, self._threads, self._asked = 0, 0, 0.0
@@ -54,8 +60,8 @@ class Job:
                 self._take_arrival()
                 self._hand_out(frame)
             del self._held[frame]
-            yield list(files.values())
-            for path in files.values():
+            yield files
+            for path in files:
                 Path(path).unlink()
 
     def cancel(self) -> None:
@@ -73,7 +79,10 @@ class Job:
 
     def _submit(self, frame: int) -> None:
         client, order = self._cluster.client, {"priority": -frame, "pure": False}
-        source = client.submit(hold, self._frames[frame](), key=(f"{self._name}-scene", frame), **order)
+        with warnings.catch_warnings():
+            # Dask warns of large arguments, which a scene may well be.
+            warnings.simplefilter("ignore", UserWarning)
+            source = client.submit(hold, self._frames[frame](), key=(f"{self._name}-scene", frame), **order)
         self._held[frame] = source
         for number, (tiles, samples) in enumerate(self._parts):
             part = {"tile_range": tuple(tiles), "sample_range": tuple(samples)}
@@ -85,11 +94,13 @@ class Job:
     def _arrived(self, ticket: tuple[int, int], future: Any) -> None:
         """Keeps a part in a file; runs in a thread of Dask's."""
         try:
-            path = self._folder / "{}-{}.part".format(*ticket)
-            path.write_bytes(future.result())
+            self._path(ticket).write_bytes(future.result())
             self._arrivals.put((ticket, None))
-        except BaseException as error:
+        except Exception as error:
             self._arrivals.put((ticket, error))
+
+    def _path(self, ticket: tuple[int, int]) -> Path:
+        return self._folder / "{}-{}.part".format(*ticket)
 
     def _take_arrival(self) -> None:
         """Waits for the next part, and says now and then how far the whole is."""
@@ -105,8 +116,7 @@ class Job:
             if error is not None:
                 raise Error(_explained(error)) from error
             del self._futures[ticket]
-            frame, number = ticket
-            self._files[frame][number] = str(self._folder / f"{frame}-{number}.part")
+            self._files[ticket[0]].append(str(self._path(ticket)))
             return self._tell()
 
     def _tell(self) -> None:
@@ -125,7 +135,8 @@ def _explained(error: BaseException) -> str:
     """Why a part did not come, in one line."""
     distributed = require()
     if isinstance(error, distributed.scheduler.KilledWorker):
-        return f"a part of the render was lost with {error.allowed_failures + 1} workers, the last at {error.last_worker.address}: do they have memory enough?"
+        count, last = error.allowed_failures + 1, error.last_worker.address
+        return f"a part of the render was lost with {count} workers, the last {last}: do they have memory enough?"
     if isinstance(error, distributed.CancelledError):
         return f"the cluster has given up the render ({error})"
     return str(error) or type(error).__name__

@@ -8,10 +8,8 @@ import uuid
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from .._gonio import Error, Scene, _scene
-
 
 # What to do where a machine does not see a file.
 REMEDY = "put the stage and its files where all machines see them under one path, or send them (--dask-send)"
@@ -27,7 +25,7 @@ class Stage:
 
     arguments: Sequence[str]
     folder: str
-    # All files that the stage is made of, by absolute paths.
+    # Absolute paths of all files that the stage is made of.
     files: Sequence[str]
     frame: float | None
     name: str = field(default_factory=_name)
@@ -53,6 +51,11 @@ class Bundle:
             path = Path(folder, "scene.gonio")
             scene.save(path, images=True)
             return Bundle(path.read_bytes())
+
+    @staticmethod
+    def of_stage(arguments: Sequence[str], folder: str, frame: float | None) -> Bundle:
+        """The bundle of what `gonio render` with these arguments would trace at a frame."""
+        return Bundle.of(_scene(arguments, folder, frame))
 
     def scene(self) -> Scene:
         """The scene again."""
@@ -80,12 +83,3 @@ def files_of(inputs: Sequence[str | os.PathLike[str]]) -> list[str]:
             names = [layer.realPath for layer in layers] + [str(asset) for asset in assets]
             found.update(dict.fromkeys(name.split("[")[0] for name in names if name))
     return list(found)
-
-
-def sources(arguments: Sequence[str], folder: Any, inputs: Sequence[Any], send: bool, frames: Sequence[float | None]) -> list[Any]:
-    """For each frame a function that gives its source, to be called when the frame's turn comes."""
-    folder = os.fspath(folder)
-    if send:
-        return [lambda frame=frame: Bundle.of(_scene(arguments, folder, frame)) for frame in frames]
-    files = files_of(inputs)
-    return [lambda frame=frame: Stage(arguments, folder, files, frame) for frame in frames]

@@ -52,25 +52,21 @@ def render_part(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], lev
     except Cancelled:
         raise
     except (Error, OSError) as error:
-        raise Error(f"worker {worker.name} at {worker.address}: {error}") from None
+        raise Error(f"worker {worker.address}: {error}") from None
 
 
-def _start(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], slots: int, unwanted: Any) -> Render:
+def _start(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], tasks: int, unwanted: Any) -> Render:
+    """Starts a part with its share of the cores of a worker that does so many tasks at a time."""
+    from dask.system import CPU_COUNT
+
     with _Kept.lock:
         if _Kept.name != source.name:
             _Kept.name = None
             _Kept.scene = source.scene()
             _Kept.name = source.name
-        _Kept.scene.set(**part, threads=_threads(slots))
+        _Kept.scene.set(**part, threads=max(1, CPU_COUNT // tasks))
         _Kept.render = Render(_Kept.scene, _Kept.render, cancelled=unwanted)
         return _Kept.render
-
-
-def _threads(slots: int) -> int:
-    """Threads of one part where a worker's process has so many tasks at a time."""
-    from dask.system import CPU_COUNT
-
-    return max(1, CPU_COUNT // slots)
 
 
 def _sums(render: Render, unwanted: Any) -> bytes:
