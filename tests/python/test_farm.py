@@ -74,6 +74,9 @@ class Client:
     def cancel(self, futures, force, reason):
         self.cancelled += futures
 
+    def close(self):
+        self.status = "closed"
+
 
 @pytest.fixture
 def job(monkeypatch, tmp_path):
@@ -118,3 +121,50 @@ def test_a_job_that_is_cancelled_takes_everything_back(job):
         next(job.frames())
     job.cancel()
     assert len(client.cancelled) == len(PARTS) + 1
+
+
+@pytest.fixture
+def cluster(monkeypatch):
+    """Connects to workers that answer what they are asked for as the test says, by the function's name."""
+    from gonio.farm import cluster
+
+    def connect(**answers):
+        client = Client()
+        client.run = lambda function, *arguments, on_error: {"tcp://desk": answers[function.__name__]}
+        monkeypatch.setattr(cluster, "connect", lambda address: client)
+        return cluster.Cluster("tcp://farm", lambda: False)
+
+    monkeypatch.delenv("GONIO_SIMD", raising=False)
+    return connect
+
+
+def test_all_workers_render_at_one_level(cluster, monkeypatch):
+    assert cluster(census=(gonio.__version__, "avx2")).level == "avx2"
+    assert cluster(census=(gonio.__version__, "avx2")).parts_for(3) == 3
+    monkeypatch.setenv("GONIO_SIMD", "scalar")
+    assert cluster(census=(gonio.__version__, "avx2")).level == "scalar"
+
+
+@pytest.mark.parametrize(
+    "answer, said",
+    [
+        (("0.0.1", "avx2"), "worker tcp://desk has gonio 0.0.1, this is "),
+        (ModuleNotFoundError("No module named 'gonio'"), "worker tcp://desk cannot run gonio .*No module named 'gonio'"),
+    ],
+)
+def test_workers_that_cannot_help(cluster, answer, said):
+    with pytest.raises(gonio.Error, match=said):
+        cluster(census=answer)
+
+
+def test_a_file_that_a_worker_does_not_see(cluster, tmp_path):
+    from gonio.farm.source import Stage, unseen
+
+    missing = str(tmp_path / "lamp.ies")
+    (tmp_path / "weather.epw").write_text("")
+    assert unseen([str(tmp_path / "weather.epw"), missing]) == [missing]
+    asked = cluster(census=(gonio.__version__, "avx2"), unseen=[missing])
+    with pytest.raises(gonio.Error, match=r"worker tcp://desk cannot read .*lamp\.ies; put the stage"):
+        asked.stages(["gonio", "render"], tmp_path, [tmp_path / "weather.epw"], False, [None])
+    with pytest.raises(gonio.Error, match=r"cannot read .*lamp\.ies"):
+        Stage(["gonio", "render"], tmp_path, [missing], None).scene()

@@ -45,7 +45,12 @@ class Cluster:
         return sum(self.client.nthreads().values())
 
     def stages(
-        self, arguments: Sequence[str], folder: str, inputs: Sequence[str], send: bool, frames: Sequence[float | None]
+        self,
+        arguments: Sequence[str],
+        folder: str | os.PathLike[str],
+        inputs: Sequence[str | os.PathLike[str]],
+        send: bool,
+        frames: Sequence[float | None],
     ) -> list[Callable[[], Source]]:
         """What `gonio render` with these arguments would trace at each frame, for `gather`; paths are relative to `folder`.
 

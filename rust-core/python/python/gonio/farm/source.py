@@ -24,7 +24,7 @@ class Stage:
     """What `gonio render` with these arguments would trace at a frame; relative paths start at `folder`."""
 
     arguments: Sequence[str]
-    folder: str
+    folder: str | os.PathLike[str]
     # Absolute paths of all files that the stage is made of.
     files: Sequence[str]
     frame: float | None
@@ -53,7 +53,7 @@ class Bundle:
             return Bundle(path.read_bytes())
 
     @staticmethod
-    def of_stage(arguments: Sequence[str], folder: str, frame: float | None) -> Bundle:
+    def of_stage(arguments: Sequence[str], folder: str | os.PathLike[str], frame: float | None) -> Bundle:
         """The bundle of what `gonio render` with these arguments would trace at a frame."""
         return Bundle.of(_scene(arguments, folder, frame))
 
@@ -72,12 +72,12 @@ def unseen(paths: Iterable[str]) -> list[str]:
 
 def files_of(inputs: Sequence[str | os.PathLike[str]]) -> list[str]:
     """The files with all that the stages among them are made of: layers, textures, goniograms, measurements."""
-    from pxr import UsdUtils
-
     found = {}
     for path in map(os.fspath, inputs):
         found[path] = None
         if Path(path).suffix in {".usd", ".usda", ".usdc", ".usdz"}:
+            from pxr import UsdUtils
+
             layers, assets, _ = UsdUtils.ComputeAllDependencies(path)
             # Files inside packages read `package.usdz[inner.png]`.
             names = [layer.realPath for layer in layers] + [str(asset) for asset in assets]

@@ -21,8 +21,8 @@ class _Kept:
     """The last scene of this process, and a render of it that lends its trees to the next."""
 
     lock = threading.Lock()
-    name: str | None = None
-    scene: Scene | None = None
+    name = ""
+    scene = Scene()
     render: Render | None = None
 
 
@@ -36,7 +36,7 @@ def hold(source: Stage | Bundle) -> Stage | Bundle:
     return source
 
 
-def render_part(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], level: str) -> bytes:
+def render_part(source: Stage | Bundle, part: Mapping[str, Any], level: str) -> bytes:
     """The checkpoint of a part of a frame (see `Scene.parts`) at a SIMD level; `gonio.Error` names the worker."""
     worker = require().get_worker()
     key = worker.get_current_task()
@@ -55,15 +55,13 @@ def render_part(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], lev
         raise Error(f"worker {worker.address}: {error}") from None
 
 
-def _start(source: Stage | Bundle, part: Mapping[str, tuple[int, int]], tasks: int, unwanted: Any) -> Render:
+def _start(source: Stage | Bundle, part: Mapping[str, Any], tasks: int, unwanted: Any) -> Render:
     """Starts a part with its share of the cores of a worker that does so many tasks at a time."""
     from dask.system import CPU_COUNT
 
     with _Kept.lock:
         if _Kept.name != source.name:
-            _Kept.name = None
-            _Kept.scene = source.scene()
-            _Kept.name = source.name
+            _Kept.scene, _Kept.name = source.scene(), source.name
         _Kept.scene.set(**part, threads=max(1, CPU_COUNT // tasks))
         _Kept.render = Render(_Kept.scene, _Kept.render, cancelled=unwanted)
         return _Kept.render
