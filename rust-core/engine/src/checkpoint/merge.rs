@@ -1,13 +1,16 @@
 //! From parts of a render, some samples of some tiles each, to the whole.
 
 use super::{Checkpoint, Identity};
-use crate::error::{Error, Result};
+use crate::{
+    error::{Error, Result},
+    film::Film,
+};
 use std::{
     ops::Range,
     path::{Path, PathBuf},
 };
 
-/// Joins finished parts of one render, given in any order; samples and tiles must follow one another without gap or overlap.
+/// Joins finished parts of one render, given in any order; samples and tiles must follow one another without gap or overlap, and all tiles be there.
 ///
 /// From the first sample on, the sums are those of one render to the bit. Two films are in memory at a time, those so far and one part's.
 pub fn merge(parts: &[PathBuf]) -> Result<Checkpoint> {
@@ -23,7 +26,10 @@ pub fn merge(parts: &[PathBuf]) -> Result<Checkpoint> {
             None => whole = Some(joined),
         }
     }
-    whole.ok_or_else(|| Error::setting("parts", "none were given"))
+    let mut whole = whole.ok_or_else(|| Error::setting("parts", "none were given"))?;
+    check_all_tiles(&whole.film)?;
+    whole.identity.settings.tile_range = None;
+    Ok(whole)
 }
 
 /// Joins parts of the same tiles, in the order of their samples; there is at least one.
@@ -45,9 +51,17 @@ fn join_tiles(whole: &mut Checkpoint, part: Checkpoint, path: &Path) -> Result<(
     whole.identity.check(&part.identity, path, &["tile_range"])?;
     check_follows("tiles", &whole.film.tiles(), &part.film.tiles(), path)?;
     whole.film.join_tiles(part.film);
-    let tiles = whole.film.tiles();
-    whole.identity.settings.tile_range = Some([tiles.start, tiles.end]);
     Ok(())
+}
+
+/// A picture with holes is none; fewer samples than were asked for make one.
+fn check_all_tiles(film: &Film) -> Result<()> {
+    let (tiles, count) = (film.tiles(), film.tile_count() as u32);
+    let missing = if tiles.start > 0 { 0..tiles.start } else { tiles.end..count };
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(Error::setting("parts", format!("tiles {}:{} of {count} are missing", missing.start, missing.end)))
 }
 
 fn check_follows(what: &str, before: &Range<u32>, after: &Range<u32>, path: &Path) -> Result<()> {

@@ -72,8 +72,8 @@ def unseen(paths: Iterable[str]) -> list[str]:
 
 def files_of(inputs: Sequence[str | os.PathLike[str]]) -> list[str]:
     """The files with all that the stages among them are made of: layers, textures, goniograms, measurements."""
-    found = {}
-    for path in map(os.fspath, inputs):
+    found: dict[str, None] = {}
+    for path in [os.fspath(path) for path in inputs]:
         found[path] = None
         if Path(path).suffix in {".usd", ".usda", ".usdc", ".usdz"}:
             from pxr import UsdUtils
