@@ -338,7 +338,7 @@ impl Scene {
 
     /// Parts of the render with about equal work, `count` or as many as there can be, each with the settings `tile_range` and `sample_range` that make it.
     fn parts<'py>(&self, py: Python<'py>, count: u32) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let keywords = |part: Part| {
+        let keywords = |part: Part| -> PyResult<_> {
             let keywords = PyDict::new(py);
             keywords.set_item("tile_range", (part.tiles[0], part.tiles[1]))?;
             keywords.set_item("sample_range", (part.samples[0], part.samples[1]))?;

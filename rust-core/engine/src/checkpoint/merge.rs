@@ -48,7 +48,12 @@ fn join_samples(parts: &[&Path]) -> Result<Checkpoint> {
 
 /// Adds the tiles of `part`, whose first file is `path`.
 fn join_tiles(whole: &mut Checkpoint, part: Checkpoint, path: &Path) -> Result<()> {
-    whole.identity.check(&part.identity, path, &["tile_range"])?;
+    whole.identity.check(&part.identity, path, &["tile_range", "sample_range"])?;
+    let (before, after) = (whole.film.range(), part.film.range());
+    if before != after {
+        let problem = format!("samples {before:?} of the tiles before and {after:?} of these were found, expected the same");
+        return Err(Error::Format { path: path.to_owned(), line: None, problem });
+    }
     check_follows("tiles", &whole.film.tiles(), &part.film.tiles(), path)?;
     whole.film.join_tiles(part.film);
     Ok(())
