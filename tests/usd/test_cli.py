@@ -11,7 +11,8 @@ import pytest
 OPTIONS = """--purposes --complexity --mask --variant --session-layer --settings --strict --verbose --output --camera --frames --res --image-width
 --res-scale --spp --max-bounces --integrator --filter --filter-width --aov --exposure --tonemap --crop --time-limit --seed --threads
 --clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet --noise-threshold --min-spp --checkpoint
---checkpoint-every --resume --samples --denoise --white --adaptation --color-space""".split()
+--checkpoint-every --resume --samples --denoise --white --adaptation --color-space --part --dask
+--dask-parts --dask-send""".split()
 
 SETTINGS = """
 def RenderSettings "Settings"

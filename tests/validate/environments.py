@@ -1,4 +1,4 @@
-"""Virtual environments for the renderers gonio is compared with, each in `.venv-<name>` beside the repository's own `.venv`.
+"""Virtual environments for the renderers gonio is compared with and the farms it renders on, each in `.venv-<name>` beside the repository's own `.venv`.
 
 `python tests/validate/environments.py [name ...]` makes them ahead of a test run; the tests make what is missing.
 """
@@ -8,12 +8,16 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-REQUIREMENTS = {"bpy50": ["bpy==5.0.*", "numpy"], "mitsuba": ["mitsuba>=3.5,<4", "numpy"]}
+REQUIREMENTS = {
+    "bpy50": ["bpy==5.0.*", "numpy"],
+    "mitsuba": ["mitsuba>=3.5,<4", "numpy"],
+    "farm": ["distributed>=2025.1", "openjd-cli>=0.8", "usd-core>=25.5", "numpy"],
+}
 INSTALL_TIME = 1200
 
 
 class Unavailable(Exception):
-    """The renderer cannot be installed here; the message is the end of what pip said."""
+    """The packages cannot be installed here; the message is the end of what pip said."""
 
 
 def python_of(name: str) -> Path:

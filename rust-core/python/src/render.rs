@@ -218,7 +218,7 @@ impl Render {
     }
 }
 
-/// The film of a whole render from the checkpoints of its parts (see `sample_range` of `Scene.set`), given in any order.
+/// The film of a whole render from the checkpoints of its parts (see `Scene.parts`), given in any order.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Film> {
     let merged = py.detach(|| {

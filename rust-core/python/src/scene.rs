@@ -13,6 +13,7 @@ use crate::{
 };
 use gonio::{
     Diagnostic,
+    checkpoint::{Part, parts},
     scene::{
         self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId,
         Meter, Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
@@ -335,6 +336,17 @@ impl Scene {
         Ok(())
     }
 
+    /// Parts of the render with about equal work, `count` or as many as there can be, each with the settings `tile_range` and `sample_range` that make it.
+    fn parts<'py>(&self, py: Python<'py>, count: u32) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let keywords = |part: Part| -> PyResult<_> {
+            let keywords = PyDict::new(py);
+            keywords.set_item("tile_range", (part.tiles[0], part.tiles[1]))?;
+            keywords.set_item("sample_range", (part.samples[0], part.samples[1]))?;
+            Ok(keywords)
+        };
+        parts(&self.scene.settings, count).map_err(exception)?.into_iter().map(keywords).collect()
+    }
+
     /// Changes settings; what is not named stays. See the stub for all of them.
     ///
     /// Passes that show what materials compute are called `aov:` (colours, four channels) or `aov_value:` (numbers) and the name of the materials'
@@ -373,9 +385,15 @@ impl Scene {
         py.import("json")?.call_method1("loads", (text,))
     }
 
-    /// Saves the scene as a bundle that renders again, bit for bit, without its host.
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        py.detach(|| scene::save_bundle(&self.scene, &path)).map_err(exception)
+    /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with
+    /// `images`; sets of UDIM tiles cannot.
+    #[pyo3(signature = (path, *, images = false))]
+    fn save(&self, py: Python<'_>, path: PathBuf, images: bool) -> PyResult<()> {
+        let save = || match images {
+            true => scene::save_bundle(&scene::with_images(&self.scene)?, &path),
+            false => scene::save_bundle(&self.scene, &path),
+        };
+        py.detach(save).map_err(exception)
     }
 
     /// Loads a bundle.

@@ -18,8 +18,8 @@ pub(crate) fn change(settings: &mut Settings, changes: &Bound<'_, PyDict>) -> Py
 }
 
 fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    // None leaves a setting as it is, but for the crop and the range, which it takes away.
-    if value.is_none() && !matches!(key, "crop" | "sample_range") {
+    // None leaves a setting as it is, but for the crop and the ranges, which it takes away.
+    if value.is_none() && !matches!(key, "crop" | "sample_range" | "tile_range") {
         return Ok(());
     }
     match key {
@@ -35,6 +35,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "min_samples" => s.min_samples = value.extract()?,
         "noise_white" => s.noise_white = within(key, value, 0.0, f64::from(f32::MAX))? as f32,
         "sample_range" => s.sample_range = value.extract()?,
+        "tile_range" => s.tile_range = value.extract()?,
         "seed" => s.seed = value.extract()?,
         "threads" => s.threads = value.extract()?,
         "integrator" => s.integrator = integrator(value)?,

@@ -3,8 +3,9 @@
 use super::{arguments::CheckpointArguments, say};
 use gonio::{
     Error, Result,
-    checkpoint::{Checkpoint, Identity, write_checkpoint},
+    checkpoint::{Checkpoint, Identity, parts, write_checkpoint},
     film::Film,
+    scene::Settings,
 };
 use std::{
     path::PathBuf,
@@ -64,6 +65,22 @@ impl Keeper {
         self.due = Instant::now() + self.every.max(SHARE * start.elapsed());
         result
     }
+}
+
+/// Leaves of what settings ask for a part, from `NUMBER/COUNT`.
+pub(super) fn take_part(text: &str, settings: &mut Settings) -> Result<()> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let pair = text.split_once('/').and_then(|(part, count)| Some((number(part)?, number(count)?)));
+    let (part, count) = pair
+        .filter(|(part, count)| (1..=*count).contains(part))
+        .ok_or_else(|| Error::setting("part", format!("'{text}' was found, expected NUMBER/COUNT as in 1/8 to 8/8")))?;
+    let parts = parts(settings, count)?;
+    if parts.len() != count as usize {
+        return Err(Error::setting("part", format!("there cannot be {count} parts of this render, but {}", parts.len())));
+    }
+    let part = parts[part as usize - 1];
+    (settings.tile_range, settings.sample_range) = (Some(part.tiles), Some(part.samples));
+    Ok(())
 }
 
 /// A range of samples from `FIRST:END`.

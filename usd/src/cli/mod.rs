@@ -10,6 +10,7 @@ mod daylight;
 mod denoise;
 mod drawing;
 mod falsecolor;
+mod farm;
 mod file;
 mod file_name;
 mod frames;
@@ -25,6 +26,8 @@ mod relight;
 mod render;
 mod report;
 
+pub use farm::farm_scene;
+
 use arguments::{Arguments, Command};
 use clap::Parser;
 use gonio::{Diagnostic, Error, Severity};
@@ -39,7 +42,7 @@ const INTERRUPTED_STATUS: i32 = 130;
 
 /// Runs the command with its arguments, the program's name first; gives the exit status.
 pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
-    let parsed = match Arguments::try_parse_from(arguments) {
+    let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are errors of status 0 to clap; if printing fails there is nobody to tell.
@@ -50,6 +53,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     INTERRUPTED.store(false, Ordering::Relaxed);
     interrupt::install();
     let result = match parsed.command {
+        Command::Render(mut options) if options.farm.dask.is_some() => farm::render(py, &mut options, &arguments),
         Command::Render(options) => render::render(py, &options, &INTERRUPTED),
         Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),

@@ -32,19 +32,20 @@ impl Reporter {
 
     /// Shows a new state.
     pub(super) fn show(&mut self, progress: &Progress) {
-        let message = format!(
-            "{}/{} samples, {} left, {:.1} Mrays/s",
-            progress.samples,
-            progress.samples_total,
-            progress.remaining.map_or_else(|| "?".to_owned(), clock),
-            progress.rays as f64 * 1e-6 / progress.elapsed.as_secs_f64().max(1e-3)
-        );
+        let done = format!("{}/{} samples", progress.samples, progress.samples_total);
+        let speed = progress.rays as f64 * 1e-6 / progress.elapsed.as_secs_f64().max(1e-3);
+        self.tell(progress.fraction, &done, progress.remaining, &format!("{speed:.1} Mrays/s"));
+    }
+
+    /// Shows a new state in words: what is done, from 0 to 1 and as text, the time that is left if that can be told, and what goes on.
+    pub(super) fn tell(&mut self, fraction: f64, done: &str, remaining: Option<Duration>, under_way: &str) {
+        let message = format!("{done}, {} left, {under_way}", remaining.map_or_else(|| "?".to_owned(), clock));
         if let Some(bar) = &self.bar {
-            bar.set_position((progress.fraction * 1000.0) as u64);
+            bar.set_position((fraction * 1000.0) as u64);
             bar.set_message(message);
         } else if !self.quiet && self.last.elapsed() >= LINE_EVERY {
             self.last = Instant::now();
-            say(&format!("{:.0} %, {message}", progress.fraction * 100.0));
+            say(&format!("{:.0} %, {message}", fraction * 100.0));
         }
     }
 

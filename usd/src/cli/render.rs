@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
-    checkpoint::{Keeper, sample_range},
+    checkpoint::{Keeper, sample_range, take_part},
     daylight, file_name, frames, list,
     output::{Notes, Writer},
     print,
@@ -69,7 +69,8 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     Ok(0)
 }
 
-fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
+/// The frames asked for; without any the stage's own time, once.
+pub(super) fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
     let Some(text) = &options.frames else { return Ok(vec![None]) };
     let frames = frames::parse(text)?;
     let mut files = options
@@ -117,6 +118,22 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
     })
 }
 
+/// What the command line adds to a stage: daylight, view and settings.
+pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
+    daylight::add(&options.daylight, loaded, options.quiet)?;
+    Job::apply_settings(options, loaded)
+}
+
+/// What the header of EXR files says beside the passes.
+pub(super) fn attributes(options: &RenderOptions, scene: &Scene) -> [(String, String); 3] {
+    let camera = &scene.cameras[scene.settings.camera as usize];
+    [
+        ("gonio:camera".to_owned(), camera.origin.name.to_string()),
+        ("gonio:stage".to_owned(), options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
+        ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
+    ]
+}
+
 /// One picture to make.
 struct Job<'a> {
     options: &'a RenderOptions,
@@ -136,8 +153,7 @@ impl Job<'_> {
         if !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
-        daylight::add(&self.options.daylight, &mut loaded, self.options.quiet)?;
-        self.apply_settings(&mut loaded)?;
+        complete_scene(self.options, &mut loaded)?;
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;
@@ -147,8 +163,7 @@ impl Job<'_> {
     }
 
     /// Command line over render settings over defaults.
-    fn apply_settings(&self, loaded: &mut Loaded) -> Result<()> {
-        let options = self.options;
+    fn apply_settings(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
         let view = ViewOptions {
             camera: options.camera.clone(),
             resolution: match (options.res.as_deref(), options.image_width) {
@@ -198,6 +213,9 @@ impl Job<'_> {
         }
         if let Some(crop) = &options.crop {
             settings.crop = Some(crop_of(crop, settings.resolution)?);
+        }
+        if let Some(part) = &options.checkpoint.part {
+            take_part(part, settings)?;
         }
         Ok(())
     }
@@ -277,24 +295,14 @@ impl Job<'_> {
     /// Writes all files at once: the wait is that for the slowest.
     fn write(&self, scene: &Scene, image: &Image, interrupted: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
-        let notes = Notes { exposure, time: self.time, interrupted, attributes: &self.attributes(scene) };
+        let notes = Notes { exposure, time: self.time, interrupted, attributes: &attributes(self.options, scene) };
         self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
-    }
-
-    /// What the header of EXR files says beside the passes.
-    fn attributes(&self, scene: &Scene) -> [(String, String); 3] {
-        let camera = &scene.cameras[scene.settings.camera as usize];
-        [
-            ("gonio:camera".to_owned(), camera.origin.name.to_string()),
-            ("gonio:stage".to_owned(), self.options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
-            ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
-        ]
     }
 
     /// What keeps the render's checkpoint, if there is to be one.
     fn keeper(&self, scene: &Scene) -> Result<Option<Keeper>> {
         let Some(path) = &self.checkpoint else { return Ok(None) };
-        let identity = Identity::new(scene, self.execution, self.attributes(scene).to_vec());
+        let identity = Identity::new(scene, self.execution, attributes(self.options, scene).to_vec());
         Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
     }
 }

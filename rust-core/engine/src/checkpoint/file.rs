@@ -2,7 +2,7 @@
 
 use super::{Checkpoint, Identity, digest::Digesting};
 use crate::{
-    compile::window,
+    compile::{check_tiles, window},
     error::{Error, Result},
     film::{Film, LEAST_TILE},
     output::write_through,
@@ -37,16 +37,11 @@ impl Checkpoint {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
         let broken = |problem: String| Error::Format { path: path.to_owned(), line: None, problem };
-        let file = File::open(path).map_err(|error| Error::io(path, error))?;
-        let length = file.metadata().map_err(|error| Error::io(path, error))?.len();
-        let mut input = Digesting::new(BufReader::with_capacity(1 << 20, file));
-        let damaged = |error: io::Error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => broken("the checkpoint ends before its time".into()),
-            io::ErrorKind::InvalidData => broken(format!("the checkpoint is damaged: {error}")),
-            _ => Error::io(path, error),
-        };
+        let damaged = |error| damaged(path, error);
+        let (mut input, length) = open(path)?;
         let identity = description(&mut input).map_err(damaged)?;
         let window = window(&identity.settings)?;
+        check_tiles(&identity.settings, window)?;
         let tiles = Film::tiles_of(window);
         if tiles.saturating_mul(LEAST_TILE) > length {
             return Err(broken("the checkpoint is shorter than its picture".into()));
@@ -61,6 +56,27 @@ impl Checkpoint {
         }
         Ok(Self { identity, film })
     }
+
+    /// Reads what a file is of, without its film.
+    pub(super) fn read_identity(path: &Path) -> Result<Identity> {
+        description(&mut open(path)?.0).map_err(|error| damaged(path, error))
+    }
+}
+
+/// A file to read from, and its length in bytes.
+fn open(path: &Path) -> Result<(Digesting<BufReader<File>>, u64)> {
+    let file = File::open(path).map_err(|error| Error::io(path, error))?;
+    let length = file.metadata().map_err(|error| Error::io(path, error))?.len();
+    Ok((Digesting::new(BufReader::with_capacity(1 << 20, file)), length))
+}
+
+fn damaged(path: &Path, error: io::Error) -> Error {
+    let problem = match error.kind() {
+        io::ErrorKind::UnexpectedEof => "the checkpoint ends before its time".to_owned(),
+        io::ErrorKind::InvalidData => format!("the checkpoint is damaged: {error}"),
+        _ => return Error::io(path, error),
+    };
+    Error::Format { path: path.to_owned(), line: None, problem }
 }
 
 fn description(input: &mut impl Read) -> io::Result<Identity> {

@@ -4,11 +4,13 @@ mod digest;
 mod file;
 mod identity;
 mod merge;
+mod parts;
 
 pub(crate) use digest::Digest;
 pub use file::write_checkpoint;
 pub use identity::Identity;
 pub use merge::merge;
+pub use parts::{Part, parts};
 
 use crate::{error::Result, film::Film};
 use std::path::Path;

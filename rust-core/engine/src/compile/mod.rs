@@ -25,7 +25,7 @@ pub use bounds::Bounds;
 pub use luminaires::luminous_fluxes;
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
-pub(crate) use view::{transport, window};
+pub(crate) use view::{check_tiles, transport, window};
 
 use crate::{
     accel::{Blas, SceneBvh},

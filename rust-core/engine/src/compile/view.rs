@@ -4,7 +4,7 @@ use super::{CompiledScene, light_groups, shader_passes};
 use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::{FilterTable, block_at},
+    film::{Film, FilterTable, block_at},
     integrator::{FirstPasses, Mist, Transport},
     scene::{Aov, Background, Camera, Crop, Integrator, Projection, Settings},
 };
@@ -40,6 +40,7 @@ impl View {
             return Err(Error::Setting { name: "samples".into(), problem });
         }
         check_range(settings)?;
+        check_tiles(settings, window)?;
         if !(settings.noise_threshold >= 0.0 && settings.noise_white >= 0.0 && settings.noise_white.is_finite()) {
             let problem = format!("{} with white at {}, expected 0 or more", settings.noise_threshold, settings.noise_white);
             return Err(Error::setting("noise_threshold", problem));
@@ -101,6 +102,16 @@ fn check_range(settings: &Settings) -> Result<()> {
         return Ok(());
     };
     Err(Error::setting("samples", problem))
+}
+
+/// Refuses ranges of tiles that are empty or beyond the picture.
+pub(crate) fn check_tiles(settings: &Settings, window: Crop) -> Result<()> {
+    let count = Film::tiles_of(window) as u32;
+    let range = settings.tiles(count);
+    if range.start < range.end && range.end <= count {
+        return Ok(());
+    }
+    Err(Error::setting("tiles", format!("the range {}:{} was found, expected a part of 0:{count}", range.start, range.end)))
 }
 
 /// The part of the image that settings ask for.

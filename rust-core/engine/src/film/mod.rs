@@ -10,7 +10,7 @@ mod noise;
 mod sums;
 mod tile;
 
-pub(crate) use blocks::{block, block_at};
+pub(crate) use blocks::{GROUP, MOST_BLOCK, block, block_at};
 pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
@@ -53,11 +53,15 @@ impl Film {
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
         let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
-        let plan = Plan::new(settings, &layout);
+        let plan = Plan::new(settings, &layout, across(0) * across(1));
         let mut film =
             Self { resolution: settings.resolution, window, layout, names, exposure, plan, tiles: Vec::new(), columns: across(0) };
-        let tile = |tile| Mutex::new(TileFilm::new(&film.plan, film.tile_size(tile)));
-        film.tiles = (0..(across(0) * across(1)) as usize).map(tile).collect();
+        let tile = |tile: u32| {
+            // Tiles of other parts of the render have no pixels here, so that nobody waits for them.
+            let size = if film.plan.tiles.contains(&tile) { film.tile_size(tile as usize) } else { [0; 2] };
+            Mutex::new(TileFilm::new(&film.plan, size))
+        };
+        film.tiles = (0..across(0) * across(1)).map(tile).collect();
         film
     }
 
@@ -119,8 +123,21 @@ impl Film {
         self.plan.range.clone()
     }
 
-    /// Adds a film of the same picture with the samples that follow; both are complete.
-    pub(crate) fn join(&mut self, later: Self) {
+    /// The tiles that the film is for, of all the tiles of its window.
+    pub fn tiles(&self) -> Range<u32> {
+        self.plan.tiles.clone()
+    }
+
+    /// Adds a film of the same samples with the tiles that follow; both are complete.
+    pub(crate) fn join_tiles(&mut self, mut later: Self) {
+        for tile in later.tiles() {
+            std::mem::swap(&mut self.tiles[tile as usize], &mut later.tiles[tile as usize]);
+        }
+        self.plan.tiles.end = later.plan.tiles.end;
+    }
+
+    /// Adds a film of the same tiles with the samples that follow; both are complete.
+    pub(crate) fn join_samples(&mut self, later: Self) {
         for (tile, later) in self.tiles.iter_mut().zip(later.tiles) {
             let later = later.into_inner().unwrap_or_else(PoisonError::into_inner);
             tile.get_mut().unwrap_or_else(PoisonError::into_inner).join(later, &self.plan);

@@ -70,16 +70,19 @@ pub(super) struct Plan {
     /// First sample, the one behind the last, and samples of the whole render.
     pub(super) range: Range<u32>,
     pub(super) samples: u32,
+    /// The tiles that are rendered.
+    pub(super) tiles: Range<u32>,
     pub(super) index_channels: Vec<usize>,
     /// Error and least samples at which a zone has enough.
     pub(super) enough: Option<(f32, u32)>,
 }
 
 impl Plan {
-    pub(super) fn new(settings: &Settings, layout: &ChannelLayout) -> Self {
+    pub(super) fn new(settings: &Settings, layout: &ChannelLayout, tiles: u32) -> Self {
         Self {
             range: settings.range(),
             samples: settings.samples,
+            tiles: settings.tiles(tiles),
             index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
             enough: settings.least_samples().map(|least| (settings.noise_threshold, least)),
         }

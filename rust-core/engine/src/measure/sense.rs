@@ -96,6 +96,7 @@ pub(super) fn sense(
         resolution: table.resolution(),
         crop: None,
         sample_range: None,
+        tile_range: None,
         noise_threshold: 0.0,
         samples: settings.samples.div_ceil((side * side) as u32).max(1),
         // Limits are for pictures' sake.

@@ -78,6 +78,7 @@ pub(super) fn reduced(settings: &Settings, side: u32, samples: u32) -> Settings 
         crop,
         samples,
         sample_range: None,
+        tile_range: None,
         noise_threshold: 0.0,
         seed: settings.seed ^ OTHER_SEED,
         aovs: vec![Aov::Color],

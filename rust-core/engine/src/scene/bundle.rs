@@ -3,11 +3,12 @@
 //! Layout: the line `gonio2`, a line with the lengths of both parts in bytes, the JSON, the arrays (little-endian) one behind the other.
 //! Textures stay files by path; those given in memory travel along.
 
-use super::{Scene, blob};
+use super::{Scene, TextureSource, blob};
 use crate::{
     checkpoint::Digest,
     error::{Error, Result},
     output::write_atomically,
+    texture::is_udim,
 };
 use std::{fs, io::Write, path::Path};
 
@@ -23,6 +24,24 @@ pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
         file.write_all(&json)?;
         file.write_all(&arrays)
     })
+}
+
+/// The scene with the bytes of its image files in memory; files that cannot be read stay names, as the picture is made without them.
+///
+/// Sets of UDIM tiles have no place in memory: they are an error.
+pub fn with_images(scene: &Scene) -> Result<Scene> {
+    let mut scene = scene.clone();
+    for texture in &mut scene.textures {
+        let TextureSource::File(path) = &texture.source else { continue };
+        let name = path.to_string_lossy().into_owned();
+        if is_udim(&name) {
+            return Err(Error::scene(&texture.origin, format!("{name} is a set of UDIM tiles, which cannot travel along")));
+        }
+        if let Ok(bytes) = fs::read(path) {
+            texture.source = TextureSource::Encoded { name, bytes: bytes.into() };
+        }
+    }
+    Ok(scene)
 }
 
 /// Loads a scene.

@@ -20,7 +20,7 @@ mod texture;
 mod transform;
 
 pub(crate) use bundle::digest_scene;
-pub use bundle::{load_bundle, save_bundle};
+pub use bundle::{load_bundle, save_bundle, with_images};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use goniogram::Goniogram;

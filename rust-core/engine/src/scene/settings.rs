@@ -214,6 +214,9 @@ pub struct Settings {
     /// Which of them are rendered, `[first, behind the last]`; `None` is all. Ranges start and end where blocks of samples do.
     #[serde(default)]
     pub sample_range: Option<[u32; 2]>,
+    /// Which tiles of 64 × 64 pixels are rendered, `[first, behind the last]`, counted row by row in the part of the image; `None` is all.
+    #[serde(default)]
+    pub tile_range: Option<[u32; 2]>,
     /// Estimated error of 8 × 8 pixels, relative to what is shown, at which they have enough samples; 0 is off. On Cycles' scale.
     #[serde(default)]
     pub noise_threshold: f32,
@@ -274,6 +277,7 @@ impl Default for Settings {
             camera: 0,
             samples: 64,
             sample_range: None,
+            tile_range: None,
             noise_threshold: 0.0,
             min_samples: 0,
             noise_white: 0.0,
@@ -300,6 +304,10 @@ impl Settings {
     /// The samples that are rendered.
     pub fn range(&self) -> Range<u32> {
         self.sample_range.map_or(0..self.samples, |[first, end]| first..end)
+    }
+    /// The tiles that are rendered, of so many.
+    pub fn tiles(&self, count: u32) -> Range<u32> {
+        self.tile_range.map_or(0..count, |[first, end]| first..end)
     }
     /// Samples before the noise is looked at; `None` where it never is. Left to the threshold it is Cycles' choice: 64 for 0.01, 32 for 0.1.
     pub fn least_samples(&self) -> Option<u32> {

@@ -37,6 +37,7 @@ __all__ = [
     "Tile",
     "Scene",
     "_main",
+    "_scene",
     "load_usd",
     "goniogram_figures",
     "read_goniogram",
@@ -427,6 +428,7 @@ class Scene:
         crop: tuple[int, int, int, int] | None = ...,
         samples: int | None = ...,
         sample_range: tuple[int, int] | None = ...,
+        tile_range: tuple[int, int] | None = ...,
         noise_threshold: float | None = ...,
         min_samples: int | None = ...,
         noise_white: float | None = ...,
@@ -447,12 +449,13 @@ class Scene:
         time_limit: float | None = ...,
         passes: Sequence[str] | None = ...,
     ) -> None: ...
+    def parts(self, count: int) -> list[dict[str, tuple[int, int]]]: ...
     @property
     def light_groups(self) -> list[str]: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def to_dict(self) -> dict[str, Any]: ...
-    def save(self, path: str | PathLike[str]) -> None: ...
+    def save(self, path: str | PathLike[str], *, images: bool = False) -> None: ...
     @staticmethod
     def load(path: str | PathLike[str]) -> Scene: ...
 
@@ -533,4 +536,5 @@ def load_usd(
     neutral_dome: bool = True,
     strict: bool = False,
 ) -> Scene: ...
+def _scene(arguments: Sequence[str], folder: str | PathLike[str], frame: float | None) -> Scene: ...
 def _main(arguments: Sequence[str]) -> int: ...

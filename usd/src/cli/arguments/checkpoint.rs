@@ -20,6 +20,9 @@ pub(crate) struct CheckpointArguments {
     /// Render a part of the samples, from the first to the one before the last number; 'gonio merge' joins the checkpoints of the parts.
     #[arg(long, value_name = "FIRST:END")]
     pub(crate) samples: Option<String>,
+    /// Render one of so many parts with about equal work, as in 3/8; 'gonio merge' joins their checkpoints.
+    #[arg(long, value_name = "NUMBER/COUNT", conflicts_with = "samples")]
+    pub(crate) part: Option<String>,
 }
 
 #[derive(Args, Debug)]

@@ -1,7 +1,8 @@
 //! What `gonio render` takes.
 
-use super::{CheckpointArguments, DaylightArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
+use super::{CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderOptions {
@@ -77,7 +78,16 @@ pub(crate) struct RenderOptions {
     #[command(flatten)]
     pub(crate) checkpoint: CheckpointArguments,
     #[command(flatten)]
+    pub(crate) farm: FarmArguments,
+    #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
+}
+
+impl RenderOptions {
+    /// The files that are read.
+    pub(crate) fn inputs(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        [&mut self.stage.stage].into_iter().chain(&mut self.stage.session_layer).chain(&mut self.daylight.weather)
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

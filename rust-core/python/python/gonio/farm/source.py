@@ -1,0 +1,85 @@
+"""Where workers get a frame's scene from: the stage, which they read themselves, or a bundle that is sent."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import uuid
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .._gonio import Error, Scene, _scene
+
+# What to do where a machine does not see a file.
+REMEDY = "put the stage and its files where all machines see them under one path, or send them (--dask-send)"
+
+
+def _name() -> str:
+    return uuid.uuid4().hex
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What `gonio render` with these arguments would trace at a frame; relative paths start at `folder`."""
+
+    arguments: Sequence[str]
+    folder: str | os.PathLike[str]
+    # Absolute paths of all files that the stage is made of.
+    files: Sequence[str]
+    frame: float | None
+    name: str = field(default_factory=_name)
+
+    def scene(self) -> Scene:
+        """Reads the stage; `gonio.Error` names the first file that cannot be seen from here."""
+        for path in unseen(self.files):
+            raise Error(f"cannot read {path}; {REMEDY}")
+        return _scene(self.arguments, self.folder, self.frame)
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """A scene as bytes, with its images."""
+
+    data: bytes
+    name: str = field(default_factory=_name)
+
+    @staticmethod
+    def of(scene: Scene) -> Bundle:
+        """The bundle of a scene; `gonio.Error` where an image cannot be sent."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "scene.gonio")
+            scene.save(path, images=True)
+            return Bundle(path.read_bytes())
+
+    @staticmethod
+    def of_stage(arguments: Sequence[str], folder: str | os.PathLike[str], frame: float | None) -> Bundle:
+        """The bundle of what `gonio render` with these arguments would trace at a frame."""
+        return Bundle.of(_scene(arguments, folder, frame))
+
+    def scene(self) -> Scene:
+        """The scene again."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "scene.gonio")
+            path.write_bytes(self.data)
+            return Scene.load(path)
+
+
+def unseen(paths: Iterable[str]) -> list[str]:
+    """Those of the files that cannot be read from here."""
+    return [path for path in paths if not os.access(path, os.R_OK)]
+
+
+def files_of(inputs: Sequence[str | os.PathLike[str]]) -> list[str]:
+    """The files with all that the stages among them are made of: layers, textures, goniograms, measurements."""
+    found: dict[str, None] = {}
+    for path in [os.fspath(path) for path in inputs]:
+        found[path] = None
+        if Path(path).suffix in {".usd", ".usda", ".usdc", ".usdz"}:
+            from pxr import UsdUtils
+
+            layers, assets, _ = UsdUtils.ComputeAllDependencies(path)
+            # Files inside packages read `package.usdz[inner.png]`.
+            names = [layer.realPath for layer in layers] + [str(asset) for asset in assets]
+            found.update(dict.fromkeys(name.split("[")[0] for name in names if name))
+    return list(found)
