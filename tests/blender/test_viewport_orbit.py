@@ -16,7 +16,7 @@ def test_orbiting_280_thousand_triangles():
 
     scene = heads()
     assert 275_000 < triangles() < 285_000
-    scene.gonio.max_bounces = 0
+    scene.gonio.use_preview_direct_light = True
     orbit = Orbit()
     orbit.finish()
     orbit.go(1.0)
