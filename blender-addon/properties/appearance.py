@@ -14,7 +14,12 @@ DISPLAYS = (
 )
 TONE_MAPS = (
     ("NONE", "Off", "Scene-linear light; the view transform of Color Management makes the picture", 0),
-    ("PHOTOGRAPHIC", "Photographic", "Reinhard's operator: the picture's own mean brightness becomes middle grey, highlights are compressed", 1),
+    (
+        "PHOTOGRAPHIC",
+        "Photographic",
+        "Reinhard's operator: the picture's own mean brightness becomes middle grey, highlights are compressed",
+        1,
+    ),
     ("LOCAL", "Local", "The same, each pixel compressed by the brightness around it, which keeps detail in bright and in dark parts", 2),
     ("EV100", "Fixed Exposure", "An exposure value at ISO 100, the same for all frames; brighter light is clipped", 3),
 )
