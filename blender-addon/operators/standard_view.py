@@ -4,12 +4,19 @@
 import bpy
 
 # What Color Management must say.
-STANDARD = {"view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0, "use_curve_mapping": False}
+STANDARD = {"view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0, "use_curve_mapping": False, "use_white_balance": False}
 
 
 def is_standard(view) -> bool:
     """Whether a scene's view settings add the display's curve alone."""
-    return all(getattr(view, name) == value for name, value in STANDARD.items()) and not getattr(view, "use_white_balance", False)
+    return all(getattr(view, name, value) == value for name, value in STANDARD.items())
+
+
+def show_as_is(view) -> None:
+    """Makes a scene's view settings add the display's curve alone."""
+    for name, value in STANDARD.items():
+        if hasattr(view, name):
+            setattr(view, name, value)
 
 
 class GONIO_OT_use_standard_view(bpy.types.Operator):
@@ -24,9 +31,5 @@ class GONIO_OT_use_standard_view(bpy.types.Operator):
         return context.scene is not None
 
     def execute(self, context):
-        view = context.scene.view_settings
-        for name, value in STANDARD.items():
-            setattr(view, name, value)
-        if hasattr(view, "use_white_balance"):
-            view.use_white_balance = False
+        show_as_is(context.scene.view_settings)
         return {"FINISHED"}

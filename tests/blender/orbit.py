@@ -39,29 +39,32 @@ class Pace:
 
 
 class _Dated:
-    """A render that notes how old its view is when its picture is taken."""
+    """A render that notes how old its view is when its picture is taken, and what is waited for."""
 
-    def __init__(self, render, seen: float, ages: list[float]) -> None:
-        self._render, self._seen, self._ages = render, seen, ages
+    def __init__(self, render, seen: float, orbit: "Orbit") -> None:
+        self._render, self._seen, self._orbit = render, seen, orbit
 
     def __getattr__(self, name):
         return getattr(self._render, name)
 
+    def wait(self, seconds):
+        return self._orbit.times.add("trace", lambda: self._render.wait(seconds))
+
     def film(self):
-        self._ages.append(time.perf_counter() - self._seen)
-        return self._render.film()
+        self._orbit.ages.append(time.perf_counter() - self._seen)
+        return self._orbit.times.add("develop", self._render.film)
 
 
 class Orbit(Viewport):
     """A viewport whose view never rests."""
 
     def __init__(self) -> None:
-        self._angle, self._seen, self._ages = 0.0, 0.0, []
+        self._angle, self._seen, self.ages = 0.0, 0.0, []
         super().__init__(pose(0.0))
 
     def _start(self, scene, previous):
         render = super()._start(scene, previous._render if previous is not None else None)
-        return _Dated(render, self._seen, self._ages)
+        return _Dated(render, self._seen, self)
 
     def step(self):
         """Turns the view a little and draws it; gives the picture."""
@@ -72,7 +75,8 @@ class Orbit(Viewport):
 
     def go(self, seconds: float) -> Pace:
         """Turns for some seconds."""
-        self._ages.clear()
+        self.ages.clear()
+        self.times.clear()
         widths, number = [], self.session.picture.number if self.session.picture else -1
         start = time.perf_counter()
         while time.perf_counter() - start < seconds:
@@ -81,4 +85,4 @@ class Orbit(Viewport):
                 number = picture.number
                 widths.append(picture.width)
         taken = time.perf_counter() - start
-        return Pace(len(widths) / taken, tuple(self._ages), tuple(widths))
+        return Pace(len(widths) / taken, tuple(self.ages), tuple(widths))

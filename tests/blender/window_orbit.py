@@ -1,8 +1,8 @@
-"""Goes round 280,000 triangles in a real window: blender --python window_orbit.py -- SECONDS REST LOG [SETTING=VALUE ...].
+"""Goes round 280,000 triangles in a real window: blender -p 0 0 960 540 --python window_orbit.py -- SECONDS REST LOG [SETTING=VALUE ...].
 
-Needs the extension installed, and the files heads.py and scenes.py beside this one. The viewport shows 960 × 540 pixels in direct light; settings of the
-scene are set as asked for. After the orbit the view rests for some seconds, in which the picture gets its samples, and Blender quits. The log gets
-pictures a second and what they take.
+Needs the extension installed, and the files heads.py and scenes.py beside this one. The viewport fills the window, in direct light; settings of the scene
+are set as asked for. After the orbit the view rests for some seconds, in which the picture gets its samples, and Blender quits. The log gets pictures a
+second and what they take.
 """
 
 import importlib
@@ -18,7 +18,6 @@ from mathutils import Quaternion
 SECONDS, REST, LOG, *CHOSEN = sys.argv[sys.argv.index("--") + 1 :]
 SECONDS, REST = float(SECONDS), float(REST)
 ADDON = "bl_ext.user_default.gonio"
-WIDTH, HEIGHT = 960, 540
 # Seconds before anything is counted, and between two steps of the view.
 WARM, PAUSE = 3.0, 1 / 60
 STEP = Quaternion((0.0, 0.0, 1.0), math.radians(1.0))
@@ -50,12 +49,13 @@ def watch() -> None:
     drawing.ViewportDrawing.draw, engine.GonioRenderEngine.view_draw = timed_draw, timed_view_draw
 
 
-def border(space, region) -> None:
-    """Renders so many pixels in the middle, whatever the size of the window."""
-    space.use_render_border = True
-    across, up = 0.5 * WIDTH / region.width, 0.5 * HEIGHT / region.height
-    space.render_border_min_x, space.render_border_max_x = 0.5 - across, 0.5 + across
-    space.render_border_min_y, space.render_border_max_y = 0.5 - up, 0.5 + up
+def fill(area) -> None:
+    """Makes a viewport as large as the window, without what lies over it."""
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area, region=region):
+        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+    space = view().spaces.active
+    space.overlay.show_overlays = space.show_gizmo = False
 
 
 def prepare() -> float | None:
@@ -72,10 +72,8 @@ def prepare() -> float | None:
     for name, _, value in (each.partition("=") for each in CHOSEN):
         kind = type(getattr(settings, name))
         setattr(settings, name, value == "True" if kind is bool else kind(value))
-    area = view()
-    space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
-    border(space, region)
-    space.overlay.show_overlays = False
+    fill(view())
+    space = view().spaces.active
     space.region_3d.view_distance, space.region_3d.view_location = 8.0, (0.0, 0.0, 0.8)
     watch()
     space.shading.type = "RENDERED"
@@ -88,21 +86,26 @@ def turn() -> float | None:
     turned.append(now)
     if now - turned[0] > WARM + SECONDS:
         report(turned[0] + WARM, now)
-        bpy.app.timers.register(bpy.ops.wm.quit_blender, first_interval=REST)
+        bpy.app.timers.register(leave, first_interval=REST)
         return None
     region = view().spaces.active.region_3d
     region.view_rotation = STEP @ region.view_rotation
     return PAUSE
 
 
+def leave() -> None:
+    bpy.ops.wm.quit_blender()
+
+
 def report(start: float, end: float) -> None:
     """Writes what was counted between two times."""
+    region = next(region for region in view().regions if region.type == "WINDOW")
     shown = [each for each in drawn.values() if start <= each[0] < end]
     took = [seconds for at, seconds in callbacks if start <= at < end]
     with open(LOG, "w", encoding="utf-8") as log:
         log.write(
-            f"{len(shown) / (end - start):.1f} updates a second, {median(width for _, width, _ in shown)} of {WIDTH} columns in the median; "
-            f"drawing one {median(seconds for *_, seconds in shown) * 1e3:.1f} ms, the engine's callback {median(took) * 1e3:.1f} ms, "
+            f"{len(shown) / (end - start):.1f} updates a second, {median(width for _, width, _ in shown)} of {region.width} columns in the median, "
+            f"{region.height} rows; drawing one {median(seconds for *_, seconds in shown) * 1e3:.1f} ms, the engine's callback {median(took) * 1e3:.1f} ms, "
             f"{len(took) / (end - start):.1f} callbacks a second\n"
         )
 

@@ -55,30 +55,31 @@ pub fn edge_aware(image: &Image, execution: Execution) -> Option<Vec<f32>> {
     }
     let mut picture = Picture { light: rows::light(colour, guides), guides: rows::guides(guides) };
     noise::estimate(&mut picture, execution);
-    let mut smoothed = picture.light.clone();
-    let length = smoothed.length();
-    smoothed.values.par_chunks_exact_mut(length).enumerate().for_each(|(y, out)| {
-        dispatch!(execution, l => noise::quiet_row(l, &picture, y, out));
-    });
-    std::mem::swap(&mut picture.light, &mut smoothed);
+    let mut next = picture.light.clone();
+    noise::quiet(&mut picture, &mut next, execution);
     for level in 0..LEVELS {
-        let source = &picture;
-        smoothed.values.par_chunks_exact_mut(length).enumerate().for_each(|(y, out)| {
-            dispatch!(execution, l => smooth_row(l, source, y, 1 << level, out));
-        });
-        std::mem::swap(&mut picture.light, &mut smoothed);
+        smooth(&mut picture, &mut next, 1 << level, execution);
     }
     Some(rows::colours(&picture.light, colour, guides))
 }
 
-/// One level of a row, its taps `step` pixels apart.
+/// One level, its taps `step` pixels apart; `next` is room for it.
+fn smooth(picture: &mut Picture, next: &mut Rows, step: isize, execution: Execution) {
+    let (length, source) = (next.length(), &*picture);
+    next.values.par_chunks_exact_mut(length).enumerate().for_each(|(y, out)| {
+        dispatch!(execution, l => smooth_row(l, source, y, step, out));
+    });
+    std::mem::swap(&mut picture.light, next);
+}
+
 #[inline(always)]
 fn smooth_row<L: Lanes>(l: L, picture: &Picture, y: usize, step: isize, out: &mut [f32]) {
     let Picture { light, guides } = picture;
     let stride = light.stride;
     for at in (MARGIN..stride - MARGIN).step_by(L::COUNT) {
         let centre = guides_at(l, guides.row(y), stride, at);
-        let [luminance, variance] = [LUMINANCE, VARIANCE].map(|channel| l.load(light.row(y), channel * stride + at));
+        let luminance = l.load(light.row(y), LUMINANCE * stride + at);
+        let variance = l.load(light.row(y), VARIANCE * stride + at);
         let sharpness = (variance * VARIANCES + luminance.squared() * INVISIBLE + DARK).recip();
         let (mut sums, mut whole) = ([l.f(0.0); LIGHT_CHANNELS], l.f(0.0));
         for (offset, across) in (-2..=2).zip(SPLINE) {

@@ -4,7 +4,7 @@
 //! its square over a neighbourhood is taken along four lines; the least of the four is the one along which there is no edge.
 
 use super::{
-    MARGIN, Picture,
+    MARGIN, Picture, distance, guides_at, likeness,
     rows::{LUMINANCE, Rows, VARIANCE},
 };
 use gonio_simd::{Execution, F, Lanes, dispatch};
@@ -39,12 +39,12 @@ fn differences_of_row<L: Lanes>(l: L, picture: &Picture, y: usize, out: &mut [f3
         let (Some(before), Some(after)) = (light.row_from(y, -dy), light.row_from(y, dy)) else { continue };
         let (Some(before_guides), Some(after_guides)) = (picture.guides.row_from(y, -dy), picture.guides.row_from(y, dy)) else { continue };
         for at in (MARGIN..stride - MARGIN).step_by(L::COUNT) {
-            let [left, right] = [-dx, dx].map(|offset| at.wrapping_add_signed(offset));
+            let (left, right) = (at.wrapping_add_signed(-dx), at.wrapping_add_signed(dx));
             let mean = (l.load(before, row + left) + l.load(after, row + right)) * 0.5;
-            let centre = super::guides_at(l, picture.guides.row(y), stride, at);
-            let [there, back] = [(before_guides, left), (after_guides, right)]
-                .map(|(guides, at)| super::distance(centre, super::guides_at(l, guides, stride, at)));
-            let same = there.lt(1.0) & back.lt(1.0);
+            let centre = guides_at(l, picture.guides.row(y), stride, at);
+            let there = distance(centre, guides_at(l, before_guides, stride, left)).lt(1.0);
+            let back = distance(centre, guides_at(l, after_guides, stride, right)).lt(1.0);
+            let same = there & back;
             let variance = (l.load(light.row(y), row + at) - mean).squared() * (2.0 / 3.0);
             variance.keep_if(same).store(out, 2 * line * stride + at);
             l.f(1.0).keep_if(same).store(out, (2 * line + 1) * stride + at);
@@ -73,20 +73,28 @@ fn variance_of_row<L: Lanes>(l: L, differences: &Rows, y: usize, out: &mut [f32]
     }
 }
 
-/// The mean luminance of each pixel's neighbours of its surface and the variance of that mean, by which pixels are compared: one that stands out alone
-/// has neighbours like any other's.
+/// Puts in the place of each luminance the mean of the neighbours of its surface, by which pixels are compared, and the variance of that mean: a pixel
+/// that stands out alone has neighbours like any other's. `next` is room for it, equal to the light.
+pub(super) fn quiet(picture: &mut Picture, next: &mut Rows, execution: Execution) {
+    let (length, source) = (next.length(), &*picture);
+    next.values.par_chunks_exact_mut(length).enumerate().for_each(|(y, out)| {
+        dispatch!(execution, l => quiet_row(l, source, y, out));
+    });
+    std::mem::swap(&mut picture.light, next);
+}
+
 #[inline(always)]
-pub(super) fn quiet_row<L: Lanes>(l: L, picture: &Picture, y: usize, out: &mut [f32]) {
+fn quiet_row<L: Lanes>(l: L, picture: &Picture, y: usize, out: &mut [f32]) {
     let Picture { light, guides } = picture;
     let stride = light.stride;
     for at in (MARGIN..stride - MARGIN).step_by(L::COUNT) {
-        let centre = super::guides_at(l, guides.row(y), stride, at);
+        let centre = guides_at(l, guides.row(y), stride, at);
         let [mut mean, mut variance, mut whole] = [l.f(0.0); 3];
         for offset in -REACH..=REACH {
             let (Some(values), Some(surfaces)) = (light.row_from(y, offset), guides.row_from(y, offset)) else { continue };
             for dx in -REACH..=REACH {
                 let tap = at.wrapping_add_signed(dx);
-                let weight = super::likeness(super::distance(centre, super::guides_at(l, surfaces, stride, tap)));
+                let weight = likeness(distance(centre, guides_at(l, surfaces, stride, tap)));
                 whole += weight;
                 mean = l.load(values, LUMINANCE * stride + tap).mul_add(weight, mean);
                 variance = l.load(values, VARIANCE * stride + tap).mul_add(weight.squared(), variance);
