@@ -9,10 +9,12 @@ from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
 from .point_meter import GONIO_OT_point_meter
 from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
+from .standard_view import GONIO_OT_use_standard_view
 
 CLASSES = (
     GONIO_OT_settings_from_cycles,
     GONIO_OT_add_denoise_node,
+    GONIO_OT_use_standard_view,
     GONIO_OT_measure_grids,
     GONIO_OT_point_meter,
     GONIO_OT_report_jump,

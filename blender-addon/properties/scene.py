@@ -2,8 +2,9 @@
 """Render settings of a scene, named as Cycles names them."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty
 
+from .appearance import AppearanceSettings
 from .switch import switch
 from .tag import tag_data
 
@@ -16,12 +17,6 @@ PIXEL_FILTERS = (
     ("GAUSSIAN", "Gaussian", "Soft, no ringing", 1),
     ("BLACKMAN_HARRIS", "Blackman-Harris", "Sharper than Gaussian, almost no ringing", 2),
     ("TENT", "Tent", "Linear fall to the edge of the filter", 3),
-)
-
-DISPLAYS = (
-    ("COLOR", "Color", "The picture as it is", 0),
-    ("LUMINANCE", "Luminance", "Luminance in cd/m², in false colour", 1),
-    ("ILLUMINANCE", "Illuminance", "Illuminance on the first surface in lx, in false colour", 2),
 )
 
 
@@ -48,7 +43,7 @@ def _clamp(part, sample):
     return FloatProperty(name=f"Clamp {part}", description=description, min=0.0, max=1e8, default=0.0, update=tag_data)
 
 
-class GonioSceneSettings(bpy.types.PropertyGroup):
+class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
     """How a scene is rendered."""
 
     samples: IntProperty(
@@ -116,21 +111,6 @@ class GonioSceneSettings(bpy.types.PropertyGroup):
         max=2.0**32,
         default=1.0,
         update=tag_data,
-    )
-    display: EnumProperty(
-        name="Viewport Shows", description="What the rendered viewport shows", items=DISPLAYS, default="COLOR", update=tag_data
-    )
-    false_color_max: FloatProperty(
-        name="Maximum",
-        description="Upper end of the false-colour scale, in cd/m² or lx; a round number that nearly all values stay below if 0",
-        min=0.0,
-        max=1e9,
-        default=0.0,
-        update=tag_data,
-    )
-    false_color_steps: IntProperty(name="Steps", description="Steps of the false-colour scale", min=1, max=64, default=10, update=tag_data)
-    use_false_color_contours: BoolProperty(
-        name="Contours", description="Lines where steps of the false-colour scale meet", default=True, update=tag_data
     )
     pixel_filter_type: EnumProperty(
         name="Filter Type", description="Shape of the pixel filter", items=PIXEL_FILTERS, default="BLACKMAN_HARRIS", update=tag_data

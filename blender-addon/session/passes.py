@@ -10,6 +10,7 @@ import numpy
 from .. import compat
 from ..units import LUMENS_PER_WATT
 from . import false_color
+from .tone_map import ToneMap
 
 
 class Scale(Enum):
@@ -137,7 +138,16 @@ def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     """A pass of a film as Blender takes pixels."""
     if kind.scale is Scale.FALSE_COLOR:
         return false_color.linear(film, false_color.Style.of_source(kind.source, settings))
+    if kind == COMBINED:
+        return read_combined(film, settings.film_exposure, ToneMap.of(settings))
     return read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
+
+
+def read_combined(film, exposure: float, tone_map: ToneMap | None) -> numpy.ndarray:
+    """The Combined pass as Blender takes pixels, in its watts or as a tone-mapped picture."""
+    if tone_map is not None:
+        return read_flat(tone_map.apply(film), COMBINED.source, 1.0)
+    return read_flat(film, COMBINED.source, COMBINED.factor(exposure, 1))
 
 
 def read_flat(film, source: str, factor: float) -> numpy.ndarray:

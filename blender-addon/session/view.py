@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What part of a 3D viewport is rendered, and which settings matter there."""
 
+from ..properties.appearance import AppearanceSettings
 from .frame import Crop, Frame, crop_of_border
 
-# Properties of the scene's settings that are none, or change how a film is painted alone.
-NO_RENDER = ("rna_type", "name", "false_color_max", "false_color_steps", "use_false_color_contours")
+# Properties of the scene's settings that are none, or say how a film is shown alone.
+NO_RENDER = frozenset(("rna_type", "name", *AppearanceSettings.__annotations__)) - {"use_preview_direct_light"}
 
 
 def frame_of(scene, space, region_3d, width: int, height: int) -> Frame:

@@ -8,35 +8,22 @@ import gonio
 
 from .. import report
 from ..export import Exporter
-from . import false_color, status
+from ..properties.scene import MOST_SAMPLES
+from . import status
+from .appearance import Appearance, Picture
 from .frame import Frame
-from .passes import COMBINED, read_flat
+from .pace import Pace
 from .view import frame_of, settings_of
 
-# What the first picture after an edit may take, in seconds, and how long drawing waits for it.
-FIRST_PICTURE = 0.06
-PATIENCE = 0.06
+# How long drawing waits for the first picture after an edit, in seconds.
+PATIENCE = 0.08
 # A first picture that has not come after this time gives way to a newer state.
 LONGEST_FIRST = 1.0
-COARSEST = 16
-# Samples of pixels a second, until measured.
-FIRST_GUESS = 5e5
-# Seconds between two pictures of the last stage, at least and at most.
+# How long nothing must change before finer pictures are begun: while the view moves they would be in the way.
+REST = 0.1
+# Seconds between two pictures of the last stage, at least and at most, and at least this many times what painting one takes.
 SHOW_EVERY = (0.1, 1.0)
-MOST_SAMPLES = 1 << 24
-
-
-@dataclass(frozen=True)
-class Picture:
-    """Pixels to draw: `width` × `height` flat RGBA float32, rows from the bottom, of the rendered part of `frame`."""
-
-    number: int
-    width: int
-    height: int
-    pixels: object
-    frame: Frame
-    # In false colour the pixels are what the screen shows, and this stands beside them.
-    legend: false_color.Shown | None = None
+SHOW_SHARE = 4.0
 
 
 @dataclass
@@ -50,10 +37,13 @@ class _Stage:
     is_first: bool
     is_last: bool
     samples: int
-    # What the render's pass is shown as; None for the picture as it is.
-    style: false_color.Style | None
+    # How its film is shown; its passes allow for it.
+    appearance: Appearance
+    passes: list[str]
     started: float
     shown: float
+    # What painting its latest picture took, seconds.
+    painting: float = 0.0
 
 
 class ViewportSession:
@@ -70,12 +60,13 @@ class ViewportSession:
         self._frame: Frame | None = None
         self._settings: tuple | None = None
         self._pixel_size = 1
-        self._exposure = 1.0
-        self._style: false_color.Style | None = None
+        self._appearance: Appearance | None = None
         self._is_stale = True
         self._stage: _Stage | None = None
         self._is_running = False
-        self._rate = FIRST_GUESS
+        # Factor of the stage that comes next, and the time from which on.
+        self._finer: tuple[int, float] | None = None
+        self._pace = Pace()
 
     def sync(self, depsgraph) -> None:
         """Exports what changed; the first time, and after a change of scene or view layer, everything."""
@@ -102,73 +93,79 @@ class ViewportSession:
             self._frame, self._is_stale = frame, True
         if (settings, pixel_size) != (self._settings, self._pixel_size):
             self._settings, self._pixel_size, self._is_stale = settings, pixel_size, True
-            self._exposure = depsgraph.scene.gonio.film_exposure
-        style = false_color.Style.of(depsgraph.scene.gonio)
-        if style != self._style:
-            self._style = style
-            self._repaint(style)
+        appearance = Appearance.of(depsgraph.scene.gonio)
+        if appearance != self._appearance:
+            self._appearance = appearance
+            self._repaint(appearance)
 
     def advance(self, depsgraph) -> None:
         """Starts what has to be started and takes over a new picture if there is one."""
         try:
             if self._is_stale and not self._is_first_coming():
-                self._begin(depsgraph, self._first_factor(), is_first=True)
+                choice = depsgraph.scene.gonio.preview_navigation_resolution
+                self._begin(depsgraph, self._pace.factor(self._frame.size, self._pixel_size, choice), is_first=True)
                 self._is_stale = False
+            elif self._is_rested():
+                self._begin(depsgraph, self._finer[0], is_first=False)
             if self._is_running:
                 self._collect(depsgraph)
         except gonio.Error as error:
-            self._is_running, self.status = False, str(error)
+            self._is_running, self._finer, self.status = False, None, str(error)
             self.report.add("Render", getattr(error, "origin", None) or "", str(error), severity="ERROR")
 
     def is_waiting(self) -> bool:
         """Whether `advance` would have something to do; asked by a timer."""
         if not self._is_running:
-            return self._is_stale
+            return self._is_stale or self._is_rested()
         stage = self._stage
         return stage.render.wait(0.0) or (stage.is_last and self._is_due(stage))
 
     @property
     def is_finished(self) -> bool:
         """Whether the picture has all its samples."""
-        return not self._is_running and not self._is_stale
+        return not self._is_running and not self._is_stale and self._finer is None
 
     def close(self) -> None:
         """Ends the render."""
         if self._stage is not None:
             self._stage.render.cancel()
-        self._stage, self._is_running, self._is_stale = None, False, False
+        self._stage, self._is_running, self._is_stale, self._finer = None, False, False, None
 
     def _is_first_coming(self) -> bool:
         """Whether the first picture of an earlier state is on its way: to give it up at each step of a drag would show nothing."""
         stage = self._stage
-        if not self._is_running or not stage.is_first or self._now() - stage.started > LONGEST_FIRST:
+        if not self._is_running or not stage.is_first:
             return False
-        if not stage.render.wait(0.0):
-            return True
-        self._show(stage)
-        return False
+        if stage.render.wait(0.0):
+            self._show(stage)
+            return False
+        taken = self._now() - stage.started
+        if taken > LONGEST_FIRST:
+            self._pace.learn(stage.frame.size, taken)
+        return taken <= LONGEST_FIRST
 
-    def _first_factor(self) -> int:
-        width, height = self._frame.size
-        factor = self._pixel_size
-        while factor < COARSEST and width * height / factor**2 > self._rate * FIRST_PICTURE:
-            factor *= 2
-        return factor
+    def _is_rested(self) -> bool:
+        """Whether a finer picture is to be begun."""
+        return self._finer is not None and self._now() >= self._finer[1]
 
     def _begin(self, depsgraph, factor: int, *, is_first: bool) -> None:
-        is_last = factor <= self._pixel_size
-        frame = self._frame.reduced(factor)
-        source = self._style.source if self._style else COMBINED.source
-        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=[source])
+        started = self._now()
+        is_last = not is_first and factor <= self._pixel_size
         wanted = depsgraph.scene.gonio.preview_samples
-        self.exporter.scene.set(samples=(wanted or MOST_SAMPLES) if is_last else 1)
+        samples = (wanted or MOST_SAMPLES) if is_last else 1
+        frame, passes = self._frame.reduced(factor), self._appearance.passes(samples)
+        self.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=True, passes=passes)
+        if not is_last:
+            # One sample has no noise to go by.
+            self.exporter.scene.set(samples=samples, noise_threshold=0.0)
         previous = self._stage.render if self._stage is not None else None
         if previous is not None:
             previous.cancel()
-        self._is_running = False
+        self._is_running, self._finer = False, None
         render = self._start(self.exporter.scene, previous=previous)
-        now = self._now()
-        self._stage = _Stage(render, self._frame, frame, factor, is_first, is_last, wanted, self._style, now, now)
+        self._stage = _Stage(
+            render, self._frame, frame, factor, is_first, is_last, wanted, self._appearance, passes, started, shown=self._now()
+        )
         self._is_running = True
 
     def _collect(self, depsgraph) -> None:
@@ -180,42 +177,35 @@ class ViewportSession:
             self._show(stage)
         if not done:
             return
-        self._learn(stage)
+        self._is_running = False
         if stage.is_last:
-            self._is_running = False
             self.report.add_render(stage.render.diagnostics)
         elif not self._is_stale:
-            self._begin(depsgraph, max(self._pixel_size, stage.factor // 2), is_first=False)
+            finer = self._pixel_size if stage.factor <= self._pixel_size else max(self._pixel_size, stage.factor // 2)
+            self._finer = (finer, self._now() + (REST if stage.is_first else 0.0))
 
     def _is_due(self, stage: _Stage) -> bool:
         """Whether a picture with more samples is to be shown: they differ less and less."""
         least, most = SHOW_EVERY
         now = self._now()
-        return now - stage.shown >= min(most, max(least, 0.2 * (now - stage.started))) and stage.render.progress.samples > 0
+        pause = max(SHOW_SHARE * stage.painting, min(most, max(least, 0.2 * (now - stage.started))))
+        return now - stage.shown >= pause and stage.render.progress.samples > 0
 
     def _show(self, stage: _Stage) -> None:
-        film = stage.render.film()
-        width, height = film.size
         number = self.picture.number + 1 if self.picture else 0
-        if stage.style is None:
-            pixels = read_flat(film, COMBINED.source, COMBINED.factor(self._exposure, 1))
-            self.picture = Picture(number, width, height, pixels, stage.view)
-        else:
-            shown, legend = false_color.paint(film, stage.style, stage.view.height)
-            self.picture = Picture(number, width, height, shown.pixels, stage.view, legend)
+        before = self._now()
+        self.picture = stage.appearance.paint(stage.render.film(), number, stage.view)
         stage.shown = self._now()
+        stage.painting = stage.shown - before
+        if stage.is_first:
+            self._pace.learn(stage.frame.size, stage.shown - stage.started)
 
-    def _repaint(self, style: false_color.Style | None) -> None:
-        """Gives the stage other colours; another pass takes another stage."""
+    def _repaint(self, appearance: Appearance) -> None:
+        """Shows the stage in another way; one that needs other passes needs another stage."""
         stage = self._stage
-        if stage is None or stage.style is None or style is None or stage.style.source != style.source:
+        if stage is None or not set(appearance.passes(stage.samples or MOST_SAMPLES)) <= set(stage.passes):
+            self._is_stale = True
             return
-        stage.style = style
+        stage.appearance = appearance
         if stage.is_last and stage.render.progress.samples > 0:
             self._show(stage)
-
-    def _learn(self, stage: _Stage) -> None:
-        """Measures how many samples a second this scene allows."""
-        width, height = stage.frame.size
-        progress = stage.render.progress
-        self._rate = max(1e3, width * height * max(1, progress.samples) / max(progress.elapsed, 1e-3))

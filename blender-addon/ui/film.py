@@ -3,6 +3,7 @@
 
 from bpy.types import Panel
 
+from ..operators.standard_view import is_standard
 from .base import RenderPanel
 
 
@@ -24,4 +25,21 @@ class GONIO_RENDER_PT_film_pixel_filter(RenderPanel, Panel):
         layout.prop(scene.gonio, "filter_width", text="Width")
 
 
-PANELS = (GONIO_RENDER_PT_film, GONIO_RENDER_PT_film_pixel_filter)
+class GONIO_RENDER_PT_film_tone_mapping(RenderPanel, Panel):
+    bl_label = "Tone Mapping"
+    bl_parent_id = "GONIO_RENDER_PT_film"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_settings(self, layout, scene):
+        settings = scene.gonio
+        layout.prop(settings, "tone_map", text="Operator")
+        if settings.tone_map == "EV100":
+            layout.prop(settings, "tone_map_ev100")
+        elif settings.tone_map != "NONE":
+            layout.prop(settings, "tone_map_white")
+        if settings.tone_map != "NONE" and not is_standard(scene.view_settings):
+            layout.label(text="The view transform maps the picture again", icon="ERROR")
+            layout.operator("gonio.use_standard_view")
+
+
+PANELS = (GONIO_RENDER_PT_film, GONIO_RENDER_PT_film_pixel_filter, GONIO_RENDER_PT_film_tone_mapping)

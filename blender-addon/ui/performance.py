@@ -37,6 +37,7 @@ class GONIO_RENDER_PT_performance_viewport(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.prop(scene.render, "preview_pixel_size", text="Pixel Size")
+        layout.prop(scene.gonio, "preview_navigation_resolution", text="While Navigating")
 
 
 PANELS = (

@@ -25,6 +25,12 @@ class GONIO_RENDER_PT_sampling_viewport(RenderPanel, Panel):
         row.prop(settings, "preview_samples", text="Max Samples" if settings.use_preview_adaptive_sampling else "Samples")
         if settings.use_preview_adaptive_sampling:
             layout.prop(settings, "preview_adaptive_min_samples", text="Min Samples")
+        row = layout.column(heading="Denoise").row(align=True)
+        row.prop(settings, "use_preview_denoising", text="")
+        start = row.row()
+        start.active = settings.use_preview_denoising
+        start.prop(settings, "preview_denoising_start_sample")
+        layout.prop(settings, "use_preview_direct_light")
 
 
 class GONIO_RENDER_PT_sampling_render(RenderPanel, Panel):

@@ -23,10 +23,10 @@ class Clock:
 
 
 class Film:
-    """A film of one colour."""
+    """A film of one colour, which says how it was worked on."""
 
-    def __init__(self, size):
-        self.size = size
+    def __init__(self, size, samples, passes, history=()):
+        self.size, self.samples, self.passes, self.history = size, samples, passes, history
 
     def __getitem__(self, name):
         assert name in ("luminance", "illuminance")
@@ -35,7 +35,14 @@ class Film:
 
     def read(self, name, *, scale, bottom_up):
         assert name == "color" and bottom_up
-        return array("f", [scale]) * (self.size[0] * self.size[1] * 4)
+        return array("f", [scale + len(self.history)]) * (self.size[0] * self.size[1] * 4)
+
+    def edge_aware(self):
+        assert {"denoising_albedo", "denoising_normal"} <= set(self.passes)
+        return Film(self.size, self.samples, ["color"], (*self.history, "edge_aware"))
+
+    def tone_mapped(self, operator, stops, *, white):
+        return Film(self.size, self.samples, ["color"], (*self.history, operator))
 
 
 class Render:
@@ -58,15 +65,16 @@ class Render:
         return SimpleNamespace(samples=samples, fraction=samples / self.settings["samples"], elapsed=elapsed, remaining=None)
 
     def wait(self, seconds):
-        if self.progress.samples < self.settings["samples"]:
-            self.clock.now += seconds
+        end = self.start + self.settings["samples"] * self.size[0] * self.size[1] / self.rate
+        # A little later, lest the rounding of a division decide.
+        self.clock.now += max(0.0, min(seconds, end + 1e-6 - self.clock.now))
         return self.cancelled or self.progress.samples >= self.settings["samples"]
 
     def cancel(self):
         self.cancelled = True
 
     def film(self):
-        return Film(self.size)
+        return Film(self.size, self.progress.samples, self.settings["passes"])
 
 
 class Exporter:
@@ -90,7 +98,8 @@ class Exporter:
         return moved
 
     def settings(self, depsgraph, **settings):
-        self.put.update(settings)
+        samples = depsgraph.scene.gonio.preview_samples
+        self.put.update(samples=samples, noise_threshold=0.1, **settings)
 
 
 class Stage:
@@ -114,7 +123,7 @@ class Stage:
             view_camera_zoom=0.0,
             view_camera_offset=(0.0, 0.0),
         )
-        self.size = (1280, 720)
+        self.size, self.turns = (1280, 720), 0
 
     def draw(self, pixel_size=1):
         self.session.look(self.depsgraph, self.space, self.region, *self.size, pixel_size)
@@ -123,7 +132,8 @@ class Stage:
     def orbit(self):
         from mathutils import Matrix
 
-        self.region.view_matrix = Matrix.Translation((self.clock.now + len(Render.made), 0, 0))
+        self.turns += 1
+        self.region.view_matrix = Matrix.Translation((self.turns, 0, 0))
 
 
 @pytest.mark.blender
@@ -240,6 +250,110 @@ def test_other_false_colours_paint_the_film_anew():
     settings.display = "LUMINANCE"
     stage.draw()
     assert len(Render.made) > count
+
+
+def shade(picture):
+    """How often the pixels of a picture were worked on."""
+    return round(picture.pixels[0])
+
+
+def rested(stage):
+    """Draws until all is done; gives the pictures."""
+    pictures = []
+    while not stage.session.is_finished:
+        if stage.session.is_waiting():
+            stage.draw()
+            pictures.append(stage.session.picture)
+        stage.clock.now += 0.05
+    return pictures
+
+
+@pytest.mark.blender
+def test_pictures_are_denoised_from_a_sample_on():
+    stage = Stage()
+    stage.size = (160, 90)
+    settings = stage.depsgraph.scene.gonio
+    settings.preview_samples, settings.use_preview_denoising, settings.preview_denoising_start_sample = 1024, True, 256
+    Render.rate = 2e6
+    try:
+        stage.session.sync(stage.depsgraph)
+        pictures = rested(stage)
+        assert [shade(picture) for picture in (pictures[0], pictures[-1])] == [0, 1]
+        assert Render.made[0].settings["passes"] == ["color"]
+        # What was rendered with its guides is shown without them at once.
+        count = len(Render.made)
+        settings.use_preview_denoising = False
+        stage.draw()
+        assert shade(stage.session.picture) == 0 and len(Render.made) == count
+        settings.use_preview_denoising, settings.preview_denoising_start_sample = True, 1
+        stage.orbit()
+        stage.draw()
+        assert shade(stage.session.picture) == 1 and len(Render.made) == count + 1
+    finally:
+        Render.rate = 1e6
+
+
+@pytest.mark.blender
+def test_tone_mapping_paints_the_film_anew():
+    stage = Stage()
+    stage.size = (160, 90)
+    settings = stage.depsgraph.scene.gonio
+    stage.session.sync(stage.depsgraph)
+    rested(stage)
+    count = len(Render.made)
+    for operator in ("PHOTOGRAPHIC", "LOCAL", "EV100"):
+        settings.tone_map = operator
+        stage.draw()
+        # Mapped, and in the film's own unit.
+        assert stage.session.picture.pixels[0] == 2.0 and len(Render.made) == count
+    settings.tone_map = "NONE"
+    stage.draw()
+    assert stage.session.picture.pixels[0] < 1.0 and len(Render.made) == count
+
+
+@pytest.mark.blender
+def test_the_resolution_while_navigating():
+    stage = Stage()
+    settings = stage.depsgraph.scene.gonio
+    stage.session.sync(stage.depsgraph)
+    for name, width in (("FULL", 1280), ("HALF", 640), ("QUARTER", 320), ("EIGHTH", 160)):
+        settings.preview_navigation_resolution = name
+        stage.orbit()
+        stage.draw()
+        rested(stage)
+        firsts = [render for render in Render.made if render.settings["samples"] == 1]
+        assert width in {render.settings["width"] for render in firsts} and min(r.settings["width"] for r in firsts) == width
+        assert all(render.settings["noise_threshold"] == 0.0 for render in firsts)
+        Render.made.clear()
+
+
+@pytest.mark.blender
+def test_resolution_follows_what_pictures_take():
+    stage = Stage()
+    stage.session.sync(stage.depsgraph)
+    widths = {}
+    for rate in (4e6, 2e5, 4e6):
+        Render.rate = rate
+        for _ in range(30):
+            stage.orbit()
+            stage.draw()
+            stage.clock.now += 0.01
+        widths.setdefault(rate, []).append(stage.session.picture.width)
+    Render.rate = 1e6
+    assert widths[4e6][0] == widths[4e6][1] > 2 * widths[2e5][0]
+
+
+@pytest.mark.blender
+def test_nothing_finer_is_begun_while_the_view_moves():
+    stage = Stage()
+    stage.session.sync(stage.depsgraph)
+    for count in range(1, 20):
+        stage.orbit()
+        stage.draw()
+        stage.clock.now += 0.03
+        assert len(Render.made) == count and not stage.session.is_waiting() and not stage.session.is_finished
+    stage.clock.now += 0.1
+    assert stage.session.is_waiting()
 
 
 @pytest.mark.blender

@@ -75,18 +75,36 @@ def test_a_noise_threshold_ends_quiet_zones():
         gonio.Render(floor_scene(noise_threshold=0.1, sample_range=(0, 2)))
 
 
-def test_denoising_takes_noise_out():
-    pytest.importorskip("pyoidn")
+def exact_and_noisy():
+    """A film with a denoiser's guides, and the same with noise on its colour."""
     exact = finished(floor_scene(samples=64, width=96, height=96, passes=["color", "illuminance", "denoising_albedo", "denoising_normal"]))
     color = np.array(exact["color"])
     color[..., :3] *= np.random.default_rng(3).gamma(4.0, 0.25, (96, 96, 1)).astype("f4")
-    noisy = exact.with_pass("color", color)
+    return exact, exact.with_pass("color", color)
+
+
+def error(film, exact):
+    """The median leaves the lamp's own pixels out."""
+    return np.median(np.abs(np.asarray(film["color"]) - np.asarray(exact["color"]))[..., :3])
+
+
+def test_denoising_takes_noise_out():
+    pytest.importorskip("pyoidn")
+    exact, noisy = exact_and_noisy()
     film = gonio.denoise(noisy)
-    # The median leaves the lamp's own pixels out.
-    error = lambda each: np.median(np.abs(np.asarray(each["color"]) - np.asarray(exact["color"]))[..., :3])  # noqa: E731
-    assert error(film) < 0.3 * error(noisy)
+    assert error(film, exact) < 0.3 * error(noisy, exact)
     assert all(np.array_equal(film[name], noisy[name]) for name in film.passes if name != "color")
-    assert np.array_equal(np.asarray(film["color"])[..., 3], color[..., 3])
+    assert np.array_equal(np.asarray(film["color"])[..., 3], np.asarray(noisy["color"])[..., 3])
+
+
+def test_the_quick_filter_takes_noise_out():
+    exact, noisy = exact_and_noisy()
+    film = noisy.edge_aware()
+    assert error(film, exact) < 0.4 * error(noisy, exact)
+    assert film.passes == ["color"] and film.size == noisy.size and film.samples == noisy.samples
+    assert np.array_equal(np.asarray(film["color"])[..., 3], np.asarray(noisy["color"])[..., 3])
+    with pytest.raises(KeyError, match="denoising_albedo"):
+        finished(floor_scene()).edge_aware()
 
 
 @pytest.mark.parametrize("sharp", [{"metalness": 1.0, "base_color": (0.8, 0.6, 0.4)}, {"transmission_weight": 1.0}])

@@ -87,3 +87,13 @@ def test_operators_by_name(film, tmp_path):
             film.write_picture(tmp_path / "a.png", **wrong)
     with pytest.raises(gonio.SettingError, match="JPEG files are sRGB"):
         film.write_picture(tmp_path / "a.jpg", space="display-p3")
+
+
+@pytest.mark.parametrize("look", [{}, {"tonemap": "local", "white": 3.0}, {"tonemap": "ev100=2"}, {"tonemap": "none", "exposure": -1.0}])
+def test_light_for_a_host_s_own_curve_shows_the_same_picture(film, tmp_path, look):
+    linear = film.tone_mapped(**look)
+    value = np.asarray(linear["color"]).astype("f8")
+    curve = np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1 / 2.4) - 0.055)
+    pixels, _ = shown(film, tmp_path / "a.png", **look)
+    assert np.abs(pixels[..., :3] - 255 * curve[..., :3]).max() < 0.51
+    assert linear.passes == ["color"] and np.array_equal(value[..., 3], np.asarray(film["color"])[..., 3])

@@ -2,8 +2,9 @@
 
 use crate::{error::exception, pass::Pass, picture::flat};
 use gonio::{
-    film::{Image, Layer, channel_names},
-    output::{DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_exr, write_picture},
+    film::{Image, Layer, channel_names, edge_aware},
+    output::{DisplaySpace, ExrOptions, Look, ToneMap, display_linear, log_average, write_exr, write_picture},
+    scene::Aov,
 };
 use gonio_simd::Execution;
 use pyo3::{
@@ -26,6 +27,12 @@ impl Film {
     fn layer(&self, name: &str) -> PyResult<&Layer> {
         let layer = self.image.layers.iter().find(|layer| layer.name == name);
         layer.ok_or_else(|| PyKeyError::new_err(format!("the film has no pass '{name}'; it has {}", self.passes().join(", "))))
+    }
+    /// A film of other values of the colour pass alone.
+    fn with_colour(&self, values: Vec<f32>) -> Self {
+        let Image { resolution, window, samples, mean_samples, .. } = self.image;
+        let layers = vec![Layer { aov: Aov::Color, name: Aov::Color.name().to_owned(), values, channels: 4 }];
+        Self { image: Image { resolution, window, layers, samples, mean_samples }, exposure: self.exposure }
     }
 }
 
@@ -89,6 +96,24 @@ impl Film {
         let mut image = self.image.clone();
         image.layers.iter_mut().filter(|layer| layer.name == name).for_each(|layer| layer.values.clone_from(&values));
         Ok(Self { image, exposure: self.exposure })
+    }
+    /// A film of the colour pass alone with most of its noise taken out, quickly and for looking at: by a filter that stops at edges. Needs the
+    /// passes `denoising_albedo` and `denoising_normal`.
+    fn edge_aware(&self, py: Python<'_>) -> PyResult<Self> {
+        for name in [Aov::Color, Aov::DenoisingAlbedo, Aov::DenoisingNormal].map(Aov::name) {
+            self.layer(name)?;
+        }
+        let smooth = py.detach(|| edge_aware(&self.image, Execution::detect()));
+        Ok(self.with_colour(smooth.unwrap_or_default()))
+    }
+    /// A film of the tone-mapped colour pass alone: linear Rec.709 in [0, 1], which sRGB's curve shows as the picture that `write_picture` writes
+    /// with the same arguments.
+    #[pyo3(signature = (tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None))]
+    fn tone_mapped(&self, py: Python<'_>, tonemap: &str, exposure: f32, white: f32, adapted: Option<f32>) -> PyResult<Self> {
+        self.layer(Aov::Color.name())?;
+        let look = ToneMap::by_name(tonemap).and_then(|operator| Look::new(operator, exposure, white, adapted, DisplaySpace::Srgb));
+        let look = look.map_err(exception)?;
+        Ok(self.with_colour(py.detach(|| display_linear(&self.image, &look, Execution::detect()))))
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]

@@ -33,15 +33,7 @@ impl ToneCurve {
 /// Display values in [0, 1] of a register of scene-linear colours; `around` is the scaled luminance that compresses, each pixel's own if `None`.
 #[inline(always)]
 pub(crate) fn map_lanes<L: Lanes>(colour: Rgb<L>, around: Option<F<L>>, curve: &ToneCurve) -> Rgb<L> {
-    let mut colour = colour.max(0.0) * curve.scale;
-    if let Some(rise) = curve.rise {
-        let y = colour.luminance();
-        let compressing = match around {
-            Some(around) => around,
-            None => y,
-        };
-        colour = colour * ((y * rise + 1.0) / (compressing + 1.0));
-    }
+    let colour = operated(colour, around, curve);
     match curve.space {
         DisplaySpace::Srgb => srgb_each(colour),
         DisplaySpace::DisplayP3 => srgb_each(turned(colour, &DisplaySpace::TO_DISPLAY_P3)),
@@ -50,6 +42,19 @@ pub(crate) fn map_lanes<L: Lanes>(colour: Rgb<L>, around: Option<F<L>>, curve: &
             Rgb::new(pq(r), pq(g), pq(b))
         }
     }
+}
+
+/// Linear light that the display is to show, before its primaries and its curve: 1 is white.
+#[inline(always)]
+pub(super) fn operated<L: Lanes>(colour: Rgb<L>, around: Option<F<L>>, curve: &ToneCurve) -> Rgb<L> {
+    let colour = colour.max(0.0) * curve.scale;
+    let Some(rise) = curve.rise else { return colour };
+    let y = colour.luminance();
+    let compressing = match around {
+        Some(around) => around,
+        None => y,
+    };
+    colour * ((y * rise + 1.0) / (compressing + 1.0))
 }
 
 /// In other primaries.

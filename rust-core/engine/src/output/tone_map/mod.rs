@@ -2,6 +2,7 @@
 
 mod curve;
 mod exposure;
+mod linear;
 mod local;
 mod space;
 #[cfg(test)]
@@ -9,6 +10,7 @@ mod tests;
 
 pub(crate) use curve::{KEY, ToneCurve, map_lanes};
 pub use exposure::{Adaptation, log_average};
+pub use linear::display_linear;
 pub use space::DisplaySpace;
 
 use crate::{

@@ -83,6 +83,24 @@ fn every_operator_and_space_is_within_half_a_step_at_every_level() {
 }
 
 #[test]
+fn linear_light_is_what_the_display_shows() {
+    let image = picture(&colours(3000), 100);
+    let shown = |x: f32| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+    for tone_map in [ToneMap::None, ToneMap::Photographic, ToneMap::Local, ToneMap::Ev100(3.0)] {
+        // The space is the host's.
+        let look = Look { tone_map, space: DisplaySpace::Rec2020Pq, ..Look::default() };
+        for execution in Execution::all() {
+            let bytes = display(&image, &Look { space: DisplaySpace::Srgb, ..look }, execution);
+            let linear = display_linear(&image, &look, execution);
+            assert_eq!(linear.len(), bytes.len());
+            for (byte, linear) in bytes.iter().zip(linear) {
+                assert!((f32::from(*byte) - 255.0 * shown(linear)).abs() <= 0.51, "{byte} {linear} {tone_map:?} {}", execution.name());
+            }
+        }
+    }
+}
+
+#[test]
 fn the_average_is_that_of_the_formula_at_every_level() {
     let colours = colours(10_007);
     let image = picture(&colours, 10_007);
