@@ -11,7 +11,7 @@ import pytest
 OPTIONS = """--purposes --complexity --mask --variant --session-layer --settings --strict --verbose --output --camera --frames --res --image-width
 --res-scale --spp --max-bounces --integrator --filter --filter-width --aov --exposure --tonemap --crop --time-limit --seed --threads
 --clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet --noise-threshold --min-spp --checkpoint
---checkpoint-every --resume --samples --denoise --white --adaptation --color-space --part --dask
+--checkpoint-every --resume --samples --denoise --white --adaptation --color-space --light-samples --part --dask
 --dask-parts --dask-send""".split()
 
 SETTINGS = """
@@ -287,6 +287,15 @@ def test_direct_light_is_path_tracing_without_further_bounces(picture, room):
     full = picture(room, spp=64, size=16, name="full.exr").rgb.mean()
     assert stopped == pytest.approx(direct, rel=0.02)
     assert full > direct * 1.02
+
+
+def test_whitted_pictures_have_no_noise(picture, room):
+    options = ("--integrator", "whitted", "--light-samples", 4)
+    one = picture(room, *options, "--seed", 1, spp=1, size=32, name="one.exr").rgb
+    many = picture(room, *options, "--seed", 2, spp=16, size=32, name="many.exr").rgb
+    direct = picture(room, "--integrator", "direct", spp=64, size=32, name="direct.exr").rgb
+    assert np.median(np.abs(one - many)) < 0.01 * many.mean()
+    assert many.mean() == pytest.approx(direct.mean(), rel=0.05)
 
 
 def test_clamps(picture, room):

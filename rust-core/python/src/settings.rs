@@ -40,6 +40,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "threads" => s.threads = value.extract()?,
         "integrator" => s.integrator = integrator(value)?,
         "max_bounces" => s.max_bounces = value.extract()?,
+        "light_samples" => s.light_samples = value.extract()?,
         "max_diffuse_bounces" => s.kind_bounces[0] = value.extract()?,
         "max_glossy_bounces" => s.kind_bounces[1] = value.extract()?,
         "max_transmission_bounces" => s.kind_bounces[2] = value.extract()?,
@@ -80,11 +81,10 @@ fn crop(value: &Bound<'_, PyAny>) -> PyResult<Option<Crop>> {
 }
 
 fn integrator(value: &Bound<'_, PyAny>) -> PyResult<Integrator> {
-    match value.extract::<String>()?.as_str() {
-        "path" => Ok(Integrator::Path),
-        "direct" => Ok(Integrator::Direct),
-        other => Err(wrong("integrator", format!("'{other}' was found, expected path or direct"))),
-    }
+    let found: String = value.extract()?;
+    let known = Integrator::NAMES.iter().find(|(_, name)| *name == found);
+    let expected = || wrong("integrator", format!("'{found}' was found, expected {}", Integrator::NAMES.map(|(_, name)| name).join(", ")));
+    known.map(|(integrator, _)| *integrator).ok_or_else(expected)
 }
 
 fn filter(value: &Bound<'_, PyAny>) -> PyResult<Filter> {

@@ -1,7 +1,7 @@
 //! `gonio measure`.
 
 use super::{
-    arguments::{GridArguments, IntegratorArgument, MeasureOptions},
+    arguments::{GridArguments, MeasureOptions},
     daylight, falsecolor,
     file::check_ending,
     list, print,
@@ -14,7 +14,7 @@ use gonio::{
     compile::CompiledScene,
     measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
     output::{FalseColour, write_atomically},
-    scene::{Integrator, Measurand, Meter, Origin, Scene},
+    scene::{Measurand, Meter, Origin, Scene},
 };
 use gonio_simd::Execution;
 use pyo3::prelude::*;
@@ -102,10 +102,7 @@ fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
     let settings = &mut scene.settings;
     settings.samples = options.spp;
     settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
-    settings.integrator = match options.integrator {
-        IntegratorArgument::Path => Integrator::Path,
-        IntegratorArgument::Direct => Integrator::Direct,
-    };
+    settings.integrator = options.integrator.into();
     options.work.apply(settings);
 }
 

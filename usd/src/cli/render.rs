@@ -1,7 +1,7 @@
 //! `gonio render`.
 
 use super::{
-    arguments::{ComplexityArgument, FilterArgument, IntegratorArgument, RenderOptions, StageArguments},
+    arguments::{ComplexityArgument, FilterArgument, RenderOptions, StageArguments},
     checkpoint::{Keeper, sample_range, take_part},
     daylight, file_name, frames, list,
     output::{Notes, Writer},
@@ -20,7 +20,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     film::{Film, Image},
     render::Render,
-    scene::{Aov, Crop, Filter, Integrator, Scene},
+    scene::{Aov, Crop, Filter, Scene},
 };
 use gonio_simd::Execution;
 use pyo3::prelude::*;
@@ -186,10 +186,8 @@ impl Job<'_> {
         settings.noise_threshold = options.noise_threshold;
         settings.min_samples = options.min_spp;
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
-        settings.integrator = match options.integrator {
-            IntegratorArgument::Path => Integrator::Path,
-            IntegratorArgument::Direct => Integrator::Direct,
-        };
+        settings.integrator = options.integrator.into();
+        settings.light_samples = options.light_samples;
         settings.filter = match options.filter {
             FilterArgument::Box => Filter::Box,
             FilterArgument::Tent => Filter::Tent,

@@ -3,6 +3,10 @@
 //! Which slots exist is the same for all lanes; weights differ. Every attenuation by layers above is in the weights already, but for the
 //! light's way through a coloured coat.
 
+mod sharp;
+
+pub use sharp::{SharpRay, Way};
+
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
 use super::glass::GlassLobe;

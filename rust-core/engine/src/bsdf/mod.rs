@@ -29,7 +29,7 @@ mod switches;
 mod tests;
 mod transmission;
 
-pub use lobes::{BsdfSample, Lobes, MAXIMUM};
+pub use lobes::{BsdfSample, Lobes, MAXIMUM, SharpRay, Way};
 pub use measured::MeasuredBsdf;
 pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};

@@ -25,6 +25,8 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) coat_wo: Vec3<L>,
     pub(super) coat_mu: F<L>,
     pub(super) entering: M<L>,
+    /// Whether light walks under the surface.
+    pub(super) walks: bool,
     /// What the layers above leave.
     pub(super) weight: Rgb<L>,
     /// Whether a coloured coat stands above.
@@ -45,6 +47,8 @@ pub struct Hits<'a, L: Lanes> {
     pub entering: M<L>,
     /// Normals beside the shading normal: for a coat's own normal, and for the bump rules of the switches.
     pub normals: Option<&'a Normals<L>>,
+    /// Whether light walks under the surface; else it comes out where it went in.
+    pub walks: bool,
 }
 
 /// [`Surface::layers`] as a function of its own, which all that resolve share.
@@ -66,7 +70,7 @@ impl Surface {
 
     #[inline(always)]
     fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
-        let Hits { values, at, wo, entering, normals } = *hits;
+        let Hits { values, at, wo, entering, normals, walks } = *hits;
         if let Some(normals) = normals {
             let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
             lobes.tilts = self.tilts(normals, wo, presence);
@@ -84,6 +88,7 @@ impl Surface {
             coat_wo,
             coat_mu: coat_wo.z.clamp(1e-4, 1.0),
             entering,
+            walks,
             weight: Rgb::grey(l.f(1.0)),
             coated: false,
             lobes,
@@ -121,7 +126,7 @@ impl Surface {
             return Rgb::grey(open);
         }
         let mut lobes = Lobes::empty(l);
-        resolve(l, self, &Hits { values, at, wo, entering, normals: None }, &mut lobes);
+        resolve(l, self, &Hits { values, at, wo, entering, normals: None, walks: true }, &mut lobes);
         lobes.transmittance(l, wo)
     }
 }
@@ -266,9 +271,12 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
         }
     }
 
-    /// Adds the way into the medium of this colour, and returns the colour of the channels that have no radius.
+    /// Adds the way into the medium of this colour, and returns the colour of the channels that have no radius: of all where nothing walks.
     #[inline(always)]
     pub(super) fn walk(&mut self, colour: Rgb<L>, presence: F<L>, eta: F<L>) -> Rgb<L> {
+        if !self.walks {
+            return colour;
+        }
         let method = self.surface.switches.subsurface;
         let radius = self.rgb(p::SUBSURFACE_RADIUS);
         let scattered = Rgb::new(

@@ -20,6 +20,7 @@ mod shader_passes;
 mod textures;
 mod trees;
 mod view;
+mod whitted;
 
 pub use bounds::Bounds;
 pub use luminaires::luminous_fluxes;
@@ -116,6 +117,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     };
     let any_absorbing =
         scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
+    whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {

@@ -6,7 +6,7 @@ use crate::{
     error::{Error, Result},
     film::{Film, FilterTable, block_at},
     integrator::{FirstPasses, Mist, Transport},
-    scene::{Aov, Background, Camera, Crop, Integrator, Projection, Settings},
+    scene::{Aov, Background, Camera, Crop, Integrator, MOST_LIGHT_SAMPLES, Projection, Settings},
 };
 use gonio_simd::Execution;
 
@@ -41,6 +41,10 @@ impl View {
         }
         check_range(settings)?;
         check_tiles(settings, window)?;
+        if !(1..=MOST_LIGHT_SAMPLES).contains(&settings.light_samples) {
+            let problem = format!("{} was found, expected 1 to {MOST_LIGHT_SAMPLES}", settings.light_samples);
+            return Err(Error::setting("light_samples", problem));
+        }
         if !(settings.noise_threshold >= 0.0 && settings.noise_white >= 0.0 && settings.noise_white.is_finite()) {
             let problem = format!("{} with white at {}, expected 0 or more", settings.noise_threshold, settings.noise_white);
             return Err(Error::setting("noise_threshold", problem));
@@ -86,6 +90,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         seed: settings.seed,
         samples: settings.samples,
         known: None,
+        draws: (settings.integrator == Integrator::Whitted).then(|| scene.tables.lights.draws(settings.light_samples).into()),
     }
 }
 

@@ -24,6 +24,8 @@ pub(super) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FirstSurface<L: Lanes> {
     pub(super) slot: U<L>,
+    /// How much of the camera ray's sample it is.
+    pub(super) share: F<L>,
     /// Whether it hides what is behind it.
     pub(super) covers: M<L>,
     pub(super) depth: F<L>,
@@ -44,21 +46,21 @@ impl FirstHit {
         if !chosen.any() {
             return;
         }
-        let slot = surface.slot;
-        add(&mut self.alpha, slot, l.f(1.0), chosen & surface.covers);
-        add(&mut self.depth, slot, surface.depth, chosen);
-        add_rgb(&mut self.normal, slot, surface.normal.into(), chosen);
-        add_rgb(&mut self.position, slot, surface.position.into(), chosen);
-        add_rgb(&mut self.albedo, slot, surface.albedo, chosen);
+        let (slot, share) = (surface.slot, surface.share);
+        add(&mut self.alpha, slot, share, chosen & surface.covers);
+        add(&mut self.depth, slot, surface.depth * share, chosen);
+        add_rgb(&mut self.normal, slot, (surface.normal * share).into(), chosen);
+        add_rgb(&mut self.position, slot, (surface.position * share).into(), chosen);
+        add_rgb(&mut self.albedo, slot, surface.albedo * share, chosen);
         if let Some(clearness) = surface.clearness {
-            add(&mut self.clearness, slot, clearness, chosen);
+            add(&mut self.clearness, slot, clearness * share, chosen);
         }
         if let Some([u, v]) = surface.uv {
-            add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)), chosen);
+            add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)) * share, chosen);
         }
         if self.lights.wanted() {
             for (kind, colour) in surface.kinds.into_iter().enumerate() {
-                self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour, chosen);
+                self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour * share, chosen);
             }
         }
         if let Some([set, object, material]) = surface.numbers {

@@ -121,13 +121,13 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
     }
     let pixel = pixel(point.slot);
     if transport.surroundings_cover {
-        add(&mut ws.first_hit.alpha, pixel, l.f(1.0), caught);
+        add(&mut ws.first_hit.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
     let (vertex, normal) = (gather3(l, &ws.paths.vertex, point.path), gather3(l, &ws.paths.normal, point.path));
     let Some((coverage, behind)) = &mut ws.first_hit.catchers.sums else { return };
     if !transport.surroundings_cover {
-        add(coverage, pixel, l.f(1.0), caught);
+        add(coverage, pixel, point.share, caught);
     }
     if transport.shows_surroundings {
         let radiance: Rgb<L> = kernels::surroundings(

@@ -22,6 +22,13 @@ pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &
     if tables.materials.mixes.is_empty() {
         return;
     }
+    for_mixes(tables, ws, |mix, order, count, ws| {
+        dispatch!(transport.execution, l => choose_chunk(l, tables, context, mix, order, count, ws));
+    });
+}
+
+/// Does something with the hits on each mix, a chunk at a time: the mix, the paths, and how many they are.
+pub(super) fn for_mixes(tables: &Tables, ws: &mut Workspace, mut each: impl FnMut(&Mix, &[u32; CHUNK + PADDING], usize, &mut Workspace)) {
     let mut mixed = std::mem::take(&mut ws.mixed);
     mixed.clear();
     for (path, material) in ws.material_of.iter().enumerate() {
@@ -37,7 +44,7 @@ pub(super) fn choose_closures(tables: &Tables, transport: &Transport, context: &
         for chunk in paths.chunks(CHUNK) {
             let mut order = [chunk[0].1; CHUNK + PADDING];
             order.iter_mut().zip(chunk).for_each(|(place, (_, path))| *place = *path);
-            dispatch!(transport.execution, l => choose_chunk(l, tables, context, mix, &order, chunk.len(), ws));
+            each(mix, &order, chunk.len(), ws);
         }
     }
     ws.mixed = mixed;
@@ -91,13 +98,13 @@ fn choose_chunk<L: Lanes>(
 
 /// The weight of a closure, not negative.
 #[inline(always)]
-fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Rgb<L> {
+pub(super) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Rgb<L> {
     let channel = |c: usize| l.load(outputs.column(closure * 3 + c), at).max(0.0);
     Rgb::new(channel(0), channel(1), channel(2))
 }
 
 /// How likely a closure is taken, up to a factor.
 #[inline(always)]
-fn share<L: Lanes>(weight: Rgb<L>) -> F<L> {
+pub(super) fn share<L: Lanes>(weight: Rgb<L>) -> F<L> {
     weight.r + weight.g + weight.b
 }

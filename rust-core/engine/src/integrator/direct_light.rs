@@ -1,4 +1,4 @@
-//! One light sampled at each hit, and the shadow ray to it.
+//! A light sampled at each hit, and the shadow ray to it.
 
 use super::{
     accumulate::clamped,
@@ -9,7 +9,11 @@ use super::{
     shade::{Point, Stage},
     state::{ShadowLanes, Workspace},
 };
-use crate::{bsdf::Lobes, geometry::spawn_to, light::power_heuristic};
+use crate::{
+    bsdf::Lobes,
+    geometry::spawn_to,
+    light::{LightSample, power_heuristic},
+};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
@@ -23,8 +27,25 @@ pub(super) fn light<L: Lanes>(
     present: M<L>,
     ws: &mut Workspace,
 ) {
-    let Stage { l, tables, transport, context, .. } = *stage;
+    let Stage { l, tables, transport, .. } = *stage;
     let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u[0], [u[1], u[2]]);
+    send(stage, point, wo, lobes, &sample, None, present, ws);
+}
+
+/// Queues the shadow ray to a light's sample. It counts by its `share` in the mean of several, or else by what BSDF samples leave to it.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a surface and a light")]
+pub(super) fn send<L: Lanes>(
+    stage: &Stage<'_, L>,
+    point: &Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<'_, L>,
+    sample: &LightSample<L>,
+    share: Option<f32>,
+    present: M<L>,
+    ws: &mut Workspace,
+) {
+    let Stage { l, tables, transport, context, .. } = *stage;
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::knows(l, tables, point.slot, sample.light);
     if !usable.any() {
         note_lost(point.position, present, ws);
@@ -32,7 +53,10 @@ pub(super) fn light<L: Lanes>(
     }
     let wi = point.frame.to_local(sample.wi);
     let (value, pdf) = lobes.eval(l, wo, wi);
-    let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf));
+    let weight = match share {
+        Some(share) => l.f(share),
+        None => sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf)),
+    };
     let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     note_lost(point.position, present.and_not(lit), ws);

@@ -52,6 +52,7 @@ pub(super) fn record_first<L: Lanes>(
     let eye = Vec3::splat(l, transport.eye);
     let surface = FirstSurface {
         slot: pixel(point.slot),
+        share: point.share,
         covers: catcher::covers(point.slot),
         depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
         normal: point.frame.z,

@@ -55,7 +55,7 @@ pub(crate) fn generate<L: Lanes>(
             vertex: ray.origin,
             normal: ray.direction,
             throughput: Rgb::grey(l.f(1.0)),
-            pdf: l.f(0.0),
+            pdf: l.f(1.0),
             width: ray.width,
             spread: ray.spread,
             slot: l.iota() + slot,

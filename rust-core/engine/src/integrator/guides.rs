@@ -24,5 +24,5 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &L
     }
     let [albedo, normal] = &mut ws.first_hit.guides;
     add_rgb(albedo, point.slot, lobes.albedo() * point.throughput, seen);
-    add_rgb(normal, point.slot, point.frame.z.into(), seen);
+    add_rgb(normal, point.slot, (point.frame.z * point.throughput.max_component()).into(), seen);
 }

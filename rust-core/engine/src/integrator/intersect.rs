@@ -142,7 +142,7 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let camera = (flags & flag::CAMERA).ne(0);
         let slot = l.gather_integers(&ws.paths.slot, path);
         if transport.surroundings_cover {
-            add(&mut ws.first_hit.alpha, slot, l.f(1.0), alive & camera);
+            add(&mut ws.first_hit.alpha, slot, l.gather(&ws.paths.pdf, path), alive & camera);
         }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);

@@ -8,9 +8,9 @@ use super::{
     surface::{ChunkSource, HitSource, surface_chunk},
 };
 use crate::{
-    bsdf::{BsdfSample, Lobes, ParameterValues, Surface},
+    bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way},
     graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns},
-    light::{KnownLights, LightSample},
+    light::{Draw, KnownLights, LightSample},
 };
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
@@ -45,6 +45,24 @@ pub(crate) fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>
     l.vectorize(
         #[inline(always)]
         || lobes.sample(l, wo, u),
+    )
+}
+
+/// [`Lobes::sharp`].
+#[inline(never)]
+pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sharp(l, wo),
+    )
+}
+
+/// [`crate::light::LightTable::take`].
+#[inline(never)]
+pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, [p, n]: [Vec3<L>; 2]) -> LightSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.take(l, draw, p, n),
     )
 }
 

@@ -8,15 +8,19 @@ use super::{
     material::Tables,
     path::{SampleContext, Transport},
     scatter::add_rgb,
+    shadow::make_room,
     state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
 };
 use crate::{
     geometry::{spawn, spawn_to},
-    light::power_heuristic,
+    light::{Draw, LightSample, power_heuristic},
     sampler::dimension,
 };
-use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
-use std::f32::consts::{FRAC_1_PI, PI};
+use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3, dispatch};
+use std::{
+    f32::consts::{FRAC_1_PI, PI},
+    ops::Range,
+};
 
 /// One register of measured points.
 #[derive(Clone, Copy, Debug)]
@@ -31,21 +35,50 @@ struct Point<L: Lanes> {
     slot: U<L>,
 }
 
-/// Lights the measured points and starts a path from each.
+/// Lights the measured points and starts a path from each, where light from surface to surface is looked for.
+pub(super) fn measure(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
+    let (count, together) = (ws.measure.count, transport.hits_together());
+    for first in (0..count).step_by(together) {
+        let chunk = first..(first + together).min(count);
+        make_room(tables, transport, context.depth == 0, chunk.len(), ws);
+        match &transport.draws {
+            Some(draws) => dispatch!(transport.execution, l => take_draws(l, tables, draws, chunk, ws)),
+            None => dispatch!(transport.execution, l => sample(l, tables, transport, context, chunk, ws)),
+        }
+    }
+    ws.measure.count = 0;
+}
+
+/// Lights some points by the same draws each.
 #[inline(always)]
-pub(super) fn measure<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
-    let count = ws.measure.count;
-    for at in (0..count).step_by(L::COUNT) {
-        let point = load_point(l, at, l.first(count - at), ws);
+fn take_draws<L: Lanes>(l: L, tables: &Tables, draws: &[Draw], chunk: Range<usize>, ws: &mut Workspace) {
+    for at in chunk.clone().step_by(L::COUNT) {
+        let point = load_point(l, at, l.first(chunk.end - at), ws);
+        for draw in draws {
+            let reached = tables.lights.reaches(l, draw, point.position, point.frame.z) & point.alive;
+            if reached.any() {
+                let sample = kernels::take_draw(l, tables, draw, [point.position, point.frame.z]);
+                light(l, &point, &sample, Some(draw.share), ws);
+            }
+        }
+    }
+}
+
+/// Lights some points by one light each and starts their paths.
+#[inline(always)]
+fn sample<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &SampleContext<'_>, chunk: Range<usize>, ws: &mut Workspace) {
+    for at in chunk.clone().step_by(L::COUNT) {
+        let point = load_point(l, at, l.first(chunk.end - at), ws);
         let index = context.index(l, point.slot);
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
         let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
-            light(l, tables, transport, &point, u_choice, context.sampler.pair(l, index, base + dimension::LIGHT), ws);
+            let (known, u) = (transport.known.as_deref(), context.sampler.pair(l, index, base + dimension::LIGHT));
+            let sample = kernels::sample_light(l, tables, known, [point.position, point.frame.z], u_choice, u);
+            light(l, &point, &sample, None, ws);
         }
         start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);
     }
-    ws.measure.count = 0;
 }
 
 #[inline(always)]
@@ -63,16 +96,19 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, ws: &Workspace) -> Point<L
     }
 }
 
+/// Queues the shadow ray to a light's sample, which counts by its `share` in the mean of several, or by what paths leave to it.
 #[inline(always)]
-fn light<L: Lanes>(l: L, tables: &Tables, transport: &Transport, point: &Point<L>, u_choice: F<L>, u: [F<L>; 2], ws: &mut Workspace) {
-    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u_choice, u);
+fn light<L: Lanes>(l: L, point: &Point<L>, sample: &LightSample<L>, share: Option<f32>, ws: &mut Workspace) {
     let cosine = point.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {
         note_lost(point.position, point.alive, ws);
         return;
     }
-    let weight = sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, cosine * FRAC_1_PI));
+    let weight = match share {
+        Some(share) => l.f(share),
+        None => sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, cosine * FRAC_1_PI)),
+    };
     let contribution = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     note_lost(point.position, point.alive.and_not(lit), ws);

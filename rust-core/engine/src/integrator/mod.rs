@@ -28,6 +28,7 @@ mod state;
 mod statistics;
 mod subsurface;
 mod surface;
+mod whitted;
 
 pub use catcher::CatcherSums;
 pub(crate) use generate::{TileArea, generate, tile_code};

@@ -13,17 +13,24 @@ use super::{
     sensors::{SensorTable, place},
     shade::{Stage, shade_chunk},
     shader_passes::ShaderPasses,
-    shadow::trace_shadows,
-    state::{Workspace, flag},
+    shadow::{make_room, trace_shadows},
+    state::{SHADOW_ROOM, Workspace, flag},
     subsurface::walk,
     surface::ChunkSource,
+    whitted,
 };
-use crate::{camera::CameraTable, film::FilterTable, graph::CHUNK, light::KnownLights, sampler::Sampler};
-use gonio_simd::{Execution, Lanes, U, dispatch};
+use crate::{
+    camera::CameraTable,
+    film::FilterTable,
+    graph::CHUNK,
+    light::{Draw, KnownLights},
+    sampler::Sampler,
+};
+use gonio_simd::{Execution, Lanes, PADDING, U, dispatch};
 use std::{sync::Arc, time::Instant};
 
 /// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
-const MOST_DEPTH: u32 = 256;
+pub(super) const MOST_DEPTH: u32 = 256;
 
 /// What does not change during a render.
 #[derive(Clone, Debug)]
@@ -54,6 +61,8 @@ pub struct Transport {
     pub samples: u32,
     /// Which lights arrive where, if that was learned.
     pub known: Option<Arc<KnownLights>>,
+    /// How every point is lit, where paths are trees of sharp rays instead.
+    pub draws: Option<Arc<[Draw]>>,
 }
 
 /// What passes want to know of first surfaces beyond the usual.
@@ -89,6 +98,16 @@ impl Transport {
     #[inline(always)]
     pub(super) fn clamp(&self, depth: u32) -> f32 {
         self.clamps[usize::from(depth > 1)]
+    }
+
+    /// Shadow rays that a hit may send.
+    pub(super) fn rays_per_hit(&self) -> usize {
+        self.draws.as_ref().map_or(1, |draws| draws.len().max(1))
+    }
+
+    /// Hits that are lit together, whole registers: no more than a chunk, and no more than there is room for their shadow rays.
+    pub(super) fn hits_together(&self) -> usize {
+        ((SHADOW_ROOM - PADDING) / self.rays_per_hit() / PADDING * PADDING).clamp(PADDING, CHUNK)
     }
 }
 
@@ -137,7 +156,7 @@ impl Tracer<'_> {
         let tile = [min[0] / super::TILE as u32, min[1] / super::TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
         let area = TileArea { min, max };
-        let mut time = Instant::now();
+        let time = Instant::now();
         let first = match self.start {
             Start::Camera(camera, filter) => {
                 dispatch!(execution, l => generate(l, camera, filter, &sampler, area, runs, &mut ws.paths));
@@ -149,12 +168,22 @@ impl Tracer<'_> {
                 1
             }
         };
-        time = ws.statistics.spent(0, time);
+        ws.statistics.spent(0, time);
+        if self.transport.draws.is_some() {
+            whitted::follow(self, sampler, runs, first, ws, cancelled);
+        } else {
+            self.follow(sampler, runs, first, ws, cancelled);
+        }
+    }
+
+    /// Follows all paths to their ends, bounce by bounce.
+    fn follow(&self, sampler: Sampler, runs: &Runs, first: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
         for depth in first..MOST_DEPTH {
             if ws.paths.count == 0 || cancelled() {
                 break;
             }
             let context = SampleContext { sampler, runs, depth };
+            let mut time = Instant::now();
             intersect(self.tables, &self.transport, depth, ws);
             choose_closures(self.tables, &self.transport, &context, ws);
             sort_by_material(self.tables, ws);
@@ -163,11 +192,9 @@ impl Tracer<'_> {
             self.shade(&context, ws);
             time = Instant::now();
             walk(self.tables, &self.transport, &context, ws, cancelled);
-            if ws.measure.count > 0 {
-                dispatch!(execution, l => measure(l, self.tables, &self.transport, &context, ws));
-            }
+            measure(self.tables, &self.transport, &context, ws);
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
-            time = ws.statistics.spent(5, time);
+            ws.statistics.spent(5, time);
             std::mem::swap(&mut ws.paths, &mut ws.next);
             catcher::rejoin(self.tables, &mut ws.paths);
             ws.paths.set_masks();
@@ -177,7 +204,7 @@ impl Tracer<'_> {
 
     /// Lights the sensors and starts their paths.
     fn light_sensors(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
-        dispatch!(self.transport.execution, l => measure(l, self.tables, &self.transport, context, ws));
+        measure(self.tables, &self.transport, context, ws);
         trace_shadows(self.tables, &self.transport, true, ws);
         std::mem::swap(&mut ws.paths, &mut ws.next);
         ws.paths.set_masks();
@@ -185,12 +212,14 @@ impl Tracer<'_> {
     }
 
     /// Shades all surface hits, material by material, a chunk at a time.
-    fn shade(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
+    pub(super) fn shade(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
+        let most = self.transport.hits_together();
         let mut first = 0;
         for material in 0..self.tables.materials.surfaces.len() {
             let end = ws.material_start[material + 1] as usize;
             while first < end {
-                let count = (end - first).min(CHUNK);
+                let count = (end - first).min(most);
+                make_room(self.tables, &self.transport, context.depth == 0, count, ws);
                 dispatch!(self.transport.execution, l => self.shade_one(l, context, material, first, count, ws));
                 first += count;
             }

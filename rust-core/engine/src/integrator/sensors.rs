@@ -130,7 +130,7 @@ pub(super) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
             vertex: position,
             normal,
             throughput: Rgb::grey(l.f(1.0)),
-            pdf: l.f(0.0),
+            pdf: l.f(1.0),
             width: l.f(0.0),
             spread: l.f(0.0),
             slot,

@@ -14,6 +14,7 @@ use super::{
     path::{SampleContext, Transport},
     scatter::{add_light, code_of},
     state::{Workspace, flag, gather3, load3},
+    whitted,
 };
 use crate::{
     bsdf::{Hits, Lobes, ParameterValues, normals::Normals, parameter::COUNT},
@@ -67,6 +68,8 @@ pub(super) struct Point<L: Lanes> {
     pub(super) behind: Rgb<L>,
     /// Where all lobes are mirrors or clear glass.
     pub(super) only_delta: M<L>,
+    /// How much of a camera ray's sample is here.
+    pub(super) share: F<L>,
 }
 
 /// What all hits of a chunk share.
@@ -83,7 +86,7 @@ pub(super) struct Stage<'a, L> {
 /// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
 #[inline(always)]
 pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, first: usize, count: usize, ws: &mut Workspace) {
-    let Stage { l, tables, .. } = *stage;
+    let Stage { l, tables, transport, .. } = *stage;
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     let mut lobes = Lobes::empty(l);
@@ -96,8 +99,12 @@ pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
-        material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref() }, &mut lobes);
-        shade_lanes(stage, material, &mut point, wo, &lobes, at, ws);
+        let walks = transport.draws.is_none();
+        material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks }, &mut lobes);
+        match &transport.draws {
+            Some(draws) => whitted::shade_lanes(stage, material, &mut point, wo, &lobes, draws, at, ws),
+            None => shade_lanes(stage, material, &mut point, wo, &lobes, at, ws),
+        }
     }
     ws.outputs = outputs;
 }
@@ -129,6 +136,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
         only_delta: l.m(false),
+        share: l.gather(&ws.paths.pdf, path),
     }
 }
 
@@ -180,21 +188,7 @@ fn shade_lanes<L: Lanes>(
     } else {
         point.alive
     };
-    let present = if material.holdout || !tables.geometry.set_holdout.is_empty() {
-        covered(stage, material, point, present, at, ws)
-    } else {
-        present
-    };
-    if material.surface.lobes.emission {
-        add_emission(stage, point, lobes.emission(), present, at, ws);
-    }
-    // What is seen through a transparent closure comes first.
-    if !material.surface.lobes.straight {
-        record_first(stage, material, point, lobes, present, at, ws);
-        if !tables.geometry.set_catcher.is_empty() {
-            catcher::record(stage, point, present, ws);
-        }
-    }
+    let present = show(stage, material, point, lobes, present, at, ws);
     let [smooth, only_delta] = lobes.smoothness(l);
     point.only_delta = only_delta;
     guides::record(stage, point, lobes, present, ws);
@@ -212,6 +206,36 @@ fn shade_lanes<L: Lanes>(
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
     scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], [going_on, ending], ws);
+}
+
+/// Adds what the surface emits and keeps what the camera sees of it; gives what is there, holdouts left out.
+#[inline(always)]
+pub(super) fn show<L: Lanes>(
+    stage: &Stage<'_, L>,
+    material: &SurfaceMaterial,
+    point: &mut Point<L>,
+    lobes: &Lobes<'_, L>,
+    present: M<L>,
+    at: usize,
+    ws: &mut Workspace,
+) -> M<L> {
+    let tables = stage.tables;
+    let present = if material.holdout || !tables.geometry.set_holdout.is_empty() {
+        covered(stage, material, point, present, at, ws)
+    } else {
+        present
+    };
+    if material.surface.lobes.emission {
+        add_emission(stage, point, lobes.emission(), present, at, ws);
+    }
+    // What is seen through a transparent closure comes first.
+    if !material.surface.lobes.straight {
+        record_first(stage, material, point, lobes, present, at, ws);
+        if !tables.geometry.set_catcher.is_empty() {
+            catcher::record(stage, point, present, ws);
+        }
+    }
+    present
 }
 
 /// Opacity after the cut-out threshold.

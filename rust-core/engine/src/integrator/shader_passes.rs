@@ -72,11 +72,11 @@ pub(super) fn record<L: Lanes>(l: L, program: &Program, point: &Point<L>, chosen
     for output in &program.outputs {
         for channel in 0..output.width {
             let value = l.load(ws.shader_outputs.column(place), at);
-            add(&mut ws.first_hit.shader.columns[output.offset + channel], slot, value, chosen & value.is_finite());
+            add(&mut ws.first_hit.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
             place += 1;
         }
         if output.width == 3 {
-            add(&mut ws.first_hit.shader.columns[output.offset + 3], slot, l.f(1.0), chosen);
+            add(&mut ws.first_hit.shader.columns[output.offset + 3], slot, point.share, chosen);
         }
     }
 }

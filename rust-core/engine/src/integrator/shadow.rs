@@ -9,7 +9,7 @@ use super::{
     scatter::add_sampled,
     shade::{parameter_values, threshold},
     shadow_order::ShadowOrder,
-    state::{ShadowRays, Workspace, load3},
+    state::{SHADOW_ROOM, ShadowRays, Workspace, load3},
     surface::ChunkSource,
 };
 use crate::{
@@ -17,7 +17,14 @@ use crate::{
     bsdf::parameter::OPACITY,
     graph::CHUNK,
 };
-use gonio_simd::{Execution, Frame, Lanes, Rgb, dispatch};
+use gonio_simd::{Execution, Frame, Lanes, PADDING, Rgb, dispatch};
+
+/// Traces what is queued if the shadow rays of some more hits have no room.
+pub(super) fn make_room(tables: &Tables, transport: &Transport, coherent: bool, hits: usize, ws: &mut Workspace) {
+    if ws.shadows.count + hits * transport.rays_per_hit() > SHADOW_ROOM - PADDING {
+        trace_shadows(tables, transport, coherent, ws);
+    }
+}
 
 /// Traces the queued shadow rays and adds the contributions of those that arrive.
 pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bool, ws: &mut Workspace) {

@@ -9,6 +9,7 @@ use super::{
     shadow_order::ShadowOrder,
     statistics::Statistics,
     subsurface::Walks,
+    whitted::Branches,
 };
 use crate::{
     accel::{Hits, PassedHit},
@@ -116,7 +117,7 @@ pub(crate) struct Paths {
     pub(super) vertex: Columns3,
     pub(super) normal: Columns3,
     pub(super) throughput: Columns3,
-    /// Density of the direction per solid angle.
+    /// Density of the direction per solid angle; of a camera ray, how much of its sample it stands for.
     pub(super) pdf: Column,
     /// Width of the path's cone at the ray's start, and its growth a metre.
     pub(super) width: Column,
@@ -430,6 +431,7 @@ impl RetracedRays {
 pub struct Workspace {
     pub(super) paths: Paths,
     pub(super) next: Paths,
+    pub(super) branches: Branches,
     pub(super) hits: Hits,
     pub(super) retraced: Hits,
     pub(super) retraced_rays: RetracedRays,
@@ -468,6 +470,7 @@ pub struct Workspace {
 impl Workspace {
     /// Empties the block's sums, and makes room for those that passes want.
     pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
+        self.branches.prepare(transport);
         self.first_hit.lights.prepare(if shows_lights { code::COUNT } else { 0 });
         self.first_hit.groups.prepare(transport.passes.groups.count);
         self.first_hit.shader.prepare(&transport.passes.shader);

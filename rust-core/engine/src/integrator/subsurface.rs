@@ -268,6 +268,7 @@ fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Worksp
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
         only_delta: l.m(false),
+        share: l.f(0.0),
     }
 }
 

@@ -11,6 +11,7 @@ mod cylinder;
 mod disk;
 mod distant;
 mod dome;
+mod draws;
 mod emitter;
 mod facing_disk;
 mod far_field;
@@ -34,6 +35,7 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
+pub use draws::Draw;
 pub use far_field::FarField;
 pub use goniogram::{AngularType, Goniogram};
 pub use projected_area::{Outline, ProjectedArea};

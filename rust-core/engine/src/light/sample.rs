@@ -59,7 +59,14 @@ impl LightTable {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let (index, probability) = self.choose(l, known, p, n, u_choice);
+        let chosen = self.choose(l, known, p, n, u_choice);
+        self.sample_chosen(l, chosen, p, n, u)
+    }
+
+    /// Draws a direction to a light that has been chosen with some probability.
+    #[inline(always)]
+    pub(super) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: Vec3<L>, n: Vec3<L>, u: [F<L>; 2]) -> LightSample<L> {
+        let (index, probability) = chosen;
         let light = self.reader(l, index);
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };

@@ -5,7 +5,7 @@ use crate::{
     compile::{CompiledScene, View},
     integrator::{Runs, Start, TILE, Tracer, Transport, Workspace},
     light::KnownLights,
-    scene::{Aov, Crop, Settings},
+    scene::{Aov, Crop, Integrator, Settings},
 };
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ const OTHER_SEED: u32 = 0x5bd1_e995;
 
 /// None where lights are few, samples too few, or nothing could be learned.
 pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source, cancelled: &dyn Fn() -> bool) -> Option<Arc<KnownLights>> {
-    if settings.samples < LEAST_SAMPLES || !scene.tables.lights.has_tree() {
+    if settings.samples < LEAST_SAMPLES || settings.integrator == Integrator::Whitted || !scene.tables.lights.has_tree() {
         return None;
     }
     match source {

@@ -35,7 +35,9 @@ pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
-pub use settings::{Aov, Background, Crop, Filter, Integrator, LightPart, Mist, OTHER_LIGHTS, ScatteringKind, Settings, ShaderValue};
+pub use settings::{
+    Aov, Background, Crop, Filter, Integrator, LightPart, MOST_LIGHT_SAMPLES, Mist, OTHER_LIGHTS, ScatteringKind, Settings, ShaderValue,
+};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 

@@ -32,6 +32,14 @@ pub enum Integrator {
     Path,
     /// The same, stopped after direct light.
     Direct,
+    /// Direct light of every light by fixed samples, and all that is mirrored and refracted sharply: without noise, without light from
+    /// surface to surface (Whitted 1980).
+    Whitted,
+}
+
+impl Integrator {
+    /// All of them with their names.
+    pub const NAMES: [(Self, &'static str); 3] = [(Self::Path, "path"), (Self::Direct, "direct"), (Self::Whitted, "whitted")];
 }
 
 /// An output variable.
@@ -232,7 +240,10 @@ pub struct Settings {
     pub integrator: Integrator,
     /// Bounces after the first hit.
     pub max_bounces: u32,
-    /// The same by kind: diffuse, glossy and transmitted scatterings, and surfaces seen straight through; at most 255.
+    /// Samples of each light that has an extent, for [`Integrator::Whitted`]: 1 to [`MOST_LIGHT_SAMPLES`].
+    #[serde(default = "light_samples")]
+    pub light_samples: u32,
+    /// Bounces by kind: diffuse, glossy and transmitted scatterings, and surfaces seen straight through; at most 255.
     #[serde(default = "all_bounces")]
     pub kind_bounces: [u32; 4],
     /// What is where the camera sees no surface.
@@ -263,6 +274,13 @@ pub struct Settings {
     pub time_limit_s: f64,
 }
 
+/// Most samples of one light.
+pub const MOST_LIGHT_SAMPLES: u32 = 16;
+
+fn light_samples() -> u32 {
+    MOST_LIGHT_SAMPLES
+}
+
 /// No other limit than that of all bounces.
 fn all_bounces() -> [u32; 4] {
     [255; 4]
@@ -284,6 +302,7 @@ impl Default for Settings {
             seed: 0,
             integrator: Integrator::Path,
             max_bounces: 12,
+            light_samples: light_samples(),
             kind_bounces: all_bounces(),
             background: Background::default(),
             mist: Mist::default(),

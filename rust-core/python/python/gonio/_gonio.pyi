@@ -440,6 +440,7 @@ class Scene:
         threads: int | None = ...,
         integrator: str | None = ...,
         max_bounces: int | None = ...,
+        light_samples: int | None = ...,
         max_diffuse_bounces: int | None = ...,
         max_glossy_bounces: int | None = ...,
         max_transmission_bounces: int | None = ...,

@@ -66,7 +66,7 @@ pub(crate) struct MeasureOptions {
     /// Limit of the bounces; without one all count that matter.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(crate) max_bounces: Option<u32>,
-    /// The light transport: full global illumination, or direct light alone.
+    /// The light transport: full global illumination, direct light alone, or direct light without noise, for which --spp 1 is enough.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
     #[command(flatten)]

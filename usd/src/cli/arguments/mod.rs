@@ -36,6 +36,7 @@ pub(super) use work::WorkArguments;
 
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
+use gonio::scene::Integrator;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 
@@ -93,4 +94,16 @@ pub(super) enum IntegratorArgument {
     Path,
     /// The same, stopped after direct light.
     Direct,
+    /// Direct light without noise, mirrors and clear glass; --max-bounces is their depth.
+    Whitted,
+}
+
+impl From<IntegratorArgument> for Integrator {
+    fn from(argument: IntegratorArgument) -> Self {
+        match argument {
+            IntegratorArgument::Path => Self::Path,
+            IntegratorArgument::Direct => Self::Direct,
+            IntegratorArgument::Whitted => Self::Whitted,
+        }
+    }
 }

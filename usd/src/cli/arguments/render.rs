@@ -2,6 +2,7 @@
 
 use super::{CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
+use gonio::scene::MOST_LIGHT_SAMPLES;
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -37,9 +38,12 @@ pub(crate) struct RenderOptions {
     /// Bounces after the first surface.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(crate) max_bounces: Option<u32>,
-    /// The light transport: full global illumination, or direct light alone.
+    /// The light transport: full global illumination, direct light alone, or direct light without noise with mirrors and clear glass.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
+    /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
+    #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
+    pub(crate) light_samples: u32,
     /// The pixel filter.
     #[arg(long, value_enum, default_value_t = FilterArgument::BlackmanHarris)]
     pub(crate) filter: FilterArgument,

@@ -60,7 +60,7 @@ fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
     let wo = Vec3::splat(l, view.wo);
     let values = ParameterValues::constant(&view.surface.constants);
     let mut lobes = Lobes::empty(l);
-    view.surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: None }, &mut lobes);
+    view.surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: None, walks: true }, &mut lobes);
     for chunk in job.numbers.chunks(L::COUNT) {
         let s = sample(l, &lobes, wo, lanes(l, chunk));
         let (wi, value) = ([s.wi.x, s.wi.y, s.wi.z].map(|x| x.to_array()), rgb(s.value));

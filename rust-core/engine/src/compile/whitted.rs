@@ -1,0 +1,27 @@
+//! What trees of rays leave out of a scene, told where paths would show it.
+
+use crate::{
+    error::Diagnostic,
+    integrator::MaterialTable,
+    light::LightTable,
+    scene::{Integrator, Origin, Scene},
+};
+
+/// Names what [`Integrator::Whitted`] shows otherwise than paths do, beyond the light from surface to surface that it always leaves out.
+pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnostics: &mut Vec<Diagnostic>) {
+    if scene.settings.integrator != Integrator::Whitted {
+        return;
+    }
+    let origin = Origin::new("integrator whitted");
+    let mut warn = |message: String| diagnostics.push(Diagnostic::warning(&origin, message));
+    let surfaces = &materials.surfaces;
+    if lights.has_tree() {
+        warn(format!("{} lights are more than each point can ask; it takes 64 that are chosen alike everywhere", lights.len()));
+    }
+    if surfaces.iter().any(|surface| surface.surface.lobes.walk) {
+        warn("light does not walk under surfaces; subsurface scattering shows as diffuse".to_owned());
+    }
+    if surfaces.iter().any(|surface| surface.emissive && !surface.emits_evenly()) {
+        warn("surfaces with emission from a graph shine, but light nothing".to_owned());
+    }
+}

@@ -1,0 +1,94 @@
+//! Materials that are sums of closures: all of them are shaded, one after the other, each with its weight.
+
+use super::super::{
+    closure::{for_mixes, share, weight},
+    kernels,
+    material::{Mix, Shading, Tables},
+    path::Transport,
+    state::{Columns3, Workspace, gather3},
+    surface::ChunkSource,
+};
+use crate::{accel::NONE, graph::CHUNK};
+use gonio_simd::{Column, Lanes, PADDING, Rgb, dispatch};
+
+/// A batch before its closures are told apart; empty where there are no mixes.
+#[derive(Debug, Default)]
+pub(super) struct Undivided {
+    material_of: Vec<u32>,
+    throughput: Columns3,
+    share: Column,
+}
+
+/// Most closures of a material.
+pub(super) fn most(tables: &Tables) -> usize {
+    tables.materials.mixes.iter().map(|mix| mix.count).max().unwrap_or(1).max(1)
+}
+
+/// Keeps what telling the closures apart will change.
+pub(super) fn keep(tables: &Tables, ws: &mut Workspace) {
+    if tables.materials.mixes.is_empty() {
+        return;
+    }
+    let undivided = &mut ws.branches.undivided;
+    undivided.material_of.clone_from(&ws.material_of);
+    undivided.throughput.clone_from(&ws.paths.throughput);
+    undivided.share.clone_from(&ws.paths.pdf);
+}
+
+/// Lets each hit on a mix be on the closure of this number, each other hit on its surface the first time alone.
+pub(super) fn select(tables: &Tables, transport: &Transport, closure: usize, ws: &mut Workspace) {
+    if tables.materials.mixes.is_empty() {
+        return;
+    }
+    ws.material_of.clone_from(&ws.branches.undivided.material_of);
+    for_mixes(tables, ws, |mix, order, count, ws| {
+        dispatch!(transport.execution, l => select_chunk(l, tables, closure, mix, order, count, ws));
+    });
+    if closure > 0 {
+        for (material, whole) in ws.material_of.iter_mut().zip(&ws.branches.undivided.material_of) {
+            if *whole != NONE && matches!(tables.materials.shading(*whole), Shading::Surface(_)) {
+                *material = NONE;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn select_chunk<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    closure: usize,
+    mix: &Mix,
+    order: &[u32; CHUNK + PADDING],
+    count: usize,
+    ws: &mut Workspace,
+) {
+    let number = |path: usize, ws: &mut Workspace, number: u32| ws.material_of[path] = number;
+    if closure >= mix.count {
+        order[..count].iter().for_each(|path| number(*path as usize, ws, NONE));
+        return;
+    }
+    let cone = Some([&ws.paths.width, &ws.paths.spread]);
+    let source = ChunkSource { order, count, direction: &ws.paths.direction, cone };
+    kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+    for at in (0..count).step_by(L::COUNT) {
+        let path = l.load_integers(order, at);
+        let mut total = l.f(0.0);
+        for one in 0..mix.count {
+            total += share(weight(l, &ws.outputs, one, at));
+        }
+        let own = weight(l, &ws.outputs, closure, at);
+        let throughput = Rgb::from(gather3(l, &ws.branches.undivided.throughput, path)) * own;
+        let part = l.gather(&ws.branches.undivided.share, path) * (share(own) / total.max(1e-20));
+        let (paths, part) = (path.to_array(), part.to_array());
+        let throughput = [throughput.r.to_array(), throughput.g.to_array(), throughput.b.to_array()];
+        for lane in 0..L::COUNT.min(count - at) {
+            let path = paths[lane] as usize;
+            number(path, ws, if part[lane] > 0.0 { mix.first + closure as u32 } else { NONE });
+            ws.paths.pdf[path] = part[lane];
+            for (column, value) in ws.paths.throughput.iter_mut().zip(&throughput) {
+                column[path] = value[lane];
+            }
+        }
+    }
+}
