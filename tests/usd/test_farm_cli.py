@@ -2,6 +2,7 @@
 
 import os
 import re
+from pathlib import Path
 
 import numpy as np
 import pictures
@@ -56,6 +57,16 @@ def test_parts_merge_to_the_whole(run, room, tmp_path, options, count):
     for left in (parts[1:], [parts[0], *parts[2:]], parts[:-1]):
         done = run("merge", *left, "-o", tmp_path / "hole.exr")
         assert done.returncode == 1 and re.search("are missing|expected the same", done.stderr), done.stderr
+
+
+def test_prototypes_that_usd_numbers_otherwise_each_time(run, tmp_path):
+    office = Path(__file__).resolve().parents[2] / "examples" / "usd" / "office.usda"
+    options = ("--res", 130, 80, "--spp", 1, "-q")
+    for number in range(1, 5):
+        done = run("render", office, *options, "--part", f"{number}/4", "--checkpoint", tmp_path / f"{number}.sums")
+        assert done.returncode == 0, done.stderr
+    done = run("merge", *tmp_path.glob("*.sums"), "-o", tmp_path / "merged.exr")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("part", ["0/2", "3/2", "2", "a/b", "1/0"])

@@ -10,6 +10,7 @@ use crate::{
     output::write_atomically,
     texture::is_udim,
 };
+use serde_json::Value;
 use std::{fs, io::Write, path::Path};
 
 const MAGIC: &str = "gonio2\n";
@@ -62,10 +63,25 @@ pub fn load_bundle(path: &Path) -> Result<Scene> {
 }
 
 /// A digest of a scene without its settings; of files that it names only the names are in it.
+///
+/// Where elements come from is left out: USD numbers the prototypes of instances otherwise each time that a stage is opened.
 pub(crate) fn digest_scene(scene: &Scene) -> Digest {
     let parts = (&scene.meshes, &scene.instances, &scene.materials, &scene.textures, &scene.measured, &scene.lights, &scene.cameras);
-    let (json, mut digest) = blob::digest(|| serde_json::to_vec(&parts));
+    let (json, mut digest) = blob::digest(|| serde_json::to_value(parts));
     // Descriptions that cannot be written differ from all others in their arrays.
-    digest.add(&json.unwrap_or_default());
+    let mut json = json.unwrap_or_default();
+    leave_out_origins(&mut json);
+    digest.add(json.to_string().as_bytes());
     digest
+}
+
+fn leave_out_origins(json: &mut Value) {
+    match json {
+        Value::Object(fields) => {
+            fields.remove("origin");
+            fields.values_mut().for_each(leave_out_origins);
+        }
+        Value::Array(values) => values.iter_mut().for_each(leave_out_origins),
+        _ => {}
+    }
 }
