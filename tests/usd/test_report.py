@@ -167,7 +167,7 @@ def test_grids_and_meters_have_their_figures(page):
     globes = 100 / 4 * 0.5 + 2 * 100 * 2 / 5**1.5
     assert float(meter[3].split()[0]) == pytest.approx(globes + 300 / (math.pi * 9), rel=0.02)
     words = " ".join(reader.words)
-    density = re.search(r"36 W over 8 m² of /Floor are 4.5 W/m², ([\d.]+) W/m² per 100 lx; the power of 1 lights is unknown", words)
+    density = re.search(r"36 W over 8.00 m² of /Floor are 4.50 W/m², ([\d.]+) W/m² per 100 lx; the power of 1 lights is unknown", words)
     assert float(density[1]) == pytest.approx(450 / average, abs=0.02)
 
 
