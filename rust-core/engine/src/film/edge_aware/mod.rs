@@ -122,9 +122,9 @@ fn guides_at<L: Lanes>(l: L, row: &[f32], stride: usize, at: usize) -> [F<L>; GU
 /// Squared distance of pixels by their guides; 1 is another surface.
 #[inline(always)]
 fn distance<L: Lanes>(a: [F<L>; GUIDE_CHANNELS], b: [F<L>; GUIDE_CHANNELS]) -> F<L> {
-    let mut sum = (a[0] - b[0]).squared();
-    for channel in 1..GUIDE_CHANNELS {
-        let difference = a[channel] - b[channel];
+    let mut sum = a[0].lanes().f(0.0);
+    for (a, b) in a.iter().zip(&b) {
+        let difference = *a - *b;
         sum = difference.mul_add(difference, sum);
     }
     sum

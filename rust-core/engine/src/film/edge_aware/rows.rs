@@ -108,8 +108,8 @@ pub(super) fn colours(light: &Rows, before: &[f32], guides: Guides<'_>) -> Vec<f
     let sources = light.values.par_chunks_exact(light.length()).zip(guides.albedo.par_chunks_exact(3 * width));
     colours.par_chunks_exact_mut(4 * width).zip(sources).for_each(|(colours, (row, albedos))| {
         for (x, (colour, albedo)) in colours.chunks_exact_mut(4).zip(albedos.chunks_exact(3)).enumerate() {
-            for channel in 0..3 {
-                colour[channel] = row[channel * stride + MARGIN + x] * divisor(albedo, channel);
+            for (channel, value) in colour[..3].iter_mut().enumerate() {
+                *value = row[channel * stride + MARGIN + x] * divisor(albedo, channel);
             }
         }
     });
