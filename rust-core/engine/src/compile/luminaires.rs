@@ -28,6 +28,8 @@ pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
 /// A light as an eye sees it.
 #[derive(Debug)]
 pub(crate) struct Luminaire {
+    /// World space, metres.
+    pub(crate) centre: [f64; 3],
     /// What shines of it, each part in a table of its own.
     pub(crate) emitters: Vec<LightTable>,
     /// Whether things hide it.
@@ -41,7 +43,8 @@ pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
     let luminaire = |light: &Light| {
         let records = records(light, origin, &mut goniograms, &mut far_fields);
         let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
-        Luminaire { emitters: records.into_iter().map(alone).collect(), casts_shadow: light.casts_shadow }
+        let emitters = records.into_iter().map(alone).collect();
+        Luminaire { centre: light.transform.point([0.0; 3]), emitters, casts_shadow: light.casts_shadow }
     };
     scene.lights.iter().filter(|light| is_luminaire(light)).map(luminaire).collect()
 }

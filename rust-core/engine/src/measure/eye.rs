@@ -37,8 +37,8 @@ struct Part {
     distance: f32,
     /// L² ω / p²; 0 of what is dark or not ahead.
     glare: f64,
-    /// Luminous area that shows to the eye, m²; 0 of points.
-    area: f64,
+    /// In sr; 0 of points.
+    solid_angle: f64,
 }
 
 impl Eye {
@@ -58,7 +58,8 @@ impl Eye {
     pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene) -> f64 {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
         let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
-        let area: f64 = parts.iter().map(|part| part.area).sum();
+        let way = subtract(luminaire.centre, self.position);
+        let area = parts.iter().map(|part| part.solid_angle).sum::<f64>() * dot(way, way);
         parts.retain(|part| part.glare > 0.0);
         if luminaire.casts_shadow {
             retain_seen(&mut parts, place, scene);
@@ -84,19 +85,18 @@ impl Eye {
     fn part(&self, sample: &LightSample<One>, count: f64) -> Part {
         let direction = [sample.wi.x.0, sample.wi.y.0, sample.wi.z.0];
         let [luminance, pdf, distance] = [sample.radiance.luminance().0, sample.pdf.0, sample.distance.0].map(f64::from);
-        let dark = Part { direction, distance: sample.distance.0, glare: 0.0, area: 0.0 };
+        let dark = Part { direction, distance: sample.distance.0, glare: 0.0, solid_angle: 0.0 };
         if pdf <= 0.0 {
             return dark;
         }
         let in_view = self.axes.map(|axis| dot(axis, direction.map(f64::from)));
         let weight = if in_view[2] > 0.0 { position_index(in_view).powi(-2) } else { 0.0 };
-        let square = distance * distance;
         if sample.delta.0 {
             // Its illuminance is I / r².
-            return Part { glare: luminance * luminance * square / SMALL * weight, ..dark };
+            return Part { glare: (luminance * distance).powi(2) / SMALL * weight, ..dark };
         }
         let solid_angle = 1.0 / (pdf * count);
-        Part { glare: luminance * luminance * solid_angle * weight, area: solid_angle * square, ..dark }
+        Part { glare: luminance * luminance * solid_angle * weight, solid_angle, ..dark }
     }
 }
 
