@@ -2,7 +2,7 @@
 
 use super::{CheckpointArguments, DaylightArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
-use gonio::scene::MOST_LIGHT_SAMPLES;
+use gonio::scene::{Antialiasing, MOST_LIGHT_SAMPLES};
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderOptions {
@@ -43,6 +43,9 @@ pub(crate) struct RenderOptions {
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
     #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     pub(crate) light_samples: u32,
+    /// Where in a pixel samples lie: 'adaptive' follows edges and shadows with about two rays a pixel, 'high' with more of them, 'paper' by one threshold; a number from 1 to 32 is a regular grid of so many places each way. It tells the number of samples and takes no filter; all but grids want --integrator whitted.
+    #[arg(long, value_name = "adaptive|high|paper|GRID", value_parser = antialiasing, conflicts_with_all = ["spp", "filter", "filter_width"])]
+    pub(crate) antialiasing: Option<Antialiasing>,
     /// The pixel filter.
     #[arg(long, value_enum, default_value_t = FilterArgument::BlackmanHarris)]
     pub(crate) filter: FilterArgument,
@@ -82,6 +85,10 @@ pub(crate) struct RenderOptions {
     pub(crate) checkpoint: CheckpointArguments,
     #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
+}
+
+fn antialiasing(text: &str) -> Result<Antialiasing, String> {
+    Antialiasing::by_name(text).ok_or_else(|| "expected adaptive, high, paper, or a number of places from 1 to 32".to_owned())
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
