@@ -1,41 +1,16 @@
 //! Trees of rays against closed forms and paths; the same bits for any number of threads.
 
-use gonio::scene::{
-    Aov, Closure, DomeFormat, Emission, Filter, Integrator, Light, LightShape, Material, Origin, Scene, Settings, Transform,
-};
+use gonio::scene::{Aov, DomeFormat, Emission, Filter, Integrator, Light, LightShape, Origin, Scene, Settings, Transform};
 use gonio_simd::Execution;
 use gonio_tests::{
     picture::{compiled, mean, render, settings},
-    scenes::{add_quad, camera_from_above, facing_down, floor, light},
+    scenes::{add_quad, camera_from_above, facing_down, floor, layered, light, varied},
 };
 use std::f64::consts::PI;
 
 /// Settings for one sample a pixel of a tree.
 fn whitted(pixels: u32) -> Settings {
     Settings { integrator: Integrator::Whitted, filter: Filter::Box, filter_width: 1.0, ..settings(pixels, 1, &[Aov::Color]) }
-}
-
-/// A layered surface with some parameters.
-fn surface(colour: [f32; 3], parameters: &[(&str, f32)]) -> Material {
-    let mut closure = Closure::default();
-    closure.set_colour("base_color", colour);
-    parameters.iter().for_each(|(name, value)| closure.set(name, *value));
-    Material::of(Origin::new("test"), closure)
-}
-
-/// A floor with a leaning board, a mirror and a pane on it, lit by a point, a panel and a sphere.
-fn varied() -> Scene {
-    let mut scene = floor(0.6);
-    add_quad(&mut scene, [-1.0, 0.3, 0.2], [1.3, 0.2, -0.4], [0.2, 0.1, -0.9], surface([0.7, 0.3, 0.2], &[("specular_roughness", 0.0)]));
-    let mirror = surface([0.9; 3], &[("metalness", 1.0), ("specular_roughness", 0.0)]);
-    add_quad(&mut scene, [0.2, 0.2, 1.1], [0.9, 0.1, 0.0], [0.1, 0.4, -0.8], mirror);
-    let glass = surface([1.0; 3], &[("transmission_weight", 1.0), ("specular_roughness", 0.0)]);
-    add_quad(&mut scene, [-0.9, 0.8, 1.2], [1.1, 0.0, 0.3], [0.0, 0.1, -1.0], glass);
-    scene.lights.push(light(LightShape::Point, facing_down([0.8, 2.0, 0.9]), [2.0; 3]));
-    scene.lights.push(light(LightShape::Rectangle { width: 0.5, height: 0.4 }, facing_down([-0.7, 2.2, 0.0]), [3.0; 3]));
-    scene.lights.push(light(LightShape::Sphere { radius: 0.2 }, facing_down([1.0, 1.5, -0.7]), [2.0; 3]));
-    scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 3.0));
-    scene
 }
 
 #[test]
@@ -63,7 +38,7 @@ fn a_panels_samples_stand_for_its_light() {
 #[test]
 fn clear_things_in_a_furnace_vanish() {
     let mut scene = Scene::default();
-    let glass = surface([1.0; 3], &[("transmission_weight", 1.0), ("specular_roughness", 0.0)]);
+    let glass = layered([1.0; 3], &[("transmission_weight", 1.0), ("specular_roughness", 0.0)]);
     for height in 0..3u16 {
         add_quad(&mut scene, [-5.0, f32::from(height), 5.0], [10.0, 0.0, 0.0], [0.0, 0.0, -10.0], glass.clone());
     }
@@ -84,7 +59,7 @@ fn what_opacity_leaves_open_counts_by_its_share() {
         [-5.0, 0.0, 5.0],
         [10.0, 0.0, 0.0],
         [0.0, 0.0, -10.0],
-        surface([0.5; 3], &[("geometry_opacity", 0.3), ("specular_weight", 0.0)]),
+        layered([0.5; 3], &[("geometry_opacity", 0.3), ("specular_weight", 0.0)]),
     );
     scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 1.0));
     scene.lights.push(light(LightShape::Point, facing_down([0.0, 2.0, 0.0]), [1.0; 3]));

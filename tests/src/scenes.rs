@@ -1,6 +1,6 @@
 //! Small scenes built by hand.
 
-use gonio::scene::{Camera, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Transform, Visibility};
+use gonio::scene::{Camera, Closure, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Transform, Visibility};
 use std::sync::Arc;
 
 /// Adds a parallelogram from a corner and two edges, seen counter-clockwise from `u × v`.
@@ -57,4 +57,27 @@ pub fn floor(reflectance: f32) -> Scene {
 /// Turns the local −z axis to point along −y: lights in the ceiling.
 pub fn facing_down(position: [f64; 3]) -> Transform {
     Transform { columns: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], position] }
+}
+
+/// A layered surface with some parameters.
+pub fn layered(colour: [f32; 3], parameters: &[(&str, f32)]) -> Material {
+    let mut closure = Closure::default();
+    closure.set_colour("base_color", colour);
+    parameters.iter().for_each(|(name, value)| closure.set(name, *value));
+    Material::of(Origin::new("test"), closure)
+}
+
+/// A floor with a leaning board, a mirror and a pane on it, lit by a point, a panel and a sphere.
+pub fn varied() -> Scene {
+    let mut scene = floor(0.6);
+    add_quad(&mut scene, [-1.0, 0.3, 0.2], [1.3, 0.2, -0.4], [0.2, 0.1, -0.9], layered([0.7, 0.3, 0.2], &[("specular_roughness", 0.0)]));
+    let mirror = layered([0.9; 3], &[("metalness", 1.0), ("specular_roughness", 0.0)]);
+    add_quad(&mut scene, [0.2, 0.2, 1.1], [0.9, 0.1, 0.0], [0.1, 0.4, -0.8], mirror);
+    let glass = layered([1.0; 3], &[("transmission_weight", 1.0), ("specular_roughness", 0.0)]);
+    add_quad(&mut scene, [-0.9, 0.8, 1.2], [1.1, 0.0, 0.3], [0.0, 0.1, -1.0], glass);
+    scene.lights.push(light(LightShape::Point, facing_down([0.8, 2.0, 0.9]), [2.0; 3]));
+    scene.lights.push(light(LightShape::Rectangle { width: 0.5, height: 0.4 }, facing_down([-0.7, 2.2, 0.0]), [3.0; 3]));
+    scene.lights.push(light(LightShape::Sphere { radius: 0.2 }, facing_down([1.0, 1.5, -0.7]), [2.0; 3]));
+    scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 3.0));
+    scene
 }

@@ -11,7 +11,7 @@ import pytest
 OPTIONS = """--purposes --complexity --mask --variant --session-layer --settings --strict --verbose --output --camera --frames --res --image-width
 --res-scale --spp --max-bounces --integrator --filter --filter-width --aov --exposure --tonemap --crop --time-limit --seed --threads
 --clamp-direct --clamp-indirect --half --disable-camera-light --list-cameras --quiet --noise-threshold --min-spp --checkpoint
---checkpoint-every --resume --samples --denoise --white --adaptation --color-space --light-samples --part --dask
+--checkpoint-every --resume --samples --denoise --white --adaptation --color-space --light-samples --antialiasing --part --dask
 --dask-parts --dask-send""".split()
 
 SETTINGS = """
@@ -296,6 +296,20 @@ def test_whitted_pictures_have_no_noise(picture, room):
     direct = picture(room, "--integrator", "direct", spp=64, size=32, name="direct.exr").rgb
     assert np.median(np.abs(one - many)) < 0.01 * many.mean()
     assert many.mean() == pytest.approx(direct.mean(), rel=0.05)
+
+
+def test_adaptive_antialiasing_says_how_many_rays(run, room, tmp_path):
+    common = ("render", room, "--res", 70, 70, "--integrator", "whitted")
+    grid = run(*common, "--antialiasing", 4, "-o", tmp_path / "grid.exr")
+    assert "16 samples a pixel" in grid.stderr, grid.stderr
+    done = run(*common, "--antialiasing", "adaptive", "-o", tmp_path / "adaptive.exr")
+    assert done.returncode == 0 and re.search(r"\d\.\d\d rays a pixel", done.stderr), done.stderr
+    dense, adaptive = (pictures.read(tmp_path / f"{name}.exr").rgb for name in ("grid", "adaptive"))
+    assert adaptive.mean() == pytest.approx(dense.mean(), rel=0.02)
+
+
+def test_adaptive_antialiasing_wants_rays_without_noise(run, room, tmp_path):
+    assert "whitted" in fails(run, "render", room, "--antialiasing", "adaptive", "-o", tmp_path / "a.exr")
 
 
 def test_clamps(picture, room):

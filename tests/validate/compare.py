@@ -63,7 +63,11 @@ def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> N
     relative = (blocks(image) - blocks(reference)) / (blocks(reference) + FLOOR * reference.mean())
     squares = (0.5 + 0.5 * DIFFERENCE_GAIN * relative).repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
     shown = [encoded(image * exposure), encoded(reference * exposure), squares]
-    pixels = (numpy.clip(numpy.concatenate(shown, axis=1), 0.0, 1.0) * 255 + 0.5).astype("u1")
+    write_png(path, (numpy.clip(numpy.concatenate(shown, axis=1), 0.0, 1.0) * 255 + 0.5).astype("u1"))
+
+
+def write_png(path: Path, pixels: numpy.ndarray) -> None:
+    """Bytes (height, width, 3) as a PNG."""
     rows = numpy.concatenate([numpy.zeros((len(pixels), 1), "u1"), pixels.reshape(len(pixels), -1)], axis=1)
     header = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)
     chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b"")]

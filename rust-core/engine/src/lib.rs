@@ -4,6 +4,7 @@
 //! tile into a film.
 
 pub mod accel;
+pub mod antialias;
 pub mod bench;
 pub mod bsdf;
 pub mod camera;

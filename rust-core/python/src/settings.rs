@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Background, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Antialiasing, Background, Crop, Filter, Integrator, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -45,6 +45,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "max_glossy_bounces" => s.kind_bounces[1] = value.extract()?,
         "max_transmission_bounces" => s.kind_bounces[2] = value.extract()?,
         "max_transparent_bounces" => s.kind_bounces[3] = value.extract()?,
+        "antialiasing" => s.set_antialiasing(antialiasing(value)?),
         "filter" => s.filter = filter(value)?,
         "filter_width" => s.filter_width = within(key, value, 0.0, 16.0)? as f32,
         "clamp_direct" => s.clamp_direct = within(key, value, 0.0, f64::MAX)? as f32,
@@ -85,6 +86,13 @@ fn integrator(value: &Bound<'_, PyAny>) -> PyResult<Integrator> {
     let known = Integrator::NAMES.iter().find(|(_, name)| *name == found);
     let expected = || wrong("integrator", format!("'{found}' was found, expected {}", Integrator::NAMES.map(|(_, name)| name).join(", ")));
     known.map(|(integrator, _)| *integrator).ok_or_else(expected)
+}
+
+/// A name, or the number of places along a pixel's side.
+fn antialiasing(value: &Bound<'_, PyAny>) -> PyResult<Antialiasing> {
+    let found = value.str()?.to_string();
+    let expected = || wrong("antialiasing", format!("'{found}' was found, expected sampled, adaptive, high, paper, or 1 to 32"));
+    Antialiasing::by_name(&found).ok_or_else(expected)
 }
 
 fn filter(value: &Bound<'_, PyAny>) -> PyResult<Filter> {

@@ -20,7 +20,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     film::{Film, Image},
     render::Render,
-    scene::{Aov, Crop, Filter, Scene},
+    scene::{Aov, Crop, Filter, Scene, Settings},
 };
 use gonio_simd::Execution;
 use pyo3::prelude::*;
@@ -182,6 +182,7 @@ impl Job<'_> {
         let light_groups = loaded.scene.light_groups();
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
+        settings.set_antialiasing(options.antialiasing.unwrap_or_default());
         settings.sample_range = options.checkpoint.samples.as_deref().map(sample_range).transpose()?;
         settings.noise_threshold = options.noise_threshold;
         settings.min_samples = options.min_spp;
@@ -276,12 +277,8 @@ impl Job<'_> {
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
             let seconds = start.elapsed().as_secs_f64();
-            let samples = if image.mean_samples > f64::from(image.samples) {
-                format!("{} and more, {:.1} in the mean", image.samples, image.mean_samples)
-            } else {
-                image.samples.to_string()
-            };
-            say(&format!("{samples} samples a pixel in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
+            let samples = samples_of(&scene.settings, &render, &image);
+            say(&format!("{samples} in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
         }
         if result.is_err() {
             // The process ends next, which gives everything back at once; somebody waits.
@@ -321,6 +318,17 @@ pub(super) fn drive(render: &mut Render, quiet: bool, interrupted: &AtomicBool, 
     }
     reporter.clear();
     Ok(())
+}
+
+/// How many samples a pixel has, in words.
+fn samples_of(settings: &Settings, render: &Render, image: &Image) -> String {
+    if settings.antialiasing.is_adaptive() {
+        let [width, height] = image.size();
+        return format!("{:.2} rays a pixel", render.statistics().camera_rays as f64 / (width * height).max(1) as f64);
+    }
+    let more = || format!("{} and more, {:.1} in the mean", image.samples, image.mean_samples);
+    let samples = if image.mean_samples > f64::from(image.samples) { more() } else { image.samples.to_string() };
+    format!("{samples} samples a pixel")
 }
 
 fn aovs(names: &[String]) -> Result<Vec<Aov>> {

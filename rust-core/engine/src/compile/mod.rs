@@ -16,6 +16,7 @@ mod measured;
 mod openings;
 mod primvars;
 mod quantity;
+mod samples;
 mod shader_passes;
 mod textures;
 mod trees;

@@ -1,12 +1,13 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, light_groups, shader_passes};
+use super::{CompiledScene, light_groups, samples, shader_passes};
 use crate::{
+    antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::{Film, FilterTable, block_at},
+    film::{Film, FilterTable, Placement},
     integrator::{FirstPasses, Mist, Transport},
-    scene::{Aov, Background, Camera, Crop, Integrator, MOST_LIGHT_SAMPLES, Projection, Settings},
+    scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
 };
 use gonio_simd::Execution;
 
@@ -15,8 +16,10 @@ use gonio_simd::Execution;
 pub struct View {
     /// Ray generation.
     pub camera: CameraTable,
-    /// Pixel filter.
-    pub filter: FilterTable,
+    /// Where in the pixels samples lie.
+    pub placement: Placement,
+    /// What counts as a discontinuity, where samples follow them.
+    pub rule: Option<Rule>,
     /// Light transport.
     pub transport: Transport,
     /// Factor on the colour pass.
@@ -34,21 +37,8 @@ impl View {
     /// Checks the settings and lays the view out.
     pub fn new(scene: &CompiledScene, settings: &Settings, execution: Execution) -> Result<Self> {
         let window = window(settings)?;
-        if settings.samples == 0 || settings.time_limit_s.is_nan() || settings.time_limit_s < 0.0 {
-            let problem =
-                format!("{} samples and a limit of {} s, expected 1 or more and 0 or more", settings.samples, settings.time_limit_s);
-            return Err(Error::Setting { name: "samples".into(), problem });
-        }
-        check_range(settings)?;
+        samples::check(settings)?;
         check_tiles(settings, window)?;
-        if !(1..=MOST_LIGHT_SAMPLES).contains(&settings.light_samples) {
-            let problem = format!("{} was found, expected 1 to {MOST_LIGHT_SAMPLES}", settings.light_samples);
-            return Err(Error::setting("light_samples", problem));
-        }
-        if !(settings.noise_threshold >= 0.0 && settings.noise_white >= 0.0 && settings.noise_white.is_finite()) {
-            let problem = format!("{} with white at {}, expected 0 or more", settings.noise_threshold, settings.noise_white);
-            return Err(Error::setting("noise_threshold", problem));
-        }
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
             problem: format!("the scene has {} cameras, number {} was asked for", scene.cameras.len(), settings.camera),
@@ -58,8 +48,11 @@ impl View {
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
         let transport = transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x));
-        let filter = FilterTable::new(settings.filter, settings.filter_width.clamp(0.0, 16.0));
-        Ok(Self { camera: table, filter, transport, exposure: camera.exposure.0, window })
+        let placement = match settings.antialiasing {
+            Antialiasing::Grid(side) => Placement::Grid(side),
+            _ => Placement::Filter(FilterTable::new(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
+        };
+        Ok(Self { camera: table, placement, rule: samples::rule(settings.antialiasing), transport, exposure: camera.exposure.0, window })
     }
 }
 
@@ -92,21 +85,6 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         known: None,
         draws: (settings.integrator == Integrator::Whitted).then(|| scene.tables.lights.draws(settings.light_samples).into()),
     }
-}
-
-/// Refuses ranges of samples that are empty or would cut a block.
-fn check_range(settings: &Settings) -> Result<()> {
-    let (range, samples) = (settings.range(), settings.samples);
-    let problem = if range.start >= range.end || range.end > samples {
-        format!("the range {}:{} was found, expected a part of 0:{samples}", range.start, range.end)
-    } else if [range.start, range.end].iter().any(|end| block_at(*end, samples).is_none()) {
-        format!("the range {}:{} was found, expected ends at 0, 1, 2, 4, 8, a multiple of 16 or {samples}", range.start, range.end)
-    } else if settings.least_samples().is_some() && range != (0..samples) {
-        "a part of the samples cannot know which pixels have enough; leave out the noise threshold or the range".to_owned()
-    } else {
-        return Ok(());
-    };
-    Err(Error::setting("samples", problem))
 }
 
 /// Refuses ranges of tiles that are empty or beyond the picture.

@@ -24,4 +24,13 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if surfaces.iter().any(|surface| surface.emissive && !surface.emits_evenly()) {
         warn("surfaces with emission from a graph shine, but light nothing".to_owned());
     }
+    if scene.settings.antialiasing.is_adaptive() {
+        let camera = scene.cameras.get(scene.settings.camera as usize);
+        if camera.is_some_and(|camera| camera.lens_radius > 0.0) {
+            warn("adaptive antialiasing looks through the middle of the lens; a regular grid shows the depth of field".to_owned());
+        }
+        if scene.instances.iter().any(|instances| instances.shadow_catcher) {
+            warn("adaptive antialiasing knows no shadow catchers; a regular grid shows what they catch".to_owned());
+        }
+    }
 }

@@ -127,7 +127,8 @@ impl Film {
             (Aov::PrimId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
             (_, None) if is_index(aov) => part.fill(|channel, code| (sum(channel, code) - 1.0).max(0.0)),
             (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * tile.scale(code)),
-            (Aov::SampleCount, _) => part.fill(|_, code| f64::from(tile.samples[zone_of(code)])),
+            // Pixels that counted their rays themselves know better.
+            (Aov::SampleCount, _) => part.fill(|channel, code| sum(channel, code).max(f64::from(tile.samples[zone_of(code)]))),
             _ => part.fill(|channel, code| sum(channel, code) * tile.scale(code)),
         }
     }

@@ -5,6 +5,15 @@ use crate::scene::Filter;
 /// Knots of the tabulated inverse.
 const KNOTS: usize = 257;
 
+/// Where in their pixels samples lie.
+#[derive(Clone, Debug)]
+pub enum Placement {
+    /// At random, by a filter.
+    Filter(FilterTable),
+    /// On a regular grid of so many places along a pixel's side, row after row.
+    Grid(u32),
+}
+
 /// The inverse of a filter's cumulative distribution along one axis.
 #[derive(Clone, Debug)]
 pub struct FilterTable {

@@ -16,7 +16,7 @@ pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
 pub use edge_aware::edge_aware;
-pub use filter::FilterTable;
+pub use filter::{FilterTable, Placement};
 pub(crate) use noise::decides;
 pub use tile::{Block, TileFilm, TileState, ZONE, ZONES, zone_of};
 
@@ -107,6 +107,11 @@ impl Film {
             ready(after.samples);
         }
         after
+    }
+
+    /// Factor on the colour pass.
+    pub(crate) fn exposure(&self) -> f32 {
+        self.exposure
     }
 
     /// Whether pixels may have enough samples before the end.

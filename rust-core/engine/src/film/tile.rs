@@ -247,7 +247,7 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &First
         Aov::Light(kind, LightPart::Color) => copy3(channels, gathered.lights.part(code::COLOUR + kind as u32)),
         Aov::ObjectIndex => channels.iter_mut().zip(&gathered.object_index[..]).for_each(|(out, id)| *out = *id as f32),
         Aov::MaterialIndex => channels.iter_mut().zip(&gathered.material_index[..]).for_each(|(out, id)| *out = *id as f32),
-        Aov::SampleCount => {}
+        Aov::SampleCount => channels.copy_from_slice(&gathered.rays[..BATCH]),
         Aov::P => {
             for (c, out) in channels.chunks_exact_mut(BATCH).enumerate() {
                 let place = origin[c] as f32;

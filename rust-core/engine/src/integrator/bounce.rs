@@ -2,10 +2,10 @@
 
 use super::{
     kernels,
-    path::Transport,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
     state::{PathLanes, Workspace, event, flag, gather3},
     subsurface::WalkLanes,
+    transport::Transport,
 };
 use crate::{
     bsdf::{Lobes, subsurface::Medium},

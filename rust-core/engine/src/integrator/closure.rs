@@ -6,9 +6,10 @@
 use super::{
     kernels,
     material::{Mix, Shading, Tables},
-    path::{SampleContext, Transport},
+    path::SampleContext,
     state::Workspace,
     surface::ChunkSource,
+    transport::Transport,
 };
 use crate::{
     accel::NONE,

@@ -4,10 +4,10 @@ use super::{
     accumulate::FirstSurface,
     catcher,
     material::{SurfaceMaterial, Tables},
-    path::Mist,
     shade::{Point, Stage},
     shader_passes,
     state::{MeasurePoints, Workspace, append3, flag, pixel},
+    transport::Mist,
 };
 use crate::bsdf::Lobes;
 use gonio_simd::{F, Lanes, M, U, Vec3};

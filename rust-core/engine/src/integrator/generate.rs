@@ -5,11 +5,11 @@ use super::{
     state::{PathLanes, Paths, flag},
 };
 use crate::{
-    camera::CameraTable,
-    film::FilterTable,
+    camera::{CameraRay, CameraTable},
+    film::{FilterTable, Placement},
     sampler::{Sampler, dimension},
 };
-use gonio_simd::{F, Lanes, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, PADDING, Rgb, U, Vec3};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct TileArea {
 pub(crate) fn generate<L: Lanes>(
     l: L,
     camera: &CameraTable,
-    filter: &FilterTable,
+    placement: &Placement,
     sampler: &Sampler,
     area: TileArea,
     runs: &Runs,
@@ -40,32 +40,59 @@ pub(crate) fn generate<L: Lanes>(
             continue;
         }
         let index = sampler.index(pixel, l.u(sample));
-        let [u, v] = sampler.pair(l, index, dimension::PIXEL);
         let lens = if camera.lens_radius > 0.0 { sampler.pair(l, index, dimension::LENS) } else { [l.f(0.5); 2] };
-        let raster = [
-            (x + area.min[0]).to_float() + 0.5 + filter_offset(l, filter, u),
-            (y + area.min[1]).to_float() + 0.5 + filter_offset(l, filter, v),
-        ];
-        let ray = camera.ray(l, raster, lens);
-        let state = PathLanes {
-            origin: ray.origin,
-            direction: ray.direction,
-            t_min: ray.t_min,
-            t_max: ray.t_max,
-            vertex: ray.origin,
-            normal: ray.direction,
-            throughput: Rgb::grey(l.f(1.0)),
-            pdf: l.f(1.0),
-            width: ray.width,
-            spread: ray.spread,
-            slot: l.iota() + slot,
-            flags: l.u(flag::CAMERA | flag::DELTA),
-            counts: l.u(0),
-            medium: Rgb::zero(l),
+        let [u, v] = match placement {
+            Placement::Filter(filter) => {
+                let u = sampler.pair(l, index, dimension::PIXEL);
+                [filter_offset(l, filter, u[0]), filter_offset(l, filter, u[1])]
+            }
+            Placement::Grid(side) => {
+                let step = |i: u32| l.f((i as f32 + 0.5) / *side as f32 - 0.5);
+                [step(sample % side), step(sample / side)]
+            }
         };
-        paths.append(&state, inside & ray.mapped);
+        let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
+        let ray = camera.ray(l, raster, lens);
+        paths.append(&started(l, &ray, l.iota() + slot), inside & ray.mapped);
     }
     paths.set_masks();
+}
+
+/// Starts a path through the middle of the lens from each of some places of the raster; their slots are given.
+#[inline(always)]
+pub(super) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
+    paths.count = 0;
+    let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
+    for first in (0..slots.len()).step_by(L::COUNT) {
+        let end = (first + L::COUNT).min(slots.len());
+        x[..end - first].copy_from_slice(&places[0][first..end]);
+        y[..end - first].copy_from_slice(&places[1][first..end]);
+        slot[..end - first].copy_from_slice(&slots[first..end]);
+        let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
+        paths.append(&started(l, &ray, l.load_integers(&slot, 0)), l.first(end - first) & ray.mapped);
+    }
+    paths.set_masks();
+}
+
+/// The path of a camera ray.
+#[inline(always)]
+fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
+    PathLanes {
+        origin: ray.origin,
+        direction: ray.direction,
+        t_min: ray.t_min,
+        t_max: ray.t_max,
+        vertex: ray.origin,
+        normal: ray.direction,
+        throughput: Rgb::grey(l.f(1.0)),
+        pdf: l.f(1.0),
+        width: ray.width,
+        spread: ray.spread,
+        slot,
+        flags: l.u(flag::CAMERA | flag::DELTA),
+        counts: l.u(0),
+        medium: Rgb::zero(l),
+    }
 }
 
 /// Where in the pixel a sample lies: the filter's tabulated inverse.
@@ -98,10 +125,34 @@ pub(crate) fn tile_code([x, y]: [usize; 2]) -> usize {
     spread(x) | spread(y) << 1
 }
 
+/// The column and row of a tile's pixel of this Morton number.
+#[inline]
+pub(crate) fn tile_place(code: usize) -> [usize; 2] {
+    let packed = |code: usize| {
+        let x = code & 0x5555;
+        let x = (x | (x >> 1)) & 0x3333;
+        let x = (x | (x >> 2)) & 0x0f0f;
+        (x | (x >> 4)) & 0x00ff
+    };
+    [packed(code), packed(code >> 1)]
+}
+
 /// A direction of the cosine distribution about +z (Malley's method).
 #[inline(always)]
 pub(super) fn cosine_hemisphere<L: Lanes>(u: [F<L>; 2]) -> Vec3<L> {
     let [x, y] = crate::camera::concentric_disk(u);
     let z = (x.lanes().f(1.0) - x * x - y * y).safe_sqrt();
     Vec3::new(x, y, z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn morton_numbers_and_places_belong_together() {
+        for code in 0..4096 {
+            assert_eq!(tile_code(tile_place(code)), code);
+        }
+    }
 }

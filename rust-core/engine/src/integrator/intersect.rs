@@ -7,9 +7,9 @@ use super::{
     light_groups::add_of_lights,
     light_sums::code,
     material::Tables,
-    path::Transport,
     scatter::{add, add_light, code_of},
     state::{Paths, Workspace, flag, gather3},
+    transport::Transport,
 };
 use crate::{
     accel::{Hits, NONE, RayBatch, SceneBvh},
@@ -19,9 +19,7 @@ use gonio_simd::{Execution, Lanes, Rgb, dispatch};
 
 /// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
 pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
-    let paths = &ws.paths;
-    ws.statistics.rays += paths.count as u64;
-    first_hits(transport.execution, &tables.bvh, &rays_of(paths), depth == 0, &mut ws.hits);
+    find_first(tables, transport, depth == 0, ws);
     classify(tables, ws);
     while !ws.at_lights.is_empty() {
         dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, ws));
@@ -33,6 +31,12 @@ pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
     ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
     catcher::split(tables, ws);
     list_materials(tables, ws);
+}
+
+/// Finds what every path hits; `coherent` ones in packets.
+pub(super) fn find_first(tables: &Tables, transport: &Transport, coherent: bool, ws: &mut Workspace) {
+    ws.statistics.rays += ws.paths.count as u64;
+    first_hits(transport.execution, &tables.bvh, &rays_of(&ws.paths), coherent, &mut ws.hits);
 }
 
 fn rays_of(paths: &Paths) -> RayBatch<'_> {

@@ -6,10 +6,11 @@ use super::{
     arrivals::note_lost,
     kernels,
     material::Tables,
-    path::{SampleContext, Transport},
+    path::SampleContext,
     scatter::add_rgb,
     shadow::make_room,
     state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
+    transport::Transport,
 };
 use crate::{
     geometry::{spawn, spawn_to},

@@ -3,113 +3,27 @@
 use super::{
     catcher,
     closure::choose_closures,
-    generate::{TileArea, generate},
-    intersect::{intersect, sort_by_material},
+    generate::{TileArea, generate, generate_at},
+    intersect::{find_first, intersect, sort_by_material},
     kernels,
-    light_groups::GroupPasses,
     material::Tables,
     measure::measure,
     runs::Runs,
     sensors::{SensorTable, place},
     shade::{Stage, shade_chunk},
-    shader_passes::ShaderPasses,
     shadow::{make_room, trace_shadows},
-    state::{SHADOW_ROOM, Workspace, flag},
+    state::{Workspace, flag},
     subsurface::walk,
     surface::ChunkSource,
+    transport::Transport,
     whitted,
 };
-use crate::{
-    camera::CameraTable,
-    film::FilterTable,
-    graph::CHUNK,
-    light::{Draw, KnownLights},
-    sampler::Sampler,
-};
-use gonio_simd::{Execution, Lanes, PADDING, U, dispatch};
-use std::{sync::Arc, time::Instant};
+use crate::{camera::CameraTable, film::Placement, sampler::Sampler};
+use gonio_simd::{Lanes, U, dispatch};
+use std::time::Instant;
 
 /// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
 pub(super) const MOST_DEPTH: u32 = 256;
-
-/// What does not change during a render.
-#[derive(Clone, Debug)]
-pub struct Transport {
-    /// How kernels run.
-    pub execution: Execution,
-    /// Scatterings after the first surface.
-    pub max_bounces: u32,
-    /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
-    pub kind_bounces: [u32; 4],
-    /// Whether the camera sees lights at infinity.
-    pub shows_surroundings: bool,
-    /// Whether they cover the background.
-    pub surroundings_cover: bool,
-    /// What passes want to know of first surfaces.
-    pub passes: FirstPasses,
-    /// Whether illuminance is measured.
-    pub measure: bool,
-    /// Limits of direct and indirect contributions; 0 is off.
-    pub clamps: [f32; 2],
-    /// The camera's position and viewing direction, rebased world space.
-    pub eye: [f32; 3],
-    /// See `eye`.
-    pub forward: [f32; 3],
-    /// Seed of the random numbers.
-    pub seed: u32,
-    /// Samples a pixel in the whole render.
-    pub samples: u32,
-    /// Which lights arrive where, if that was learned.
-    pub known: Option<Arc<KnownLights>>,
-    /// How every point is lit, where paths are trees of sharp rays instead.
-    pub draws: Option<Arc<[Draw]>>,
-}
-
-/// What passes want to know of first surfaces beyond the usual.
-#[derive(Clone, Debug, Default)]
-pub struct FirstPasses {
-    /// Texture coordinates.
-    pub uv: bool,
-    /// Start, depth and falloff of the mist.
-    pub mist: Option<Mist>,
-    /// Albedo and normal for denoisers.
-    pub guides: bool,
-    /// Numbers and pass indices of instances and materials.
-    pub numbers: bool,
-    /// What materials compute for passes of their own.
-    pub shader: ShaderPasses,
-    /// Which groups of lights are summed apart.
-    pub groups: GroupPasses,
-}
-
-/// The mist pass: metres at which it starts, metres until it is full, exponent.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Mist {
-    /// Metres.
-    pub start: f32,
-    /// Metres.
-    pub depth: f32,
-    /// Exponent.
-    pub falloff: f32,
-}
-
-impl Transport {
-    /// The limit of contributions at a depth.
-    #[inline(always)]
-    pub(super) fn clamp(&self, depth: u32) -> f32 {
-        self.clamps[usize::from(depth > 1)]
-    }
-
-    /// Shadow rays that a hit may send.
-    pub(super) fn rays_per_hit(&self) -> usize {
-        self.draws.as_ref().map_or(1, |draws| draws.len().max(1))
-    }
-
-    /// Hits that are lit together, whole registers: no more than a chunk, and no more than there is room for their shadow rays.
-    pub(super) fn hits_together(&self) -> usize {
-        ((SHADOW_ROOM - PADDING) / self.rays_per_hit() / PADDING * PADDING).clamp(PADDING, CHUNK)
-    }
-}
 
 /// Which samples are under way, and how deep their paths are.
 #[derive(Clone, Copy, Debug)]
@@ -130,8 +44,8 @@ impl SampleContext<'_> {
 /// Where paths start.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
-    /// At a camera, through a pixel filter.
-    Camera(&'a CameraTable, &'a FilterTable),
+    /// At a camera, at places in the pixels.
+    Camera(&'a CameraTable, &'a Placement),
     /// At sensors; depth 1 is their first rays'.
     Sensors(&'a SensorTable),
 }
@@ -158,8 +72,8 @@ impl Tracer<'_> {
         let area = TileArea { min, max };
         let time = Instant::now();
         let first = match self.start {
-            Start::Camera(camera, filter) => {
-                dispatch!(execution, l => generate(l, camera, filter, &sampler, area, runs, &mut ws.paths));
+            Start::Camera(camera, placement) => {
+                dispatch!(execution, l => generate(l, camera, placement, &sampler, area, runs, &mut ws.paths));
                 0
             }
             Start::Sensors(sensors) => {
@@ -169,10 +83,32 @@ impl Tracer<'_> {
             }
         };
         ws.statistics.spent(0, time);
+        ws.statistics.camera_rays += ws.paths.count as u64;
         if self.transport.draws.is_some() {
             whitted::follow(self, sampler, runs, first, ws, cancelled);
         } else {
             self.follow(sampler, runs, first, ws, cancelled);
+        }
+    }
+
+    /// Adds a sample at each of some places of the raster to the sums of its slot, all of them different; for cameras and trees of rays.
+    ///
+    /// There are at most [`super::BATCH`] of them; consecutive sixteen are a packet.
+    pub fn trace_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+        self.start_at(places, slots, ws);
+        ws.statistics.camera_rays += ws.paths.count as u64;
+        whitted::follow(self, Sampler::new(self.transport.seed, [0; 2], 1), &Runs::whole(0), 0, ws, cancelled);
+    }
+
+    /// Finds what the camera sees at each of some places of the raster: [`Workspace::hits_by_slot`].
+    pub fn first_hits_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        self.start_at(places, slots, ws);
+        find_first(self.tables, &self.transport, true, ws);
+    }
+
+    fn start_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        if let Start::Camera(camera, _) = self.start {
+            dispatch!(self.transport.execution, l => generate_at(l, camera, places, slots, &mut ws.paths));
         }
     }
 

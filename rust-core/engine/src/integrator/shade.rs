@@ -11,9 +11,10 @@ use super::{
     light_groups::add_of_surfaces,
     light_sums::code,
     material::{SurfaceMaterial, Tables},
-    path::{SampleContext, Transport},
+    path::SampleContext,
     scatter::{add_light, code_of},
     state::{Workspace, flag, gather3, load3},
+    transport::Transport,
     whitted,
 };
 use crate::{

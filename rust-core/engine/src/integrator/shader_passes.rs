@@ -1,10 +1,10 @@
 //! Shader passes: what materials compute for passes of their own, summed where the camera sees them first.
 
 use super::{
-    path::Transport,
     scatter::add,
     shade::Point,
     state::{BATCH, Workspace, flag, pixel},
+    transport::Transport,
 };
 use crate::graph::{Program, Source};
 use gonio_simd::{Column, Lanes, M};

@@ -5,12 +5,12 @@ use super::{
     catcher, kernels,
     light_groups::add_of_lights,
     material::{Shading, Tables},
-    path::Transport,
     scatter::add_sampled,
     shade::{parameter_values, threshold},
     shadow_order::ShadowOrder,
     state::{SHADOW_ROOM, ShadowRays, Workspace, load3},
     surface::ChunkSource,
+    transport::Transport,
 };
 use crate::{
     accel::{PassedHit, RayBatch},

@@ -4,11 +4,11 @@ use super::{
     catcher::CatcherSums,
     light_sums::{LightSums, code},
     material::Tables,
-    path::Transport,
     shader_passes::ShaderSums,
     shadow_order::ShadowOrder,
     statistics::Statistics,
     subsurface::Walks,
+    transport::Transport,
     whitted::Branches,
 };
 use crate::{
@@ -340,6 +340,8 @@ pub struct FirstHit {
     pub uv: Columns3,
     /// What the mist leaves.
     pub clearness: Column,
+    /// Camera rays, of pixels that have a number of their own.
+    pub rays: Column,
     /// Light by where it comes from.
     pub lights: LightSums,
     /// Light by its group.
@@ -365,6 +367,7 @@ impl Default for FirstHit {
             material_index: Column::new(BATCH),
             uv: columns3(BATCH),
             clearness: Column::new(BATCH),
+            rays: Column::new(BATCH),
             lights: LightSums::default(),
             groups: LightSums::default(),
             shader: ShaderSums::default(),
@@ -381,10 +384,24 @@ impl FirstHit {
             self.catchers.prepare();
         }
     }
+
+    /// Sets radiance and coverage of a slot, and of how many camera rays they are made.
+    pub fn set_pixel(&mut self, slot: usize, [red, green, blue, coverage]: [f32; 4], rays: u32) {
+        for (column, value) in self.radiance.iter_mut().zip([red, green, blue]) {
+            column[slot] = value;
+        }
+        (self.alpha[slot], self.rays[slot]) = (coverage, rays as f32);
+    }
+
+    /// Empties the sums of radiance and coverage, for those who look at nothing else.
+    pub fn clear_colour(&mut self) {
+        self.radiance.iter_mut().chain([&mut self.alpha]).for_each(|column| column.fill(0.0));
+    }
+
     /// Empties all sums.
     pub fn clear(&mut self) {
         let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv];
-        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness];
+        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays];
         threes
             .into_iter()
             .chain(&mut self.guides)
@@ -468,6 +485,11 @@ pub struct Workspace {
 }
 
 impl Workspace {
+    /// Slots of the rays at hand, and what they have hit.
+    pub fn hits_by_slot(&self) -> (&[u32], &Hits) {
+        (&self.paths.slot[..self.paths.count], &self.hits)
+    }
+
     /// Empties the block's sums, and makes room for those that passes want.
     pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
         self.branches.prepare(transport);

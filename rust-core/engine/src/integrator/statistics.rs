@@ -26,6 +26,8 @@ pub struct Statistics {
     pub rays: u64,
     /// Shadow rays.
     pub shadow_rays: u64,
+    /// Rays that paths of the camera started with: samples.
+    pub camera_rays: u64,
     /// Lanes by bounce, in the order of [`LANE_STAGES`].
     pub lanes: [[LaneCount; LANE_STAGES.len()]; LANE_BOUNCES],
     /// Nanoseconds spent in each stage, in the order of [`STAGES`].
@@ -49,6 +51,7 @@ impl Statistics {
     pub fn add(&mut self, other: &Self) {
         self.rays += other.rays;
         self.shadow_rays += other.shadow_rays;
+        self.camera_rays += other.camera_rays;
         for (count, more) in self.lanes.iter_mut().flatten().zip(other.lanes.iter().flatten()) {
             count.run += more.run;
             count.alive += more.alive;

@@ -7,10 +7,11 @@ use super::{
     exit::leave,
     kernels,
     material::Tables,
-    path::{SampleContext, Transport},
+    path::SampleContext,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
     state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3},
     surface::{ChunkSource, store3},
+    transport::Transport,
 };
 use crate::{
     accel::{Hits, NONE, RayBatch},

@@ -5,7 +5,7 @@ use crate::{
     compile::{CompiledScene, View},
     integrator::{Runs, Start, TILE, Tracer, Transport, Workspace},
     light::KnownLights,
-    scene::{Aov, Crop, Integrator, Settings},
+    scene::{Antialiasing, Aov, Crop, Integrator, Settings},
 };
 use std::sync::Arc;
 
@@ -26,9 +26,9 @@ pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source,
     }
     match source {
         Source::View(view) => {
-            let View { camera, filter, transport, window, .. } =
+            let View { camera, placement, transport, window, .. } =
                 View::new(scene, &reduced(settings, SIDE, SAMPLES), view.transport.execution).ok()?;
-            let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &filter), transport };
+            let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &placement), transport };
             from_paths(scene, &tracer, window, SAMPLES, cancelled)
         }
         Source::Sensors { sensors, transport } => {
@@ -80,6 +80,7 @@ pub(super) fn reduced(settings: &Settings, side: u32, samples: u32) -> Settings 
         sample_range: None,
         tile_range: None,
         noise_threshold: 0.0,
+        antialiasing: Antialiasing::Sampled,
         seed: settings.seed ^ OTHER_SEED,
         aovs: vec![Aov::Color],
         ..settings.clone()

@@ -21,7 +21,7 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
         return settings.noise_white;
     }
     let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, SAMPLES), execution) else { return 1.0 };
-    let start = Start::Camera(&view.camera, &view.filter);
+    let start = Start::Camera(&view.camera, &view.placement);
     let tracer = Tracer { tables: &scene.tables, start, transport: view.transport };
     let mut workspace = Workspace::default();
     workspace.prepare(&scene.tables, &tracer.transport, false);

@@ -1,6 +1,7 @@
 //! What a render starts from.
 
 use crate::{
+    antialias::Rule,
     compile::View,
     integrator::{SensorTable, Start, Transport},
 };
@@ -23,8 +24,16 @@ impl Source {
     /// Where paths start.
     pub(crate) fn start(&self) -> Start<'_> {
         match self {
-            Self::View(view) => Start::Camera(&view.camera, &view.filter),
+            Self::View(view) => Start::Camera(&view.camera, &view.placement),
             Self::Sensors { sensors, .. } => Start::Sensors(sensors),
+        }
+    }
+
+    /// What counts as a discontinuity, where samples follow them.
+    pub(crate) fn rule(&self) -> Option<Rule> {
+        match self {
+            Self::View(view) => view.rule,
+            Self::Sensors { .. } => None,
         }
     }
 

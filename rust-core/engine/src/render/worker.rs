@@ -2,8 +2,10 @@
 
 use super::{Learned, Shared, TileReady, learn::learn, meter::meter, schedule::Work, source::Source};
 use crate::{
+    antialias::{Antialiaser, Rule, TileTask},
     film::Block,
     integrator::{Runs, Tracer, Transport, Workspace},
+    scene::{Aov, Crop},
 };
 use crossbeam_channel::Sender;
 use std::{
@@ -11,12 +13,19 @@ use std::{
     sync::{PoisonError, atomic::Ordering},
 };
 
+/// What a worker keeps from block to block.
+#[derive(Default)]
+struct Room {
+    workspace: Workspace,
+    antialiaser: Antialiaser,
+}
+
 /// Works until nothing is left, the render is cancelled, or something fails.
 pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
     let result = catch_unwind(AssertUnwindSafe(|| {
-        let mut workspace = Workspace::default();
+        let mut room = Room::default();
         while let Some(work) = shared.schedule.take(&|| shared.cancel.load(Ordering::Relaxed)) {
-            trace_block(shared, &work, &mut workspace, ready);
+            trace_block(shared, &work, &mut room, ready);
         }
     }));
     if let Err(panic) = result {
@@ -27,31 +36,26 @@ pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
 }
 
 /// Traces a block, adds it and tells the host; nothing of it remains if it was cancelled on the way.
-fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &Sender<TileReady>) {
+fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<TileReady>) {
     let tables = &shared.scene.tables;
-    let area = shared.film.tile_area(work.tile);
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let learned = || {
-        let known = learn(&shared.scene, &shared.settings, &shared.source, &cancelled);
-        let white = match &shared.source {
-            Source::View(view) if shared.film.looks_at_noise() => {
-                meter(&shared.scene, &shared.settings, view.transport.execution, &cancelled)
-            }
-            _ => 1.0,
-        };
-        Learned { known, white }
-    };
-    let Learned { known, white } = shared.learned.get_or_init(learned).clone();
+    let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let transport = Transport { known, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
+    let workspace = &mut room.workspace;
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
-    for runs in Runs::batches(zones, work.samples.clone()) {
-        tracer.trace(area.min, area.max, &runs, workspace, &cancelled);
-        if cancelled() {
-            return;
-        }
+    let area = shared.film.tile_area(work.tile);
+    match shared.source.rule() {
+        Some(rule) => antialias(shared, &tracer, rule, area, white, room),
+        None => Runs::batches(zones, work.samples.clone())
+            .take_while(|_| !cancelled())
+            .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
     }
+    if cancelled() {
+        return;
+    }
+    let workspace = &mut room.workspace;
     let statistics = std::mem::take(&mut workspace.statistics);
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
     let origin = shared.scene.tables.origin;
@@ -63,4 +67,24 @@ fn trace_block(shared: &Shared, work: &Work, workspace: &mut Workspace, ready: &
         let _ = ready.try_send(TileReady { tile: work.tile, samples });
     });
     shared.schedule.decided(work.tile, state);
+}
+
+/// What is to be known before the first block.
+fn learned(shared: &Shared, cancelled: &dyn Fn() -> bool) -> Learned {
+    let known = learn(&shared.scene, &shared.settings, &shared.source, cancelled);
+    let white = match &shared.source {
+        Source::View(view) if shared.film.looks_at_noise() || view.rule.is_some() => {
+            meter(&shared.scene, &shared.settings, view.transport.execution, cancelled)
+        }
+        _ => 1.0,
+    };
+    Learned { known, white }
+}
+
+/// Traces a tile where it needs samples.
+fn antialias(shared: &Shared, tracer: &Tracer<'_>, rule: Rule, area: Crop, white: f32, room: &mut Room) {
+    let passes = shared.film.layout.aovs.iter().any(|aov| !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance | Aov::SampleCount));
+    let scale = shared.film.exposure() / white;
+    let task = TileTask { tracer, rule, scale, min: area.min, max: area.max, passes };
+    room.antialiaser.trace(&task, &mut room.workspace, &|| shared.cancel.load(Ordering::Relaxed));
 }

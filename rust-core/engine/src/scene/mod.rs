@@ -36,7 +36,8 @@ pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use settings::{
-    Aov, Background, Crop, Filter, Integrator, LightPart, MOST_LIGHT_SAMPLES, Mist, OTHER_LIGHTS, ScatteringKind, Settings, ShaderValue,
+    Antialiasing, Aov, Background, Crop, Filter, Integrator, LightPart, MOST_LIGHT_SAMPLES, Mist, OTHER_LIGHTS, ScatteringKind, Settings,
+    ShaderValue,
 };
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;

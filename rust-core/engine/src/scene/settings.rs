@@ -42,6 +42,49 @@ impl Integrator {
     pub const NAMES: [(Self, &'static str); 3] = [(Self::Path, "path"), (Self::Direct, "direct"), (Self::Whitted, "whitted")];
 }
 
+/// Where in a pixel samples lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Antialiasing {
+    /// At random places, by the pixel filter.
+    #[default]
+    Sampled,
+    /// On a regular grid of so many places along a pixel's side, which count alike.
+    Grid(u32),
+    /// Where they are needed, by two thresholds; for [`Integrator::Whitted`].
+    Adaptive,
+    /// The same with lower thresholds.
+    High,
+    /// The same by one threshold.
+    Paper,
+}
+
+/// Most places along a pixel's side.
+const MOST_GRID: u32 = 32;
+
+impl Antialiasing {
+    /// Those that have names.
+    pub const NAMES: [(Self, &'static str); 4] =
+        [(Self::Sampled, "sampled"), (Self::Adaptive, "adaptive"), (Self::High, "high"), (Self::Paper, "paper")];
+
+    /// The one of a name, or of the number of places along a pixel's side.
+    pub fn by_name(text: &str) -> Option<Self> {
+        let grid = || text.parse().ok().filter(|side| (1..=MOST_GRID).contains(side)).map(Self::Grid);
+        Self::NAMES.iter().find(|(_, name)| *name == text).map(|(known, _)| *known).or_else(grid)
+    }
+    /// Whether the number of samples depends on what they show.
+    pub fn is_adaptive(self) -> bool {
+        matches!(self, Self::Adaptive | Self::High | Self::Paper)
+    }
+    /// The samples a pixel that a render has to be set to; any if `None`.
+    pub fn samples(self) -> Option<u32> {
+        match self {
+            Self::Sampled => None,
+            Self::Grid(side) => Some(side * side),
+            Self::Adaptive | Self::High | Self::Paper => Some(1),
+        }
+    }
+}
+
 /// An output variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Aov {
@@ -231,7 +274,7 @@ pub struct Settings {
     /// Samples before any estimate; 0 leaves it to the threshold.
     #[serde(default)]
     pub min_samples: u32,
-    /// Value of the colour pass that is shown as white, for the estimate; 0 takes it from a small picture of the view.
+    /// Value of the colour pass that is shown as white, for the estimate and for adaptive antialiasing; 0 takes it from a small picture of the view.
     #[serde(default)]
     pub noise_white: f32,
     /// Seed of the random numbers.
@@ -252,6 +295,9 @@ pub struct Settings {
     /// The mist pass.
     #[serde(default)]
     pub mist: Mist,
+    /// Where in a pixel samples lie; but for [`Antialiasing::Sampled`] it takes the number of samples that it tells and no filter.
+    #[serde(default)]
+    pub antialiasing: Antialiasing,
     /// Pixel filter.
     pub filter: Filter,
     /// Width of the filter in pixels.
@@ -306,6 +352,7 @@ impl Default for Settings {
             kind_bounces: all_bounces(),
             background: Background::default(),
             mist: Mist::default(),
+            antialiasing: Antialiasing::default(),
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,
             clamp_direct: 0.0,
@@ -320,6 +367,11 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Sets where in a pixel samples lie, and how many there are where that follows.
+    pub fn set_antialiasing(&mut self, antialiasing: Antialiasing) {
+        self.antialiasing = antialiasing;
+        self.samples = antialiasing.samples().unwrap_or(self.samples);
+    }
     /// The samples that are rendered.
     pub fn range(&self) -> Range<u32> {
         self.sample_range.map_or(0..self.samples, |[first, end]| first..end)

@@ -445,6 +445,7 @@ class Scene:
         max_glossy_bounces: int | None = ...,
         max_transmission_bounces: int | None = ...,
         max_transparent_bounces: int | None = ...,
+        antialiasing: str | int | None = ...,
         filter: str | None = ...,
         filter_width: float | None = ...,
         clamp_direct: float | None = ...,

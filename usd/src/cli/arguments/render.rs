@@ -2,7 +2,7 @@
 
 use super::{CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
-use gonio::scene::MOST_LIGHT_SAMPLES;
+use gonio::scene::{Antialiasing, MOST_LIGHT_SAMPLES};
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -44,6 +44,9 @@ pub(crate) struct RenderOptions {
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
     #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     pub(crate) light_samples: u32,
+    /// Where in a pixel samples lie: 'adaptive' follows edges and shadows with about two rays a pixel, 'high' with more of them, 'paper' by one threshold; a number from 1 to 32 is a regular grid of so many places each way. It tells the number of samples and takes no filter; all but grids want --integrator whitted.
+    #[arg(long, value_name = "adaptive|high|paper|GRID", value_parser = antialiasing, conflicts_with_all = ["spp", "filter", "filter_width"])]
+    pub(crate) antialiasing: Option<Antialiasing>,
     /// The pixel filter.
     #[arg(long, value_enum, default_value_t = FilterArgument::BlackmanHarris)]
     pub(crate) filter: FilterArgument,
@@ -92,6 +95,10 @@ impl RenderOptions {
     pub(crate) fn inputs(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         [&mut self.stage.stage].into_iter().chain(&mut self.stage.session_layer).chain(&mut self.daylight.weather)
     }
+}
+
+fn antialiasing(text: &str) -> Result<Antialiasing, String> {
+    Antialiasing::by_name(text).ok_or_else(|| "expected adaptive, high, paper, or a number of places from 1 to 32".to_owned())
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -4,9 +4,9 @@ use super::super::{
     closure::{for_mixes, share, weight},
     kernels,
     material::{Mix, Shading, Tables},
-    path::Transport,
     state::{Columns3, Workspace, gather3},
     surface::ChunkSource,
+    transport::Transport,
 };
 use crate::{accel::NONE, graph::CHUNK};
 use gonio_simd::{Column, Lanes, PADDING, Rgb, dispatch};

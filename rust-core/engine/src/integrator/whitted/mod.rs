@@ -15,10 +15,11 @@ use super::{
     catcher,
     intersect::{intersect, sort_by_material},
     measure::measure,
-    path::{MOST_DEPTH, SampleContext, Tracer, Transport},
+    path::{MOST_DEPTH, SampleContext, Tracer},
     runs::Runs,
     shadow::trace_shadows,
     state::{Paths, Workspace},
+    transport::Transport,
 };
 use crate::{bsdf::Way, sampler::Sampler};
 use closures::Undivided;

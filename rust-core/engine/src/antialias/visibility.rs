@@ -1,0 +1,168 @@
+//! The visibility map: which triangles the camera sees at several times the picture's resolution, and where those of one pixel part.
+//!
+//! The paper rasterises it. Here the tile's pixels are packets of the traversal, sixteen rays within one pixel, which meet nearly the same nodes; so every lens
+//! is mapped, instances need no unfolding, and no triangle is touched that nobody sees.
+
+use crate::{
+    accel::NONE,
+    geometry::GeometryTable,
+    integrator::{BATCH, Tables, Tracer, Workspace},
+};
+use gonio_simd::{Lanes, dispatch};
+
+/// Cosine between normals from which on surfaces count as one.
+const LEAST_COSINE: f32 = 0.9;
+/// Share of the distance by which surfaces of different objects may lie before or behind one another, and those of one out of the other's plane.
+const MOST_DEPTH: f32 = 0.05;
+
+/// What the rays of some pixels have met.
+#[derive(Debug, Default)]
+pub(super) struct VisibilityMap {
+    places: [Vec<f32>; 2],
+    slots: Vec<u32>,
+    met: Met,
+}
+
+/// Hits by slot, and the surfaces at those of pixels that show several triangles.
+#[derive(Debug, Default)]
+struct Met {
+    instance: Vec<u32>,
+    primitive: Vec<u32>,
+    t: Vec<f32>,
+    barycentric: [Vec<f32>; 2],
+    /// Slots whose surfaces are looked at, pixel after pixel.
+    chosen: Vec<u32>,
+    normal: [Vec<f32>; 3],
+    position: [Vec<f32>; 3],
+}
+
+impl VisibilityMap {
+    /// Maps some pixels of a tile that starts at `min`, `side` × `side` rays each, and tells `seam` those that show surfaces which part.
+    pub(super) fn look(
+        &mut self,
+        tracer: &Tracer<'_>,
+        min: [u32; 2],
+        pixels: &[[usize; 2]],
+        side: u32,
+        ws: &mut Workspace,
+        mut seam: impl FnMut([usize; 2]),
+    ) {
+        let rays = (side * side) as usize;
+        for pixels in pixels.chunks(BATCH / rays) {
+            self.place(min, pixels, side);
+            tracer.first_hits_at([&self.places[0], &self.places[1]], &self.slots, ws);
+            self.met.take(pixels.len() * rays, ws);
+            self.part(tracer, pixels, rays, &mut seam);
+        }
+    }
+
+    /// Lists the rays of some pixels.
+    fn place(&mut self, min: [u32; 2], pixels: &[[usize; 2]], side: u32) {
+        self.places.iter_mut().for_each(Vec::clear);
+        let step = |i: u32| (i as f32 + 0.5) / side as f32;
+        for pixel in pixels {
+            for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
+                self.places[0].push((min[0] + pixel[0] as u32) as f32 + step(x));
+                self.places[1].push((min[1] + pixel[1] as u32) as f32 + step(y));
+            }
+        }
+        self.slots.clear();
+        self.slots.extend(0..self.places[0].len() as u32);
+    }
+
+    /// Tells the pixels whose surfaces part.
+    fn part(&mut self, tracer: &Tracer<'_>, pixels: &[[usize; 2]], rays: usize, seam: &mut impl FnMut([usize; 2])) {
+        let met = &mut self.met;
+        let first_light = tracer.tables.first_light_instance;
+        met.chosen.clear();
+        let mut waiting = Vec::new();
+        for (number, pixel) in pixels.iter().enumerate() {
+            let slots = number * rays..(number + 1) * rays;
+            if !met.several(slots.clone()) {
+                continue;
+            }
+            if met.instance[slots.clone()].iter().any(|instance| *instance >= first_light) {
+                // Something against nothing, or against a light.
+                seam(*pixel);
+            } else {
+                met.chosen.extend(slots.map(|slot| slot as u32));
+                waiting.push(*pixel);
+            }
+        }
+        met.look_up(tracer);
+        let parting = waiting.into_iter().enumerate().filter(|(number, _)| met.parts(number * rays..(number + 1) * rays));
+        parting.for_each(|(_, pixel)| seam(pixel));
+    }
+}
+
+impl Met {
+    /// Takes the hits of the workspace's rays.
+    fn take(&mut self, rays: usize, ws: &Workspace) {
+        let (slots, hits) = ws.hits_by_slot();
+        [&mut self.instance, &mut self.primitive].into_iter().for_each(|column| {
+            column.clear();
+            column.resize(rays, NONE);
+        });
+        [&mut self.t].into_iter().chain(&mut self.barycentric).for_each(|column| column.resize(rays, 0.0));
+        for (ray, slot) in slots.iter().enumerate() {
+            let slot = *slot as usize;
+            (self.instance[slot], self.primitive[slot], self.t[slot]) = (hits.instance[ray], hits.primitive[ray], hits.t[ray]);
+            (self.barycentric[0][slot], self.barycentric[1][slot]) = (hits.u[ray], hits.v[ray]);
+        }
+    }
+
+    /// Whether some slots show more than one triangle.
+    fn several(&self, mut slots: std::ops::Range<usize>) -> bool {
+        let first = slots.start;
+        slots.any(|slot| self.instance[slot] != self.instance[first] || self.primitive[slot] != self.primitive[first])
+    }
+
+    /// Finds normals and positions of the chosen hits.
+    fn look_up(&mut self, tracer: &Tracer<'_>) {
+        let room = gonio_simd::padded(self.chosen.len());
+        self.chosen.resize(room, 0);
+        self.normal.iter_mut().chain(&mut self.position).for_each(|column| column.resize(room, 0.0));
+        dispatch!(tracer.transport.execution, l => surfaces(l, tracer.tables, self));
+    }
+
+    /// Whether the chosen hits of one pixel lie on surfaces that part: each is held against the first and against the one before.
+    fn parts(&self, chosen: std::ops::Range<usize>) -> bool {
+        let first = chosen.start;
+        (first + 1..chosen.end).any(|place| self.part_from(first, place) || self.part_from(place - 1, place))
+    }
+
+    fn part_from(&self, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|place| self.chosen[place] as usize);
+        if self.instance[a] == self.instance[b] && self.primitive[a] == self.primitive[b] {
+            return false;
+        }
+        let dot = |v: [f32; 3], w: [f32; 3]| v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+        let at = |columns: &[Vec<f32>; 3], place: usize| [columns[0][place], columns[1][place], columns[2][place]];
+        let (normal, position) = (at(&self.normal, one), at(&self.position, one));
+        if dot(normal, at(&self.normal, other)) < LEAST_COSINE {
+            return true;
+        }
+        let least = self.t[a].min(self.t[b]) * MOST_DEPTH;
+        if self.instance[a] != self.instance[b] {
+            return (self.t[a] - self.t[b]).abs() > least;
+        }
+        let to = at(&self.position, other);
+        dot(normal, [to[0] - position[0], to[1] - position[1], to[2] - position[2]]).abs() > least
+    }
+}
+
+/// Normals and positions of the chosen hits, all of which are on meshes.
+#[inline(always)]
+fn surfaces<L: Lanes>(l: L, tables: &Tables, met: &mut Met) {
+    let geometry: &GeometryTable = &tables.geometry;
+    for at in (0..met.chosen.len()).step_by(L::COUNT) {
+        let slot = l.load_integers(&met.chosen, at);
+        let (instance, primitive) = (l.gather_integers(&met.instance, slot), l.gather_integers(&met.primitive, slot));
+        let [u, v] = [0, 1].map(|i| l.gather(&met.barycentric[i], slot));
+        let point = geometry.surface_point(l, &geometry.hit_lanes(l, instance, primitive, u, v));
+        let [x, y, z] = &mut met.normal;
+        point.geometric_normal.store([x, y, z], at);
+        let [x, y, z] = &mut met.position;
+        point.position.store([x, y, z], at);
+    }
+}
