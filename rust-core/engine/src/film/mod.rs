@@ -97,14 +97,14 @@ impl Film {
     }
 
     /// Adds a block to a tile, and gives what the tile is then; blocks that come early wait for those before them. `white` is the colour that is
-    /// shown as white, by which noise is measured. `ready` is told the tile's samples when there are more, in the order in which they came.
-    pub(crate) fn add(&self, tile: usize, number: u32, block: Block, white: f32, ready: impl FnOnce(u32)) -> TileState {
+    /// shown as white, by which noise is measured. `ready` is called when the tile has more samples.
+    pub(crate) fn add(&self, tile: usize, number: u32, block: Block, white: f32, ready: impl FnOnce()) -> TileState {
         let mut film = self.tile(tile);
         let before = film.state();
         film.add(number, block, &self.plan, white);
         let after = film.state();
         if after.next > before.next {
-            ready(after.samples);
+            ready();
         }
         after
     }

@@ -35,7 +35,7 @@ use std::{
 pub struct Render {
     shared: Arc<Shared>,
     workers: Vec<JoinHandle<()>>,
-    ready: crossbeam_channel::Receiver<TileReady>,
+    ready: crossbeam_channel::Receiver<usize>,
 }
 
 /// What host and workers share.
@@ -48,6 +48,8 @@ pub(crate) struct Shared {
     pub(crate) learned: OnceLock<Learned>,
     pub(crate) film: Film,
     pub(crate) schedule: Schedule,
+    /// Tiles that have news for the host, which it has not taken yet.
+    pub(crate) news: Vec<AtomicBool>,
     pub(crate) cancel: AtomicBool,
     pub(crate) failure: std::sync::Mutex<Option<String>>,
     pub(crate) statistics: std::sync::Mutex<Statistics>,
@@ -88,6 +90,7 @@ impl Render {
         let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
         let schedule = Schedule::new(tiles, settings);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
+        let tiles = film.tile_count();
         let shared = Arc::new(Shared {
             scene,
             source,
@@ -95,11 +98,12 @@ impl Render {
             learned: OnceLock::new(),
             film,
             schedule,
+            news: (0..tiles).map(|_| AtomicBool::new(false)).collect(),
             cancel: AtomicBool::new(false),
             failure: std::sync::Mutex::new(None),
             statistics: std::sync::Mutex::default(),
         });
-        let (send, ready) = crossbeam_channel::bounded(shared.film.tile_count().max(1) * 2);
+        let (send, ready) = crossbeam_channel::bounded(tiles.max(1));
         let spawn = |_| {
             let (shared, send) = (shared.clone(), send.clone());
             std::thread::spawn(move || worker::work(&shared, &send))
@@ -110,7 +114,10 @@ impl Render {
 
     /// The next tile with new samples; `None` when the time is out or the render has ended (see [`Render::is_finished`]).
     pub fn next_tile(&self, timeout: Duration) -> Option<TileReady> {
-        self.ready.recv_timeout(timeout).ok()
+        let tile = self.ready.recv_timeout(timeout).ok()?;
+        // From here on more news are sent again, so that none are missed.
+        self.shared.news[tile].store(false, Ordering::Release);
+        Some(TileReady { tile, samples: self.shared.film.state(tile).samples })
     }
 
     /// Whether all workers have ended.

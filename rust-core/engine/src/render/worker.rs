@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Learned, Shared, TileReady, learn::learn, meter::meter, schedule::Work, source::Source};
+use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source::Source};
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     film::Block,
@@ -21,7 +21,7 @@ struct Room {
 }
 
 /// Works until nothing is left, the render is cancelled, or something fails.
-pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
+pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
     let result = catch_unwind(AssertUnwindSafe(|| {
         let mut room = Room::default();
         while let Some(work) = shared.schedule.take(&|| shared.cancel.load(Ordering::Relaxed)) {
@@ -36,7 +36,7 @@ pub(super) fn work(shared: &Shared, ready: &Sender<TileReady>) {
 }
 
 /// Traces a block, adds it and tells the host; nothing of it remains if it was cancelled on the way.
-fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<TileReady>) {
+fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usize>) {
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
@@ -62,9 +62,11 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<Til
     let block = Block::new(&shared.film, &workspace.first_hit, zones, origin);
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
-    let state = shared.film.add(work.tile, work.block, block, white, |samples| {
-        // A slow host misses intermediate news of a tile, never its data.
-        let _ = ready.try_send(TileReady { tile: work.tile, samples });
+    let state = shared.film.add(work.tile, work.block, block, white, || {
+        // A slow host finds a tile's news once, with all that has come since.
+        if !shared.news[work.tile].swap(true, Ordering::AcqRel) {
+            let _ = ready.try_send(work.tile);
+        }
     });
     shared.schedule.decided(work.tile, state);
 }
