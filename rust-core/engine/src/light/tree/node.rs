@@ -183,7 +183,6 @@ impl<L: Lanes> Node<L> {
     /// From the point to the box, along each axis.
     #[inline(always)]
     fn gap(&self, towards: Vec3<L>) -> Vec3<L> {
-        let beyond = |way: F<L>, half: F<L>| (way.abs() - half).max(0.0);
         Vec3::new(beyond(towards.x, self.half.x), beyond(towards.y, self.half.y), beyond(towards.z, self.half.z))
     }
     /// How far the box reaches along a direction from its middle.
@@ -191,6 +190,12 @@ impl<L: Lanes> Node<L> {
     fn reach(&self, direction: Vec3<L>) -> F<L> {
         direction.x.abs() * self.half.x + direction.y.abs() * self.half.y + direction.z.abs() * self.half.z
     }
+}
+
+/// How much farther than half an edge it is to the box's middle.
+#[inline(always)]
+fn beyond<L: Lanes>(way: F<L>, half: F<L>) -> F<L> {
+    (way.abs() - half).max(0.0)
 }
 
 /// About the mean of what is above zero of values spread evenly about `middle`, zero only if none is.
