@@ -179,9 +179,9 @@ impl TileFilm {
 }
 
 impl Block {
-    /// A block from what a worker gathered in some zones; positions are moved by `origin` back to world space, radiance is multiplied by
-    /// `exposure` in the colour pass alone.
-    pub(crate) fn new(film: &Film, gathered: &FirstHit, zones: u64, origin: [f64; 3]) -> Self {
+    /// A block from what a worker gathered in some zones, whose batches were packed as for the zones `packed`; positions are moved by `origin` back
+    /// to world space, radiance is multiplied by `exposure` in the colour pass alone.
+    pub(crate) fn new(film: &Film, gathered: &FirstHit, zones: u64, packed: u64, origin: [f64; 3]) -> Self {
         let (layout, exposure) = (&film.layout, film.exposure);
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
@@ -192,10 +192,10 @@ impl Block {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
         for (channel, sums) in sums.chunks_exact_mut(BATCH).enumerate() {
-            unpack(zones, sums, film.plan.index_channels.contains(&channel));
+            unpack(packed, sums, film.plan.index_channels.contains(&channel));
         }
         let mut luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
-        unpack(zones, &mut luminance, false);
+        unpack(packed, &mut luminance, false);
         Self { sums, zones, luminance }
     }
 }

@@ -46,7 +46,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let workspace = &mut room.workspace;
     workspace.prepare(tables, &tracer.transport, shared.film.layout.shows_lights());
     let area = shared.film.tile_area(work.tile);
-    match shared.source.rule() {
+    let rule = shared.source.rule();
+    match rule {
         Some(rule) => antialias(shared, &tracer, rule, area, white, room),
         None => Runs::batches(zones, work.samples.clone())
             .take_while(|_| !cancelled())
@@ -59,7 +60,9 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let statistics = std::mem::take(&mut workspace.statistics);
     shared.statistics.lock().unwrap_or_else(PoisonError::into_inner).add(&statistics);
     let origin = shared.scene.tables.origin;
-    let block = Block::new(&shared.film, &workspace.first_hit, zones, origin);
+    // Where samples follow discontinuities every pixel has its own slot.
+    let packed = if rule.is_some() { u64::MAX } else { zones };
+    let block = Block::new(&shared.film, &workspace.first_hit, zones, packed, origin);
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
     let state = shared.film.add(work.tile, work.block, block, white, || {
