@@ -2,7 +2,7 @@
 
 use super::choice::hall;
 use super::harness::{NO_IMAGES, draw_known, estimate, numbers};
-use crate::light::{Arrival, KnownLights, LightRecord, LightTable};
+use crate::light::{Arrival, KnownLights, LightKind, LightRecord, LightTable};
 use gonio_simd::Execution;
 
 const UP: [f32; 3] = [0.0, 0.0, 1.0];
@@ -69,6 +69,21 @@ fn draws_in_vain_are_given_up_and_change_no_light() {
     let expected: f64 = lamps.iter().map(lit).sum();
     let (mean, error) = estimate(&drawn, UP.map(f64::from), count);
     assert!((mean[1] - expected).abs() < 4.9 * error[1] + 1e-3 * expected, "{} ± {} for {expected}", mean[1], error[1]);
+}
+
+/// A sun has no leaf in the tree; where it alone has arrived, something has.
+#[test]
+fn light_from_far_is_no_draw_in_vain() {
+    let mut lights = hall(20);
+    lights.push(LightRecord { radiance: [10.0; 3], ..LightRecord::new(LightKind::Distant) });
+    let sun = Arrival { position: HERE, distance: 1e6, light: Some(lights.len() as u32 - 1), value: 1.0 };
+    let lamp = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0 };
+    let table = LightTable::build(&lights, NO_IMAGES, &[]);
+    let known = table.learn(&[vec![sun; 200], vec![lamp]].concat()).expect("something has arrived");
+    let count = 1 << 14;
+    let drawn = draw_known(Execution::best(), &table, Some(&known), HERE, UP, &numbers(59, count));
+    let going_on = (0..count).filter(|i| drawn.pdf[*i] > 0.0).count();
+    assert!(going_on as f64 > 0.95 * count as f64, "{going_on} of {count}");
 }
 
 #[test]

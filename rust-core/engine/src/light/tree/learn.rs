@@ -36,6 +36,9 @@ const DOUBTS: f32 = 2.0;
 /// cells an eighth of a room's surface was.
 const SPARSE: usize = 8;
 
+/// In the place of a leaf: a light outside the tree, at infinity, and behind it [`NONE`] for none at all.
+const FAR: u32 = NONE - 1;
+
 /// An arrival in its cell.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
@@ -48,8 +51,9 @@ struct Entry {
 impl KnownLights {
     /// What arrivals tell, and draws in vain; none if no light of the tree arrived anywhere.
     pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
-        let leaf = |arrival: &Arrival| arrival.light.and_then(|light| tree.leaves.get(light as usize).copied()).unwrap_or(NONE);
-        let mut ways: Vec<f32> = arrivals.iter().filter(|arrival| leaf(arrival) != NONE).map(|arrival| arrival.distance).collect();
+        let of_light = |light: u32| tree.leaves.get(light as usize).map_or(FAR, |leaf| (*leaf).min(FAR));
+        let leaf = |arrival: &Arrival| arrival.light.map_or(NONE, of_light);
+        let mut ways: Vec<f32> = arrivals.iter().filter(|arrival| leaf(arrival) < FAR).map(|arrival| arrival.distance).collect();
         if ways.is_empty() {
             return None;
         }
@@ -92,7 +96,7 @@ fn fill(entries: &[Entry], words: &mut [f32]) {
     // Draws in vain stand behind all leaves.
     let arrived = &entries[..entries.partition_point(|entry| entry.leaf != NONE)];
     let by_light = || arrived.chunk_by(|a, b| a.leaf == b.leaf);
-    let mut lights: Vec<(u32, f32)> = by_light().map(|entries| (entries[0].leaf, sum(entries))).collect();
+    let mut lights: Vec<(u32, f32)> = by_light().map(|entries| (entries[0].leaf, sum(entries))).filter(|light| light.0 != FAR).collect();
     lights.sort_by(|a, b| b.1.total_cmp(&a.1));
     lights.truncate(MOST);
     let of_known = lights.iter().map(|light| light.1).sum::<f32>();
