@@ -4,7 +4,7 @@ use gonio::scene::{Aov, DomeFormat, Emission, Filter, Integrator, Light, LightSh
 use gonio_simd::Execution;
 use gonio_tests::{
     picture::{compiled, mean, render, settings},
-    scenes::{add_quad, camera_from_above, facing_down, floor, layered, light, varied},
+    scenes::{add_quad, camera_from_above, cut_out, facing_down, floor, layered, light, varied},
 };
 use std::f64::consts::PI;
 
@@ -53,17 +53,7 @@ fn clear_things_in_a_furnace_vanish() {
 
 #[test]
 fn what_opacity_leaves_open_counts_by_its_share() {
-    let mut scene = Scene::default();
-    add_quad(
-        &mut scene,
-        [-5.0, 0.0, 5.0],
-        [10.0, 0.0, 0.0],
-        [0.0, 0.0, -10.0],
-        layered([0.5; 3], &[("geometry_opacity", 0.3), ("specular_weight", 0.0)]),
-    );
-    scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 1.0));
-    scene.lights.push(light(LightShape::Point, facing_down([0.0, 2.0, 0.0]), [1.0; 3]));
-    let image = render(&compiled(&scene), &whitted(16), Execution::best());
+    let image = render(&compiled(&cut_out(0.3)), &whitted(16), Execution::best());
     let coverage = mean(&image, Aov::Color, 3);
     assert!((coverage - 0.3).abs() < 1e-5, "{coverage}");
 }

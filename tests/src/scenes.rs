@@ -10,6 +10,16 @@ pub fn add_quad(scene: &mut Scene, corner: [f32; 3], u: [f32; 3], v: [f32; 3], m
     add_triangles(scene, &points, &[[0, 1, 2], [0, 2, 3]], material);
 }
 
+/// A floor of 10 m by 10 m that is there by a share, under a point light, seen from 5 m above.
+pub fn cut_out(opacity: f32) -> Scene {
+    let mut scene = Scene::default();
+    let material = layered([0.5; 3], &[("geometry_opacity", opacity), ("specular_weight", 0.0)]);
+    add_quad(&mut scene, [-5.0, 0.0, 5.0], [10.0, 0.0, 0.0], [0.0, 0.0, -10.0], material);
+    scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 1.0));
+    scene.lights.push(light(LightShape::Point, facing_down([0.0, 2.0, 0.0]), [1.0; 3]));
+    scene
+}
+
 /// Adds a mesh with one material at the world's origin.
 pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]], material: Material) {
     let mesh = scene.add_mesh(Mesh { points: Arc::from(points), triangles: Arc::from(triangles), ..Mesh::default() });

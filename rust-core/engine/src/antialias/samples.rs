@@ -1,6 +1,6 @@
 //! Traced values, and what is compared of them.
 
-use crate::integrator::FirstHit;
+use crate::{colour::linear_to_srgb, integrator::FirstHit};
 use gonio_simd::{Column, Execution, F, Lanes, Rgb, dispatch, padded};
 
 /// Channels of a value: red, green, blue and coverage.
@@ -67,11 +67,8 @@ fn show<L: Lanes>(l: L, samples: &mut Samples, count: usize, scale: f32) {
 #[inline(always)]
 fn display<L: Lanes>(x: F<L>) -> F<L> {
     const SLOPE: f32 = 1.055 / 2.4;
-    let l = x.lanes();
-    let curve = x.clamp(0.003_130_8, 1.0).pow(l.f(1.0 / 2.4)) * 1.055 - 0.055;
-    let dark = x.max(0.0) * 12.92;
     let bright = x.max(1.0).ln() * SLOPE + 1.0;
-    x.le(0.003_130_8).select(dark, x.gt(1.0).select(bright, curve))
+    x.gt(1.0).select(bright, linear_to_srgb(x.saturate()))
 }
 
 #[cfg(test)]

@@ -102,6 +102,25 @@ pub struct BsdfSample<L: Lanes> {
     pub roughness: F<L>,
 }
 
+impl<L: Lanes> BsdfSample<L> {
+    /// No lobe was chosen yet.
+    #[inline(always)]
+    fn nothing(l: L) -> Self {
+        let nothing = l.m(false);
+        Self {
+            wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
+            value: Rgb::zero(l),
+            pdf: l.f(0.0),
+            delta: nothing,
+            transmitted: nothing,
+            straight: nothing,
+            entered: nothing,
+            diffuse: nothing,
+            roughness: l.f(1.0),
+        }
+    }
+}
+
 /// What an evaluation is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Asked {
@@ -354,17 +373,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     #[inline(always)]
     pub fn sample(&self, l: L, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
         let nothing = l.m(false);
-        let mut sample = BsdfSample {
-            wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
-            value: Rgb::zero(l),
-            pdf: l.f(0.0),
-            delta: nothing,
-            transmitted: nothing,
-            straight: nothing,
-            entered: nothing,
-            diffuse: nothing,
-            roughness: l.f(1.0),
-        };
+        let mut sample = BsdfSample::nothing(l);
         let mut point = u[0] * self.total;
         let (mut passed, mut found) = (nothing, nothing);
         for slot in self.slots[..self.count].iter().flatten() {

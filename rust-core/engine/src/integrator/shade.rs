@@ -13,7 +13,7 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::SampleContext,
     scatter::{add_light, code_of},
-    state::{Workspace, flag, gather3, load3},
+    state::{BATCH, Workspace, flag, gather3, load3},
     transport::Transport,
     whitted,
 };
@@ -190,15 +190,7 @@ fn shade_lanes<L: Lanes>(
         point.alive
     };
     let present = show(stage, material, point, lobes, present, at, ws);
-    let [smooth, only_delta] = lobes.smoothness(l);
-    point.only_delta = only_delta;
-    guides::record(stage, point, lobes, present, ws);
-    // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
-    let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
-    if transport.measure {
-        let measured = going_on.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(super::state::BATCH as u32);
-        append_measure(point, measured, &mut ws.measure);
-    }
+    let [smooth, going_on] = meet(stage, point, lobes, present, ws);
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if smooth.any() && !tables.lights.is_empty() {
         let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
@@ -207,6 +199,28 @@ fn shade_lanes<L: Lanes>(
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
     scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], [going_on, ending], ws);
+}
+
+/// Tells mirrors from other surfaces, which guide denoisers and are measured; gives where lights can be sampled, and which paths go on.
+#[inline(always)]
+pub(super) fn meet<L: Lanes>(
+    stage: &Stage<'_, L>,
+    point: &mut Point<L>,
+    lobes: &Lobes<'_, L>,
+    present: M<L>,
+    ws: &mut Workspace,
+) -> [M<L>; 2] {
+    let transport = stage.transport;
+    let [smooth, only_delta] = lobes.smoothness(stage.l);
+    point.only_delta = only_delta;
+    guides::record(stage, point, lobes, present, ws);
+    // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
+    let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
+    if transport.measure {
+        let measured = going_on.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(BATCH as u32);
+        append_measure(point, measured, &mut ws.measure);
+    }
+    [smooth, going_on]
 }
 
 /// Adds what the surface emits and keeps what the camera sees of it; gives what is there, holdouts left out.

@@ -59,18 +59,7 @@ impl<L: Lanes> Lobes<'_, L> {
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a lobe and a way")]
     fn add(&self, l: L, wo: Vec3<L>, slot: &Slot<'_, L>, side: f32, here: M<L>, way: Way, rays: &mut [SharpRay<L>; Way::ALL.len()]) {
-        let none = l.m(false);
-        let mut sample = BsdfSample {
-            wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
-            value: Rgb::zero(l),
-            pdf: l.f(0.0),
-            delta: none,
-            transmitted: none,
-            straight: none,
-            entered: none,
-            diffuse: none,
-            roughness: l.f(0.0),
-        };
+        let mut sample = BsdfSample::nothing(l);
         let usable = self.choose(l, wo, slot, here, [l.f(side), l.f(0.5), l.f(0.5)], &mut sample);
         let through = matches!(way, Way::Refracted | Way::Straight);
         let own_side = if through { sample.transmitted } else { !sample.transmitted };

@@ -1,6 +1,7 @@
 //! A picture as rows of planes, with margins, and its way there and back.
 
 use super::{Guides, MARGIN};
+use crate::colour::luminance_of_pixel;
 use gonio_simd::padded;
 use rayon::prelude::*;
 
@@ -78,7 +79,7 @@ pub(super) fn light(colour: &[f32], guides: Guides<'_>) -> Rows {
             for (channel, value) in values.into_iter().enumerate() {
                 row[channel * stride + MARGIN + x] = value;
             }
-            row[LUMINANCE * stride + MARGIN + x] = 0.2126 * values[0] + 0.7152 * values[1] + 0.0722 * values[2];
+            row[LUMINANCE * stride + MARGIN + x] = luminance_of_pixel(values);
         }
     });
     rows

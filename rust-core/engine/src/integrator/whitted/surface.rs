@@ -3,11 +3,10 @@
 use super::super::{
     bounce::{straight_left, within},
     direct_light::send,
-    first_surface::append_measure,
-    guides, kernels,
+    kernels,
     material::SurfaceMaterial,
-    shade::{Point, Stage, show, threshold},
-    state::{BATCH, PathLanes, Workspace, event, flag},
+    shade::{Point, Stage, meet, show, threshold},
+    state::{PathLanes, Workspace, event, flag},
 };
 use crate::{
     bsdf::{Lobes, Way},
@@ -48,14 +47,7 @@ pub(in super::super) fn shade_lanes<L: Lanes>(
         present &= part_from_open(material, point, lobes, &mut straight);
     }
     let present = show(stage, material, point, lobes, present, at, ws);
-    let [smooth, only_delta] = lobes.smoothness(l);
-    point.only_delta = only_delta;
-    guides::record(stage, point, lobes, present, ws);
-    let lit = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
-    if transport.measure {
-        let measured = lit.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(BATCH as u32);
-        append_measure(point, measured, &mut ws.measure);
-    }
+    let [smooth, lit] = meet(stage, point, lobes, present, ws);
     if (smooth & lit).any() {
         light(stage, point, wo, lobes, draws, lit & smooth, ws);
     }

@@ -1,6 +1,6 @@
 //! Tone-mapped light for hosts that add the display's curve themselves.
 
-use super::{CHUNK, DisplaySpace, Look, ToneCurve, curve::operated, shown};
+use super::{CHUNK, DisplaySpace, Look, ToneCurve, curve::operated, rgba, shown};
 use crate::film::Image;
 use gonio_simd::{Execution, Lanes, Rgb, dispatch};
 
@@ -19,7 +19,7 @@ pub fn display_linear(image: &Image, look: &Look, execution: Execution) -> Vec<f
 #[inline(always)]
 fn linear_batch<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve, [red, green, blue]: &mut [[f32; CHUNK]; 3]) {
     for at in (0..values.len() / 4).step_by(L::COUNT) {
-        let [r, g, b, _] = l.gather_quads(values, (l.iota() + at as u32) << 2);
+        let [r, g, b, _] = rgba(l, values, at);
         let around = if around.is_empty() { None } else { Some(l.load(around, at)) };
         operated(Rgb::new(r, g, b), around, curve).saturate().store([red, green, blue], at);
     }

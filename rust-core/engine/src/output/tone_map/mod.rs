@@ -145,11 +145,17 @@ fn words_batch<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve
 /// Display values and alpha of a register of pixels.
 #[inline(always)]
 fn pixels<L: Lanes>(l: L, values: &[f32], around: &[f32], curve: &ToneCurve, at: usize) -> ([F<L>; 3], F<L>) {
-    let whole = 4 * (at + L::COUNT) <= values.len();
-    let [r, g, b, alpha] = if whole { l.load_quads(values, at) } else { l.gather_quads(values, (l.iota() + at as u32) << 2) };
+    let [r, g, b, alpha] = rgba(l, values, at);
     let around = if around.is_empty() { None } else { Some(l.load(around, at)) };
     let Rgb { r, g, b } = map_lanes(Rgb::new(r, g, b), around, curve);
     ([r, g, b], alpha.saturate())
+}
+
+/// A register of pixels; beyond the last one it is again there.
+#[inline(always)]
+fn rgba<L: Lanes>(l: L, values: &[f32], at: usize) -> [F<L>; 4] {
+    let whole = 4 * (at + L::COUNT) <= values.len();
+    if whole { l.load_quads(values, at) } else { l.gather_quads(values, (l.iota() + at as u32) << 2) }
 }
 
 /// The nearest of so many steps.
