@@ -3,14 +3,20 @@
 /// Has the cache fetch an item that is about to be read; past the end nothing happens.
 #[inline(always)]
 pub fn prefetch<T>(items: &[T], index: usize) {
-    #[cfg(target_arch = "x86_64")]
     if let Some(item) = items.get(index) {
-        for line in (0..size_of::<T>()).step_by(64) {
-            let place = core::ptr::from_ref(item).cast::<i8>().wrapping_add(line);
-            // SAFETY: a hint reads nothing, and `place` is within the item.
-            unsafe { core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(place) };
-        }
+        prefetch_at(core::ptr::from_ref(item).addr(), size_of::<T>());
+    }
+}
+
+/// Has the cache fetch what is at an address, whatever it is: all lines of 64 bytes that begin within `size` bytes.
+#[inline(always)]
+pub fn prefetch_at(address: usize, size: usize) {
+    #[cfg(target_arch = "x86_64")]
+    for line in (0..size).step_by(64) {
+        let place = core::ptr::without_provenance::<i8>(address.wrapping_add(line));
+        // SAFETY: a hint reads nothing, and no address is wrong.
+        unsafe { core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(place) };
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (items, index);
+    let _ = (address, size);
 }

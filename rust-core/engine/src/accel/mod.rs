@@ -1,7 +1,7 @@
 //! Ray tracing acceleration: two levels of 8-wide bounding volume hierarchies.
 //!
-//! A [`Blas`] holds the triangles of one mesh, a [`SceneBvh`] the instances of many. Incoherent rays walk the tree one by one, eight boxes
-//! or triangles at a time; coherent rays walk it in packets of sixteen. All walks are watertight and find the same nearest hit: boxes are
+//! A [`Blas`] holds the triangles of one mesh, a [`SceneBvh`] the instances of many. Incoherent rays walk the tree each its own
+//! way, eight boxes or triangles at a time, many of them under way at once (`stream.rs`); coherent rays walk it in packets of sixteen. All walks are watertight and find the same nearest hit: boxes are
 //! widened by a bound on the rounding errors (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong
 //! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
 
@@ -10,6 +10,7 @@ mod block_tests;
 mod build;
 mod collapse;
 mod flat_tree;
+mod flight;
 mod instance;
 mod instance_walk;
 mod lanes8;
@@ -25,6 +26,7 @@ mod refit;
 mod scalar;
 mod scene_bvh;
 mod shape;
+mod stream;
 #[cfg(test)]
 mod tests;
 mod transform;

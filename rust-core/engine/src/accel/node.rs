@@ -1,5 +1,9 @@
 //! The 8-wide node shared by both levels of the tree.
 
+use super::instance::InstanceRecord;
+use super::triangle_block::TriangleBlock;
+use bytemuck::{Pod, Zeroable};
+
 /// Children of a node, and triangles of a block.
 pub(super) const WIDTH: usize = 8;
 
@@ -9,8 +13,9 @@ pub(super) const MAX_DEPTH: usize = 72;
 /// Entries of a traversal stack, a power of two above `MAX_DEPTH * (WIDTH - 1) + 1`.
 pub(super) const STACK: usize = 512;
 
-/// What a child slot refers to: three bits of kind and 29 bits of index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a child slot refers to, or what waits in a walk: three bits of kind and 29 bits of index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(transparent)]
 pub(super) struct ChildRef(pub(super) u32);
 
 /// Kinds of children; curves, spheres and moving triangles would be further leaf kinds.
@@ -23,7 +28,19 @@ pub(super) enum Kind {
     Triangles = 1,
     /// One instance of the scene.
     Instance = 2,
+    /// The way out of an instance: nothing of its mesh waits any more.
+    Return = 3,
+    /// The end of a ray: nothing waits any more.
+    End = 4,
 }
+
+impl Kind {
+    /// Bytes of what a reference of each kind refers to.
+    pub(super) const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<TriangleBlock>(), size_of::<InstanceRecord>(), 0, 0, 0, 0, 0];
+}
+
+/// Kinds that three bits can tell apart.
+pub(super) const KINDS: usize = 8;
 
 const KIND_SHIFT: u32 = 29;
 const INDEX_MASK: u32 = (1 << KIND_SHIFT) - 1;
@@ -40,6 +57,12 @@ impl ChildRef {
     #[inline(always)]
     pub(super) fn is_inner(self) -> bool {
         self.0 <= INDEX_MASK
+    }
+
+    /// A number below [`KINDS`].
+    #[inline(always)]
+    pub(super) fn kind(self) -> usize {
+        (self.0 >> KIND_SHIFT) as usize % KINDS
     }
 
     #[inline(always)]
@@ -60,13 +83,15 @@ pub(super) const MAX_INDEX: usize = INDEX_MASK as usize;
 ///
 /// Slots are sorted by surface area, smallest first; empty slots come last and hold an empty box, which no ray hits. The inner children of
 /// a node lie next to each other in memory.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// Rows: lowest x, y, z, then highest x, y, z.
     pub(super) bounds: [[f32; WIDTH]; 6],
     /// What lies in each box.
     pub(super) children: [ChildRef; WIDTH],
+    /// Fills the last cache line.
+    pub(super) rest: [u32; WIDTH],
 }
 
 impl Node {
@@ -74,7 +99,14 @@ impl Node {
     pub(super) const EMPTY: Node = Node {
         bounds: [[f32::INFINITY; 8], [f32::INFINITY; 8], [f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8], [-f32::INFINITY; 8]],
         children: [ChildRef::ROOT; WIDTH],
+        rest: [0; WIDTH],
     };
+
+    /// All of it as one row: plane `axis`, slot `slot` at `8 axis + slot`.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> &[f32; 8 * WIDTH] {
+        bytemuck::cast_ref(self)
+    }
 
     pub(super) fn set(&mut self, slot: usize, bounds: &Bounds, child: ChildRef) {
         for axis in 0..3 {

@@ -2,7 +2,6 @@
 
 use super::node::{ChildRef, Node, STACK, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays};
-use super::wide::opposite;
 use fearless_simd::{f32x8, f32x16, prelude::*};
 
 /// Below this many live lanes the rays go on one by one.
@@ -128,6 +127,12 @@ fn push_children<S: Simd, V: PacketVisitor<S>>(
             *top += 1;
         }
     }
+}
+
+/// The row of the planes on the other side.
+#[inline(always)]
+fn opposite(row: usize) -> usize {
+    if row < 3 { row + 3 } else { row - 3 }
 }
 
 /// The slots some ray of the group may meet, farthest (or largest) first, in the low bits of `order`; returns their number.

@@ -29,10 +29,14 @@ pub(super) struct PreparedRay {
     pub(super) near_offset: Padded,
     /// Offsets of the far planes, moved away from the ray's start.
     pub(super) far_offset: Padded,
-    /// Rows of `Node::bounds` with the near planes of x, y, z.
-    pub(super) near_rows: [usize; 3],
-    /// The two lesser axes and the axis of the largest direction component.
-    pub(super) axes: [usize; 3],
+    /// Where the near planes of x, y, z begin among the numbers of a node, and a place of no meaning.
+    pub(super) near_rows: [u32; 4],
+    /// Where the far planes begin.
+    pub(super) far_rows: [u32; 4],
+    /// Where the coordinates along the two lesser axes and the axis of the largest direction component begin among those of a corner.
+    pub(super) axes: [u32; 3],
+    /// The origin in the order of those axes.
+    pub(super) start: [f32; 3],
     /// Slopes of the lesser axes and the reciprocal along the largest.
     pub(super) shear: [f32; 3],
     /// Lower end of the interval.
@@ -46,6 +50,21 @@ pub(super) const SMALLEST_SHARE: f32 = 1.0 / (1u32 << 30) as f32;
 pub(super) const DIRECTION_RANGE: [f32; 2] = [1e-12, 1e12];
 
 impl PreparedRay {
+    /// A ray that is of no use, where there is none yet.
+    pub(super) const NOTHING: PreparedRay = PreparedRay {
+        origin: [0.0; 4],
+        direction: [0.0; 4],
+        reciprocal: [0.0; 4],
+        near_offset: [0.0; 4],
+        far_offset: [0.0; 4],
+        near_rows: [0; 4],
+        far_rows: [0; 4],
+        axes: [0; 3],
+        start: [0.0; 3],
+        shear: [0.0; 3],
+        t_min: 0.0,
+    };
+
     /// `None` when the ray can hit nothing: parts of it are not finite, its direction is zero, or its interval is empty.
     #[inline(always)]
     pub(super) fn new(origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<Self> {
@@ -77,10 +96,17 @@ impl PreparedRay {
             near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
             far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
         }
-        let near_rows = [0, 1, 2].map(|axis| axis + 3 * (direction[axis].to_bits() >> 31) as usize);
+        let (mut near_rows, mut far_rows) = ([0; 4], [0; 4]);
+        for k in 0..4 {
+            let backwards = (direction[k].to_bits() >> 31) * 24;
+            near_rows[k] = 8 * k as u32 + backwards;
+            far_rows[k] = 8 * k as u32 + 24 - backwards;
+        }
         let axes = AXES[major % 3];
         let along = reciprocal[major % 4];
         let shear = [direction[axes[0] % 4] * along, direction[axes[1] % 4] * along, along];
-        PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, axes, shear, t_min }
+        let start = [origin[axes[0] % 4], origin[axes[1] % 4], origin[axes[2] % 4]];
+        let axes = axes.map(|axis| 8 * axis as u32);
+        PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, far_rows, axes, start, shear, t_min }
     }
 }

@@ -5,9 +5,11 @@ use super::lanes8::Lanes8;
 use super::ray::{Hits, NONE, PassedHit, RayBatch};
 use super::scalar::Scalar;
 use super::scene_bvh::SceneBvh;
+use super::stream::{FEWEST_RAYS, Sink, stream, with_pending};
 use super::walk::EMPTY_STACK;
 use super::wide::Wide;
 use fearless_simd::{Level, dispatch};
+use gonio_simd::sorts_fast;
 
 /// A hit as it is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +27,12 @@ impl Hit {
     pub(super) fn miss(t_max: f32) -> Self {
         Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
     }
+
+    /// Nearer than another; equal distances go to the lower numbers, so that the order of the walk does not show.
+    #[inline(always)]
+    pub(super) fn is_before(&self, other: &Hit) -> bool {
+        self.t < other.t || (self.t == other.t && (self.instance, self.primitive) < (other.instance, other.primitive))
+    }
 }
 
 /// Keeps the nearest hit.
@@ -40,8 +48,7 @@ impl Collector for Nearest {
 
     #[inline(always)]
     fn add(&mut self, hit: Hit, _transparent: bool) -> bool {
-        // Equal distances go to the lower numbers, so that the order of the walk does not show.
-        if hit.t < self.0.t || (hit.t == self.0.t && (hit.instance, hit.primitive) < (self.0.instance, self.0.primitive)) {
+        if hit.is_before(&self.0) {
             self.0 = hit;
         }
         false
@@ -122,9 +129,14 @@ impl SceneBvh {
         first_hit_within(Scalar, self, rays, instances, hits);
     }
 
-    /// The nearest hit of every ray, one by one: for incoherent rays.
+    /// The nearest hit of every ray: for incoherent rays.
     pub fn first_hit(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
-        dispatch!(level, simd => first_hit(Wide(simd), self, rays, hits));
+        if streams(level, rays) {
+            hits.resize(rays.len());
+            with_pending(|pending| dispatch!(level, simd => stream::<_, false, _>(simd, self, rays, pending, hits)));
+        } else {
+            dispatch!(level, simd => first_hit(Wide(simd), self, rays, hits));
+        }
     }
 
     /// [`SceneBvh::first_hit`] without vector code.
@@ -134,7 +146,11 @@ impl SceneBvh {
 
     /// `out[i] = 1` when ray `i` hits anything, transparent or not, else 0; `out` is as long as the batch.
     pub fn occluded(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
-        dispatch!(level, simd => occluded(Wide(simd), self, rays, out));
+        if streams(level, rays) {
+            with_pending(|pending| dispatch!(level, simd => stream::<_, true, _>(simd, self, rays, pending, out)));
+        } else {
+            dispatch!(level, simd => occluded(Wide(simd), self, rays, out));
+        }
     }
 
     /// [`SceneBvh::occluded`] without vector code.
@@ -151,6 +167,25 @@ impl SceneBvh {
     /// [`SceneBvh::blocked_or_passed`] without vector code.
     pub fn blocked_or_passed_scalar(&self, rays: &RayBatch, out: &mut [u8], passed: &mut Vec<PassedHit>) {
         blocked_or_passed(Scalar, self, rays, out, passed);
+    }
+}
+
+/// Whether the rays of a batch go together rather than one by one.
+fn streams(level: Level, rays: &RayBatch) -> bool {
+    sorts_fast(level) && rays.len() >= FEWEST_RAYS
+}
+
+impl Sink<false> for Hits {
+    #[inline(always)]
+    fn end(&mut self, i: usize, hit: &Hit) {
+        (self.t[i], self.u[i], self.v[i], self.primitive[i], self.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
+    }
+}
+
+impl Sink<true> for [u8] {
+    #[inline(always)]
+    fn end(&mut self, i: usize, hit: &Hit) {
+        self[i] = u8::from(hit.instance != NONE);
     }
 }
 

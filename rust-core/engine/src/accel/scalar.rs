@@ -4,7 +4,6 @@ use super::lanes8::Lanes8;
 use super::node::{Node, WIDTH};
 use super::prepared::PreparedRay;
 use super::triangle_block::{BlockHits, TriangleBlock};
-use super::wide::opposite;
 
 /// Boxes and triangles in loops over plain numbers.
 #[derive(Clone, Copy)]
@@ -16,8 +15,8 @@ impl Lanes8 for Scalar {
         let mut far = [t_max; WIDTH];
         *near = [ray.t_min; WIDTH];
         for axis in 0..3 {
-            let near_planes = &node.bounds[ray.near_rows[axis]];
-            let far_planes = &node.bounds[opposite(ray.near_rows[axis])];
+            let near_planes = &node.bounds[ray.near_rows[axis] as usize / WIDTH];
+            let far_planes = &node.bounds[ray.far_rows[axis] as usize / WIDTH];
             for slot in 0..WIDTH {
                 let enter = near_planes[slot] * ray.reciprocal[axis] + ray.near_offset[axis];
                 let leave = far_planes[slot] * ray.reciprocal[axis] + ray.far_offset[axis];
@@ -34,7 +33,7 @@ impl Lanes8 for Scalar {
 
     #[inline(always)]
     fn triangles(self, block: &TriangleBlock, ray: &PreparedRay, t_max: f32, hits: &mut BlockHits) -> u32 {
-        let [x_axis, y_axis, z_axis] = ray.axes;
+        let [x_axis, y_axis, z_axis] = ray.axes.map(|axis| axis as usize / WIDTH);
         let mut mask = 0;
         for lane in 0..WIDTH {
             let corner = |k: usize| {

@@ -2,13 +2,14 @@
 
 use super::node::WIDTH;
 use super::ray::NONE;
+use bytemuck::{Pod, Zeroable};
 
 /// Up to eight triangles sorted by their number; unused lanes hold NaN, which no test accepts.
 ///
 /// The intersection test (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013) shears the vertices into the ray's
 /// space, where the three edge functions are differences of two products. Both products round monotonously, so a sign is never wrong, and a
 /// zero is accepted from both sides: a closed mesh has no gap at edges or vertices.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(super) struct TriangleBlock {
     /// `vertices[corner][axis][lane]`.
@@ -28,6 +29,12 @@ impl TriangleBlock {
             }
         }
         self.primitives[lane] = primitive;
+    }
+
+    /// All of it as one row: a coordinate of a corner begins at `24 corner + 8 axis`.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> &[f32; 10 * WIDTH] {
+        bytemuck::cast_ref(self)
     }
 
     /// The number of triangles.

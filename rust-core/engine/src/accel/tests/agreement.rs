@@ -63,6 +63,31 @@ fn packets_find_what_single_rays_find() {
 }
 
 #[test]
+fn rays_that_go_together_find_what_each_finds_alone() {
+    let mut random = Random(14);
+    let (scene, _) = busy_scene(&mut random, 300);
+    let mut rays = OwnedRays::random(&mut random, 3001, 1.0, false);
+    for i in (0..3001).step_by(7) {
+        rays.direction[0][i] = f32::NAN;
+    }
+    // A whole run of rays that hit nothing, longer than what goes together.
+    rays.direction[1][100..160].fill(f32::INFINITY);
+    for level in levels() {
+        let (mut together, mut alone) = (Hits::default(), Hits::default());
+        scene.first_hit(level, &rays.batch(), &mut together);
+        let mut blocked = vec![9; 3001];
+        scene.occluded(level, &rays.batch(), &mut blocked);
+        for i in 0..3001 {
+            scene.first_hit(level, &rays.part(i, i + 1), &mut alone);
+            let [a, b] = [(&together, i), (&alone, 0)]
+                .map(|(hits, i)| ([hits.t[i], hits.u[i], hits.v[i]].map(f32::to_bits), hits.primitive[i], hits.instance[i]));
+            assert_eq!(a, b, "ray {i}, {level:?}");
+            assert_eq!(blocked[i], u8::from(alone.instance[0] != NONE), "ray {i}, {level:?}");
+        }
+    }
+}
+
+#[test]
 fn the_scalar_path_finds_the_same_up_to_rounding() {
     let mut random = Random(12);
     let (scene, _) = busy_scene(&mut random, 300);

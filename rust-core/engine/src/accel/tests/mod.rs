@@ -52,6 +52,18 @@ impl OwnedRays {
         self.mask.push(1);
     }
 
+    /// The rays from `first` up to `end`.
+    fn part(&self, first: usize, end: usize) -> RayBatch<'_> {
+        let all = self.batch();
+        RayBatch {
+            origin: all.origin.map(|x| &x[first..end]),
+            direction: all.direction.map(|x| &x[first..end]),
+            t_min: &all.t_min[first..end],
+            t_max: &all.t_max[first..end],
+            mask: &all.mask[first..end],
+        }
+    }
+
     fn batch(&self) -> RayBatch<'_> {
         RayBatch {
             origin: [&self.origin[0], &self.origin[1], &self.origin[2]],

@@ -1,0 +1,232 @@
+//! One ray of a stream: where it is, and the steps it takes. What it does next is told by a number, so that no step has to branch on it.
+
+use super::blas::Blas;
+use super::instance::Geometry;
+use super::lanes8::Lanes8;
+use super::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
+use super::prepared::PreparedRay;
+use super::query::Hit;
+use super::ray::{NONE, RayBatch};
+use super::scene_bvh::SceneBvh;
+use super::triangle_block::{BlockHits, TriangleBlock};
+use super::wide::{Wide, meets};
+use fearless_simd::prelude::*;
+use gonio_simd::{Sort8, prefetch_at};
+
+/// What may wait in both levels, with the two ways back and the room that a whole register of children takes.
+const PENDING: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 2 + WIDTH;
+
+/// Bits of a distance that the slot takes while children are sorted.
+const SLOT_BITS: u32 = WIDTH as u32 - 1;
+
+/// Children that wait: the bits of their distances, and what they are.
+pub(super) struct Pending {
+    near: [u32; PENDING],
+    child: [u32; PENDING],
+}
+
+impl Pending {
+    /// None.
+    pub(super) const EMPTY: Pending = Pending { near: [0; PENDING], child: [0; PENDING] };
+
+    /// Eight places from `first` on.
+    #[inline(always)]
+    fn places(&mut self, first: usize) -> [&mut [u32; WIDTH]; 2] {
+        let eight = |all| <&mut [u32; WIDTH]>::try_from(all).expect("eight of them");
+        [eight(&mut self.near[first..first + WIDTH]), eight(&mut self.child[first..first + WIDTH])]
+    }
+}
+
+/// A ray under way. `ANY`: the first hit found ends it, whichever that is.
+pub(super) struct Flight<'a, const ANY: bool> {
+    /// In the world, and in the space of the mesh it is in.
+    rays: [PreparedRay; 2],
+    /// 1 in the space of a mesh, else 0.
+    space: usize,
+    nodes: &'a [Node],
+    blocks: &'a [TriangleBlock],
+    /// Where in memory the children of a kind begin, for fetching them.
+    addresses: [usize; KINDS],
+    hit: Hit,
+    /// Nothing beyond is of interest: the bits of the distance, and all of a slot.
+    farthest: u32,
+    /// The number of children that wait.
+    waiting: usize,
+    current: ChildRef,
+    /// The instance that the ray is in.
+    instance: u32,
+    mask: u8,
+    /// The ray's number in its batch, [`NONE`] without a ray.
+    number: u32,
+}
+
+impl<'a, const ANY: bool> Flight<'a, ANY> {
+    /// Without a ray.
+    pub(super) fn new(scene: &'a SceneBvh) -> Self {
+        let mut addresses = [0; KINDS];
+        addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
+        Flight {
+            rays: [PreparedRay::NOTHING; 2],
+            space: 0,
+            nodes: &scene.nodes,
+            blocks: &[],
+            addresses,
+            hit: Hit::miss(0.0),
+            farthest: 0,
+            waiting: 0,
+            current: ChildRef::ROOT,
+            instance: NONE,
+            mask: 0,
+            number: NONE,
+        }
+    }
+
+    /// Takes up ray `i`; false when it can hit nothing.
+    #[inline(always)]
+    pub(super) fn start(&mut self, scene: &'a SceneBvh, pending: &mut Pending, rays: &RayBatch, i: usize) -> bool {
+        let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
+        self.rays[0] = ray;
+        self.hit = Hit::miss(rays.t_max[i]);
+        self.farthest = self.hit.t.to_bits() | SLOT_BITS;
+        self.mask = rays.mask[i];
+        self.number = i as u32;
+        self.waiting = 0;
+        self.push(pending, Kind::End);
+        self.leave(scene);
+        true
+    }
+
+    /// Lets go of the ray: its number and its hit, if there was one.
+    #[inline(always)]
+    pub(super) fn end(&mut self) -> Option<(usize, Hit)> {
+        let number = std::mem::replace(&mut self.number, NONE);
+        (number != NONE).then_some((number as usize, self.hit))
+    }
+
+    /// Goes on to the nearest child that waits.
+    #[inline(always)]
+    fn pop(&mut self, pending: &Pending) -> usize {
+        loop {
+            self.waiting -= 1;
+            if ANY || pending.near[self.waiting] <= self.farthest {
+                self.current = ChildRef(pending.child[self.waiting]);
+                let kind = self.current.kind();
+                // Other rays take their steps before this one takes its next.
+                prefetch_at(self.addresses[kind].wrapping_add(Kind::SIZES[kind] * self.current.index()), size_of::<TriangleBlock>());
+                return kind;
+            }
+        }
+    }
+
+    /// Leaves a way back for when nothing else waits above it.
+    #[inline(always)]
+    fn push(&mut self, pending: &mut Pending, kind: Kind) {
+        pending.near[self.waiting] = 0;
+        pending.child[self.waiting] = ChildRef::new(kind, 0).0;
+        self.waiting += 1;
+    }
+
+    /// To the root of the scene's tree, or back into it.
+    #[inline(always)]
+    fn leave(&mut self, scene: &'a SceneBvh) {
+        self.space = 0;
+        self.nodes = &scene.nodes;
+        self.addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
+        self.current = ChildRef::ROOT;
+    }
+
+    /// To the root of a mesh's tree.
+    #[inline(always)]
+    fn enter(&mut self, pending: &mut Pending, mesh: &'a Blas) -> usize {
+        self.push(pending, Kind::Return);
+        self.nodes = &mesh.nodes;
+        self.blocks = &mesh.blocks;
+        self.addresses[Kind::Inner as usize] = mesh.nodes.as_ptr().addr();
+        self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
+        self.current = ChildRef::ROOT;
+        Kind::Inner as usize
+    }
+
+    /// Takes a hit up to the farthest distance; true when it ends the ray.
+    #[inline(always)]
+    fn add(&mut self, hit: Hit) -> bool {
+        if ANY || hit.is_before(&self.hit) {
+            self.hit = hit;
+            self.farthest = hit.t.to_bits() | SLOT_BITS;
+        }
+        ANY
+    }
+
+    /// The step at a node.
+    #[inline(always)]
+    pub(super) fn inner<S: Simd>(&mut self, simd: S, pending: &mut Pending) -> usize {
+        let node = &self.nodes[self.current.index()];
+        let (near, met) = meets(simd, node, &self.rays[self.space % 2], self.hit.t);
+        let children = bytemuck::cast_ref(&node.children);
+        let [distances, sorted] = pending.places(self.waiting);
+        if ANY {
+            // Smallest box on top: often a leaf, and a likely end of the search.
+            simd.choose8(met, children, sorted);
+        } else {
+            simd.sort8(near, met, children, distances, sorted);
+        }
+        self.waiting += met.count_ones() as usize;
+        self.pop(pending)
+    }
+
+    /// The step at a block of triangles.
+    #[inline(always)]
+    pub(super) fn triangles<S: Simd>(&mut self, simd: S, pending: &Pending) -> usize {
+        let block = &self.blocks[self.current.index()];
+        let mut hits = BlockHits::default();
+        let mut mask = Wide(simd).triangles(block, &self.rays[self.space % 2], self.hit.t, &mut hits);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize % WIDTH;
+            mask &= mask - 1;
+            let [t, u, v] = [hits.t[lane], hits.u[lane], hits.v[lane]];
+            if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }) {
+                return Kind::End as usize;
+            }
+        }
+        self.pop(pending)
+    }
+
+    /// The step at an instance.
+    #[inline(always)]
+    pub(super) fn instance(&mut self, scene: &'a SceneBvh, pending: &mut Pending) -> usize {
+        let record = &scene.records[self.current.index()];
+        if record.mask & self.mask == 0 {
+            return self.pop(pending);
+        }
+        self.instance = record.id;
+        let ray = &self.rays[0];
+        if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
+            return self.enter(pending, &scene.meshes[index as usize]);
+        }
+        let origin = record.world_to_object.point(ray.origin);
+        let direction = record.world_to_object.direction(ray.direction);
+        match record.geometry.get() {
+            Geometry::Mesh(index) => {
+                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.hit.t) else { return self.pop(pending) };
+                self.rays[1] = ray;
+                self.space = 1;
+                self.enter(pending, &scene.meshes[index as usize])
+            }
+            Geometry::Shape(shape) => {
+                for hit in shape.crossings(origin, direction, ray.t_min, self.hit.t).into_iter().flatten() {
+                    if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }) {
+                        return Kind::End as usize;
+                    }
+                }
+                self.pop(pending)
+            }
+        }
+    }
+
+    /// The step out of an instance.
+    #[inline(always)]
+    pub(super) fn back(&mut self, scene: &'a SceneBvh, pending: &Pending) -> usize {
+        self.leave(scene);
+        self.pop(pending)
+    }
+}

@@ -1,0 +1,133 @@
+//! Sixteen incoherent rays on their way at once, each a step at a time.
+//!
+//! A ray that walks alone waits: for memory, and for branches that no predictor knows, as what it meets next is as good as random. Here all rays
+//! that are to do the same (test a node's boxes, a block of triangles, enter an instance, leave it, end) do it one after the other, without a
+//! branch on what comes of it; it sorts each ray into the list of its next step, and has memory fetch what that step reads. The idea of queues
+//! within the cache is that of Barringer and Akenine-Möller: Dynamic Ray Stream Traversal, ACM TOG 33(4), 2014; here rays are not grouped by
+//! node but by step.
+
+use super::flight::{Flight, Pending};
+use super::node::{KINDS, Kind};
+use super::query::Hit;
+use super::ray::RayBatch;
+use super::scene_bvh::SceneBvh;
+use fearless_simd::prelude::*;
+use std::cell::RefCell;
+
+/// Rays under way: enough to hide memory, and few enough to stay in the first cache.
+const FLIGHTS: usize = 16;
+
+/// Fewer rays than this walk one by one.
+pub(super) const FEWEST_RAYS: usize = 2 * FLIGHTS;
+
+/// Where the outcome of each ray goes.
+pub(super) trait Sink<const ANY: bool> {
+    /// Takes the nearest hit of ray `i`, or any; a miss has no instance.
+    fn end(&mut self, i: usize, hit: &Hit);
+}
+
+/// The rays that wait for each kind of step, a bit each.
+struct Lists([u32; KINDS]);
+
+impl Lists {
+    #[inline(always)]
+    fn add(&mut self, kind: usize, flight: usize) {
+        self.0[kind % KINDS] |= 1 << flight;
+    }
+
+    /// Takes a whole list off.
+    #[inline(always)]
+    fn take(&mut self, kind: Kind) -> List {
+        List(std::mem::take(&mut self.0[kind as usize]))
+    }
+}
+
+/// Places of rays.
+struct List(u32);
+
+impl Iterator for List {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let place = self.0.trailing_zeros() as usize % FLIGHTS;
+        let more = self.0 != 0;
+        self.0 &= self.0.wrapping_sub(1);
+        more.then_some(place)
+    }
+}
+
+/// What waits, by ray.
+pub(super) type AllPending = [Pending; FLIGHTS];
+
+thread_local! {
+    /// Kept, as clearing it would take as long as some hundred rays.
+    static PENDING: RefCell<Box<AllPending>> = RefCell::new(Box::new([Pending::EMPTY; FLIGHTS]));
+}
+
+/// Lends this thread's lists of what waits.
+pub(super) fn with_pending(run: impl FnOnce(&mut AllPending)) {
+    PENDING.with_borrow_mut(|pending| run(pending));
+}
+
+/// Sends all rays of a batch through the scene.
+#[inline(always)]
+pub(super) fn stream<S: Simd, const ANY: bool, K: Sink<ANY> + ?Sized>(
+    simd: S,
+    scene: &SceneBvh,
+    rays: &RayBatch,
+    pending: &mut AllPending,
+    sink: &mut K,
+) {
+    let rays = &rays.same_length();
+    let mut flights: [Flight<ANY>; FLIGHTS] = std::array::from_fn(|_| Flight::new(scene));
+    let mut lists = Lists([0; KINDS]);
+    lists.0[Kind::End as usize] = (1 << FLIGHTS) - 1;
+    let (mut next, mut under_way) = (0, FLIGHTS);
+    while under_way > 0 {
+        for place in lists.take(Kind::End) {
+            let flight = &mut flights[place];
+            if let Some((i, hit)) = flight.end() {
+                sink.end(i, &hit);
+            }
+            if take_up(scene, rays, &mut next, flight, &mut pending[place], sink) {
+                lists.add(Kind::Inner as usize, place);
+            } else {
+                under_way -= 1;
+            }
+        }
+        for place in lists.take(Kind::Instance) {
+            lists.add(flights[place].instance(scene, &mut pending[place]), place);
+        }
+        for place in lists.take(Kind::Return) {
+            lists.add(flights[place].back(scene, &pending[place]), place);
+        }
+        for place in lists.take(Kind::Triangles) {
+            lists.add(flights[place].triangles(simd, &pending[place]), place);
+        }
+        for place in lists.take(Kind::Inner) {
+            lists.add(flights[place].inner(simd, &mut pending[place]), place);
+        }
+    }
+}
+
+/// Starts the next ray that can hit something; false when there is none.
+#[inline(always)]
+fn take_up<'a, const ANY: bool, K: Sink<ANY> + ?Sized>(
+    scene: &'a SceneBvh,
+    rays: &RayBatch,
+    next: &mut usize,
+    flight: &mut Flight<'a, ANY>,
+    pending: &mut Pending,
+    sink: &mut K,
+) -> bool {
+    while *next < rays.len() {
+        let i = *next;
+        *next += 1;
+        if flight.start(scene, pending, rays, i) {
+            return true;
+        }
+        sink.end(i, &Hit::miss(rays.t_max[i]));
+    }
+    false
+}

@@ -1,0 +1,213 @@
+//! Eight slots put into the order of their distances, without a branch on what they hold.
+
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
+use fearless_simd::{Level, Simd, f32x8, prelude::*};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{kernel, x86::*};
+
+/// Whether [`Sort8`] takes a few instructions at a level, and not a loop.
+pub fn sorts_fast(level: Level) -> bool {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) | Level::Avx512(_) => true,
+        _ => false,
+    }
+}
+
+/// What a walk leaves behind at a node, implemented once for every level.
+pub trait Sort8: Simd {
+    /// Writes the distances and values of the slots of `mask`, farthest first, and anything behind them. Distances must not be negative; the
+    /// last three of their bits become the slot's number.
+    fn sort8(self, near: f32x8<Self>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]);
+    /// Writes the values of the slots of `mask`, last slot first, and anything behind them.
+    fn choose8(self, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]);
+}
+
+/// Bits that a slot's number takes.
+const SLOT: u32 = 7;
+
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn sort8_avx512(_simd: Avx512, near: f32x8<Avx512>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+        let bits = _mm256_andnot_si256(_mm256_set1_epi32(SLOT as i32), _mm256_castps_si256(near.into()));
+        let keys = _mm256_or_si256(bits, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+        let keys = _mm256_maskz_compress_epi32(mask as u8, keys);
+        // More than four are rare, so that the branch is known beforehand.
+        let keys =
+            if mask.count_ones() <= 4 { _mm256_castsi128_si256(descending4(_mm256_castsi256_si128(keys))) } else { descending8(keys) };
+        store(keys, values, distances, sorted);
+    }
+);
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn sort8_avx2(_simd: Avx2, near: f32x8<Avx2>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+        let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        let bits = _mm256_andnot_si256(_mm256_set1_epi32(SLOT as i32), _mm256_castps_si256(near.into()));
+        let keys = _mm256_and_si256(_mm256_or_si256(bits, slots), lanes_of(mask));
+        store(descending8(keys), values, distances, sorted);
+    }
+);
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn choose8_avx512(_simd: Avx512, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+        let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        let compressed = _mm256_maskz_compress_epi32(mask as u8, slots);
+        let backwards = _mm256_sub_epi32(_mm256_set1_epi32(mask.count_ones() as i32 - 1), slots);
+        let order = _mm256_permutevar8x32_epi32(compressed, backwards);
+        // SAFETY: both arrays hold eight words.
+        unsafe {
+            let values = _mm256_loadu_si256(values.as_ptr().cast());
+            _mm256_storeu_si256(chosen.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values, order));
+        }
+    }
+);
+#[cfg(target_arch = "x86_64")]
+kernel!(
+    #[inline(always)]
+    fn choose8_avx2(_simd: Avx2, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+        // The slots' numbers are distances here.
+        let keys = _mm256_and_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), lanes_of(mask));
+        store(descending8(keys), values, &mut [0; 8], chosen);
+    }
+);
+
+/// All bits in the lanes of a mask.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+#[target_feature(enable = "avx2")]
+fn lanes_of(mask: u32) -> __m256i {
+    let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits)
+}
+
+/// Writes keys and the values of the slots that their last bits name. A key of zero, of slot 0 at no distance, stands behind all others, where
+/// keys of no meaning, zero as well, name slot 0 too.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+#[target_feature(enable = "avx2")]
+fn store(keys: __m256i, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+    // SAFETY: all arrays hold eight words.
+    unsafe {
+        let values = _mm256_loadu_si256(values.as_ptr().cast());
+        _mm256_storeu_si256(distances.as_mut_ptr().cast(), keys);
+        _mm256_storeu_si256(sorted.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values, keys));
+    }
+}
+
+/// Batcher's bitonic sort of four, largest first: each lane and its partner, then the larger here and the smaller there.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+#[target_feature(enable = "avx2")]
+fn descending4(x: __m128i) -> __m128i {
+    let y = _mm_shuffle_epi32::<0b10_11_00_01>(x);
+    let x = _mm_blend_epi32::<0b0110>(_mm_max_epu32(x, y), _mm_min_epu32(x, y));
+    let y = _mm_shuffle_epi32::<0b01_00_11_10>(x);
+    let x = _mm_blend_epi32::<0b1100>(_mm_max_epu32(x, y), _mm_min_epu32(x, y));
+    let y = _mm_shuffle_epi32::<0b10_11_00_01>(x);
+    _mm_blend_epi32::<0b1010>(_mm_max_epu32(x, y), _mm_min_epu32(x, y))
+}
+
+/// The same of eight.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+#[target_feature(enable = "avx2")]
+fn descending8(x: __m256i) -> __m256i {
+    let y = _mm256_shuffle_epi32::<0b10_11_00_01>(x);
+    let x = _mm256_blend_epi32::<0b0110_0110>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y));
+    let y = _mm256_shuffle_epi32::<0b01_00_11_10>(x);
+    let x = _mm256_blend_epi32::<0b0011_1100>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y));
+    let y = _mm256_shuffle_epi32::<0b10_11_00_01>(x);
+    let x = _mm256_blend_epi32::<0b0101_1010>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y));
+    let y = _mm256_permute4x64_epi64::<0b01_00_11_10>(x);
+    let x = _mm256_blend_epi32::<0b1111_0000>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y));
+    let y = _mm256_shuffle_epi32::<0b01_00_11_10>(x);
+    let x = _mm256_blend_epi32::<0b1100_1100>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y));
+    let y = _mm256_shuffle_epi32::<0b10_11_00_01>(x);
+    _mm256_blend_epi32::<0b1010_1010>(_mm256_max_epu32(x, y), _mm256_min_epu32(x, y))
+}
+
+impl<S: Simd> Sort8 for S {
+    #[inline(always)]
+    fn sort8(self, near: f32x8<S>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+        match self.level() {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512(t) => sort8_avx512(t, f32x8::from_slice(t, near.as_slice()), mask, values, distances, sorted),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(t) => sort8_avx2(t, f32x8::from_slice(t, near.as_slice()), mask, values, distances, sorted),
+            _ => {
+                let mut keys: [u32; 8] = core::array::from_fn(|slot| {
+                    let is_in = (mask >> slot) & 1;
+                    is_in * ((near[slot].to_bits() & !SLOT) | slot as u32)
+                });
+                keys.sort_unstable_by(|a, b| b.cmp(a));
+                *distances = keys;
+                *sorted = keys.map(|key| values[(key & SLOT) as usize]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn choose8(self, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+        match self.level() {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512(t) => choose8_avx512(t, mask, values, chosen),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(t) => choose8_avx2(t, mask, values, chosen),
+            _ => {
+                let slots = (0..8).rev().filter(|slot| (mask >> slot) & 1 == 1);
+                for (out, slot) in chosen.iter_mut().zip(slots) {
+                    *out = values[slot];
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::dispatch;
+
+    const VALUES: [u32; 8] = [10, 11, 12, 13, 14, 15, 16, 17];
+
+    #[inline(always)]
+    fn sorted<S: Simd>(simd: S, near: &[f32; 8], mask: u32) -> ([u32; 8], [u32; 8], [u32; 8]) {
+        let (mut distances, mut values, mut chosen) = ([0; 8], [0; 8], [0; 8]);
+        simd.sort8(f32x8::from_slice(simd, near), mask, &VALUES, &mut distances, &mut values);
+        simd.choose8(mask, &VALUES, &mut chosen);
+        (distances, values, chosen)
+    }
+
+    /// Every level that this machine has, and the fallback.
+    fn levels() -> Vec<Level> {
+        let mut levels = vec![Level::new(), Level::baseline()];
+        #[cfg(target_arch = "x86_64")]
+        levels.extend(Level::new().as_avx2().map(Level::Avx2));
+        levels
+    }
+
+    #[test]
+    fn every_set_of_slots_is_put_in_order_at_every_level() {
+        let near = [3.0, 0.0, 7.5, 7.5, 1e-30, f32::INFINITY, 2.0, 0.0];
+        for level in levels() {
+            for mask in 0..256u32 {
+                let (distances, values, chosen) = dispatch!(level, simd => sorted(simd, &near, mask));
+                let slots: Vec<u32> = (0..8).filter(|slot| mask >> slot & 1 == 1).collect();
+                let mut keys: Vec<u32> = slots.iter().map(|&slot| (near[slot as usize].to_bits() & !SLOT) | slot).collect();
+                keys.sort_unstable_by(|a, b| b.cmp(a));
+                let n = slots.len();
+                assert_eq!(distances[..n], keys[..], "{level:?} {mask:b}");
+                assert_eq!(values[..n], keys.iter().map(|key| VALUES[(key & SLOT) as usize]).collect::<Vec<_>>()[..], "{level:?} {mask:b}");
+                assert_eq!(
+                    chosen[..n],
+                    slots.iter().rev().map(|&slot| VALUES[slot as usize]).collect::<Vec<_>>()[..],
+                    "{level:?} {mask:b}"
+                );
+            }
+        }
+    }
+}
