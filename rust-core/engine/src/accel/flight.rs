@@ -1,11 +1,11 @@
 //! One ray of a stream: where it is, and the steps it takes. What it does next is told by a number, so that no step has to branch on it.
 
 use super::blas::Blas;
+use super::collector::{Collector, Hit, Query};
 use super::instance::Geometry;
 use super::lanes8::Lanes8;
 use super::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
 use super::prepared::PreparedRay;
-use super::query::Hit;
 use super::ray::{NONE, RayBatch};
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::{BlockHits, TriangleBlock};
@@ -37,8 +37,8 @@ impl Pending {
     }
 }
 
-/// A ray under way. `ANY`: the first hit found ends it, whichever that is.
-pub(super) struct Flight<'a, const ANY: bool> {
+/// A ray under way.
+pub(super) struct Flight<'a, C: Collector> {
     /// In the world, and in the space of the mesh it is in.
     rays: [PreparedRay; 2],
     /// 1 in the space of a mesh, else 0.
@@ -47,7 +47,7 @@ pub(super) struct Flight<'a, const ANY: bool> {
     blocks: &'a [TriangleBlock],
     /// Where in memory the children of a kind begin, for fetching them.
     addresses: [usize; KINDS],
-    hit: Hit,
+    collector: C,
     /// Nothing beyond is of interest: the bits of the distance, and all of a slot.
     farthest: u32,
     /// The number of children that wait.
@@ -55,14 +55,18 @@ pub(super) struct Flight<'a, const ANY: bool> {
     current: ChildRef,
     /// The instance that the ray is in.
     instance: u32,
+    /// Whether that one may let shadow rays pass.
+    transparent: bool,
     mask: u8,
     /// The ray's number in its batch, [`NONE`] without a ray.
     number: u32,
+    /// Whether a hit ended the search.
+    ended: bool,
 }
 
-impl<'a, const ANY: bool> Flight<'a, ANY> {
+impl<'a, C: Collector> Flight<'a, C> {
     /// Without a ray.
-    pub(super) fn new(scene: &'a SceneBvh) -> Self {
+    pub(super) fn new(scene: &'a SceneBvh, collector: C) -> Self {
         let mut addresses = [0; KINDS];
         addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
         Flight {
@@ -71,36 +75,53 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
             nodes: &scene.nodes,
             blocks: &[],
             addresses,
-            hit: Hit::miss(0.0),
+            collector,
             farthest: 0,
             waiting: 0,
             current: ChildRef::ROOT,
             instance: NONE,
+            transparent: false,
             mask: 0,
             number: NONE,
+            ended: false,
         }
     }
 
-    /// Takes up ray `i`; false when it can hit nothing.
+    /// Takes up ray `i` for a query; false when it can hit nothing.
     #[inline(always)]
-    pub(super) fn start(&mut self, scene: &'a SceneBvh, pending: &mut Pending, rays: &RayBatch, i: usize) -> bool {
+    pub(super) fn start<Q: Query<Collector = C>>(
+        &mut self,
+        scene: &'a SceneBvh,
+        pending: &mut Pending,
+        rays: &RayBatch,
+        i: usize,
+        query: &Q,
+    ) -> bool {
+        query.begin(&mut self.collector, i, rays.t_max[i]);
+        (self.number, self.ended) = (i as u32, false);
         let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
         self.rays[0] = ray;
-        self.hit = Hit::miss(rays.t_max[i]);
-        self.farthest = self.hit.t.to_bits() | SLOT_BITS;
         self.mask = rays.mask[i];
-        self.number = i as u32;
         self.waiting = 0;
+        self.shorten();
         self.push(pending, Kind::End);
         self.leave(scene);
         true
     }
 
-    /// Lets go of the ray: its number and its hit, if there was one.
+    /// Hands over what was found for its ray, if it has one, and lets go of it.
     #[inline(always)]
-    pub(super) fn end(&mut self) -> Option<(usize, Hit)> {
-        let number = std::mem::replace(&mut self.number, NONE);
-        (number != NONE).then_some((number as usize, self.hit))
+    pub(super) fn end<Q: Query<Collector = C>>(&mut self, query: &mut Q) {
+        if self.number != NONE {
+            query.end(self.number as usize, &self.collector, self.ended);
+            self.number = NONE;
+        }
+    }
+
+    /// Keeps in mind how far to look.
+    #[inline(always)]
+    fn shorten(&mut self) {
+        self.farthest = self.collector.t_max().to_bits() | SLOT_BITS;
     }
 
     /// Goes on to the nearest child that waits.
@@ -108,7 +129,7 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
     fn pop(&mut self, pending: &Pending) -> usize {
         loop {
             self.waiting -= 1;
-            if ANY || pending.near[self.waiting] <= self.farthest {
+            if !C::ORDERED || pending.near[self.waiting] <= self.farthest {
                 self.current = ChildRef(pending.child[self.waiting]);
                 let kind = self.current.kind();
                 // Other rays take their steps before this one takes its next.
@@ -147,28 +168,26 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
         Kind::Inner as usize
     }
 
-    /// Takes a hit up to the farthest distance; true when it ends the ray.
+    /// Takes a hit; true when it ends the search.
     #[inline(always)]
-    fn add(&mut self, hit: Hit) -> bool {
-        if ANY || hit.is_before(&self.hit) {
-            self.hit = hit;
-            self.farthest = hit.t.to_bits() | SLOT_BITS;
-        }
-        ANY
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool {
+        self.ended = self.collector.add(hit, transparent);
+        self.shorten();
+        self.ended
     }
 
     /// The step at a node.
     #[inline(always)]
     pub(super) fn inner<S: Simd>(&mut self, simd: S, pending: &mut Pending) -> usize {
         let node = &self.nodes[self.current.index()];
-        let (near, met) = meets(simd, node, &self.rays[self.space % 2], self.hit.t);
+        let (near, met) = meets(simd, node, &self.rays[self.space % 2], self.collector.t_max());
         let children = bytemuck::cast_ref(&node.children);
         let [distances, sorted] = pending.places(self.waiting);
-        if ANY {
+        if C::ORDERED {
+            simd.sort8(near, met, children, distances, sorted);
+        } else {
             // Smallest box on top: often a leaf, and a likely end of the search.
             simd.choose8(met, children, sorted);
-        } else {
-            simd.sort8(near, met, children, distances, sorted);
         }
         self.waiting += met.count_ones() as usize;
         self.pop(pending)
@@ -179,12 +198,12 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
     pub(super) fn triangles<S: Simd>(&mut self, simd: S, pending: &Pending) -> usize {
         let block = &self.blocks[self.current.index()];
         let mut hits = BlockHits::default();
-        let mut mask = Wide(simd).triangles(block, &self.rays[self.space % 2], self.hit.t, &mut hits);
+        let mut mask = Wide(simd).triangles(block, &self.rays[self.space % 2], self.collector.t_max(), &mut hits);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
             let [t, u, v] = [hits.t[lane], hits.u[lane], hits.v[lane]];
-            if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }) {
+            if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }, self.transparent) {
                 return Kind::End as usize;
             }
         }
@@ -198,7 +217,7 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
         if record.mask & self.mask == 0 {
             return self.pop(pending);
         }
-        self.instance = record.id;
+        (self.instance, self.transparent) = (record.id, record.transparent);
         let ray = &self.rays[0];
         if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
             return self.enter(pending, &scene.meshes[index as usize]);
@@ -207,14 +226,14 @@ impl<'a, const ANY: bool> Flight<'a, ANY> {
         let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.hit.t) else { return self.pop(pending) };
+                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return self.pop(pending) };
                 self.rays[1] = ray;
                 self.space = 1;
                 self.enter(pending, &scene.meshes[index as usize])
             }
             Geometry::Shape(shape) => {
-                for hit in shape.crossings(origin, direction, ray.t_min, self.hit.t).into_iter().flatten() {
-                    if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }) {
+                for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
+                    if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent) {
                         return Kind::End as usize;
                     }
                 }

@@ -1,26 +1,16 @@
 //! The walk of one ray through both levels.
 
 use super::blas::Blas;
+use super::collector::{Collector, Hit};
 use super::instance::{Geometry, InstanceRecord};
 use super::lanes8::Lanes8;
 use super::node::ChildRef;
 use super::prepared::PreparedRay;
-use super::query::Hit;
 use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::BlockHits;
 use super::walk::{Stack, Visitor, walk};
 use gonio_simd::prefetch;
-
-/// A query: takes the hits of one ray as they are found.
-pub(super) trait Collector {
-    /// True when near hits shorten the search.
-    const ORDERED: bool;
-    /// Hits beyond this distance are not wanted.
-    fn t_max(&self) -> f32;
-    /// Takes a hit within the interval; true ends the search.
-    fn add(&mut self, hit: Hit, transparent: bool) -> bool;
-}
 
 /// The stacks of the two levels.
 pub(super) struct SceneWalk<'a> {

@@ -9,6 +9,7 @@ mod blas;
 mod block_tests;
 mod build;
 mod collapse;
+mod collector;
 mod flat_tree;
 mod flight;
 mod instance;

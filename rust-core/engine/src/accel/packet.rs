@@ -1,12 +1,12 @@
 //! A packet's walk through both levels, and its tests at the leaves.
 
 use super::blas::Blas;
+use super::collector::{Any, Collector, Hit, Nearest};
 use super::instance::{Geometry, InstanceRecord};
 use super::instance_walk::{SceneWalk, walk_mesh, walk_scene_from};
 use super::node::{ChildRef, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays, lane_of};
 use super::packet_walk::{PacketStack, PacketVisitor, walk_groups};
-use super::query::{Any, Hit, Nearest};
 use super::ray::NONE;
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::TriangleBlock;
@@ -130,7 +130,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
                     } else {
                         let mut nearest = Nearest(self.hits.get(lane));
                         let hit = Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id };
-                        super::instance_walk::Collector::add(&mut nearest, hit, false);
+                        nearest.add(hit, false);
                         self.hits.set(lane, nearest.0);
                     }
                 }

@@ -6,9 +6,9 @@
 //! within the cache is that of Barringer and Akenine-Möller: Dynamic Ray Stream Traversal, ACM TOG 33(4), 2014; here rays are not grouped by
 //! node but by step.
 
+use super::collector::Query;
 use super::flight::{Flight, Pending};
 use super::node::{KINDS, Kind};
-use super::query::Hit;
 use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
 use fearless_simd::prelude::*;
@@ -19,12 +19,6 @@ const FLIGHTS: usize = 16;
 
 /// Fewer rays than this walk one by one.
 pub(super) const FEWEST_RAYS: usize = 2 * FLIGHTS;
-
-/// Where the outcome of each ray goes.
-pub(super) trait Sink<const ANY: bool> {
-    /// Takes the nearest hit of ray `i`, or any; a miss has no instance.
-    fn end(&mut self, i: usize, hit: &Hit);
-}
 
 /// The rays that wait for each kind of step, a bit each.
 struct Lists([u32; KINDS]);
@@ -72,25 +66,17 @@ pub(super) fn with_pending(run: impl FnOnce(&mut AllPending)) {
 
 /// Sends all rays of a batch through the scene.
 #[inline(always)]
-pub(super) fn stream<S: Simd, const ANY: bool, K: Sink<ANY> + ?Sized>(
-    simd: S,
-    scene: &SceneBvh,
-    rays: &RayBatch,
-    pending: &mut AllPending,
-    sink: &mut K,
-) {
+pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBatch, pending: &mut AllPending, query: &mut Q) {
     let rays = &rays.same_length();
-    let mut flights: [Flight<ANY>; FLIGHTS] = std::array::from_fn(|_| Flight::new(scene));
+    let mut flights: [Flight<Q::Collector>; FLIGHTS] = std::array::from_fn(|_| Flight::new(scene, query.collector()));
     let mut lists = Lists([0; KINDS]);
     lists.0[Kind::End as usize] = (1 << FLIGHTS) - 1;
     let (mut next, mut under_way) = (0, FLIGHTS);
     while under_way > 0 {
         for place in lists.take(Kind::End) {
             let flight = &mut flights[place];
-            if let Some((i, hit)) = flight.end() {
-                sink.end(i, &hit);
-            }
-            if take_up(scene, rays, &mut next, flight, &mut pending[place], sink) {
+            flight.end(query);
+            if take_up(scene, rays, &mut next, flight, &mut pending[place], query) {
                 lists.add(Kind::Inner as usize, place);
             } else {
                 under_way -= 1;
@@ -113,21 +99,20 @@ pub(super) fn stream<S: Simd, const ANY: bool, K: Sink<ANY> + ?Sized>(
 
 /// Starts the next ray that can hit something; false when there is none.
 #[inline(always)]
-fn take_up<'a, const ANY: bool, K: Sink<ANY> + ?Sized>(
+fn take_up<'a, Q: Query>(
     scene: &'a SceneBvh,
     rays: &RayBatch,
     next: &mut usize,
-    flight: &mut Flight<'a, ANY>,
+    flight: &mut Flight<'a, Q::Collector>,
     pending: &mut Pending,
-    sink: &mut K,
+    query: &mut Q,
 ) -> bool {
     while *next < rays.len() {
-        let i = *next;
         *next += 1;
-        if flight.start(scene, pending, rays, i) {
+        if flight.start(scene, pending, rays, *next - 1, query) {
             return true;
         }
-        sink.end(i, &Hit::miss(rays.t_max[i]));
+        flight.end(query);
     }
     false
 }

@@ -1,0 +1,205 @@
+//! What a ray looks for: the collectors of its hits, and the queries that say where their finds go.
+
+use super::ray::{Hits, NONE, PassedHit};
+
+/// A hit as it is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hit {
+    pub(super) t: f32,
+    pub(super) u: f32,
+    pub(super) v: f32,
+    pub(super) primitive: u32,
+    pub(super) instance: u32,
+}
+
+impl Hit {
+    /// No hit up to `t_max`.
+    #[inline(always)]
+    pub(super) fn miss(t_max: f32) -> Self {
+        Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
+    }
+}
+
+/// Takes the hits of one ray as they are found.
+pub(super) trait Collector {
+    /// True when near hits shorten the search.
+    const ORDERED: bool;
+    /// Hits beyond this distance are not wanted.
+    fn t_max(&self) -> f32;
+    /// Takes a hit within the interval; true ends the search.
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool;
+}
+
+/// What the rays of a batch look for.
+pub(super) trait Query {
+    /// Collects for one ray, and for the next one after that.
+    type Collector: Collector;
+    /// A collector without a ray.
+    fn collector(&self) -> Self::Collector;
+    /// Has a collector begin with ray `i`.
+    fn begin(&self, collector: &mut Self::Collector, i: usize, t_max: f32);
+    /// Takes what was found for ray `i`; `ended` when the collector ended the search.
+    fn end(&mut self, i: usize, collector: &Self::Collector, ended: bool);
+}
+
+/// Keeps the nearest hit.
+pub(super) struct Nearest(pub(super) Hit);
+
+impl Collector for Nearest {
+    const ORDERED: bool = true;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.0.t
+    }
+
+    #[inline(always)]
+    fn add(&mut self, hit: Hit, _transparent: bool) -> bool {
+        // Equal distances go to the lower numbers, so that the order of the walk does not show.
+        if hit.t < self.0.t || (hit.t == self.0.t && (hit.instance, hit.primitive) < (self.0.instance, self.0.primitive)) {
+            self.0 = hit;
+        }
+        false
+    }
+}
+
+/// The nearest hit of every ray.
+pub(super) struct NearestHits<'a>(&'a mut Hits);
+
+impl<'a> NearestHits<'a> {
+    /// Of `n` rays.
+    pub(super) fn new(hits: &'a mut Hits, n: usize) -> Self {
+        hits.resize(n);
+        NearestHits(hits)
+    }
+}
+
+impl Query for NearestHits<'_> {
+    type Collector = Nearest;
+
+    fn collector(&self) -> Nearest {
+        Nearest(Hit::miss(0.0))
+    }
+
+    #[inline(always)]
+    fn begin(&self, nearest: &mut Nearest, _i: usize, t_max: f32) {
+        nearest.0 = Hit::miss(t_max);
+    }
+
+    #[inline(always)]
+    fn end(&mut self, i: usize, nearest: &Nearest, _ended: bool) {
+        let (hits, hit) = (&mut *self.0, &nearest.0);
+        (hits.t[i], hits.u[i], hits.v[i], hits.primitive[i], hits.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
+    }
+}
+
+/// Ends at the first hit.
+pub(super) struct Any {
+    pub(super) t_max: f32,
+}
+
+impl Collector for Any {
+    const ORDERED: bool = false;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.t_max
+    }
+
+    #[inline(always)]
+    fn add(&mut self, _hit: Hit, _transparent: bool) -> bool {
+        true
+    }
+}
+
+/// 1 for every ray that hits anything, else 0.
+pub(super) struct Occluded<'a>(pub(super) &'a mut [u8]);
+
+impl Query for Occluded<'_> {
+    type Collector = Any;
+
+    fn collector(&self) -> Any {
+        Any { t_max: 0.0 }
+    }
+
+    #[inline(always)]
+    fn begin(&self, any: &mut Any, _i: usize, t_max: f32) {
+        any.t_max = t_max;
+    }
+
+    #[inline(always)]
+    fn end(&mut self, i: usize, _any: &Any, ended: bool) {
+        self.0[i] = u8::from(ended);
+    }
+}
+
+/// Two triangles' distances to a point of their common edge differ by less than this share.
+const SAME_DISTANCE: f32 = 1e-5;
+
+/// Ends at the first opaque hit and keeps the transparent ones.
+pub(super) struct Passed {
+    t_max: f32,
+    ray: u32,
+    hits: Vec<PassedHit>,
+}
+
+impl Collector for Passed {
+    const ORDERED: bool = false;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.t_max
+    }
+
+    #[inline(always)]
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool {
+        if transparent {
+            let Hit { t, u, v, primitive, instance } = hit;
+            let hit = PassedHit { ray: self.ray, instance, primitive, u, v, t };
+            match hit.is_on_edge().then(|| self.twin(&hit)).flatten() {
+                // The lower number, so that the order of the walk does not show.
+                Some(twin) if hit.primitive < self.hits[twin].primitive => self.hits[twin] = hit,
+                Some(_) => {}
+                None => self.hits.push(hit),
+            }
+        }
+        !transparent
+    }
+}
+
+impl Passed {
+    /// The place of a hit on the same edge, which two triangles share: the surface is passed once.
+    fn twin(&self, hit: &PassedHit) -> Option<usize> {
+        let is_twin =
+            |known: &PassedHit| known.instance == hit.instance && known.is_on_edge() && (known.t - hit.t).abs() <= SAME_DISTANCE * hit.t;
+        self.hits.iter().position(is_twin)
+    }
+}
+
+/// [`Occluded`] by opaque instances alone, and the hits of all other rays on transparent ones.
+pub(super) struct OccludedOrPassed<'a> {
+    pub(super) occluded: &'a mut [u8],
+    pub(super) passed: &'a mut Vec<PassedHit>,
+}
+
+impl Query for OccludedOrPassed<'_> {
+    type Collector = Passed;
+
+    fn collector(&self) -> Passed {
+        Passed { t_max: 0.0, ray: NONE, hits: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn begin(&self, passed: &mut Passed, i: usize, t_max: f32) {
+        (passed.t_max, passed.ray) = (t_max, i as u32);
+        passed.hits.clear();
+    }
+
+    #[inline(always)]
+    fn end(&mut self, i: usize, passed: &Passed, ended: bool) {
+        self.occluded[i] = u8::from(ended);
+        if !ended {
+            self.passed.extend_from_slice(&passed.hits);
+        }
+    }
+}
