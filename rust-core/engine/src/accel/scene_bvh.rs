@@ -19,7 +19,7 @@ pub struct SceneBvh {
     /// Record of each instance by its number, [`NONE`] for those left out.
     pub(super) record_of: Vec<u32>,
     pub(super) meshes: Vec<Arc<Blas>>,
-    /// More than the first cache holds.
+    /// So large that incoherent rays gain from going together.
     pub(super) is_large: bool,
 }
 
@@ -65,8 +65,8 @@ impl SceneBvh {
     }
 }
 
-/// Trees of so many bytes stay in the caches of a core, and a ray finds its way through them with few steps.
-const SMALL: usize = 1 << 17;
+/// Trees of so many bytes stay in a core's second cache, and rays find their way through them in few steps: there one by one is as fast.
+const SMALL: usize = 1 << 21;
 
 /// Above this number of instances the top level gets no more care than a mesh, so that moving one stays quick.
 const MANY_INSTANCES: usize = 10_000;

@@ -125,8 +125,11 @@ fn instance(geometry: Geometry, object_to_world: [[f64; 4]; 3]) -> Instance {
     Instance { geometry, object_to_world, mask: 1, transparent: false }
 }
 
+/// A scene whose rays go together however small it is.
 fn scene(meshes: Vec<Arc<Blas>>, instances: &[Instance]) -> SceneBvh {
-    SceneBvh::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled")
+    let mut scene = SceneBvh::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled");
+    scene.is_large = true;
+    scene
 }
 
 /// Every level of this machine.
