@@ -4,14 +4,17 @@ use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source:
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     film::Block,
-    integrator::{Runs, Tracer, Transport, Workspace},
-    scene::{Aov, Crop},
+    integrator::{Runs, Sight, Tracer, Transport, Workspace},
+    scene::{Antialiasing, Aov, Crop, Integrator},
 };
 use crossbeam_channel::Sender;
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{PoisonError, atomic::Ordering},
 };
+
+/// Camera rays a pixel that show denoisers enough of what is seen sharply.
+const SHARP_RAYS: u32 = 32;
 
 /// What a worker keeps from block to block.
 #[derive(Default)]
@@ -40,7 +43,9 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
-    let transport = Transport { known, ..shared.source.transport().clone() };
+    let rays = sharp_rays(shared);
+    let sight = if rays > 1 { Sight::Blurred } else { Sight::Whole };
+    let transport = Transport { known, sight, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -52,6 +57,9 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
         None => Runs::batches(zones, work.samples.clone())
             .take_while(|_| !cancelled())
             .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
+    }
+    if rays > 1 {
+        tracer.trace_sharp([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
     if cancelled() {
         return;
@@ -72,6 +80,15 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
         }
     });
     shared.schedule.decided(work.tile, state);
+}
+
+/// Camera rays that see sharply for each sample; 1 where the samples' own do: denoisers do not ask, there are enough of them, or they are fixed.
+fn sharp_rays(shared: &Shared) -> u32 {
+    let wanted = shared.film.layout.offset(Aov::DenoisingLight).is_some();
+    let samples = &shared.settings;
+    let drawn = samples.integrator != Integrator::Whitted && samples.antialiasing == Antialiasing::Sampled;
+    // What shadow catchers hide is compared path by path.
+    if wanted && drawn && shared.film.layout.catchers.is_none() { SHARP_RAYS.div_ceil(samples.samples.max(1)) } else { 1 }
 }
 
 /// What is to be known before the first block.
