@@ -41,11 +41,15 @@ pub(super) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, valu
         return arrives;
     }
     let sharp = arrives & is_sharp(flags, slot);
-    match transport.sight {
-        Sight::Blurred => return arrives.and_not(sharp),
-        Sight::Sharp | Sight::Whole => add_rgb(&mut ws.first_hit.sharp, slot, value, sharp),
+    // Of what samples find by themselves, trees of rays alone have no noise.
+    if transport.draws.is_some() {
+        add_rgb(&mut ws.first_hit.sharp, slot, value, sharp);
     }
-    if transport.sight == Sight::Sharp { sharp } else { arrives }
+    match transport.sight {
+        Sight::Whole => arrives,
+        Sight::Sharp => sharp,
+        Sight::Blurred => arrives.and_not(sharp),
+    }
 }
 
 /// Whether a pixel's path has met nothing yet but mirrors and smooth glass.

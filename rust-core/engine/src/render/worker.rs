@@ -43,8 +43,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
-    let rays = sharp_rays(shared);
-    let sight = if rays > 1 { Sight::Blurred } else { Sight::Whole };
+    let sharp_rays = sharp_rays(shared);
+    let sight = if sharp_rays.is_some() { Sight::Blurred } else { Sight::Whole };
     let transport = Transport { known, sight, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
@@ -58,7 +58,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
             .take_while(|_| !cancelled())
             .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
     }
-    if rays > 1 {
+    if let Some(rays) = sharp_rays {
         tracer.trace_sharp([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
     if cancelled() {
@@ -82,13 +82,14 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     shared.schedule.decided(work.tile, state);
 }
 
-/// Camera rays that see sharply for each sample; 1 where the samples' own do: denoisers do not ask, there are enough of them, or they are fixed.
-fn sharp_rays(shared: &Shared) -> u32 {
+/// For each sample, camera rays of their own for what is seen sharply, where denoisers ask for them and samples are drawn at random.
+fn sharp_rays(shared: &Shared) -> Option<u32> {
     let wanted = shared.film.layout.offset(Aov::DenoisingLight).is_some();
-    let samples = &shared.settings;
-    let drawn = samples.integrator != Integrator::Whitted && samples.antialiasing == Antialiasing::Sampled;
+    let settings = &shared.settings;
+    let drawn = settings.integrator != Integrator::Whitted && settings.antialiasing == Antialiasing::Sampled;
     // What shadow catchers hide is compared path by path.
-    if wanted && drawn && shared.film.layout.catchers.is_none() { SHARP_RAYS.div_ceil(samples.samples.max(1)) } else { 1 }
+    let possible = wanted && drawn && shared.film.layout.catchers.is_none();
+    possible.then(|| SHARP_RAYS.div_ceil(settings.samples.max(1)))
 }
 
 /// What is to be known before the first block.
