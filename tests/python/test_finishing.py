@@ -123,7 +123,7 @@ def test_denoisers_are_guided_by_what_mirrors_and_glass_show(sharp):
 
 
 def mirrors_and_glass(**settings):
-    """The floor and a shining panel under a bright sky, with a mirror, glass, half-open sheets of glass and of paper, and lacquer lying over them."""
+    """The floor and a shining panel under a bright sky, below a mirror, glass, half-open sheets of glass and of paper, and lacquer."""
     scene = floor_scene(width=32, height=32, **settings)
     scene.add_light("dome", (20.0, 30.0, 40.0))
     glass = {"transmission_weight": 1.0, "specular_roughness": 0.0}

@@ -1,6 +1,6 @@
-//! What tells denoisers noise from detail: albedo and normal of the first surface that is not a mirror or smooth glass, seen in mirrors and through
-//! glass, and the light that the camera sees as sharply. Where a pixel has few samples, more camera rays find it than samples are lit: they end where
-//! light would have to be sampled, and are followed on all sharp ways, so that they cost little and agree with one another.
+//! What tells denoisers noise from detail: albedo and normal of the first surface that is not a mirror or smooth glass, seen in mirrors
+//! and through glass, and the light that the camera sees as sharply. Camera rays of their own find it, more than samples where these are
+//! few: they end where light would have to be sampled, and are followed on all sharp ways, so that they cost little and agree.
 //!
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
@@ -59,8 +59,8 @@ fn is_sharp<L: Lanes>(flags: U<L>, slot: U<L>) -> M<L> {
 }
 
 impl Tracer<'_> {
-    /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples themselves must
-    /// have been traced with [`Sight::Blurred`].
+    /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples
+    /// themselves must have been traced with [`Sight::Blurred`].
     pub fn trace_sharp(
         &self,
         [min, max]: [[u32; 2]; 2],

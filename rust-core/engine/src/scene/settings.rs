@@ -114,8 +114,8 @@ pub enum Aov {
     DenoisingNormal,
     /// Albedo for denoisers.
     DenoisingAlbedo,
-    /// What of the colour denoisers should leave as it is: light that the camera sees straight, in mirrors and through smooth glass. It comes from camera
-    /// rays of its own, as do the guides; where there are none (shadow catchers, samples on a grid) it is zero.
+    /// What of the colour denoisers should leave as it is: light that the camera sees straight, in mirrors and through smooth glass. It
+    /// comes from camera rays of its own, as do the guides; where there are none (shadow catchers, samples on a grid) it is zero.
     DenoisingLight,
     /// What surfaces that the camera sees emit.
     Emission,

@@ -29,7 +29,8 @@ def require() -> Any:
 def denoise(film: Film) -> Film:
     """A film whose colour is denoised; the passes `denoising_albedo` and `denoising_normal` guide it where the film has them.
 
-    What the pass `denoising_light` shows of the colour stays as it is. Alpha and all other passes, luminance and illuminance among them, stay as they were rendered. Raises `gonio.UnsupportedError` without pyoidn.
+    What the pass `denoising_light` shows of the colour stays as it is. So do alpha and all other passes, luminance and illuminance among them.
+    Raises `gonio.UnsupportedError` without pyoidn.
     """
     import numpy
 

@@ -144,8 +144,8 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goe
     ws.branches.ways[way as usize].append(&state, alive);
 }
 
-/// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of it stand for
-/// others like them by chance.
+/// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of
+/// it stand for others like them by chance.
 #[inline(always)]
 fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
     let Stage { l, transport, context, .. } = *stage;
