@@ -122,6 +122,51 @@ def test_denoisers_are_guided_by_what_mirrors_and_glass_show(sharp):
         assert albedo.min() > 0.9 and shown == pytest.approx(np.full(3, 0.48), abs=0.03) and normal[1] > 0.9
 
 
+def mirrors_and_glass(**settings):
+    """The floor and a shining panel under a bright sky, below a mirror, glass, half-open sheets of glass and of paper, and lacquer."""
+    scene = floor_scene(width=32, height=32, **settings)
+    scene.add_light("dome", (20.0, 30.0, 40.0))
+    glass = {"transmission_weight": 1.0, "specular_roughness": 0.0}
+    shapes = {
+        "mirror": (3.0, (-1.5, 1, 0), {"metalness": 1.0, "base_color": (0.8, 0.6, 0.4), "specular_roughness": 0.0}),
+        "glass": (3.0, (1.5, 2, 0), glass),
+        "sheet": (2.0, (0, 3, 0), {**glass, "geometry_opacity": 0.6}),
+        "paper": (2.0, (1, 4, 1), {"base_color": (0.3, 0.3, 0.3), "geometry_opacity": 0.5}),
+        "lacquer": (1.5, (-1.5, 0.5, 2), {"base_color": (0.3, 0.2, 0.1), "coat_weight": 1.0, "coat_roughness": 0.0}),
+        "panel": (0.7, (1, 0.5, 1), {"base_color": (0.2, 0.2, 0.2), "emission_color": (300.0, 300.0, 300.0)}),
+    }
+    for name, (size, place, parameters) in shapes.items():
+        mesh = scene.add_mesh(0.1 * size * FLOOR + np.array(place, "f4"), QUAD, name=name)
+        scene.add_instance(mesh, [scene.add_material(name, **parameters)], name=name)
+    return scene
+
+
+def test_rays_of_its_own_find_the_light_that_mirrors_and_glass_show():
+    def means(seed, *passes):
+        film = finished(mirrors_and_glass(samples=16, seed=seed, passes=["color", *passes]))
+        return np.asarray(film["color"])[..., :3].mean(axis=2).reshape(4, 8, 4, 8).mean(axis=(1, 3))
+
+    plain, apart = (np.stack([means(seed, *passes) for seed in range(16)]) for passes in ((), ("denoising_light",)))
+    difference = plain - apart
+    deviation = difference.std(axis=0, ddof=1) / 4.0
+    # Of sixteen blocks, a Student's t of 15 degrees of freedom exceeds 5.5 once in a thousand times.
+    assert np.all(np.abs(difference.mean(axis=0)) <= 5.5 * deviation + 1e-5 * plain.mean())
+    assert apart.var(axis=0).sum() < 0.5 * plain.var(axis=0).sum()
+
+
+def test_denoisers_leave_light_alone_that_the_camera_sees_sharply():
+    pytest.importorskip("pyoidn")
+    film = finished(mirrors_and_glass(samples=16, passes=["color", "denoising_albedo", "denoising_normal", "denoising_light"]))
+    color, light = np.asarray(film["color"])[..., :3], np.asarray(film["denoising_light"])
+    assert np.all(light <= color * (1 + 1e-5) + 1e-3) and light.max() > 100.0
+    # Nothing but the rough floor is seen here.
+    assert not light[0].any()
+    clean = np.asarray(gonio.denoise(film)["color"])[..., :3]
+    black = film.with_pass("color", np.concatenate([light, np.ones((32, 32, 1), "f4")], axis=2))
+    assert np.asarray(gonio.denoise(black)["color"])[..., :3] == pytest.approx(light, abs=1e-2)
+    assert np.all(clean >= light - 1e-3)
+
+
 def test_denoising_without_the_extra_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyoidn", None)
     with pytest.raises(gonio.UnsupportedError, match=r"pip install 'gonio\[denoise\]'"):

@@ -7,8 +7,8 @@ use gonio::{
 };
 use pyo3::{prelude::*, types::PyBytes};
 
-/// Passes that tell noise from detail.
-const GUIDES: [Aov; 2] = [Aov::DenoisingAlbedo, Aov::DenoisingNormal];
+/// Passes that tell noise from detail, and what of the colour has none.
+const GUIDES: [Aov; 3] = [Aov::DenoisingAlbedo, Aov::DenoisingNormal, Aov::DenoisingLight];
 
 /// The Python side: `gonio.oidn`.
 #[derive(Debug)]
@@ -37,8 +37,8 @@ impl Denoiser {
         let [width, height] = image.size();
         let denoised = Python::attach(|py| {
             let bytes = |layer: &Layer| PyBytes::new(py, &rgb_bytes(layer));
-            let [albedo, normal] = GUIDES.map(|aov| image.layer(aov).map(bytes));
-            let arguments = (width, height, image.layer(Aov::Color).map(bytes), albedo, normal);
+            let [albedo, normal, light] = GUIDES.map(|aov| image.layer(aov).map(bytes));
+            let arguments = (width, height, image.layer(Aov::Color).map(bytes), albedo, normal, light);
             let bytes: PyResult<Vec<u8>> = self.module.bind(py).call_method1("denoised_bytes", arguments).and_then(|bytes| bytes.extract());
             bytes.map_err(|error| failure(py, &error))
         })?;

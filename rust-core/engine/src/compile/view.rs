@@ -6,7 +6,7 @@ use crate::{
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
     film::{Film, FilterTable, Placement},
-    integrator::{FirstPasses, Mist, Transport},
+    integrator::{FirstPasses, Mist, Sight, Transport},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
 };
 use gonio_simd::Execution;
@@ -73,7 +73,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
                 depth: settings.mist.depth,
                 falloff: settings.mist.falloff,
             }),
-            guides: [Aov::DenoisingAlbedo, Aov::DenoisingNormal].iter().any(|aov| settings.aovs.contains(aov)),
+            guides: [Aov::DenoisingAlbedo, Aov::DenoisingNormal, Aov::DenoisingLight].iter().any(|aov| settings.aovs.contains(aov)),
             numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
         },
         measure: settings.aovs.contains(&Aov::Illuminance),
@@ -83,6 +83,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         seed: settings.seed,
         samples: settings.samples,
         known: None,
+        sight: Sight::Whole,
         draws: (settings.integrator == Integrator::Whitted).then(|| scene.tables.lights.draws(settings.light_samples).into()),
     }
 }

@@ -72,7 +72,13 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
         Aov::Depth => &["Z"],
         Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
         Aov::Uv => &["U", "V", "A"],
-        Aov::Albedo | Aov::DenoisingAlbedo | Aov::Emission | Aov::Environment | Aov::Light(..) | Aov::LightGroup(_) => &["R", "G", "B"],
+        Aov::Albedo
+        | Aov::DenoisingAlbedo
+        | Aov::DenoisingLight
+        | Aov::Emission
+        | Aov::Environment
+        | Aov::Light(..)
+        | Aov::LightGroup(_) => &["R", "G", "B"],
         Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
         Aov::Mist | Aov::SampleCount | Aov::Shader(ShaderValue::Number, _) => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
@@ -81,8 +87,9 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
 
 /// Whether a pass holds absolute values, which files keep as 32-bit floats.
 pub fn is_absolute(aov: Aov) -> bool {
-    use Aov::{Albedo, Alpha, Color, DenoisingAlbedo, DenoisingNormal, Light, LightGroup, Normal};
-    !matches!(aov, Color | Alpha | Albedo | Normal | DenoisingNormal | DenoisingAlbedo | Light(_, LightPart::Color) | LightGroup(_))
+    use Aov::{Albedo, Alpha, Color, DenoisingAlbedo, DenoisingLight, DenoisingNormal, Light, LightGroup, Normal};
+    let relative = matches!(aov, Color | Alpha | Albedo | Normal | DenoisingNormal | DenoisingAlbedo | DenoisingLight);
+    !relative && !matches!(aov, Light(_, LightPart::Color) | LightGroup(_))
 }
 
 /// Whether values are numbers of things, of which the first that is met counts.

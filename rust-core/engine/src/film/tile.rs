@@ -217,16 +217,11 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &First
     let luminance = |i: usize| luminance(gathered, i);
     match aov {
         Aov::Color => {
-            for (c, out) in channels.chunks_exact_mut(BATCH).take(3).enumerate() {
-                out.iter_mut().zip(&radiance[c][..BATCH]).for_each(|(out, value)| *out = value * exposure);
-            }
+            expose3(&mut channels[..3 * BATCH], radiance, exposure);
             channels[3 * BATCH..].copy_from_slice(&gathered.alpha[..BATCH]);
         }
-        Aov::LightGroup(number) => {
-            for (out, column) in channels.chunks_exact_mut(BATCH).zip(gathered.groups.part(u32::from(number))) {
-                out.iter_mut().zip(&column[..BATCH]).for_each(|(out, value)| *out = value * exposure);
-            }
-        }
+        Aov::LightGroup(number) => expose3(channels, gathered.groups.part(u32::from(number)), exposure),
+        Aov::DenoisingLight => expose3(channels, &gathered.sharp, exposure),
         Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
         Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
         Aov::Normal => copy3(channels, &gathered.normal),
@@ -259,6 +254,12 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &First
         Aov::PrimId => channels.iter_mut().zip(&gathered.prim_id[..]).for_each(|(out, id)| *out = *id as f32),
         Aov::Luminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(i)),
         Aov::Illuminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(BATCH + i)),
+    }
+}
+
+fn expose3(channels: &mut [f32], from: &[gonio_simd::Column; 3], exposure: f32) {
+    for (out, column) in channels.chunks_exact_mut(BATCH).zip(from) {
+        out.iter_mut().zip(&column[..BATCH]).for_each(|(out, value)| *out = value * exposure);
     }
 }
 

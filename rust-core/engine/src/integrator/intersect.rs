@@ -2,7 +2,7 @@
 
 use super::{
     accumulate::clamped,
-    catcher,
+    catcher, guides,
     kernels::{self, LightHit},
     light_groups::add_of_lights,
     light_sums::code,
@@ -92,7 +92,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let slot = l.gather_integers(&ws.paths.slot, path);
         let value = clamped(radiance * throughput * weight, transport.clamp(depth));
-        let arrives = alive & value.is_lit();
+        let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
         add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, arrives);
         add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.first_hit.groups);
     }
@@ -157,7 +157,7 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
         let value = clamped(unclamped, transport.clamp(depth));
-        let arrives = alive & value.is_lit();
+        let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
         if transport.passes.groups.wanted() && arrives.any() {
             // A limit holds for all of them together.

@@ -1,6 +1,6 @@
 //! Radiance by where it comes from, for the passes of light.
 
-use super::state::{BATCH, columns3};
+use super::state::{BATCH, add_scaled, columns3};
 use gonio_simd::{Column, Lanes, M, Rgb, U};
 
 /// What a contribution counts as. 0 to 2 are direct light by the kind of the first scattering.
@@ -38,6 +38,10 @@ impl LightSums {
     /// The sums of a code.
     pub fn part(&self, code: u32) -> &[Column; 3] {
         &self.parts[code as usize]
+    }
+    /// Adds other sums of the same codes, times a factor.
+    pub(super) fn add_scaled(&mut self, other: &Self, factor: f32) {
+        self.parts.iter_mut().zip(&other.parts).for_each(|(to, from)| add_scaled(to, from, factor));
     }
     pub(super) fn clear(&mut self) {
         self.parts.iter_mut().flatten().for_each(|column| column.fill(0.0));

@@ -44,4 +44,4 @@ pub use shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses, ShaderSums};
 pub(crate) use state::Paths;
 pub use state::{BATCH, FirstHit, TILE, Workspace, ray_mask};
 pub use statistics::{LANE_BOUNCES, LANE_STAGES, LaneCount, STAGES, Statistics};
-pub use transport::{FirstPasses, Mist, Transport};
+pub use transport::{FirstPasses, Mist, Sight, Transport};

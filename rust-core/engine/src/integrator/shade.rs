@@ -14,7 +14,7 @@ use super::{
     path::SampleContext,
     scatter::{add_light, code_of},
     state::{BATCH, Workspace, flag, gather3, load3},
-    transport::Transport,
+    transport::{Sight, Transport},
     whitted,
 };
 use crate::{
@@ -244,7 +244,7 @@ pub(super) fn show<L: Lanes>(
         add_emission(stage, point, lobes.emission(), present, at, ws);
     }
     // What is seen through a transparent closure comes first.
-    if !material.surface.lobes.straight {
+    if !material.surface.lobes.straight && stage.transport.sight != Sight::Sharp {
         record_first(stage, material, point, lobes, present, at, ws);
         if !tables.geometry.set_catcher.is_empty() {
             catcher::record(stage, point, present, ws);
@@ -278,7 +278,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
         }
     }
     let value = clamped(value, transport.clamp(context.depth));
-    let arrives = present & value.is_lit();
+    let arrives = guides::see(transport, point.flags, point.slot, value, present & value.is_lit(), ws);
     add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
     add_of_surfaces(stage, at, point.slot, value, arrives, ws);
 }

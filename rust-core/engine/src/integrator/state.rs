@@ -313,6 +313,13 @@ impl Default for MeasurePoints {
     }
 }
 
+/// Adds to each column another one's values times a factor.
+pub(super) fn add_scaled(to: &mut Columns3, from: &Columns3, factor: f32) {
+    for (to, from) in to.iter_mut().zip(from) {
+        to.iter_mut().zip(from.iter()).for_each(|(to, from)| *to += from * factor);
+    }
+}
+
 /// What the camera sees first, by pixel slot; sums over the samples of a block.
 #[derive(Debug)]
 pub struct FirstHit {
@@ -342,6 +349,8 @@ pub struct FirstHit {
     pub clearness: Column,
     /// Camera rays, of pixels that have a number of their own.
     pub rays: Column,
+    /// What of the radiance the camera sees sharply: straight, in mirrors and through smooth glass.
+    pub sharp: Columns3,
     /// Light by where it comes from.
     pub lights: LightSums,
     /// Light by its group.
@@ -368,6 +377,7 @@ impl Default for FirstHit {
             uv: columns3(BATCH),
             clearness: Column::new(BATCH),
             rays: Column::new(BATCH),
+            sharp: columns3(BATCH),
             lights: LightSums::default(),
             groups: LightSums::default(),
             shader: ShaderSums::default(),
@@ -393,6 +403,15 @@ impl FirstHit {
         (self.alpha[slot], self.rays[slot]) = (coverage, rays as f32);
     }
 
+    /// Takes what other camera rays saw sharply, of which each counts as `factor` of one.
+    pub(super) fn add_sharp(&mut self, rays: &Self, factor: f32) {
+        add_scaled(&mut self.radiance, &rays.radiance, factor);
+        add_scaled(&mut self.sharp, &rays.sharp, factor);
+        self.guides.iter_mut().zip(&rays.guides).for_each(|(to, from)| add_scaled(to, from, factor));
+        self.lights.add_scaled(&rays.lights, factor);
+        self.groups.add_scaled(&rays.groups, factor);
+    }
+
     /// Empties the sums of radiance and coverage, for those who look at nothing else.
     pub fn clear_colour(&mut self) {
         self.radiance.iter_mut().chain([&mut self.alpha]).for_each(|column| column.fill(0.0));
@@ -400,7 +419,7 @@ impl FirstHit {
 
     /// Empties all sums.
     pub fn clear(&mut self) {
-        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv];
+        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.sharp];
         let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays];
         threes
             .into_iter()
@@ -480,6 +499,8 @@ pub struct Workspace {
     pub(super) shader_outputs: OutputColumns,
     /// The block under way.
     pub first_hit: FirstHit,
+    /// The same of rays that see sharply alone.
+    pub(super) sharp_hit: FirstHit,
     /// Rays traced and lanes alive, for benchmarks.
     pub statistics: Statistics,
 }
@@ -490,11 +511,26 @@ impl Workspace {
         (&self.paths.slot[..self.paths.count], &self.hits)
     }
 
+    /// Lets rays that see sharply alone have sums of their own.
+    pub(super) fn start_sharp(&mut self, transport: &Transport) {
+        self.branches.prepare(transport);
+        self.sharp_hit.clear();
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+    }
+
+    /// Adds what they saw to the block, so many of them counting as one sample.
+    pub(super) fn end_sharp(&mut self, rays: u32) {
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+        self.first_hit.add_sharp(&self.sharp_hit, 1.0 / rays as f32);
+    }
+
     /// Empties the block's sums, and makes room for those that passes want.
     pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
         self.branches.prepare(transport);
-        self.first_hit.lights.prepare(if shows_lights { code::COUNT } else { 0 });
-        self.first_hit.groups.prepare(transport.passes.groups.count);
+        for sums in [&mut self.first_hit, &mut self.sharp_hit] {
+            sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
+            sums.groups.prepare(transport.passes.groups.count);
+        }
         self.first_hit.shader.prepare(&transport.passes.shader);
         if !tables.geometry.set_catcher.is_empty() {
             self.first_hit.prepare_catchers();

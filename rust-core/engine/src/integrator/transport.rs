@@ -37,8 +37,22 @@ pub struct Transport {
     pub samples: u32,
     /// Which lights arrive where, if that was learned.
     pub known: Option<Arc<KnownLights>>,
+    /// Which light counts of what paths meet.
+    pub sight: Sight,
     /// How every point is lit, where paths are trees of sharp rays instead.
     pub draws: Option<Arc<[Draw]>>,
+}
+
+/// Which light counts of what paths meet: a camera sees it sharply where there are mirrors and smooth glass alone between.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sight {
+    /// All of it.
+    #[default]
+    Whole,
+    /// What is seen sharply; paths end at other surfaces.
+    Sharp,
+    /// What is not.
+    Blurred,
 }
 
 /// What passes want to know of first surfaces beyond the usual.

@@ -4,14 +4,17 @@ use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source:
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     film::Block,
-    integrator::{Runs, Tracer, Transport, Workspace},
-    scene::{Aov, Crop},
+    integrator::{Runs, Sight, Tracer, Transport, Workspace},
+    scene::{Antialiasing, Aov, Crop, Integrator},
 };
 use crossbeam_channel::Sender;
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{PoisonError, atomic::Ordering},
 };
+
+/// Camera rays a pixel that show denoisers enough of what is seen sharply.
+const SHARP_RAYS: u32 = 32;
 
 /// What a worker keeps from block to block.
 #[derive(Default)]
@@ -40,7 +43,9 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
-    let transport = Transport { known, ..shared.source.transport().clone() };
+    let sharp_rays = sharp_rays(shared);
+    let sight = if sharp_rays.is_some() { Sight::Blurred } else { Sight::Whole };
+    let transport = Transport { known, sight, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -52,6 +57,9 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
         None => Runs::batches(zones, work.samples.clone())
             .take_while(|_| !cancelled())
             .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
+    }
+    if let Some(rays) = sharp_rays {
+        tracer.trace_sharp([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
     if cancelled() {
         return;
@@ -72,6 +80,16 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
         }
     });
     shared.schedule.decided(work.tile, state);
+}
+
+/// For each sample, camera rays of their own for what is seen sharply, where denoisers ask for them and samples are drawn at random.
+fn sharp_rays(shared: &Shared) -> Option<u32> {
+    let wanted = shared.film.layout.offset(Aov::DenoisingLight).is_some();
+    let settings = &shared.settings;
+    let drawn = settings.integrator != Integrator::Whitted && settings.antialiasing == Antialiasing::Sampled;
+    // What shadow catchers hide is compared path by path.
+    let possible = wanted && drawn && shared.film.layout.catchers.is_none();
+    possible.then(|| SHARP_RAYS.div_ceil(settings.samples.max(1)))
 }
 
 /// What is to be known before the first block.

@@ -114,6 +114,9 @@ pub enum Aov {
     DenoisingNormal,
     /// Albedo for denoisers.
     DenoisingAlbedo,
+    /// What of the colour denoisers should leave as it is: light that the camera sees straight, in mirrors and through smooth glass. It
+    /// comes from camera rays of its own, as do the guides; where there are none (shadow catchers, samples on a grid) it is zero.
+    DenoisingLight,
     /// What surfaces that the camera sees emit.
     Emission,
     /// What the camera sees of lights at infinity.
@@ -176,7 +179,7 @@ pub enum LightPart {
 
 impl Aov {
     /// All passes with their names, but for shader passes and light groups.
-    pub const NAMES: [(Self, &'static str); 27] = {
+    pub const NAMES: [(Self, &'static str); 28] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
         [
@@ -193,6 +196,7 @@ impl Aov {
             (Self::Mist, "mist"),
             (Self::DenoisingNormal, "denoising_normal"),
             (Self::DenoisingAlbedo, "denoising_albedo"),
+            (Self::DenoisingLight, "denoising_light"),
             (Self::Emission, "emission"),
             (Self::Environment, "environment"),
             (Self::ObjectIndex, "object_index"),

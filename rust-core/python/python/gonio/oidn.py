@@ -10,8 +10,8 @@ from ._gonio import Film, UnsupportedError
 if TYPE_CHECKING:
     import numpy
 
-# Passes that tell noise from detail.
-GUIDES = ("denoising_albedo", "denoising_normal")
+# Passes that tell noise from detail, and what of the colour has none.
+GUIDES = ("denoising_albedo", "denoising_normal", "denoising_light")
 
 
 def require() -> Any:
@@ -29,7 +29,8 @@ def require() -> Any:
 def denoise(film: Film) -> Film:
     """A film whose colour is denoised; the passes `denoising_albedo` and `denoising_normal` guide it where the film has them.
 
-    Alpha and all other passes, luminance and illuminance among them, stay as they were rendered. Raises `gonio.UnsupportedError` without pyoidn.
+    What the pass `denoising_light` shows of the colour stays as it is. So do alpha and all other passes, luminance and illuminance among them.
+    Raises `gonio.UnsupportedError` without pyoidn.
     """
     import numpy
 
@@ -39,15 +40,17 @@ def denoise(film: Film) -> Film:
     return film.with_pass("color", color)
 
 
-def denoised_bytes(width: int, height: int, color: bytes, albedo: bytes | None, normal: bytes | None) -> bytes:
+def denoised_bytes(width: int, height: int, color: bytes, albedo: bytes | None, normal: bytes | None, light: bytes | None) -> bytes:
     """The same for bytes of native float32 RGB; for the command line."""
     import numpy
 
-    images = [data and numpy.frombuffer(data, numpy.float32).reshape(height, width, 3) for data in (color, albedo, normal)]
+    images = [data and numpy.frombuffer(data, numpy.float32).reshape(height, width, 3) for data in (color, albedo, normal, light)]
     return _denoised(*images).tobytes()
 
 
-def _denoised(color: numpy.ndarray, albedo: numpy.ndarray | None, normal: numpy.ndarray | None) -> numpy.ndarray:
+def _denoised(
+    color: numpy.ndarray, albedo: numpy.ndarray | None, normal: numpy.ndarray | None, light: numpy.ndarray | None
+) -> numpy.ndarray:
     import numpy
 
     pyoidn = require()
@@ -57,7 +60,10 @@ def _denoised(color: numpy.ndarray, albedo: numpy.ndarray | None, normal: numpy.
         # The filter takes normals beside albedo only.
         if normal is not None:
             guides["normal"] = _prefiltered(pyoidn, "normal", normal)
-    return pyoidn.denoise(numpy.ascontiguousarray(color, numpy.float32), hdr=True, clean_aux=bool(guides), **guides)
+    # Without what mirrors and glass show of lights, the colour has no edges that the guides do not have.
+    rest = color if light is None else numpy.maximum(color - light, 0.0)
+    denoised = pyoidn.denoise(numpy.ascontiguousarray(rest, numpy.float32), hdr=True, clean_aux=bool(guides), **guides)
+    return denoised if light is None else denoised + light
 
 
 def _prefiltered(pyoidn: Any, name: str, image: numpy.ndarray) -> numpy.ndarray:

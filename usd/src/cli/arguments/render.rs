@@ -53,7 +53,7 @@ pub(crate) struct RenderOptions {
     /// Width of the pixel filter in pixels.
     #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
     pub(crate) filter_width: f32,
-    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, denoising_light, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(crate) aov: Vec<String>,
     /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.

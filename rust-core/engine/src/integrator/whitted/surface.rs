@@ -7,16 +7,20 @@ use super::super::{
     material::SurfaceMaterial,
     shade::{Point, Stage, meet, show, threshold},
     state::{PathLanes, Workspace, event, flag},
+    transport::Sight,
 };
 use crate::{
     bsdf::{Lobes, Way},
     geometry::spawn,
     light::Draw,
+    sampler::dimension,
 };
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Rays that would bring less than this share of what they find end: half an 8-bit step of white at most.
 const LEAST_THROUGHPUT: f32 = 1.0 / 512.0;
+/// The same where rays that bring less end by chance and others stand for them.
+const LEAST_SHARP: f32 = 1.0 / 16.0;
 
 /// A ray that leaves a point.
 struct Branch<L: Lanes> {
@@ -51,6 +55,7 @@ pub(in super::super) fn shade_lanes<L: Lanes>(
     if (smooth & lit).any() {
         light(stage, point, wo, lobes, draws, lit & smooth, ws);
     }
+    let present = if transport.sight == Sight::Sharp { present & point.only_delta } else { present };
     for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, wo)) {
         let throughput = (point.throughput * ray.weight).keep_if(present);
         if way == Way::Straight {
@@ -106,11 +111,11 @@ fn light<L: Lanes>(
 #[inline(always)]
 fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goes: M<L>, ws: &mut Workspace) {
     let Branch { way, wi, throughput, share } = *ray;
-    let brightest = throughput.max_component();
+    let (throughput, worth) = worth(stage, point, way, throughput);
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.geometric.dot(wi).lt(0.0);
     let consistent = if matches!(way, Way::Mirrored | Way::Coat) { !across } else { across };
-    let alive = goes & consistent & brightest.ge(LEAST_THROUGHPUT) & brightest.is_finite();
+    let alive = goes & consistent & worth;
     if !alive.any() {
         return;
     }
@@ -132,17 +137,34 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goe
         width: point.width,
         spread: point.spread,
         slot: point.slot,
-        flags: flags(l, point, way),
+        flags: flags(l, stage.transport.sight, point, way),
         counts: point.counts + counted,
         medium: if way == Way::Refracted { point.behind } else { point.medium },
     };
     ws.branches.ways[way as usize].append(&state, alive);
 }
 
+/// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of
+/// it stand for others like them by chance.
+#[inline(always)]
+fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
+    let Stage { l, transport, context, .. } = *stage;
+    let brightest = throughput.max_component();
+    let usable = brightest.gt(0.0) & brightest.is_finite();
+    if transport.sight != Sight::Sharp {
+        return (throughput, usable & brightest.ge(LEAST_THROUGHPUT));
+    }
+    let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + way as u32;
+    let [chance, _] = context.sampler.pair(l, context.index(l, point.slot), dimension);
+    let survival = (brightest * LEAST_SHARP.recip()).min(1.0);
+    (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
+}
+
 /// What a ray has met once it has gone this way.
 #[inline(always)]
-fn flags<L: Lanes>(l: L, point: &Point<L>, way: Way) -> U<L> {
-    let measured = point.only_delta.select(l.u(0), l.u(flag::MEASURED));
+fn flags<L: Lanes>(l: L, sight: Sight, point: &Point<L>, way: Way) -> U<L> {
+    let all_sharp = if sight == Sight::Sharp { l.m(true) } else { point.only_delta };
+    let measured = all_sharp.select(l.u(0), l.u(flag::MEASURED));
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
         Way::Refracted => event::TRANSMISSION,
