@@ -13,9 +13,13 @@ SIDES, SUBDIVISIONS = 8, 5
 class Builder:
     """A scene in the making; metres, y up."""
 
-    def __init__(self, width: int, height: int, depth: int) -> None:
+    def __init__(self, width: int, height: int, depth: int, margin: int = 0) -> None:
+        """A picture of so many pixels, and `margin` more of the same size on the whole of each axis."""
         self.scene = gonio.Scene()
-        self.scene.set(width=width, height=height, max_bounces=depth, integrator="whitted", passes=["color", "sample_count"])
+        self.triangles = 0
+        self._wider = (width + margin) / width
+        size = {"width": width + margin, "height": height + margin}
+        self.scene.set(**size, max_bounces=depth, integrator="whitted", passes=["color", "sample_count"])
 
     def surface(self, colour: Vector, **parameters: float) -> int:
         """A layered surface; without more it is a Lambertian one."""
@@ -40,6 +44,7 @@ class Builder:
     def add(self, points: numpy.ndarray, triangles: numpy.ndarray, material: int, uvs: numpy.ndarray | None = None) -> None:
         """Places a mesh."""
         mesh = self.scene.add_mesh(numpy.asarray(points, "f4"), numpy.asarray(triangles, "i4"), uvs=uvs)
+        self.triangles += len(triangles)
         self.scene.add_instance(mesh, [material])
 
     def quad(self, corner: Vector, u: Vector, v: Vector, material: int, repeats: float = 1.0) -> None:
@@ -75,6 +80,7 @@ class Builder:
         points, triangles = refined(subdivisions)
         normals = points / numpy.asarray(radii)
         normals /= numpy.linalg.norm(normals, axis=1, keepdims=True)
+        self.triangles += len(triangles)
         mesh = self.scene.add_mesh((points * radii + centre).astype("f4"), triangles, normals=normals.astype("f4"))
         self.scene.add_instance(mesh, [material])
 
@@ -90,7 +96,8 @@ class Builder:
         right /= numpy.linalg.norm(right)
         matrix = numpy.eye(4)
         matrix[:3, :] = numpy.stack([right, numpy.cross(backward, right), backward, position], axis=1)
-        self.scene.add_camera(matrix.tolist(), fov=fov)
+        half = numpy.arctan(numpy.tan(numpy.radians(fov / 2)) * self._wider)
+        self.scene.add_camera(matrix.tolist(), fov=float(numpy.degrees(2 * half)))
         return self.scene
 
 
