@@ -22,8 +22,8 @@ def car(width: int, height: int, margin: int = 0) -> gonio.Scene:
         x = -3.6 + 0.3 * i
         b.rod((x, 0, -2.4), (x, 0.9 + 0.3 * (i % 3), -2.4), 0.012, grey)
     for i in range(104):
-        b.box((-5.2 + 0.1 * i, 0.35, -4.0), (0.06, 0.7, 0.03), white)
-    for y in (0.15, 0.55):
+        b.box((-5.2 + 0.1 * i, 0.25, -4.0), (0.06, 0.5, 0.03), white)
+    for y in (0.12, 0.4):
         b.box((0, y, -4.03), (10.5, 0.05, 0.03), white)
     b.box((0, 0.02, -4.0), (10.6, 0.04, 0.1), white)
     for position, candela in (((5, 4, 4), 120.0), ((-2, 4, 6), 90.0), ((-2, 7, -4), 130.0)):
@@ -97,7 +97,7 @@ def room(width: int, height: int, margin: int = 0) -> gonio.Scene:
             b.box((x, 0.36, z), (0.05, 0.72, 0.05), wood)
     for place, turn in (((-0.5, 0.8), 190.0), ((0.5, 0.85), 170.0), ((-0.5, -0.8), 5.0), ((0.6, -0.8), -10.0), ((1.4, 0.1), 80.0)):
         chair(b, place, turn, wood)
-    for position, candela in (((1.6, 2.3, 2.7), 8.0), ((-1.0, 2.3, 2.6), 6.5), ((2.7, 0.9, 2.2), 6.5)):
+    for position, candela in (((1.6, 2.3, 2.7), 9.0), ((-1.0, 2.3, 2.6), 7.3), ((2.7, 0.9, 2.2), 7.3)):
         b.lamp(position, candela)
     return b.look((1.9, 1.6, 2.8), (-0.3, 0.9, -0.4), 60.0)
 
@@ -107,19 +107,19 @@ def shelf(b: Builder) -> None:
     random = numpy.random.default_rng(7)
     board = b.surface((0.35, 0.33, 0.3))
     for level in range(5):
-        b.box((-1.6, 0.3 + 0.45 * level, -2.8), (2.2, 0.03, 0.35), board)
+        b.box((-1.6, 0.5 + 0.36 * level, -2.8), (2.2, 0.03, 0.35), board)
         for i in range(45):
-            thick, tall = random.uniform(0.032, 0.044), random.uniform(0.24, 0.36)
+            thick, tall = random.uniform(0.032, 0.044), random.uniform(0.18, 0.28)
             colour = tuple(random.uniform(0.27, 0.34, 3).tolist())
-            b.box((-2.66 + 0.047 * i, 0.315 + 0.45 * level + tall / 2, -2.75), (thick, tall, 0.24), b.surface(colour))
+            b.box((-2.66 + 0.047 * i, 0.515 + 0.36 * level + tall / 2, -2.75), (thick, tall, 0.24), b.surface(colour))
 
 
 def blinds(b: Builder) -> None:
     """Slats before a bright window."""
-    b.quad((0.6, 0.9, -2.97), (1.8, 0, 0), (0, 1.4, 0), b.surface((0.45, 0.46, 0.47)))
+    b.quad((0.9, 0.9, -2.97), (1.2, 0, 0), (0, 1.4, 0), b.surface((0.45, 0.46, 0.47)))
     slat = b.surface((0.38, 0.37, 0.35))
     for i in range(21):
-        b.box((1.5, 0.94 + 0.067 * i, -2.95), (1.8, 0.034, 0.01), slat)
+        b.box((1.5, 0.94 + 0.067 * i, -2.95), (1.2, 0.034, 0.01), slat)
 
 
 def chair(b: Builder, place: tuple[float, float], turn_deg: float, material: int) -> None:
