@@ -16,7 +16,6 @@ class Builder:
     def __init__(self, width: int, height: int, depth: int, margin: int = 0) -> None:
         """A picture of so many pixels, and `margin` more of the same size on the whole of each axis."""
         self.scene = gonio.Scene()
-        self.triangles = 0
         self._wider = (width + margin) / width
         size = {"width": width + margin, "height": height + margin}
         self.scene.set(**size, max_bounces=depth, integrator="whitted", passes=["color", "sample_count"])
@@ -44,7 +43,6 @@ class Builder:
     def add(self, points: numpy.ndarray, triangles: numpy.ndarray, material: int, uvs: numpy.ndarray | None = None) -> None:
         """Places a mesh."""
         mesh = self.scene.add_mesh(numpy.asarray(points, "f4"), numpy.asarray(triangles, "i4"), uvs=uvs)
-        self.triangles += len(triangles)
         self.scene.add_instance(mesh, [material])
 
     def quad(self, corner: Vector, u: Vector, v: Vector, material: int, repeats: float = 1.0) -> None:
@@ -80,7 +78,6 @@ class Builder:
         points, triangles = refined(subdivisions)
         normals = points / numpy.asarray(radii)
         normals /= numpy.linalg.norm(normals, axis=1, keepdims=True)
-        self.triangles += len(triangles)
         mesh = self.scene.add_mesh((points * radii + centre).astype("f4"), triangles, normals=normals.astype("f4"))
         self.scene.add_instance(mesh, [material])
 
@@ -137,4 +134,5 @@ def point_light(position: Vector, candela: float) -> dict[str, object]:
     }
 
 
-Make = Callable[[int, int], gonio.Scene]
+Make = Callable[..., gonio.Scene]
+"""Makes a scene for a picture of so many pixels in width and height, and so many more at the margin."""
