@@ -62,9 +62,9 @@ def glass(width: int, height: int, margin: int = 0) -> gonio.Scene:
     random = numpy.random.default_rng(3)
     for _ in range(110):
         foot = numpy.array([random.uniform(-2.0, 2.0), 0.0, random.uniform(-1.4, 1.2)])
-        top = foot + [random.uniform(-0.6, 0.6), random.uniform(0.6, 1.7), random.uniform(-0.4, 0.4)]
-        b.rod(tuple(foot), tuple(top), random.uniform(0.003, 0.007), b.surface((random.uniform(0.17, 0.45),) * 3))
-    mirror = b.surface((0.4, 0.4, 0.4), metalness=1.0, specular_weight=1.0, specular_roughness=0.0)
+        top = foot + [random.uniform(-0.2, 0.2), random.uniform(0.7, 1.8), random.uniform(-0.2, 0.2)]
+        b.rod(tuple(foot), tuple(top), random.uniform(0.003, 0.007), b.surface((random.uniform(0.2, 0.42),) * 3))
+    mirror = b.surface((0.35, 0.35, 0.35), metalness=1.0, specular_weight=1.0, specular_roughness=0.0)
     for x, z, radius in ((-1.1, 0.3, 0.35), (0.0, -0.4, 0.5), (1.0, 0.4, 0.3), (0.5, 0.9, 0.15)):
         b.ball((x, radius, z), radius, mirror, 4)
     for x in (-0.4, -0.1, 0.2):
@@ -72,7 +72,7 @@ def glass(width: int, height: int, margin: int = 0) -> gonio.Scene:
     plinth = b.surface((0.3, 0.3, 0.3))
     for i in range(17):
         b.box((-3.2 + 0.4 * i, 0.06, -1.9), (0.3, 0.12, 0.1), plinth)
-    for position, candela in (((1.8, 3.4, 8), 125.0), ((-2.2, 2.4, 8), 115.0)):
+    for position, candela in (((1.8, 3.4, 8), 100.0), ((-2.2, 2.4, 8), 92.0)):
         b.lamp(position, candela)
     return b.look((0.0, 1.4, 4.6), (0.0, 0.95, 0.0), 40.0)
 
