@@ -13,8 +13,8 @@ MAP_SIDE, LEAST_COSINE, MOST_DEPTH = 4, 0.9, 0.05
 
 @dataclass(frozen=True)
 class Figures:
-    """Triangles; root mean square errors in steps of 8-bit sRGB of regular grids by their side, and of the mean of pixels' corners; the share of
-    pixels in which surfaces part."""
+    """Triangles; root mean square errors in steps of 8-bit sRGB of regular grids by their side, and of the mean of pixels' corners;
+    the share of pixels in which surfaces part."""
 
     triangles: int
     grids: dict[int, float]

@@ -1,9 +1,9 @@
-"""Three scenes to the descriptions of those on which the thresholds were found: a smooth thing with reflections, things thinner than a pixel before
-fine texture, and many edges.
+"""Three scenes to the descriptions of those on which the thresholds were found: a smooth thing with reflections, things thinner than a
+pixel before fine texture, and many edges.
 
-Their numbers of triangles, lights and mirrored bounces are those of the descriptions. How much contrast and detail they have was set by figures
-alone that no adaptive picture enters: the errors of regular grids and of the mean of pixels' corners, and the share of pixels with a seam
-(`calibration.py` holds them to it). Values are exposed so that white is 1.
+Their numbers of triangles, lights and mirrored bounces are those of the descriptions. How much contrast and detail they have was set by
+figures alone that no adaptive picture enters: the errors of regular grids and of the mean of pixels' corners, and the share of pixels with
+a seam (`calibration.py` has them, and a test holds the scenes to them). Values are exposed so that white is 1.
 """
 
 import gonio
@@ -12,7 +12,8 @@ from builder import Builder, Make
 
 
 def car(width: int, height: int, margin: int = 0) -> gonio.Scene:
-    """A lacquered body on wheels before a fence, between rods, on squares, under three hard lights: mirrored three times; 23,176 triangles."""
+    """A lacquered body on wheels before a fence, between rods, on squares, under three hard lights: mirrored three times;
+    23,176 triangles."""
     b = Builder(width, height, 3, margin)
     b.quad((-20, 0, 14), (34, 0, 0), (0, 0, -34), b.chequered(((0.29, 0.29, 0.27), (0.19, 0.195, 0.2))), repeats=12.0)
     b.quad((-40, 0, -9), (54, 0, 0), (0, 19, 0), b.surface((0.3, 0.32, 0.35)))
@@ -48,8 +49,8 @@ def body(b: Builder) -> None:
 
 
 def glass(width: int, height: int, margin: int = 0) -> gonio.Scene:
-    """110 rods below or near a pixel's width and mirror balls before a wall of squares three pixels wide, under two hard lights: mirrored twice;
-    11,704 triangles."""
+    """110 rods below or near a pixel's width and mirror balls before a wall of squares three pixels wide, under two hard lights:
+    mirrored twice; 11,704 triangles."""
     b = Builder(width, height, 2, margin)
     squares = b.chequered(((0.48, 0.47, 0.45), (0.2, 0.21, 0.22)))
     b.quad((-4, 0, -2), (8, 0, 0), (0, 6, 0), squares, repeats=14.0)

@@ -1,7 +1,8 @@
-"""What of an adaptive picture depends on the machine: nothing on threads and lanes, a little on whether the level fuses multiplication and addition.
+"""What of an adaptive picture depends on the machine: nothing on threads and lanes, a little on whether the level fuses multiplication
+and addition.
 
-Each picture comes from a process of its own, for the level is chosen once. The comparisons that send rays look at values which the two families of levels
-round otherwise, so pixels next to a threshold may get other numbers of rays.
+Each picture comes from a process of its own, for the level is chosen once. The comparisons that send rays look at values which the two
+families of levels round otherwise, so pixels next to a threshold may get other numbers of rays.
 """
 
 import os
