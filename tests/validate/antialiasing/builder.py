@@ -13,9 +13,12 @@ SIDES, SUBDIVISIONS = 8, 5
 class Builder:
     """A scene in the making; metres, y up."""
 
-    def __init__(self, width: int, height: int, depth: int) -> None:
+    def __init__(self, width: int, height: int, depth: int, margin: int = 0) -> None:
+        """A picture of so many pixels, and `margin` more of the same size on the whole of each axis."""
         self.scene = gonio.Scene()
-        self.scene.set(width=width, height=height, max_bounces=depth, integrator="whitted", passes=["color", "sample_count"])
+        self._wider = (width + margin) / width
+        size = {"width": width + margin, "height": height + margin}
+        self.scene.set(**size, max_bounces=depth, integrator="whitted", passes=["color", "sample_count"])
 
     def surface(self, colour: Vector, **parameters: float) -> int:
         """A layered surface; without more it is a Lambertian one."""
@@ -90,7 +93,8 @@ class Builder:
         right /= numpy.linalg.norm(right)
         matrix = numpy.eye(4)
         matrix[:3, :] = numpy.stack([right, numpy.cross(backward, right), backward, position], axis=1)
-        self.scene.add_camera(matrix.tolist(), fov=fov)
+        half = numpy.arctan(numpy.tan(numpy.radians(fov / 2)) * self._wider)
+        self.scene.add_camera(matrix.tolist(), fov=float(numpy.degrees(2 * half)))
         return self.scene
 
 
@@ -130,4 +134,5 @@ def point_light(position: Vector, candela: float) -> dict[str, object]:
     }
 
 
-Make = Callable[[int, int], gonio.Scene]
+Make = Callable[..., gonio.Scene]
+"""Makes a scene for a picture of so many pixels in width and height, and so many more at the margin."""
