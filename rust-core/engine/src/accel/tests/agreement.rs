@@ -77,12 +77,12 @@ fn rays_that_go_together_find_what_each_finds_alone() {
         scene.first_hit(level, &rays.batch(), &mut together);
         let mut blocked = vec![9; 3001];
         scene.occluded(level, &rays.batch(), &mut blocked);
-        for i in 0..3001 {
+        for (i, is_blocked) in blocked.iter().enumerate() {
             scene.first_hit(level, &rays.part(i, i + 1), &mut alone);
             let [a, b] = [(&together, i), (&alone, 0)]
                 .map(|(hits, i)| ([hits.t[i], hits.u[i], hits.v[i]].map(f32::to_bits), hits.primitive[i], hits.instance[i]));
             assert_eq!(a, b, "ray {i}, {level:?}");
-            assert_eq!(blocked[i], u8::from(alone.instance[0] != NONE), "ray {i}, {level:?}");
+            assert_eq!(*is_blocked, u8::from(alone.instance[0] != NONE), "ray {i}, {level:?}");
         }
     }
 }
