@@ -9,6 +9,7 @@ pub mod camera;
 pub mod cli;
 pub mod context;
 mod daylight;
+pub mod dependencies;
 pub mod framing;
 mod goniogram;
 pub mod instancer;

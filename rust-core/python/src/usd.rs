@@ -7,6 +7,7 @@ use crate::{
 use gonio_usd::{
     Complexity, Purpose, SampleTime, StageOptions,
     camera::primary_camera_name,
+    dependencies::files_of_stage,
     load_stage,
     view::{ViewOptions, complete},
 };
@@ -51,6 +52,12 @@ pub(crate) fn load_usd(
 pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, frame: Option<f64>) -> PyResult<Scene> {
     let loaded = gonio_usd::cli::farm_scene(py, &arguments, &folder, frame).map_err(exception)?;
     Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false })
+}
+
+/// Paths of all files that the stage in a file is made of.
+#[pyfunction]
+pub(crate) fn _files_of_stage(py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+    files_of_stage(py, &path).map_err(exception)
 }
 
 /// Runs the command line; gives the exit status.

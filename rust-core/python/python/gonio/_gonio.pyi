@@ -37,6 +37,7 @@ __all__ = [
     "Tile",
     "Scene",
     "_main",
+    "_files_of_stage",
     "_scene",
     "load_usd",
     "goniogram_figures",
@@ -542,5 +543,6 @@ def load_usd(
     neutral_dome: bool = True,
     strict: bool = False,
 ) -> Scene: ...
+def _files_of_stage(path: str | PathLike[str]) -> list[str]: ...
 def _scene(arguments: Sequence[str], folder: str | PathLike[str], frame: float | None) -> Scene: ...
 def _main(arguments: Sequence[str]) -> int: ...

@@ -9,11 +9,11 @@ COUNT = 20_000
 TOWARD_SUN = (0.5, 0.55, 0.35)
 
 
-def scene() -> Scene:
-    """The sun is a light of its own, the image holds what is around it."""
+def scene(count: int = COUNT) -> Scene:
+    """With so many plants. The sun is a light of its own, the image holds what is around it."""
     sun = Sun(facing(TOWARD_SUN, (0.0, 0.0, 0.0)), 1.0, (3.4e8, 3.0e8, 2.4e8))
     camera = Camera(facing((0.0, 2.2, 14.0), (0.0, 0.6, 0.0)), 42.0)
-    return Scene([ground(), *plants()], [sun], camera, sky(TOWARD_SUN))
+    return Scene([ground(), *plants(count)], [sun], camera, sky(TOWARD_SUN))
 
 
 def height(x: numpy.ndarray, z: numpy.ndarray) -> numpy.ndarray:
@@ -27,12 +27,12 @@ def ground() -> Mesh:
     return sheet("ground", numpy.stack([x, height(x, z), z], axis=2), Diffuse((0.28, 0.2, 0.12)))
 
 
-def plants() -> list[Mesh]:
+def plants(count: int) -> list[Mesh]:
     """Four kinds, scattered, turned and scaled at random."""
     random = numpy.random.default_rng(7)
-    x, z = random.uniform(-38, 38, (2, COUNT))
+    x, z = random.uniform(-38, 38, (2, count))
     z = numpy.where(numpy.hypot(x, z - 14.0) < 2.5, z - 6.0, z)
-    turn, scale = random.uniform(0, 360, COUNT), random.uniform(0.5, 1.2, COUNT)
+    turn, scale = random.uniform(0, 360, count), random.uniform(0.5, 1.2, count)
     places = numpy.stack([moved(*each) for each in zip(x, height(x, z), z, turn, scale, strict=True)])
     colours = [(0.18, 0.36, 0.08), (0.3, 0.42, 0.1), (0.12, 0.28, 0.1), (0.55, 0.4, 0.12)]
     return [tuft(f"kind {k}", Diffuse(colour), random, places[k :: len(colours)]) for k, colour in enumerate(colours)]

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .._gonio import Error, Scene, _scene
+from .._gonio import Error, Scene, _files_of_stage, _scene
 
 # What to do where a machine does not see a file.
 REMEDY = "put the stage and its files where all machines see them under one path, or send them (--dask-send)"
@@ -76,10 +76,5 @@ def files_of(inputs: Sequence[str | os.PathLike[str]]) -> list[str]:
     for path in [os.fspath(path) for path in inputs]:
         found[path] = None
         if Path(path).suffix in {".usd", ".usda", ".usdc", ".usdz"}:
-            from pxr import UsdUtils
-
-            layers, assets, _ = UsdUtils.ComputeAllDependencies(path)
-            # Files inside packages read `package.usdz[inner.png]`.
-            names = [layer.realPath for layer in layers] + [str(asset) for asset in assets]
-            found.update(dict.fromkeys(name.split("[")[0] for name in names if name))
+            found.update(dict.fromkeys(_files_of_stage(path)))
     return list(found)
