@@ -1,9 +1,7 @@
 """Small scenes that the tests of the Python module share."""
 
+import gonio
 import numpy as np
-import pytest
-
-gonio = pytest.importorskip("gonio")
 
 
 def at(x, y, z):

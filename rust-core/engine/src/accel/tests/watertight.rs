@@ -55,6 +55,13 @@ fn leaks(hits: &Hits) -> usize {
 }
 
 #[test]
+fn trees_take_little_memory() {
+    let memory = ball(6).blas().memory();
+    let bytes = memory.bytes() as f64 / memory.triangles as f64;
+    assert!(bytes < 90.0, "{bytes} bytes a triangle");
+}
+
+#[test]
 fn no_ray_slips_through_a_closed_mesh() {
     let mut random = Random(31);
     for (subdivisions, scale, shift) in [(2, 1.0, 0.0), (5, 1.0, 0.0), (6, 1e-3, 0.0), (4, 100.0, 1e4)] {
