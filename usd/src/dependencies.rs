@@ -5,8 +5,8 @@ use gonio::{Error, Result};
 use pyo3::prelude::*;
 use std::path::Path;
 
-/// Paths of all layers of the stage in a file and of all assets that they name and that are found, the file itself among them; a file inside a package
-/// stands for its package.
+/// Paths of all layers of the stage in a file and of all assets that they name and that are found, the file itself among them, some more
+/// than once; a file inside a package stands for its package.
 ///
 /// # Errors
 /// [`Error::Setting`] without `pxr`, [`Error::Format`] when the file cannot be read.
@@ -15,7 +15,6 @@ pub fn files_of_stage(py: Python<'_>, path: &Path) -> Result<Vec<String>> {
     let unreadable = |error: PyErr| Error::Format { path: path.to_owned(), line: None, problem: pxr::message_of(py, &error) };
     let mut names = names(py, path).map_err(unreadable)?;
     names.retain(|name| !name.is_empty());
-    names.dedup();
     Ok(names)
 }
 

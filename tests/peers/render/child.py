@@ -8,7 +8,6 @@ import dataclasses
 import importlib
 import json
 import os
-import resource
 import sys
 import time
 from pathlib import Path
@@ -30,6 +29,7 @@ def main(engine: str, name: str, scale: float, threads: int) -> None:
     # Some engines work on the waiting thread too.
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:threads])
     from description import described
+    from processor import processor_seconds
 
     scene = described(name)
     scene = dataclasses.replace(scene, width=round(scene.width * scale), height=round(scene.height * scale))
@@ -45,12 +45,6 @@ def main(engine: str, name: str, scale: float, threads: int) -> None:
         used = processor_seconds() - before
         numpy.save(asked["file"], picture)
         answer(seconds=seconds, samples=samples, processor=used, jit=getattr(running, "jit", 0.0))
-
-
-def processor_seconds() -> float:
-    """What all threads of this process have used."""
-    usage = resource.getrusage(resource.RUSAGE_SELF)
-    return usage.ru_utime + usage.ru_stime
 
 
 def answer(**values: Any) -> None:

@@ -6,10 +6,8 @@ Prints processor time and writes curves to out/peers/scaling.svg. Each point is 
 import argparse
 import dataclasses
 import math
-import resource
 import statistics
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +18,7 @@ import numpy  # noqa: E402
 from cornell import Diffuse  # noqa: E402
 from description import Camera, Scene, described  # noqa: E402
 from engine_gonio import Engine  # noqa: E402
+from processor import processor_seconds  # noqa: E402
 from scenes import field, hall  # noqa: E402
 from shapes import facing, sheet, sky  # noqa: E402
 
@@ -76,21 +75,15 @@ CURVES = {
 }
 
 
-def processor_seconds() -> float:
-    """Of this process so far."""
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    return used.ru_utime + used.ru_stime
-
-
 def measured(scene: Scene, threads: int, samples: int) -> tuple[float, float]:
     """Microseconds of the processor and of the clock that a camera path takes."""
     engine = Engine(scene, threads)
     engine.render(1, 1)
     taken = []
     for seed in range(3):
-        processor, clock = processor_seconds(), time.perf_counter()
-        engine.render(samples, 10 + seed)
-        taken.append((processor_seconds() - processor, time.perf_counter() - clock))
+        before = processor_seconds()
+        _, clock, _ = engine.render(samples, 10 + seed)
+        taken.append((processor_seconds() - before, clock))
     paths = samples * scene.width * scene.height * 1e-6
     return statistics.median(p for p, _ in taken) / paths, statistics.median(c for _, c in taken) / paths
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-import resource
 import statistics
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ import pytest
 from contest import BENCHMARKS
 from cost import LUMINANCE
 from description import described
+from processor import processor_seconds
 
 gonio = pytest.importorskip("gonio")
 
@@ -76,12 +76,6 @@ def pictures(engine: Engine, samples: int, first_seed: int, **settings: float) -
         radiance.append(colour(film))
         mean_samples.append(film.mean_samples)
     return Pictures(radiance, statistics.mean(mean_samples), statistics.median(seconds), statistics.median(processor))
-
-
-def processor_seconds() -> float:
-    """What all threads of this process have used."""
-    usage = resource.getrusage(resource.RUSAGE_SELF)
-    return usage.ru_utime + usage.ru_stime
 
 
 def white_of(engine: Engine) -> float:

@@ -6,6 +6,7 @@ Exposed so that white is 1: values are cd/m² of scenes whose lamps were set by 
 import gonio
 import numpy
 from builder import Builder, Make
+from furniture import table, wheels
 
 
 def car(width: int, height: int, margin: int = 0) -> gonio.Scene:
@@ -18,12 +19,7 @@ def car(width: int, height: int, margin: int = 0) -> gonio.Scene:
     pane = b.surface((0.08, 0.1, 0.12), specular_weight=1.0, specular_roughness=0.0)
     b.ball((0, 0.75, 0), (2.1, 0.42, 0.9), paint)
     b.ball((-0.2, 1.1, 0), (1.1, 0.45, 0.7), pane)
-    for x in (-1.3, 1.3):
-        for z in (-0.85, 0.85):
-            b.ball((x, 0.36, z), (0.36, 0.36, 0.14), rubber, 4)
-            b.ball((x, 0.36, z * 1.08), (0.2, 0.2, 0.08), chrome, 4)
-    for z in (-0.5, 0.5):
-        b.ball((2.0, 0.75, z), 0.14, chrome, 4)
+    wheels(b, rubber, chrome, 4)
     grey, white = b.surface((0.3, 0.3, 0.32)), b.surface((0.7, 0.7, 0.68))
     for i in range(9):
         b.rod((-3.0 + 0.75 * i, 0, -2.4), (-3.0 + 0.75 * i, 1.6, -2.4), 0.012, grey)
@@ -49,12 +45,7 @@ def room(width: int, height: int, margin: int = 0) -> gonio.Scene:
     shelf(b)
     blinds(b)
     wood = b.surface((0.45, 0.3, 0.15))
-    b.box((0, 0.74, 0), (1.8, 0.04, 0.9), b.surface((0.25, 0.14, 0.08), specular_weight=1.0, specular_roughness=0.0))
-    for x in (-0.85, 0.85):
-        for z in (-0.4, 0.4):
-            b.box((x, 0.36, z), (0.05, 0.72, 0.05), wood)
-    for place, turn in (((-0.5, 0.8), 190.0), ((0.5, 0.85), 170.0), ((-0.5, -0.8), 5.0), ((0.6, -0.8), -10.0), ((1.4, 0.1), 80.0)):
-        chair(b, place, turn, wood)
+    table(b, b.surface((0.25, 0.14, 0.08), specular_weight=1.0, specular_roughness=0.0), wood)
     b.ball((0.2, 0.86, 0.1), 0.1, b.surface((0.85, 0.85, 0.9), metalness=1.0, specular_weight=1.0, specular_roughness=0.0), 4)
     for position, candela in (((0.0, 2.7, 0.5), 12.0), ((-2.0, 2.4, 2.0), 8.0), ((2.2, 2.2, -1.5), 6.0)):
         b.lamp(position, candela)
@@ -83,24 +74,9 @@ def blinds(b: Builder) -> None:
         b.box((1.5, 0.93 + 0.053 * i, -2.9), (1.8, 0.004, 0.035), slat)
 
 
-def chair(b: Builder, place: tuple[float, float], turn_deg: float, material: int) -> None:
-    """A seat, four legs and a back of rods."""
-    cosine, sine = numpy.cos(numpy.radians(turn_deg)), numpy.sin(numpy.radians(turn_deg))
-
-    def at(x: float, y: float, z: float) -> tuple[float, float, float]:
-        return (place[0] + cosine * x + sine * z, y, place[1] - sine * x + cosine * z)
-
-    b.box(at(0, 0.45, 0), (0.42, 0.03, 0.42), material, turn_deg)
-    for x in (-0.18, 0.18):
-        for z in (-0.18, 0.18):
-            b.rod(at(x, 0, z), at(x, 0.45 if z > 0 else 0.95, z), 0.018, material)
-    for i in range(5):
-        b.rod(at(-0.12 + 0.06 * i, 0.46, -0.18), at(-0.12 + 0.06 * i, 0.9, -0.18), 0.007, material)
-    b.rod(at(-0.18, 0.92, -0.18), at(0.18, 0.92, -0.18), 0.02, material)
-
-
 def thin(width: int, height: int, margin: int = 0) -> gonio.Scene:
-    """A hundred rods near or below a pixel's width and mirror balls before a wall of squares three pixels wide: nearly every pixel has contrast."""
+    """A hundred rods near or below a pixel's width and mirror balls before a wall of squares three pixels wide: nearly every pixel
+    has contrast."""
     b = Builder(width, height, 2, margin)
     squares = b.chequered(((0.75, 0.73, 0.68), (0.25, 0.3, 0.36)))
     b.quad((-4, 0, -2), (8, 0, 0), (0, 6, 0), squares, repeats=9.0)

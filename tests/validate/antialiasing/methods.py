@@ -1,12 +1,12 @@
 """Ways to spend rays on a picture, and how far each ends from a reference."""
 
-import resource
 import time
 from dataclasses import dataclass
 from functools import cache
 
 import gonio
 import numpy
+from processor import processor_seconds
 
 # Samples of the two-pass comparison: those that a pixel can end with.
 STEPS = (1, 2, 4, 8, 16, 32, 64)
@@ -110,9 +110,3 @@ def local_deviation(values: numpy.ndarray) -> numpy.ndarray:
     around = numpy.stack([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)])
     deviation: numpy.ndarray = around.std(axis=0).max(axis=2)
     return deviation
-
-
-def processor_seconds() -> float:
-    """Of this process so far."""
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    return used.ru_utime + used.ru_stime

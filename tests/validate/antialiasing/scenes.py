@@ -9,6 +9,7 @@ a seam (`calibration.py` has them, and a test holds the scenes to them). Values 
 import gonio
 import numpy
 from builder import Builder, Make
+from furniture import table, wheels
 
 
 def car(width: int, height: int, margin: int = 0) -> gonio.Scene:
@@ -40,12 +41,7 @@ def body(b: Builder) -> None:
     chrome = b.surface((0.6, 0.6, 0.6), metalness=1.0, specular_weight=1.0, specular_roughness=0.0)
     b.ball((0, 0.75, 0), (2.1, 0.42, 0.9), paint, 5)
     b.ball((-0.2, 1.1, 0), (1.1, 0.45, 0.7), pane, 5)
-    for x in (-1.3, 1.3):
-        for z in (-0.85, 0.85):
-            b.ball((x, 0.36, z), (0.36, 0.36, 0.14), rubber, 3)
-            b.ball((x, 0.36, z * 1.08), (0.2, 0.2, 0.08), chrome, 3)
-    for z in (-0.5, 0.5):
-        b.ball((2.0, 0.75, z), 0.14, chrome, 3)
+    wheels(b, rubber, chrome, 3)
 
 
 def glass(width: int, height: int, margin: int = 0) -> gonio.Scene:
@@ -92,12 +88,7 @@ def room(width: int, height: int, margin: int = 0) -> gonio.Scene:
     shelf(b)
     blinds(b)
     wood = b.surface((0.26, 0.22, 0.17))
-    b.box((0, 0.74, 0), (1.8, 0.04, 0.9), b.surface((0.22, 0.17, 0.13), specular_weight=1.0, specular_roughness=0.0))
-    for x in (-0.85, 0.85):
-        for z in (-0.4, 0.4):
-            b.box((x, 0.36, z), (0.05, 0.72, 0.05), wood)
-    for place, turn in (((-0.5, 0.8), 190.0), ((0.5, 0.85), 170.0), ((-0.5, -0.8), 5.0), ((0.6, -0.8), -10.0), ((1.4, 0.1), 80.0)):
-        chair(b, place, turn, wood)
+    table(b, b.surface((0.22, 0.17, 0.13), specular_weight=1.0, specular_roughness=0.0), wood)
     for position, candela in (((1.6, 2.3, 2.7), 9.0), ((-1.0, 2.3, 2.6), 7.3), ((2.7, 0.9, 2.2), 7.3)):
         b.lamp(position, candela)
     return b.look((1.9, 1.6, 2.8), (-0.3, 0.9, -0.4), 60.0)
@@ -121,22 +112,6 @@ def blinds(b: Builder) -> None:
     slat = b.surface((0.38, 0.37, 0.35))
     for i in range(21):
         b.box((1.5, 0.94 + 0.067 * i, -2.95), (1.2, 0.034, 0.01), slat)
-
-
-def chair(b: Builder, place: tuple[float, float], turn_deg: float, material: int) -> None:
-    """A seat, four legs and a back of rods."""
-    cosine, sine = numpy.cos(numpy.radians(turn_deg)), numpy.sin(numpy.radians(turn_deg))
-
-    def at(x: float, y: float, z: float) -> tuple[float, float, float]:
-        return (place[0] + cosine * x + sine * z, y, place[1] - sine * x + cosine * z)
-
-    b.box(at(0, 0.45, 0), (0.42, 0.03, 0.42), material, turn_deg)
-    for x in (-0.18, 0.18):
-        for z in (-0.18, 0.18):
-            b.rod(at(x, 0, z), at(x, 0.45 if z > 0 else 0.95, z), 0.018, material)
-    for i in range(5):
-        b.rod(at(-0.12 + 0.06 * i, 0.46, -0.18), at(-0.12 + 0.06 * i, 0.9, -0.18), 0.007, material)
-    b.rod(at(-0.18, 0.92, -0.18), at(0.18, 0.92, -0.18), 0.02, material)
 
 
 SCENES: dict[str, Make] = {"car": car, "room": room, "glass": glass}

@@ -54,7 +54,7 @@ pub(super) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, valu
 
 /// Whether a pixel's path has met nothing yet but mirrors and smooth glass.
 #[inline(always)]
-fn is_sharp<L: Lanes>(flags: U<L>, slot: U<L>) -> M<L> {
+pub(super) fn is_sharp<L: Lanes>(flags: U<L>, slot: U<L>) -> M<L> {
     (flags & flag::MEASURED).eq(0) & slot.lt(BATCH as u32)
 }
 

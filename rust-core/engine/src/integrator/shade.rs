@@ -13,7 +13,7 @@ use super::{
     material::{SurfaceMaterial, Tables},
     path::SampleContext,
     scatter::{add_light, code_of},
-    state::{BATCH, Workspace, flag, gather3, load3},
+    state::{Workspace, flag, gather3, load3},
     transport::{Sight, Transport},
     whitted,
 };
@@ -217,7 +217,7 @@ pub(super) fn meet<L: Lanes>(
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
     let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
     if transport.measure {
-        let measured = going_on.and_not(only_delta) & (point.flags & flag::MEASURED).eq(0) & point.slot.lt(BATCH as u32);
+        let measured = going_on.and_not(only_delta) & guides::is_sharp(point.flags, point.slot);
         append_measure(point, measured, &mut ws.measure);
     }
     [smooth, going_on]
