@@ -8,6 +8,8 @@ pub use derivatives::UvDerivatives;
 pub use primvar::{PrimvarKind, PrimvarRef};
 pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, spawn, spawn_to};
 
+use gonio_simd::{Lanes, U};
+
 /// No entry.
 pub const NONE: u32 = u32::MAX;
 
@@ -69,6 +71,15 @@ impl GeometryTable {
         let first = self.mesh_slot[self.instance_mesh[instance] as usize];
         let slot = if first == NONE { 0 } else { self.slots[(first + primitive) as usize] };
         self.materials[(self.instance_material[instance] + slot) as usize]
+    }
+
+    /// The same for a register of hits.
+    #[inline(always)]
+    pub fn material_lanes<L: Lanes>(&self, l: L, instance: U<L>, primitive: U<L>) -> U<L> {
+        let first = l.gather_integers(&self.mesh_slot, l.gather_integers(&self.instance_mesh, instance));
+        let (whole, slot) = (first.eq(NONE), l.gather_integers(&self.instance_material, instance));
+        let part = if whole.all() { l.u(0) } else { l.gather_integers(&self.slots, first + primitive).keep_if(!whole) };
+        l.gather_integers(&self.materials, slot + part)
     }
 
     /// Bytes held.

@@ -7,6 +7,7 @@ use super::{
     light_groups::add_of_lights,
     light_sums::code,
     material::Tables,
+    material_order::{list_materials, load_to_end},
     scatter::{add, add_light, code_of},
     state::{Paths, Workspace, flag, gather3},
     transport::Transport,
@@ -15,12 +16,12 @@ use crate::{
     accel::{Hits, NONE, RayBatch, SceneBvh},
     light::power_heuristic,
 };
-use gonio_simd::{Execution, Lanes, Rgb, dispatch};
+use gonio_simd::{Execution, Lanes, M, PADDING, Rgb, U, dispatch};
 
 /// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
 pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     find_first(tables, transport, depth == 0, ws);
-    classify(tables, ws);
+    dispatch!(transport.execution, l => classify(l, tables, ws));
     while !ws.at_lights.is_empty() {
         dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, ws));
         pass_through_lights(tables, transport, ws);
@@ -30,7 +31,7 @@ pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
     let lanes = transport.execution.lanes();
     ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
     catcher::split(tables, ws);
-    list_materials(tables, ws);
+    dispatch!(transport.execution, l => list_materials(l, tables, ws));
 }
 
 /// Finds what every path hits; `coherent` ones in packets.
@@ -58,15 +59,27 @@ fn first_hits(execution: Execution, bvh: &SceneBvh, rays: &RayBatch<'_>, coheren
     }
 }
 
+/// Appends the numbers of some lanes.
+#[inline(always)]
+fn push<L: Lanes>(numbers: U<L>, chosen: M<L>, list: &mut Vec<u32>) {
+    let mut first = [0; PADDING];
+    numbers.append(chosen, &mut first, 0);
+    list.extend_from_slice(&first[..chosen.count()]);
+}
+
 /// Lists the paths that escaped and those that stand before a light's shape.
-fn classify(tables: &Tables, ws: &mut Workspace) {
+#[inline(always)]
+fn classify<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
     ws.escaped.clear();
     ws.at_lights.clear();
-    for (path, instance) in ws.hits.instance.iter().enumerate() {
-        if *instance == NONE {
-            ws.escaped.push(path as u32);
-        } else if *instance >= tables.first_light_instance {
-            ws.at_lights.push(path as u32);
+    let instances = &ws.hits.instance;
+    for at in (0..instances.len()).step_by(L::COUNT) {
+        let instance = load_to_end(l, instances, at);
+        let others = !instance.lt(tables.first_light_instance) & l.first(instances.len() - at);
+        if others.any() {
+            let (path, escaped) = (l.iota() + at as u32, instance.eq(NONE));
+            push(path, others & escaped, &mut ws.escaped);
+            push(path, others.and_not(escaped), &mut ws.at_lights);
         }
     }
 }
@@ -168,40 +181,4 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
             }
         }
     }
-}
-
-/// Looks up the material of every hit.
-fn list_materials(tables: &Tables, ws: &mut Workspace) {
-    ws.material_of.clear();
-    for (instance, primitive) in ws.hits.instance.iter().zip(&ws.hits.primitive) {
-        ws.material_of.push(if *instance == NONE { NONE } else { tables.geometry.material(*instance, *primitive) });
-    }
-}
-
-/// Counting sort of the paths at surfaces by material, once each has a closure.
-pub(super) fn sort_by_material(tables: &Tables, ws: &mut Workspace) {
-    let materials = tables.materials.surfaces.len();
-    ws.material_start.clear();
-    ws.material_start.resize(materials + 1, 0);
-    for material in ws.material_of.iter().filter(|material| **material != NONE) {
-        ws.material_start[*material as usize + 1] += 1;
-    }
-    for m in 0..materials {
-        ws.material_start[m + 1] += ws.material_start[m];
-    }
-    let total = ws.material_start[materials] as usize;
-    ws.order.clear();
-    ws.order.resize(gonio_simd::padded(total) + gonio_simd::PADDING, 0);
-    for (path, material) in ws.material_of.iter().enumerate() {
-        if *material != NONE {
-            let place = &mut ws.material_start[*material as usize];
-            ws.order[*place as usize] = path as u32;
-            *place += 1;
-        }
-    }
-    // Placing moved every start to the next one's place.
-    for m in (1..=materials).rev() {
-        ws.material_start[m] = ws.material_start[m - 1];
-    }
-    ws.material_start[0] = 0;
 }

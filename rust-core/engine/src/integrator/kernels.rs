@@ -4,7 +4,10 @@
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
 
 use super::{
+    light_draws::draw_chunk,
     material::Tables,
+    shade::Stage,
+    state::Workspace,
     surface::{ChunkSource, HitSource, surface_chunk},
 };
 use crate::{
@@ -80,6 +83,15 @@ pub(crate) fn sample_light<L: Lanes>(
         #[inline(always)]
         || tables.lights.sample(l, known, p, n, u_choice, u),
     )
+}
+
+/// [`super::light_draws::draw_chunk`].
+#[inline(never)]
+pub(super) fn draw_lights<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
+    stage.l.vectorize(
+        #[inline(always)]
+        || draw_chunk(stage, first, ws),
+    );
 }
 
 /// A point on a light that a ray met.

@@ -4,9 +4,10 @@ use super::{
     catcher,
     closure::choose_closures,
     generate::{TileArea, generate, generate_at},
-    intersect::{find_first, intersect, sort_by_material},
+    intersect::{find_first, intersect},
     kernels,
     material::Tables,
+    material_order::sort_by_material,
     measure::measure,
     runs::Runs,
     sensors::{SensorTable, place},
@@ -122,7 +123,7 @@ impl Tracer<'_> {
             let mut time = Instant::now();
             intersect(self.tables, &self.transport, depth, ws);
             choose_closures(self.tables, &self.transport, &context, ws);
-            sort_by_material(self.tables, ws);
+            sort_by_material(self.tables, &self.transport, ws);
             ws.statistics.spent(1, time);
             ws.next.count = 0;
             self.shade(&context, ws);
@@ -184,7 +185,8 @@ impl Tracer<'_> {
         }
         start = ws.statistics.spent(3, start);
         let (sent, going_on) = (ws.shadows.count, ws.next.count);
-        shade_chunk(&Stage { l, tables: self.tables, transport: &self.transport, context, shader }, material, first, count, ws);
+        let hits = first..first + count;
+        shade_chunk(&Stage { l, tables: self.tables, transport: &self.transport, context, shader, hits }, material, ws);
         ws.statistics.spent(4, start);
         let run = count.next_multiple_of(L::COUNT);
         for (stage, alive) in [(1, count), (2, ws.shadows.count - sent), (3, ws.next.count - going_on)] {

@@ -8,6 +8,7 @@ use super::{
     first_surface::{append_measure, covered, record_first},
     guides,
     kernels::{self, LightHit},
+    light_draws::{self, LightDraws},
     light_groups::add_of_surfaces,
     light_sums::code,
     material::{SurfaceMaterial, Tables},
@@ -25,6 +26,7 @@ use crate::{
     sampler::dimension,
 };
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+use std::ops::Range;
 
 /// Roughness widens a path's cone by this much, radians: blurred reflections need no sharp textures.
 pub(super) const CONE_PER_ROUGHNESS: f32 = 0.3;
@@ -74,7 +76,7 @@ pub(super) struct Point<L: Lanes> {
 }
 
 /// What all hits of a chunk share.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Stage<'a, L> {
     pub(super) l: L,
     pub(super) tables: &'a Tables,
@@ -82,15 +84,19 @@ pub(super) struct Stage<'a, L> {
     pub(super) context: &'a SampleContext<'a>,
     /// What computed the chunk's shader passes, where any are wanted.
     pub(super) shader: Option<&'a Program>,
+    /// Where the chunk is in the order of the paths.
+    pub(super) hits: Range<usize>,
 }
 
-/// Shades the chunk `order[first..first + count]`, whose surface columns and parameters are ready.
+/// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
-pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, first: usize, count: usize, ws: &mut Workspace) {
-    let Stage { l, tables, transport, .. } = *stage;
+pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, ws: &mut Workspace) {
+    let Stage { l, tables, transport, ref hits, .. } = *stage;
+    let (first, count) = (hits.start, hits.len());
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     let mut lobes = Lobes::empty(l);
+    ws.light_draws.made = false;
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let mut point = load_point(l, material, first, at, alive, ws);
@@ -192,9 +198,13 @@ fn shade_lanes<L: Lanes>(
     let present = show(stage, material, point, lobes, present, at, ws);
     let [smooth, going_on] = meet(stage, point, lobes, present, ws);
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
-    if smooth.any() && !tables.lights.is_empty() {
-        let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-        light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
+    if (smooth & going_on).any() && !tables.lights.is_empty() {
+        if LightDraws::pays::<L>(&tables.lights, stage.hits.len()) {
+            light_draws::light(stage, point, wo, lobes, going_on, at, ws);
+        } else {
+            let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+            light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
+        }
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };

@@ -2,6 +2,7 @@
 
 use super::{
     catcher::CatcherSums,
+    light_draws::LightDraws,
     light_sums::{LightSums, code},
     material::Tables,
     shader_passes::ShaderSums,
@@ -471,6 +472,7 @@ pub struct Workspace {
     pub(super) hits: Hits,
     pub(super) retraced: Hits,
     pub(super) retraced_rays: RetracedRays,
+    pub(super) light_draws: LightDraws,
     pub(super) shadows: ShadowRays,
     pub(super) shadow_order: ShadowOrder,
     /// Light that arrived, where it is to be learned from.

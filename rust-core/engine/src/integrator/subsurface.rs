@@ -234,7 +234,7 @@ fn come_out_chunk<L: Lanes>(
 ) {
     let source = ChunkSource { order, count, direction: &ws.walks.direction, cone: None };
     kernels::surface_points(l, tables, program, &ws.walk_hits, &source, &mut ws.surface);
-    let stage = Stage { l, tables, transport, context, shader: None };
+    let stage = Stage { l, tables, transport, context, shader: None, hits: 0..count };
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
     for at in (0..count).step_by(L::COUNT) {
         let point = exit_point(l, order, at, l.first(count - at), ws);

@@ -2,10 +2,10 @@
 
 use super::{material::Tables, state::gather3};
 use crate::{
-    accel::Hits,
+    accel::{Hits, PassedHit},
     graph::{Program, SurfaceColumns},
 };
-use gonio_simd::{Column, F, Lanes, U, Vec3};
+use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
 
 /// What a chunk of hits is looked up from.
 #[derive(Clone, Copy, Debug)]
@@ -19,49 +19,47 @@ pub(super) struct ChunkSource<'a> {
     pub(super) cone: Option<[&'a Column; 2]>,
 }
 
+/// A register of hits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FoundHits<L: Lanes> {
+    ray: U<L>,
+    instance: U<L>,
+    primitive: U<L>,
+    barycentric: [F<L>; 2],
+    distance: F<L>,
+}
+
 /// Where hits are found: by ray in [`Hits`], or in a list.
 pub(super) trait HitSource {
-    fn instance(&self, ray: usize) -> u32;
-    fn primitive(&self, ray: usize) -> u32;
-    fn barycentric(&self, ray: usize) -> [f32; 2];
-    fn distance(&self, ray: usize) -> f32;
-    /// The ray of an entry.
-    fn ray(&self, entry: usize) -> usize;
+    /// The hits of some entries.
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L>;
 }
 
 impl HitSource for Hits {
-    fn instance(&self, i: usize) -> u32 {
-        self.instance[i]
-    }
-    fn primitive(&self, i: usize) -> u32 {
-        self.primitive[i]
-    }
-    fn barycentric(&self, i: usize) -> [f32; 2] {
-        [self.u[i], self.v[i]]
-    }
-    fn distance(&self, i: usize) -> f32 {
-        self.t[i]
-    }
-    fn ray(&self, entry: usize) -> usize {
-        entry
+    #[inline(always)]
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
+        FoundHits {
+            ray: entries,
+            instance: l.gather_integers(&self.instance, entries),
+            primitive: l.gather_integers(&self.primitive, entries),
+            barycentric: [l.gather(&self.u, entries), l.gather(&self.v, entries)],
+            distance: l.gather(&self.t, entries),
+        }
     }
 }
 
-impl HitSource for [crate::accel::PassedHit] {
-    fn instance(&self, i: usize) -> u32 {
-        self[i].instance
-    }
-    fn primitive(&self, i: usize) -> u32 {
-        self[i].primitive
-    }
-    fn barycentric(&self, i: usize) -> [f32; 2] {
-        [self[i].u, self[i].v]
-    }
-    fn distance(&self, i: usize) -> f32 {
-        self[i].t
-    }
-    fn ray(&self, entry: usize) -> usize {
-        self[entry].ray as usize
+impl HitSource for [PassedHit] {
+    #[inline(always)]
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
+        let (mut whole, mut parts) = ([[0; PADDING]; 3], [[0.0; PADDING]; 3]);
+        for (lane, entry) in entries.to_array().into_iter().take(L::COUNT).enumerate() {
+            let hit = &self[entry as usize];
+            [whole[0][lane], whole[1][lane], whole[2][lane]] = [hit.ray, hit.instance, hit.primitive];
+            [parts[0][lane], parts[1][lane], parts[2][lane]] = [hit.u, hit.v, hit.t];
+        }
+        let [ray, instance, primitive] = [l.load_integers(&whole[0], 0), l.load_integers(&whole[1], 0), l.load_integers(&whole[2], 0)];
+        let [u, v, distance] = [l.load(&parts[0], 0), l.load(&parts[1], 0), l.load(&parts[2], 0)];
+        FoundHits { ray, instance, primitive, barycentric: [u, v], distance }
     }
 }
 
@@ -76,32 +74,35 @@ pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     out: &mut SurfaceColumns,
 ) {
     out.origin = tables.origin.map(|x| x as f32);
-    let mut distance = [0.0; gonio_simd::PADDING];
-    let mut rays = [0; gonio_simd::PADDING];
     for at in (0..source.count).step_by(L::COUNT) {
-        for lane in 0..L::COUNT {
-            let entry = source.order[at + lane] as usize;
-            out.instance[at + lane] = hits.instance(entry);
-            out.primitive[at + lane] = hits.primitive(entry);
-            [out.barycentric[0][at + lane], out.barycentric[1][at + lane]] = hits.barycentric(entry);
-            distance[lane] = hits.distance(entry);
-            rays[lane] = hits.ray(entry) as u32;
-        }
-        let (ray, distance) = (l.load_integers(&rays, 0), l.load(&distance, 0));
+        let hits = hits.load(l, l.load_integers(source.order, at));
         let width = match source.cone {
-            Some([width, spread]) => distance.mul_add(l.gather(spread, ray), l.gather(width, ray)),
+            Some([width, spread]) => hits.distance.mul_add(l.gather(spread, hits.ray), l.gather(width, hits.ray)),
             None => l.f(0.0),
         };
-        surface_lanes(l, tables, program, gather3(l, source.direction, ray), width, out, at);
+        surface_lanes(l, tables, program, &hits, gather3(l, source.direction, hits.ray), width, out, at);
     }
 }
 
 #[inline(always)]
-fn surface_lanes<L: Lanes>(l: L, tables: &Tables, program: &Program, direction: Vec3<L>, width: F<L>, out: &mut SurfaceColumns, at: usize) {
-    let barycentric = [l.load(&out.barycentric[0], at), l.load(&out.barycentric[1], at)];
+#[expect(clippy::too_many_arguments, reason = "a hit, its ray and where the point goes")]
+fn surface_lanes<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    found: &FoundHits<L>,
+    direction: Vec3<L>,
+    width: F<L>,
+    out: &mut SurfaceColumns,
+    at: usize,
+) {
+    let FoundHits { instance, primitive, barycentric, .. } = *found;
+    instance.store(&mut out.instance, at);
+    primitive.store(&mut out.primitive, at);
+    barycentric[0].store(&mut out.barycentric[0], at);
+    barycentric[1].store(&mut out.barycentric[1], at);
     let geometry = &tables.geometry;
-    let instance: U<L> = l.load_integers(&out.instance, at);
-    let hit = geometry.hit_lanes(l, instance, l.load_integers(&out.primitive, at), barycentric[0], barycentric[1]);
+    let hit = geometry.hit_lanes(l, instance, primitive, barycentric[0], barycentric[1]);
     let point = geometry.surface_point(l, &hit);
     let wo = -direction;
     let front = point.geometric_normal.dot(wo).ge(0.0);

@@ -8,6 +8,8 @@ use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// Up to this many lights each point weighs all of them.
 pub(crate) const WEIGHED: usize = 64;
+/// Up to this many there is a kernel with less room.
+const FEW: usize = 16;
 /// A light is never thought weaker than this share by the receiver's orientation, because surfaces may let light through.
 const RECEIVER_FLOOR: f32 = 0.05;
 /// The same for the emitter's obliqueness, because the far end of a light may face the point more squarely.
@@ -139,23 +141,30 @@ impl LightTable {
             (Choice::Tree(tree), Some(known)) => known.choose(l, tree, &self.rows, p, n, u),
             (Choice::Tree(tree), None) => tree.choose(l, &self.rows, p, n, u),
             (Choice::Weighed, _) if self.count <= 1 => (l.u(0), l.f(1.0)),
-            (Choice::Weighed, _) => {
-                let mut sums = [l.f(0.0); WEIGHED];
-                let mut total = l.f(0.0);
-                for (row, sum) in self.rows.chunks_exact(ROW).zip(&mut sums) {
-                    total += Estimate::splat(l, row).illuminance(l, p, n);
-                    *sum = total;
-                }
-                let target = u * total;
-                let mut light = l.u(0);
-                for sum in &sums[..self.count] {
-                    light += sum.le(target).to_integers();
-                }
-                let light = light.min(self.count as u32 - 1);
-                let chosen = Estimate::gather(&Reader::new(l, &self.rows, light)).illuminance(l, p, n);
-                (light, chosen.share_of(total))
-            }
+            // Most scenes have few; room for 64 would be cleared each time.
+            (Choice::Weighed, _) if self.count <= FEW => self.choose_weighed::<L, FEW>(l, p, n, u),
+            (Choice::Weighed, _) => self.choose_weighed::<L, WEIGHED>(l, p, n, u),
         }
+    }
+
+    /// Draws one of at most `MOST` lights by the estimates of them all.
+    #[inline(always)]
+    fn choose_weighed<L: Lanes, const MOST: usize>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+        let mut estimates = [l.f(0.0); MOST];
+        let mut total = l.f(0.0);
+        for (row, estimate) in self.rows.chunks_exact(ROW).zip(&mut estimates) {
+            *estimate = Estimate::splat(l, row).illuminance(l, p, n);
+            total += *estimate;
+        }
+        let target = u * total;
+        let (mut light, mut chosen, mut sum) = (l.u(0), estimates[0], estimates[0]);
+        for next in &estimates[1..self.count] {
+            let beyond = sum.le(target);
+            light += beyond.to_integers();
+            chosen = beyond.select(*next, chosen);
+            sum += *next;
+        }
+        (light, chosen.share_of(total))
     }
 
     /// Probability that [`Self::choose`] draws `light` at a point.

@@ -65,7 +65,7 @@ impl LightTable {
 
     /// Draws a direction to a light that has been chosen with some probability.
     #[inline(always)]
-    pub(super) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: Vec3<L>, n: Vec3<L>, u: [F<L>; 2]) -> LightSample<L> {
+    pub(crate) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: Vec3<L>, n: Vec3<L>, u: [F<L>; 2]) -> LightSample<L> {
         let (index, probability) = chosen;
         let light = self.reader(l, index);
         let infinite = light.flag(flag::INFINITE);

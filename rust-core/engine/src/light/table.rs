@@ -90,6 +90,10 @@ impl LightTable {
     pub fn at_infinity(&self) -> impl Iterator<Item = u32> + '_ {
         self.infinite.iter().map(|infinite| infinite.light)
     }
+    /// The group of a light whose samples are taken together: its kind, or itself where groups may be as many as lights.
+    pub(crate) fn group(&self, light: u32, one_by_one: bool) -> usize {
+        if one_by_one { light as usize } else { (self.rows[light as usize * ROW + field::FLAGS].to_bits() & flag::KIND) as usize }
+    }
     /// Whether a light shines from all around.
     pub fn is_dome(&self, light: u32) -> bool {
         self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)
@@ -97,6 +101,10 @@ impl LightTable {
     /// Whether some light is of this kind.
     pub fn has(&self, kind: LightKind) -> bool {
         self.kinds >> kind as u32 & 1 != 0
+    }
+    /// Whether lights differ in how they are sampled.
+    pub fn has_several_kinds(&self) -> bool {
+        self.kinds.count_ones() > 1
     }
     /// Whether camera rays see each lane's light.
     #[inline(always)]

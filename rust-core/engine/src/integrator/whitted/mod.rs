@@ -13,7 +13,8 @@ pub(super) use surface::shade_lanes;
 
 use super::{
     catcher,
-    intersect::{intersect, sort_by_material},
+    intersect::intersect,
+    material_order::sort_by_material,
     measure::measure,
     path::{MOST_DEPTH, SampleContext, Tracer},
     runs::Runs,
@@ -93,7 +94,7 @@ fn follow_batch(tracer: &Tracer<'_>, context: &SampleContext<'_>, ws: &mut Works
     closures::keep(tables, ws);
     for closure in 0..closures::most(tables) {
         closures::select(tables, transport, closure, ws);
-        sort_by_material(tables, ws);
+        sort_by_material(tables, transport, ws);
         tracer.shade(context, ws);
         let start = Instant::now();
         measure(tables, transport, context, ws);

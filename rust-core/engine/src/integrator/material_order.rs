@@ -1,0 +1,104 @@
+//! Hits in the order of their materials.
+
+use super::{material::Tables, state::Workspace, transport::Transport};
+use crate::accel::NONE;
+use gonio_simd::{Execution, Lanes, PADDING, U, dispatch, padded};
+
+/// A register of a column that ends with its last entry, which lanes beyond repeat.
+#[inline(always)]
+pub(super) fn load_to_end<L: Lanes>(l: L, values: &[u32], at: usize) -> U<L> {
+    if at + L::COUNT <= values.len() { l.load_integers(values, at) } else { l.gather_integers(values, l.iota() + at as u32) }
+}
+
+/// Looks up the material of every hit, [`NONE`] where there is none.
+#[inline(always)]
+pub(super) fn list_materials<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
+    let count = ws.hits.instance.len();
+    ws.material_of.resize(padded(count), NONE);
+    for at in (0..padded(count)).step_by(L::COUNT) {
+        let alive = l.first(count.saturating_sub(at));
+        let instance = load_to_end(l, &ws.hits.instance, at.min(count));
+        let met = alive & instance.ne(NONE);
+        let material = tables.geometry.material_lanes(l, instance.keep_if(met), load_to_end(l, &ws.hits.primitive, at));
+        met.select(material, l.u(NONE)).store(&mut ws.material_of, at);
+    }
+}
+
+/// Sorts the paths at surfaces by material, once each has a closure; those of one material stay in their order.
+pub(super) fn sort_by_material(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
+    sort(tables.materials.surfaces.len(), transport.execution, ws);
+}
+
+fn sort(materials: usize, execution: Execution, ws: &mut Workspace) {
+    ws.material_start.clear();
+    ws.material_start.resize(materials + 1, 0);
+    dispatch!(execution, l => count_materials(l, ws));
+    for m in 0..materials {
+        ws.material_start[m + 1] += ws.material_start[m];
+    }
+    let total = ws.material_start[materials] as usize;
+    ws.order.resize(padded(total) + PADDING, 0);
+    ws.order[total..].fill(0);
+    dispatch!(execution, l => place_by_material(l, ws));
+    // Placing moved every start to the next one's place.
+    for m in (1..=materials).rev() {
+        ws.material_start[m] = ws.material_start[m - 1];
+    }
+    ws.material_start[0] = 0;
+}
+
+/// Counts the paths of each material, a register's paths of one material at once: neighbours often share it.
+#[inline(always)]
+fn count_materials<L: Lanes>(l: L, ws: &mut Workspace) {
+    for at in (0..ws.material_of.len()).step_by(L::COUNT) {
+        let all = l.load_integers(&ws.material_of, at);
+        let mut left = all.ne(NONE);
+        while left.any() {
+            let material = ws.material_of[at + left.bits().trailing_zeros() as usize];
+            let same = all.eq(material);
+            ws.material_start[material as usize + 1] += same.count() as u32;
+            left = left.and_not(same);
+        }
+    }
+}
+
+/// Puts the paths of each material from its start on.
+#[inline(always)]
+fn place_by_material<L: Lanes>(l: L, ws: &mut Workspace) {
+    for at in (0..ws.material_of.len()).step_by(L::COUNT) {
+        let all = l.load_integers(&ws.material_of, at);
+        let mut left = all.ne(NONE);
+        while left.any() {
+            let material = ws.material_of[at + left.bits().trailing_zeros() as usize];
+            let same = all.eq(material);
+            let start = &mut ws.material_start[material as usize];
+            let (mut bits, places) = (same.bits(), &mut ws.order[*start as usize..]);
+            for place in &mut places[..same.count()] {
+                *place = at as u32 + bits.trailing_zeros();
+                bits &= bits - 1;
+            }
+            *start += same.count() as u32;
+            left = left.and_not(same);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_of_one_material_stay_in_their_order_at_every_level() {
+        let runs = (0..100u32).map(|i| if i < 40 { 2 } else { i.wrapping_mul(2_654_435_761) >> 29 });
+        let material_of: Vec<u32> = runs.map(|material| if material > 4 { NONE } else { material }).chain([NONE; 12]).collect();
+        let mut expected: Vec<u32> = (0..100).filter(|path| material_of[*path as usize] != NONE).collect();
+        expected.sort_by_key(|path| material_of[*path as usize]);
+        for execution in Execution::all() {
+            let mut ws = Workspace { material_of: material_of.clone(), ..Workspace::default() };
+            sort(5, execution, &mut ws);
+            assert_eq!(ws.order[..expected.len()], expected, "{execution:?}");
+            assert_eq!(ws.material_start[5] as usize, expected.len(), "{execution:?}");
+            assert!(ws.order.len() >= padded(expected.len()) + PADDING);
+        }
+    }
+}
