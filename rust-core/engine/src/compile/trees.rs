@@ -9,6 +9,7 @@ use crate::{
     error::{Diagnostic, Error, Result},
     scene::{Mesh, Scene},
 };
+use rayon::prelude::*;
 use std::{
     collections::{HashMap, HashSet},
     sync::{Arc, atomic::AtomicBool},
@@ -25,11 +26,14 @@ pub(super) struct KeptTree {
 }
 
 /// Where a mesh's arrays lie.
-type Arrays = (*const [f32; 3], *const [u32; 3]);
+type Arrays = [usize; 2];
 
 fn arrays(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Arrays {
-    (points.as_ptr(), triangles.as_ptr())
+    [points.as_ptr().addr(), triangles.as_ptr().addr()]
 }
+
+/// Larger meshes are built one after the other, each on all threads: what their building needs would add up.
+const LARGE: usize = 1 << 18;
 
 /// Trees of all meshes; those whose arrays are the very same as before are kept, those of gone meshes fitted to the same triangles over other points.
 pub(super) fn build_trees(
@@ -40,24 +44,37 @@ pub(super) fn build_trees(
 ) -> Result<Vec<KeptTree>> {
     let known: HashMap<Arrays, &KeptTree> = previous.iter().map(|kept| (arrays(&kept.points, &kept.triangles), kept)).collect();
     let gone = gone(scene, previous);
-    let mut trees = Vec::with_capacity(scene.meshes.len());
-    for mesh in &scene.meshes {
+    // Arrays of no length may share an address with others.
+    let same = |kept: &&KeptTree, mesh: &Mesh| Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles);
+    let tree = |mesh: &Mesh| {
         check(cancel)?;
-        // Arrays of no length may share an address with others.
-        let same = |kept: &&KeptTree| Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles);
-        if let Some(kept) = known.get(&arrays(&mesh.points, &mesh.triangles)).copied().filter(same) {
-            trees.push(kept.clone());
-            continue;
+        if let Some(kept) = known.get(&arrays(&mesh.points, &mesh.triangles)).copied().filter(|kept| same(kept, mesh)) {
+            return Ok((kept.clone(), None));
         }
-        let tree = match fitted(mesh, &gone) {
-            Some(tree) => tree,
-            None => built(mesh, cancel, diagnostics)?,
+        let (tree, problem) = match fitted(mesh, &gone) {
+            Some(tree) => (tree, None),
+            None => built(mesh, cancel)?,
         };
-        let bounds = of_mesh(mesh);
-        trees.push(KeptTree { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds });
+        let kept = KeptTree { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds: of_mesh(mesh) };
+        Ok((kept, problem))
+    };
+    let (large, small): (Vec<usize>, Vec<usize>) = (0..scene.meshes.len()).partition(|i| scene.meshes[*i].triangles.len() > LARGE);
+    let mut made: Vec<(usize, Made)> = small.into_par_iter().map(|i| Ok((i, tree(&scene.meshes[i])?))).collect::<Result<_>>()?;
+    for i in large {
+        made.push((i, tree(&scene.meshes[i])?));
     }
-    Ok(trees)
+    made.sort_unstable_by_key(|(i, _)| *i);
+    Ok(made
+        .into_iter()
+        .map(|(_, (kept, problem))| {
+            diagnostics.extend(problem);
+            kept
+        })
+        .collect())
 }
+
+/// A tree, and what is wrong with the mesh.
+type Made = (KeptTree, Option<Diagnostic>);
 
 /// Trees that no mesh of the scene has any more, by the numbers of points and triangles.
 fn gone<'a>(scene: &Scene, previous: &'a [KeptTree]) -> HashMap<[usize; 2], &'a KeptTree> {
@@ -73,18 +90,17 @@ fn fitted(mesh: &Mesh, gone: &HashMap<[usize; 2], &KeptTree>) -> Option<Blas> {
     if same { kept.tree.refit(&mesh.points, &mesh.triangles) } else { None }
 }
 
-fn built(mesh: &Mesh, cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>) -> Result<Blas> {
-    let usable = has_valid_triangles(mesh, diagnostics);
-    let triangles: &[[u32; 3]] = if usable { &mesh.triangles } else { &[] };
-    Blas::build(&mesh.points, triangles, cancel).map_err(|_| Error::Cancelled)
+fn built(mesh: &Mesh, cancel: &AtomicBool) -> Result<(Blas, Option<Diagnostic>)> {
+    let problem = wrong_triangle(mesh);
+    let triangles: &[[u32; 3]] = if problem.is_none() { &mesh.triangles } else { &[] };
+    let tree = Blas::build(&mesh.points, triangles, cancel).map_err(|_| Error::Cancelled)?;
+    Ok((tree, problem))
 }
 
-fn has_valid_triangles(mesh: &Mesh, diagnostics: &mut Vec<Diagnostic>) -> bool {
+/// What is wrong with a triangle of a point that is not there.
+fn wrong_triangle(mesh: &Mesh) -> Option<Diagnostic> {
     let points = mesh.points.len() as u64;
-    let wrong = mesh.triangles.iter().flatten().find(|index| u64::from(**index) >= points);
-    if let Some(index) = wrong {
-        let message = format!("triangle index {index} is out of range, the mesh has {points} points; the mesh is left out");
-        diagnostics.push(Diagnostic::warning(&mesh.origin, message));
-    }
-    wrong.is_none()
+    let index = mesh.triangles.iter().flatten().find(|index| u64::from(**index) >= points)?;
+    let message = format!("triangle index {index} is out of range, the mesh has {points} points; the mesh is left out");
+    Some(Diagnostic::warning(&mesh.origin, message))
 }
