@@ -54,9 +54,14 @@ impl SceneBvh {
         one_by_one(Scalar, self, rays, &mut OccludedOrPassed { occluded: out, passed });
     }
 
+    /// Whether many incoherent rays are under way at once, which is as fast as packets of coherent shadow rays, or faster.
+    pub fn has_streams(&self, level: Level) -> bool {
+        self.is_large && sorts_fast(level)
+    }
+
     /// Many rays under way at once where that pays, else one by one.
     fn ask<Q: Query>(&self, level: Level, rays: &RayBatch, query: &mut Q) {
-        if self.is_large && sorts_fast(level) && rays.len() >= FEWEST_RAYS {
+        if self.has_streams(level) && rays.len() >= FEWEST_RAYS {
             with_pending(|pending| dispatch!(level, simd => stream(simd, self, rays, pending, query)));
         } else {
             dispatch!(level, simd => one_by_one(Wide(simd), self, rays, query));

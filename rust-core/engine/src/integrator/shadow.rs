@@ -43,11 +43,11 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
         (Execution::Scalar, true) => tables.bvh.blocked_or_passed_scalar(&rays, blocked, &mut ws.passed),
         (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
         (Execution::Vector(level), true) => tables.bvh.blocked_or_passed(level, &rays, blocked, &mut ws.passed),
-        (Execution::Vector(level), false) if coherent && ShadowOrder::pays(&tables.lights) => {
+        (Execution::Vector(level), false) if !coherent || tables.bvh.has_streams(level) => tables.bvh.occluded(level, &rays, blocked),
+        (Execution::Vector(level), false) if ShadowOrder::pays(&tables.lights) => {
             ws.shadow_order.occluded(&tables.bvh, &tables.lights, level, &ws.shadows, blocked);
         }
-        (Execution::Vector(level), false) if coherent => tables.bvh.occluded_packets(level, &rays, blocked),
-        (Execution::Vector(level), false) => tables.bvh.occluded(level, &rays, blocked),
+        (Execution::Vector(level), false) => tables.bvh.occluded_packets(level, &rays, blocked),
     }
     if !ws.passed.is_empty() {
         dim_by_surfaces(tables, transport, ws);
