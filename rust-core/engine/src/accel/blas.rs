@@ -9,11 +9,13 @@ use super::refit::looseness;
 use super::triangle_block::TriangleBlock;
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
-use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
 
 /// Most boxes of an outline.
 const OUTLINE: usize = 32;
+
+/// Points that a mesh's extent is taken from.
+const SAMPLES: usize = 1 << 16;
 
 /// Bottom-level tree: the triangles of one mesh in its own space. Share it between scenes by `Arc`.
 #[derive(Debug)]
@@ -120,12 +122,10 @@ impl Source for Triangles<'_> {
     }
 
     fn extent(&self) -> Aabb {
-        let extended = |all: Aabb, &point: &[f32; 3]| {
-            let point = Vec3A::from_array(point);
-            let usable = point.abs().cmple(Vec3A::splat(LARGEST_COORDINATE)).all();
-            if usable { all.union(&Aabb::from_point(point)) } else { all }
-        };
-        self.positions.par_iter().fold(Aabb::empty, extended).reduce(Aabb::empty, |a, b| a.union(&b))
+        let step = self.positions.len().div_ceil(SAMPLES).max(1);
+        let points = self.positions.iter().step_by(step).map(|&point| Vec3A::from_array(point));
+        let usable = points.filter(|point| point.abs().cmple(Vec3A::splat(LARGEST_COORDINATE)).all());
+        usable.fold(Aabb::empty(), |all, point| all.union(&Aabb::from_point(point)))
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) trait Source: Sync {
     fn len(&self) -> usize;
     /// The box of a number, or None for what stays out of the tree.
     fn bounds(&self, number: u32) -> Option<Aabb>;
-    /// A box around most of what there is; parts are found fastest when it is tight.
+    /// A box around most of what there is: parts are found fastest when it is tight.
     fn extent(&self) -> Aabb;
 }
 
@@ -69,7 +69,7 @@ impl Item {
 pub(super) const PART: usize = 1 << 14;
 
 /// Numbers or items that are sorted as one task.
-const CHUNK: usize = 1 << 15;
+const CHUNK: usize = 1 << 14;
 
 /// Two numbers are a pair when the area of their common box is at most this share of the sum of their own.
 const PAIR_AREA: f32 = 0.8;

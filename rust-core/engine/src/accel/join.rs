@@ -14,8 +14,8 @@ pub(super) struct Share {
     pub(super) roots: Vec<(usize, Node)>,
 }
 
-/// Leaves that are made between two looks at the flag.
-const LEAVES: usize = 1 << 17;
+/// Nodes or leaves that are made between two looks at the flag.
+const BLOCK: usize = 1 << 17;
 
 /// All nodes and all leaves of the shares.
 pub(super) fn join<M: LeafMaker>(mut shares: Vec<Share>, maker: &M, cancel: &AtomicBool) -> Result<(Vec<Node>, Vec<M::Leaf>), Cancelled> {
@@ -36,21 +36,25 @@ pub(super) fn join<M: LeafMaker>(mut shares: Vec<Share>, maker: &M, cancel: &Ato
         let (share, place) = nodes.find(index);
         moved(share, &shares[share].wide.nodes[place])
     };
-    let all_nodes = (0..nodes.all()).into_par_iter().map(node).collect();
     let leaf = |index: usize| {
         let (share, place) = leaves.find(index);
         let primitives = &shares[share].wide.leaves[place];
         maker.leaf(&primitives[..primitives.iter().position(|&primitive| primitive == NONE).unwrap_or(WIDTH)])
     };
-    let mut all_leaves: Vec<M::Leaf> = Vec::with_capacity(leaves.all());
-    while all_leaves.len() < leaves.all() {
+    Ok((in_blocks(nodes.all(), node, cancel)?, in_blocks(leaves.all(), leaf, cancel)?))
+}
+
+/// What is made of the numbers below a count, in their order.
+fn in_blocks<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync, cancel: &AtomicBool) -> Result<Vec<T>, Cancelled> {
+    let mut made = Vec::with_capacity(count);
+    while made.len() < count {
         if cancel.load(Ordering::Relaxed) {
             return Err(Cancelled);
         }
-        let end = (all_leaves.len() + LEAVES).min(leaves.all());
-        all_leaves.par_extend((all_leaves.len()..end).into_par_iter().map(leaf));
+        let end = (made.len() + BLOCK).min(count);
+        made.par_extend((made.len()..end).into_par_iter().map(&make));
     }
-    Ok((all_nodes, all_leaves))
+    Ok(made)
 }
 
 /// Where the shares begin in what they make together.
