@@ -28,7 +28,7 @@ impl Effort {
     /// For meshes: twice the search and the reinsertion made the build slower, and no ray faster beyond the noise, in a room of 280 thousand triangles.
     pub(super) const MESH: Effort = Effort { far: false, short_rounds: 2, reinsertion: 0.02 };
     /// For one of many parts, whose upper nodes are put together anew.
-    pub(super) const PART: Effort = Effort { reinsertion: 0.0, ..Effort::MESH };
+    pub(super) const PART: Effort = Effort { short_rounds: 1, reinsertion: 0.0, ..Effort::MESH };
     /// For the few boxes of a top level that every ray meets.
     pub(super) const SCENE: Effort = Effort { far: true, short_rounds: 1, reinsertion: 0.5 };
 
