@@ -1,16 +1,21 @@
 //! The tree of one triangle mesh.
 
 use super::Cancelled;
-use super::build::{Effort, build};
+use super::build::{Effort, WideTree, build};
 use super::collapse::LeafMaker;
-use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, WIDTH};
+use super::division::Source;
+use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
 use super::refit::looseness;
 use super::triangle_block::TriangleBlock;
-use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
+use glam::Vec3A;
+use obvhs::aabb::Aabb;
+use std::sync::atomic::AtomicBool;
 
 /// Most boxes of an outline.
 const OUTLINE: usize = 32;
+
+/// Points that a mesh's extent is taken from.
+const SAMPLES: usize = 1 << 16;
 
 /// Bottom-level tree: the triangles of one mesh in its own space. Share it between scenes by `Arc`.
 #[derive(Debug)]
@@ -48,18 +53,12 @@ impl Blas {
     /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.
     /// `cancel` is read between the steps of the build, which ends with [`Cancelled`] when it is set.
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cancel: &AtomicBool) -> Result<Blas, Cancelled> {
-        let bounds = |triangle: &[u32; 3]| triangle_bounds(&corners(positions, triangle)?);
-        let (boxes, primitives): (Vec<Bounds>, Vec<u32>) =
-            triangles.par_iter().enumerate().filter_map(|(i, triangle)| Some((bounds(triangle)?, i as u32))).unzip();
-        if cancel.load(Ordering::Relaxed) {
-            return Err(Cancelled);
-        }
-        assert!(boxes.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
-        let tree = build(&boxes, &Blocks { positions, triangles, primitives: &primitives }, Effort::MESH, cancel)?;
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
-        let looseness = looseness(&tree.nodes, &bounds);
-        let outline = outline(&tree.nodes, bounds);
-        Ok(Blas { nodes: tree.nodes, blocks: tree.leaves, outline, triangles: boxes.len(), looseness })
+        assert!(triangles.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
+        let mesh = Triangles { positions, triangles };
+        let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, Effort::MESH, cancel)?;
+        let looseness = looseness(&nodes, &bounds);
+        let outline = outline(&nodes, bounds);
+        Ok(Blas { nodes, blocks, outline, triangles: primitives, looseness })
     }
 
     /// The bytes of the tree.
@@ -93,26 +92,45 @@ pub(super) fn corners(positions: &[[f32; 3]], triangle: &[u32; 3]) -> Option<[[f
 
 /// The padded box of a triangle, if all its coordinates are usable and it is more than a point or a line along an axis.
 pub(super) fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
-    if !corners.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE) {
-        return None;
+    triangle_box(corners).map(|b| Bounds { min: b.min.to_array(), max: b.max.to_array() })
+}
+
+#[inline(always)]
+fn triangle_box(corners: &[[f32; 3]; 3]) -> Option<Aabb> {
+    let [a, b, c] = corners.map(Vec3A::from_array);
+    let usable = |x: Vec3A| x.abs().cmple(Vec3A::splat(LARGEST_COORDINATE));
+    let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+    let flat = min.cmpeq(max).bitmask().count_ones();
+    let pad = min.abs().max(max.abs()).max_element() * ROUNDING_PAD;
+    ((usable(a) & usable(b) & usable(c)).all() && flat < 2).then(|| Aabb::new(min - pad, max + pad))
+}
+
+/// What a mesh's tree is built over and put together from.
+struct Triangles<'a> {
+    positions: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+}
+
+impl Source for Triangles<'_> {
+    fn len(&self) -> usize {
+        self.triangles.len()
     }
-    let mut bounds = Bounds::EMPTY;
-    for &corner in corners {
-        bounds.extend(corner);
+
+    #[inline(always)]
+    fn bounds(&self, number: u32) -> Option<Aabb> {
+        triangle_box(&corners(self.positions, &self.triangles[number as usize])?)
     }
-    let flat = (0..3).filter(|&axis| bounds.min[axis] == bounds.max[axis]).count();
-    (flat < 2).then(|| bounds.padded())
+
+    fn extent(&self) -> Aabb {
+        let step = self.positions.len().div_ceil(SAMPLES).max(1);
+        let points = self.positions.iter().step_by(step).map(|&point| Vec3A::from_array(point));
+        let usable = points.filter(|point| point.abs().cmple(Vec3A::splat(LARGEST_COORDINATE)).all());
+        usable.fold(Aabb::empty(), |all, point| all.union(&Aabb::from_point(point)))
+    }
 }
 
 /// Makes blocks of up to eight triangles.
-struct Blocks<'a> {
-    positions: &'a [[f32; 3]],
-    triangles: &'a [[u32; 3]],
-    /// From the boxes' numbers to the mesh's.
-    primitives: &'a [u32],
-}
-
-impl LeafMaker for Blocks<'_> {
+impl LeafMaker for Triangles<'_> {
     type Leaf = TriangleBlock;
     const CAPACITY: u32 = 8;
     const KIND: Kind = Kind::Triangles;
@@ -120,8 +138,7 @@ impl LeafMaker for Blocks<'_> {
 
     fn leaf(&self, primitives: &[u32]) -> TriangleBlock {
         let mut block = TriangleBlock::EMPTY;
-        for (lane, &box_number) in primitives.iter().enumerate() {
-            let primitive = self.primitives[box_number as usize];
+        for (lane, &primitive) in primitives.iter().enumerate() {
             let corners = self.triangles[primitive as usize].map(|i| self.positions[i as usize]);
             block.set(lane, corners, primitive);
         }

@@ -1,83 +1,133 @@
-//! Construction of the two kinds of trees: boxes, binary tree, collapse.
+//! Construction of the two kinds of trees: division into parts, a tree for each, and a tree over the pieces of all.
 
 use super::Cancelled;
-use super::collapse::{LeafMaker, WideTree, collapse};
-use super::flat_tree::{FlatNode, balanced, flatten};
-use super::node::{Bounds, MAX_DEPTH, Node};
-use glam::Vec3A;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
-use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use super::collapse::{LeafMaker, LeafRule};
+use super::division::{Item, Source, divide_all};
+use super::emit::{Pending, Wide};
+use super::flat_tree::{FlatNode, nodes_over};
+use super::join::{Share, join};
+use super::node::{Bounds, Kind, MAX_DEPTH, Node};
+use super::part::{PartWork, Piece};
+use super::top::{emit_top, plan_top};
 use rayon::prelude::*;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Boxes for the clustering, each plane moved outwards by a pseudo-random share, up to a thousandth, of the box's extent.
-///
-/// Without that, rows of equal boxes all prefer the same neighbour, one pair is joined a round, and the time grows with the square.
-fn without_ties(boxes: &[Bounds]) -> Vec<Aabb> {
-    let moved = |(i, b): (usize, &Bounds)| {
-        let (mut min, mut max) = (b.min, b.max);
-        let mut bits = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        for axis in 0..3 {
-            bits = (bits ^ (bits >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            let extent = (b.max[axis] - b.min[axis]) / 1024.0;
-            min[axis] -= extent * (bits >> 40) as f32 / (1u32 << 24) as f32;
-            max[axis] += extent * (bits & 0xff_ffff) as f32 / (1u32 << 24) as f32;
-        }
-        Aabb::new(Vec3A::from_array(min), Vec3A::from_array(max))
-    };
-    boxes.par_iter().enumerate().map(moved).collect()
-}
-
-/// How much time goes into the binary tree.
+/// How much time goes into a binary tree.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
-    search_distance: PlocSearchDistance,
+    /// Looks 24 neighbours far rather than 6.
+    pub(super) far: bool,
     /// First rounds of the clustering that look at direct neighbours alone.
-    short_rounds: usize,
+    pub(super) short_rounds: usize,
     /// Share of the nodes that is tried at other places.
-    reinsertion: f32,
+    pub(super) reinsertion: f32,
 }
 
 impl Effort {
     /// For meshes: twice the search and the reinsertion made the build slower, and no ray faster beyond the noise, in a room of 280 thousand triangles.
-    pub(super) const MESH: Effort = Effort { search_distance: PlocSearchDistance::Low, short_rounds: 2, reinsertion: 0.02 };
+    pub(super) const MESH: Effort = Effort { far: false, short_rounds: 2, reinsertion: 0.02 };
+    /// For one of many parts, whose upper nodes are put together anew.
+    pub(super) const PART: Effort = Effort { short_rounds: 1, reinsertion: 0.0, ..Effort::MESH };
     /// For the few boxes of a top level that every ray meets.
-    pub(super) const SCENE: Effort = Effort { search_distance: PlocSearchDistance::High, short_rounds: 1, reinsertion: 0.5 };
+    pub(super) const SCENE: Effort = Effort { far: true, short_rounds: 1, reinsertion: 0.5 };
+
+    /// For the tree over the pieces of parts: reinsertion of all where they are few, of half of more.
+    pub(super) fn top(pieces: usize) -> Self {
+        Effort { reinsertion: (8192.0 / pieces as f32).clamp(0.5, 1.0), ..Effort::SCENE }
+    }
 }
 
-/// Builds the wide tree over boxes; primitive `i` of the leaf maker is box `i`.
-pub(super) fn build<M: LeafMaker>(
-    boxes: &[Bounds],
+/// The wide tree: the root is node 0.
+pub(super) struct WideTree<L> {
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: Vec<L>,
+    /// The box of all.
+    pub(super) bounds: Bounds,
+    /// Primitives in the leaves.
+    pub(super) primitives: usize,
+}
+
+/// The most subtrees of a part that the top level is built over, and the least.
+const PIECES: usize = 512;
+const LEAST_PIECES: usize = 8;
+
+/// The most pieces of all parts together, if that leaves each part the least.
+const ALL_PIECES: usize = 1 << 16;
+
+/// Roots whose trees become wide as one task.
+const SHARE_ROOTS: usize = 128;
+
+/// Builds the wide tree over a source; primitives of the leaf maker are numbers of the source. The outcome does not depend on the threads.
+pub(super) fn build<S: Source, M: LeafMaker>(
+    source: &S,
     maker: &M,
     effort: Effort,
     cancel: &AtomicBool,
 ) -> Result<WideTree<M::Leaf>, Cancelled> {
-    if boxes.is_empty() {
-        return Ok(WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new(), depth: 1 });
+    let lists = divide_all(source, M::CAPACITY > 1, cancel)?;
+    if lists.is_empty() {
+        return Ok(WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new(), bounds: Bounds::EMPTY, primitives: 0 });
     }
-    let tree = binary_tree(boxes, effort, cancel)?;
-    let wide = collapse(&tree, maker, cancel)?;
-    if wide.depth <= MAX_DEPTH {
-        return Ok(wide);
+    let primitives = lists.par_iter().flatten().map(|item| item.count() as usize).sum();
+    let rule = LeafRule { capacity: M::CAPACITY, cost: M::COST };
+    let (mut shares, mut bounds) = shares(source, &lists, rule, M::KIND, Some(effort), cancel)?;
+    if shares.iter().any(|share| share.wide.depth > MAX_DEPTH) {
+        (shares, bounds) = self::shares(source, &lists, rule, M::KIND, None, cancel)?;
     }
-    collapse(&balanced(boxes), maker, cancel)
+    drop(lists);
+    let (nodes, leaves) = join(shares, maker, cancel)?;
+    Ok(WideTree { nodes, leaves, bounds, primitives })
 }
 
-/// Locally ordered clustering, then reinsertion in ever smaller batches (obvhs).
-fn binary_tree(boxes: &[Bounds], effort: Effort, cancel: &AtomicBool) -> Result<Vec<FlatNode>, Cancelled> {
-    let check = || if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) };
-    let aabbs = without_ties(boxes);
-    let primitives = (0..boxes.len() as u32).collect();
-    let mut builder = PlocBuilder::with_capacity(boxes.len());
-    let mut tree: Bvh2 = builder.build(effort.search_distance, &aabbs, primitives, SortPrecision::U64, effort.short_rounds);
-    drop((builder, aabbs));
-    let mut optimizer = ReinsertionOptimizer::default();
-    for round in (1..32).step_by(2) {
-        check()?;
-        optimizer.run(&mut tree, effort.reinsertion, Some(vec![1.0 / round as f32]));
+/// The shares of a tree, the top level's first, and the box of all; balanced without effort.
+pub(super) fn shares<S: Source>(
+    source: &S,
+    lists: &[Vec<Item>],
+    rule: LeafRule,
+    kind: Kind,
+    effort: Option<Effort>,
+    cancel: &AtomicBool,
+) -> Result<(Vec<Share>, Bounds), Cancelled> {
+    let alone = lists.len() == 1;
+    let part_effort = if alone { effort } else { effort.map(|_| Effort::PART) };
+    let pieces = if alone { 1 } else { (ALL_PIECES / lists.len()).clamp(LEAST_PIECES, PIECES) };
+    let work = PartWork { source, rule, effort: part_effort, pieces, memory: Mutex::new(Vec::new()), cancel };
+    let top = lists.iter().map(|items| nodes_over(items.len())).sum();
+    let top_pieces = lists.iter().map(|items| items.len().min(pieces)).sum();
+    // Zeros of an array type come from the kernel as they are: the first to touch a page is the task that needs it.
+    let mut memory = vec![[0u32; size_of::<FlatNode>() / size_of::<u32>()]; top + nodes_over(top_pieces)];
+    let row: &mut [FlatNode] = bytemuck::cast_slice_mut(&mut memory);
+    let pieces = plan_parts(&work, lists, &mut row[..top])?;
+    let (top_row, effort) = (&mut row[top..][..nodes_over(pieces.len())], effort.map(|_| Effort::top(pieces.len())));
+    plan_top(&pieces, rule, effort, top_row, cancel)?;
+    let row = &*row;
+    let (wide, roots) = emit_top(row, top, kind);
+    let share = |roots: &[Pending]| {
+        if cancel.load(Ordering::Relaxed) {
+            return Err(Cancelled);
+        }
+        let mut wide = Wide::new(kind);
+        let roots = roots.iter().map(|&Pending { place, node, depth }| (node, wide.tree(row, place, depth))).collect();
+        Ok(Share { wide, roots })
+    };
+    let below: Vec<Share> = roots.par_chunks(SHARE_ROOTS).map(share).collect::<Result<_, Cancelled>>()?;
+    Ok((std::iter::once(Share { wide, roots: Vec::new() }).chain(below).collect(), row[top].bounds()))
+}
+
+/// Plans the binary trees of all parts, one behind the other in the row; their pieces in the order of their places.
+fn plan_parts<S: Source>(work: &PartWork<S>, lists: &[Vec<Item>], mut row: &mut [FlatNode]) -> Result<Vec<Piece>, Cancelled> {
+    let mut tasks = Vec::with_capacity(lists.len());
+    let mut start = 0;
+    for items in lists {
+        let (part, rest) = row.split_at_mut(nodes_over(items.len()));
+        tasks.push((start, items, part));
+        (start, row) = (start + nodes_over(items.len()), rest);
     }
-    check()?;
-    Ok(flatten(&tree, boxes))
+    let planned = |(start, items, row): (usize, &Vec<Item>, &mut [FlatNode])| {
+        let pieces = work.part(items, row)?;
+        Ok(pieces.into_iter().map(|piece| Piece { place: start + piece.place, ..piece }).collect())
+    };
+    let pieces: Vec<Vec<Piece>> = tasks.into_par_iter().map(planned).collect::<Result<_, Cancelled>>()?;
+    Ok(pieces.into_iter().flatten().collect())
 }
