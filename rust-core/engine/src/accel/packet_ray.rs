@@ -80,10 +80,25 @@ impl<S: Simd> PacketRays<S> {
         group
     }
 
-    /// The ray of one lane.
+    /// The ray of one lane, which must be among those that can hit something: its numbers are there, none has to be worked out anew.
     #[inline(always)]
-    pub(super) fn single(&self, lane: usize, t_max: f32) -> Option<PreparedRay> {
-        PreparedRay::new(lane_of(&self.origin, lane), lane_of(&self.direction, lane), self.t_min.as_slice()[lane], t_max)
+    pub(super) fn single(&self, lane: usize) -> PreparedRay {
+        let bit = 1 << lane;
+        let major = self.major_of(bit);
+        PreparedRay::with_offsets(
+            lane_of(&self.origin, lane),
+            lane_of(&self.direction, lane),
+            lane_of(&self.reciprocal, lane),
+            [lane_of(&self.near_offset, lane), lane_of(&self.far_offset, lane)],
+            self.t_min.as_slice()[lane],
+            major,
+        )
+    }
+
+    /// The major axis of the lane of a bit.
+    #[inline(always)]
+    fn major_of(&self, bit: u32) -> usize {
+        if self.major[0] & bit != 0 { 0 } else { 2 - usize::from(self.major[1] & bit != 0) }
     }
 }
 
@@ -123,7 +138,7 @@ impl<S: Simd> Group<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, rays: &PacketRays<S>, lanes: u32) -> Self {
         let first = lanes & lanes.wrapping_neg();
-        let major = if rays.major[0] & first != 0 { 0 } else { 2 - usize::from(rays.major[1] & first != 0) };
+        let major = rays.major_of(first);
         let axes = AXES[major];
         let along = rays.reciprocal[major];
         let shear = [-(rays.direction[axes[0]] * along), -(rays.direction[axes[1]] * along), along];

@@ -96,6 +96,20 @@ impl PreparedRay {
             near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
             far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
         }
+        Self::with_offsets(origin, direction, reciprocal, [near_offset, far_offset], t_min, major)
+    }
+
+    /// The ray of these numbers; `offsets` are those of the near planes and of the far ones.
+    #[inline(always)]
+    pub(super) fn with_offsets(
+        origin: Padded,
+        direction: Padded,
+        reciprocal: Padded,
+        offsets: [Padded; 2],
+        t_min: f32,
+        major: usize,
+    ) -> Self {
+        let [near_offset, far_offset] = offsets;
         let (mut near_rows, mut far_rows) = ([0; 4], [0; 4]);
         for k in 0..4 {
             let backwards = (direction[k].to_bits() >> 31) * 24;
