@@ -90,8 +90,9 @@ impl<'a, C: Collector> Flight<'a, C> {
     pub(super) fn start<Q: Query<Collector = C>>(&mut self, pending: &mut Pending, rays: &RayBatch, i: usize, query: &Q) -> bool {
         query.begin(&mut self.collector, i, rays.t_max[i]);
         (self.number, self.ended) = (i as u32, false);
-        let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
-        self.rays[0] = ray;
+        if !self.rays[0].prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) {
+            return false;
+        }
         self.mask = rays.mask[i];
         self.shorten();
         pending.near[0] = 0;
@@ -133,8 +134,7 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// To the root of a mesh's tree.
     #[inline(always)]
-    fn enter(&mut self, ray: PreparedRay, mesh: &'a Blas) -> usize {
-        self.rays[1] = ray;
+    fn enter(&mut self, mesh: &'a Blas) -> usize {
         self.nodes[1] = &mesh.nodes;
         self.blocks = &mesh.blocks;
         self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
@@ -196,14 +196,18 @@ impl<'a, C: Collector> Flight<'a, C> {
         (self.instance, self.transparent) = (record.id, record.transparent);
         let ray = &self.rays[0];
         if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
-            return self.enter(*ray, &scene.meshes[index as usize]);
+            self.rays[1] = *ray;
+            return self.enter(&scene.meshes[index as usize]);
         }
         let origin = record.world_to_object.point(ray.origin);
         let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return self.pop(pending) };
-                self.enter(ray, &scene.meshes[index as usize])
+                let t_min = ray.t_min;
+                if !self.rays[1].prepare(origin, direction, t_min, self.collector.t_max()) {
+                    return self.pop(pending);
+                }
+                self.enter(&scene.meshes[index as usize])
             }
             Geometry::Shape(shape) => {
                 for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
