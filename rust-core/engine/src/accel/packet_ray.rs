@@ -156,3 +156,60 @@ impl<S: Simd> Group<S> {
         group
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    /// What the tests of boxes and triangles read of a ray.
+    fn numbers(ray: &PreparedRay) -> [[u32; 3]; 10] {
+        let bits = |v: &[f32]| [v[0], v[1], v[2]].map(f32::to_bits);
+        let rows = |v: &[u32]| [v[0], v[1], v[2]];
+        let PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, far_rows, axes, start, shear, t_min: _ } = ray;
+        [
+            bits(origin),
+            bits(direction),
+            bits(reciprocal),
+            bits(near_offset),
+            bits(far_offset),
+            rows(near_rows),
+            rows(far_rows),
+            rows(axes),
+            bits(start),
+            bits(shear),
+        ]
+    }
+
+    #[inline(always)]
+    fn singles<S: Simd>(simd: S, origin: &[[f32; PACKET]; 3], direction: &[[f32; PACKET]; 3]) -> Vec<PreparedRay> {
+        let [x, y, z] = [0, 1, 2].map(|axis| (&origin[axis], &direction[axis]));
+        let origin = [f32x16::from_slice(simd, x.0), f32x16::from_slice(simd, y.0), f32x16::from_slice(simd, z.0)];
+        let direction = [f32x16::from_slice(simd, x.1), f32x16::from_slice(simd, y.1), f32x16::from_slice(simd, z.1)];
+        let rays = PacketRays::new(simd, origin, direction, f32x16::splat(simd, 0.25), f32x16::splat(simd, 9.0), 0xffff);
+        assert_eq!(rays.lanes, 0xffff);
+        let mut singles = Vec::new();
+        for lane in 0..PACKET {
+            singles.push(rays.single(lane));
+        }
+        singles
+    }
+
+    #[test]
+    fn a_lane_alone_has_the_numbers_of_a_ray_made_ready_alone() {
+        let directions =
+            [[1.0, 0.5, -0.25], [-0.5, 1.0, 0.0], [0.0, -0.0, -2.0], [-1.0, -1.0, -1.0], [0.0, 3.0, 3.0], [2.0, 1e-20, -1e-20]];
+        let of = |lane: usize| (directions[lane % 6], [lane as f32 - 7.5, 0.0, 1e3 * lane as f32]);
+        let origin = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).1[axis]));
+        let direction = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).0[axis]));
+        for level in [Level::new(), Level::baseline()] {
+            let singles = dispatch!(level, simd => singles(simd, &origin, &direction));
+            for (lane, single) in singles.iter().enumerate() {
+                let ([dx, dy, dz], [x, y, z]) = of(lane);
+                let alone = PreparedRay::new([x, y, z, 0.0], [dx, dy, dz, 0.0], 0.25, 9.0).expect("a ray that can hit something");
+                assert_eq!(numbers(single), numbers(&alone), "{level:?}, lane {lane}");
+                assert_eq!(single.t_min, alone.t_min);
+            }
+        }
+    }
+}
