@@ -2,7 +2,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
-use fearless_simd::{Level, Simd, f32x8, prelude::*};
+use fearless_simd::{Level, Simd, f32x8, prelude::*, u32x8};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{kernel, x86::*};
 
@@ -19,9 +19,9 @@ pub fn sorts_fast(level: Level) -> bool {
 pub trait Sort8: Simd {
     /// Writes the distances and values of the slots of `mask`, farthest first, and anything behind them. Distances must not be negative; the
     /// last three of their bits become the slot's number.
-    fn sort8(self, near: f32x8<Self>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]);
+    fn sort8(self, near: f32x8<Self>, mask: u32, values: u32x8<Self>, distances: &mut [u32; 8], sorted: &mut [u32; 8]);
     /// Writes the values of the slots of `mask`, last slot first, and anything behind them.
-    fn choose8(self, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]);
+    fn choose8(self, mask: u32, values: u32x8<Self>, chosen: &mut [u32; 8]);
 }
 
 /// Bits that a slot's number takes.
@@ -30,48 +30,45 @@ const SLOT: u32 = 7;
 #[cfg(target_arch = "x86_64")]
 kernel!(
     #[inline(always)]
-    fn sort8_avx512(_simd: Avx512, near: f32x8<Avx512>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+    fn sort8_avx512(_simd: Avx512, near: f32x8<Avx512>, mask: u32, values: u32x8<Avx512>, distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
         let bits = _mm256_andnot_si256(_mm256_set1_epi32(SLOT as i32), _mm256_castps_si256(near.into()));
         let keys = _mm256_or_si256(bits, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
         let keys = _mm256_maskz_compress_epi32(mask as u8, keys);
         // More than four are rare, so that the branch is known beforehand.
         let keys =
             if mask.count_ones() <= 4 { _mm256_castsi128_si256(descending4(_mm256_castsi256_si128(keys))) } else { descending8(keys) };
-        store(keys, values, distances, sorted);
+        store(keys, values.into(), distances, sorted);
     }
 );
 #[cfg(target_arch = "x86_64")]
 kernel!(
     #[inline(always)]
-    fn sort8_avx2(_simd: Avx2, near: f32x8<Avx2>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+    fn sort8_avx2(_simd: Avx2, near: f32x8<Avx2>, mask: u32, values: u32x8<Avx2>, distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
         let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
         let bits = _mm256_andnot_si256(_mm256_set1_epi32(SLOT as i32), _mm256_castps_si256(near.into()));
         let keys = _mm256_and_si256(_mm256_or_si256(bits, slots), lanes_of(mask));
-        store(descending8(keys), values, distances, sorted);
+        store(descending8(keys), values.into(), distances, sorted);
     }
 );
 #[cfg(target_arch = "x86_64")]
 kernel!(
     #[inline(always)]
-    fn choose8_avx512(_simd: Avx512, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+    fn choose8_avx512(_simd: Avx512, mask: u32, values: u32x8<Avx512>, chosen: &mut [u32; 8]) {
         let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
         let compressed = _mm256_maskz_compress_epi32(mask as u8, slots);
         let backwards = _mm256_sub_epi32(_mm256_set1_epi32(mask.count_ones() as i32 - 1), slots);
         let order = _mm256_permutevar8x32_epi32(compressed, backwards);
-        // SAFETY: both arrays hold eight words.
-        unsafe {
-            let values = _mm256_loadu_si256(values.as_ptr().cast());
-            _mm256_storeu_si256(chosen.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values, order));
-        }
+        // SAFETY: the array holds eight words.
+        unsafe { _mm256_storeu_si256(chosen.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values.into(), order)) };
     }
 );
 #[cfg(target_arch = "x86_64")]
 kernel!(
     #[inline(always)]
-    fn choose8_avx2(_simd: Avx2, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+    fn choose8_avx2(_simd: Avx2, mask: u32, values: u32x8<Avx2>, chosen: &mut [u32; 8]) {
         // The slots' numbers are distances here.
         let keys = _mm256_and_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), lanes_of(mask));
-        store(descending8(keys), values, &mut [0; 8], chosen);
+        store(descending8(keys), values.into(), &mut [0; 8], chosen);
     }
 );
 
@@ -89,10 +86,9 @@ fn lanes_of(mask: u32) -> __m256i {
 #[cfg(target_arch = "x86_64")]
 #[inline]
 #[target_feature(enable = "avx2")]
-fn store(keys: __m256i, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
-    // SAFETY: all arrays hold eight words.
+fn store(keys: __m256i, values: __m256i, distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+    // SAFETY: both arrays hold eight words.
     unsafe {
-        let values = _mm256_loadu_si256(values.as_ptr().cast());
         _mm256_storeu_si256(distances.as_mut_ptr().cast(), keys);
         _mm256_storeu_si256(sorted.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values, keys));
     }
@@ -132,12 +128,16 @@ fn descending8(x: __m256i) -> __m256i {
 
 impl<S: Simd> Sort8 for S {
     #[inline(always)]
-    fn sort8(self, near: f32x8<S>, mask: u32, values: &[u32; 8], distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
+    fn sort8(self, near: f32x8<S>, mask: u32, values: u32x8<S>, distances: &mut [u32; 8], sorted: &mut [u32; 8]) {
         match self.level() {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(t) => sort8_avx512(t, f32x8::from_slice(t, near.as_slice()), mask, values, distances, sorted),
+            Level::Avx512(t) => {
+                sort8_avx512(t, f32x8::from_slice(t, near.as_slice()), mask, u32x8::from_slice(t, values.as_slice()), distances, sorted)
+            }
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(t) => sort8_avx2(t, f32x8::from_slice(t, near.as_slice()), mask, values, distances, sorted),
+            Level::Avx2(t) => {
+                sort8_avx2(t, f32x8::from_slice(t, near.as_slice()), mask, u32x8::from_slice(t, values.as_slice()), distances, sorted)
+            }
             _ => {
                 let mut keys: [u32; 8] = core::array::from_fn(|slot| {
                     let is_in = (mask >> slot) & 1;
@@ -151,12 +151,12 @@ impl<S: Simd> Sort8 for S {
     }
 
     #[inline(always)]
-    fn choose8(self, mask: u32, values: &[u32; 8], chosen: &mut [u32; 8]) {
+    fn choose8(self, mask: u32, values: u32x8<S>, chosen: &mut [u32; 8]) {
         match self.level() {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(t) => choose8_avx512(t, mask, values, chosen),
+            Level::Avx512(t) => choose8_avx512(t, mask, u32x8::from_slice(t, values.as_slice()), chosen),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(t) => choose8_avx2(t, mask, values, chosen),
+            Level::Avx2(t) => choose8_avx2(t, mask, u32x8::from_slice(t, values.as_slice()), chosen),
             _ => {
                 let slots = (0..8).rev().filter(|slot| (mask >> slot) & 1 == 1);
                 for (out, slot) in chosen.iter_mut().zip(slots) {
@@ -177,8 +177,9 @@ mod tests {
     #[inline(always)]
     fn sorted<S: Simd>(simd: S, near: &[f32; 8], mask: u32) -> ([u32; 8], [u32; 8], [u32; 8]) {
         let (mut distances, mut values, mut chosen) = ([0; 8], [0; 8], [0; 8]);
-        simd.sort8(f32x8::from_slice(simd, near), mask, &VALUES, &mut distances, &mut values);
-        simd.choose8(mask, &VALUES, &mut chosen);
+        let all = u32x8::from_slice(simd, &VALUES);
+        simd.sort8(f32x8::from_slice(simd, near), mask, all, &mut distances, &mut values);
+        simd.choose8(mask, all, &mut chosen);
         (distances, values, chosen)
     }
 

@@ -10,11 +10,11 @@ use super::ray::{NONE, RayBatch};
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use super::wide::{Wide, meets};
-use fearless_simd::prelude::*;
+use fearless_simd::{prelude::*, u32x8};
 use gonio_simd::{Sort8, prefetch_at};
 
-/// What may wait in both levels, with the two ways back and the room that a whole register of children takes.
-const PENDING: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 2 + WIDTH;
+/// What may wait in both levels, with the end and the room that a whole register of children takes.
+const PENDING: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 1 + WIDTH;
 
 /// Bits of a distance that the slot takes while children are sorted.
 const SLOT_BITS: u32 = WIDTH as u32 - 1;
@@ -41,9 +41,7 @@ impl Pending {
 pub(super) struct Flight<'a, C: Collector> {
     /// In the world, and in the space of the mesh it is in.
     rays: [PreparedRay; 2],
-    /// 1 in the space of a mesh, else 0.
-    space: usize,
-    nodes: &'a [Node],
+    nodes: [&'a [Node]; 2],
     blocks: &'a [TriangleBlock],
     /// Where in memory the children of a kind begin, for fetching them.
     addresses: [usize; KINDS],
@@ -68,11 +66,11 @@ impl<'a, C: Collector> Flight<'a, C> {
     /// Without a ray.
     pub(super) fn new(scene: &'a SceneBvh, collector: C) -> Self {
         let mut addresses = [0; KINDS];
+        addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
         addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
         Flight {
             rays: [PreparedRay::NOTHING; 2],
-            space: 0,
-            nodes: &scene.nodes,
+            nodes: [&scene.nodes, &[]],
             blocks: &[],
             addresses,
             collector,
@@ -89,23 +87,18 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// Takes up ray `i` for a query; false when it can hit nothing.
     #[inline(always)]
-    pub(super) fn start<Q: Query<Collector = C>>(
-        &mut self,
-        scene: &'a SceneBvh,
-        pending: &mut Pending,
-        rays: &RayBatch,
-        i: usize,
-        query: &Q,
-    ) -> bool {
+    pub(super) fn start<Q: Query<Collector = C>>(&mut self, pending: &mut Pending, rays: &RayBatch, i: usize, query: &Q) -> bool {
         query.begin(&mut self.collector, i, rays.t_max[i]);
         (self.number, self.ended) = (i as u32, false);
-        let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
-        self.rays[0] = ray;
+        if !self.rays[0].prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) {
+            return false;
+        }
         self.mask = rays.mask[i];
-        self.waiting = 0;
         self.shorten();
-        self.push(pending, Kind::End);
-        self.leave(scene);
+        pending.near[0] = 0;
+        pending.child[0] = ChildRef::new(Kind::End, 0).0;
+        self.waiting = 1;
+        self.current = ChildRef::ROOT;
         true
     }
 
@@ -139,33 +132,15 @@ impl<'a, C: Collector> Flight<'a, C> {
         }
     }
 
-    /// Leaves a way back for when nothing else waits above it.
-    #[inline(always)]
-    fn push(&mut self, pending: &mut Pending, kind: Kind) {
-        pending.near[self.waiting] = 0;
-        pending.child[self.waiting] = ChildRef::new(kind, 0).0;
-        self.waiting += 1;
-    }
-
-    /// To the root of the scene's tree, or back into it.
-    #[inline(always)]
-    fn leave(&mut self, scene: &'a SceneBvh) {
-        self.space = 0;
-        self.nodes = &scene.nodes;
-        self.addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
-        self.current = ChildRef::ROOT;
-    }
-
     /// To the root of a mesh's tree.
     #[inline(always)]
-    fn enter(&mut self, pending: &mut Pending, mesh: &'a Blas) -> usize {
-        self.push(pending, Kind::Return);
-        self.nodes = &mesh.nodes;
+    fn enter(&mut self, mesh: &'a Blas) -> usize {
+        self.nodes[1] = &mesh.nodes;
         self.blocks = &mesh.blocks;
-        self.addresses[Kind::Inner as usize] = mesh.nodes.as_ptr().addr();
+        self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
         self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
-        self.current = ChildRef::ROOT;
-        Kind::Inner as usize
+        self.current = ChildRef::new(Kind::MeshInner, 0);
+        Kind::MeshInner as usize
     }
 
     /// Takes a hit; true when it ends the search.
@@ -179,9 +154,10 @@ impl<'a, C: Collector> Flight<'a, C> {
     /// The step at a node.
     #[inline(always)]
     pub(super) fn inner<S: Simd>(&mut self, simd: S, pending: &mut Pending) -> usize {
-        let node = &self.nodes[self.current.index()];
-        let (near, met) = meets(simd, node, &self.rays[self.space % 2], self.collector.t_max());
-        let children = bytemuck::cast_ref(&node.children);
+        let space = self.current.space();
+        let node = &self.nodes[space][self.current.index()];
+        let (near, met) = meets(simd, node, &self.rays[space], self.collector.t_max());
+        let children = u32x8::from_slice(simd, bytemuck::cast_ref::<_, [u32; WIDTH]>(&node.children)) | self.current.child_bits();
         let [distances, sorted] = pending.places(self.waiting);
         if C::ORDERED {
             simd.sort8(near, met, children, distances, sorted);
@@ -198,7 +174,7 @@ impl<'a, C: Collector> Flight<'a, C> {
     pub(super) fn triangles<S: Simd>(&mut self, simd: S, pending: &Pending) -> usize {
         let block = &self.blocks[self.current.index()];
         let mut hits = BlockHits::default();
-        let mut mask = Wide(simd).triangles(block, &self.rays[self.space % 2], self.collector.t_max(), &mut hits);
+        let mut mask = Wide(simd).triangles(block, &self.rays[1], self.collector.t_max(), &mut hits);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
@@ -212,7 +188,7 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// The step at an instance.
     #[inline(always)]
-    pub(super) fn instance(&mut self, scene: &'a SceneBvh, pending: &mut Pending) -> usize {
+    pub(super) fn instance(&mut self, scene: &'a SceneBvh, pending: &Pending) -> usize {
         let record = &scene.records[self.current.index()];
         if record.mask & self.mask == 0 {
             return self.pop(pending);
@@ -220,16 +196,18 @@ impl<'a, C: Collector> Flight<'a, C> {
         (self.instance, self.transparent) = (record.id, record.transparent);
         let ray = &self.rays[0];
         if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
-            return self.enter(pending, &scene.meshes[index as usize]);
+            self.rays[1] = *ray;
+            return self.enter(&scene.meshes[index as usize]);
         }
         let origin = record.world_to_object.point(ray.origin);
         let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return self.pop(pending) };
-                self.rays[1] = ray;
-                self.space = 1;
-                self.enter(pending, &scene.meshes[index as usize])
+                let t_min = ray.t_min;
+                if !self.rays[1].prepare(origin, direction, t_min, self.collector.t_max()) {
+                    return self.pop(pending);
+                }
+                self.enter(&scene.meshes[index as usize])
             }
             Geometry::Shape(shape) => {
                 for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
@@ -240,12 +218,5 @@ impl<'a, C: Collector> Flight<'a, C> {
                 self.pop(pending)
             }
         }
-    }
-
-    /// The step out of an instance.
-    #[inline(always)]
-    pub(super) fn back(&mut self, scene: &'a SceneBvh, pending: &Pending) -> usize {
-        self.leave(scene);
-        self.pop(pending)
     }
 }

@@ -24,19 +24,20 @@ pub(super) struct ChildRef(pub(super) u32);
 pub(super) enum Kind {
     /// A node of the same tree.
     Inner = 0,
-    /// A block of triangles of a mesh.
-    Triangles = 1,
     /// One instance of the scene.
-    Instance = 2,
-    /// The way out of an instance: nothing of its mesh waits any more.
-    Return = 3,
+    Instance = 1,
     /// The end of a ray: nothing waits any more.
-    End = 4,
+    End = 2,
+    /// A node of a mesh, where nodes of the scene wait as well.
+    MeshInner = 4,
+    /// A block of triangles of a mesh.
+    Triangles = 5,
 }
 
 impl Kind {
     /// Bytes of what a reference of each kind refers to.
-    pub(super) const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<TriangleBlock>(), size_of::<InstanceRecord>(), 0, 0, 0, 0, 0];
+    pub(super) const SIZES: [usize; KINDS] =
+        [size_of::<Node>(), size_of::<InstanceRecord>(), 0, 0, size_of::<Node>(), size_of::<TriangleBlock>(), 0, 0];
 }
 
 /// Kinds that three bits can tell apart.
@@ -63,6 +64,18 @@ impl ChildRef {
     #[inline(always)]
     pub(super) fn kind(self) -> usize {
         (self.0 >> KIND_SHIFT) as usize % KINDS
+    }
+
+    /// 1 in a mesh, else 0.
+    #[inline(always)]
+    pub(super) fn space(self) -> usize {
+        (self.0 >> 31) as usize
+    }
+
+    /// The bits that a node's children have from it: that of a mesh.
+    #[inline(always)]
+    pub(super) fn child_bits(self) -> u32 {
+        self.0 & (1 << 31)
     }
 
     #[inline(always)]

@@ -140,7 +140,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
 
     #[inline(always)]
     fn single(&mut self, simd: S, rays: &PacketRays<S>, start: ChildRef, lane: usize) {
-        let Some(ray) = rays.single(lane, self.hits.t[lane]) else { return };
+        let ray = rays.single(lane);
         let mut stacks = SceneWalk { stack: self.single_scene, mesh_stack: self.single_mesh };
         let (scene, mask) = (self.scene, self.masks[lane]);
         // Outlined: the code of the single walk exists once, however often it is called for.
@@ -190,7 +190,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
 
     #[inline(always)]
     fn single(&mut self, simd: S, rays: &PacketRays<S>, start: ChildRef, lane: usize) {
-        let Some(ray) = rays.single(lane, self.hits.t[lane]) else { return };
+        let ray = rays.single(lane);
         let (mesh, record) = (self.mesh, self.record);
         if ANY {
             let mut any = Any { t_max: self.hits.t[lane] };

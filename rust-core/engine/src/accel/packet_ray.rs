@@ -80,10 +80,25 @@ impl<S: Simd> PacketRays<S> {
         group
     }
 
-    /// The ray of one lane.
+    /// The ray of one lane, which must be among those that can hit something: its numbers are there, none has to be worked out anew.
     #[inline(always)]
-    pub(super) fn single(&self, lane: usize, t_max: f32) -> Option<PreparedRay> {
-        PreparedRay::new(lane_of(&self.origin, lane), lane_of(&self.direction, lane), self.t_min.as_slice()[lane], t_max)
+    pub(super) fn single(&self, lane: usize) -> PreparedRay {
+        let bit = 1 << lane;
+        let major = self.major_of(bit);
+        PreparedRay::with_offsets(
+            lane_of(&self.origin, lane),
+            lane_of(&self.direction, lane),
+            lane_of(&self.reciprocal, lane),
+            [lane_of(&self.near_offset, lane), lane_of(&self.far_offset, lane)],
+            self.t_min.as_slice()[lane],
+            major,
+        )
+    }
+
+    /// The major axis of the lane of a bit.
+    #[inline(always)]
+    fn major_of(&self, bit: u32) -> usize {
+        if self.major[0] & bit != 0 { 0 } else { 2 - usize::from(self.major[1] & bit != 0) }
     }
 }
 
@@ -123,7 +138,7 @@ impl<S: Simd> Group<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, rays: &PacketRays<S>, lanes: u32) -> Self {
         let first = lanes & lanes.wrapping_neg();
-        let major = if rays.major[0] & first != 0 { 0 } else { 2 - usize::from(rays.major[1] & first != 0) };
+        let major = rays.major_of(first);
         let axes = AXES[major];
         let along = rays.reciprocal[major];
         let shear = [-(rays.direction[axes[0]] * along), -(rays.direction[axes[1]] * along), along];
@@ -139,5 +154,62 @@ impl<S: Simd> Group<S> {
             group.start[axis] = if backwards { [low, high] } else { [high, low] };
         }
         group
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    /// What the tests of boxes and triangles read of a ray.
+    fn numbers(ray: &PreparedRay) -> [[u32; 3]; 10] {
+        let bits = |v: &[f32]| [v[0], v[1], v[2]].map(f32::to_bits);
+        let rows = |v: &[u32]| [v[0], v[1], v[2]];
+        let PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, far_rows, axes, start, shear, t_min: _ } = ray;
+        [
+            bits(origin),
+            bits(direction),
+            bits(reciprocal),
+            bits(near_offset),
+            bits(far_offset),
+            rows(near_rows),
+            rows(far_rows),
+            rows(axes),
+            bits(start),
+            bits(shear),
+        ]
+    }
+
+    #[inline(always)]
+    fn singles<S: Simd>(simd: S, origin: &[[f32; PACKET]; 3], direction: &[[f32; PACKET]; 3]) -> Vec<PreparedRay> {
+        let [x, y, z] = [0, 1, 2].map(|axis| (&origin[axis], &direction[axis]));
+        let origin = [f32x16::from_slice(simd, x.0), f32x16::from_slice(simd, y.0), f32x16::from_slice(simd, z.0)];
+        let direction = [f32x16::from_slice(simd, x.1), f32x16::from_slice(simd, y.1), f32x16::from_slice(simd, z.1)];
+        let rays = PacketRays::new(simd, origin, direction, f32x16::splat(simd, 0.25), f32x16::splat(simd, 9.0), 0xffff);
+        assert_eq!(rays.lanes, 0xffff);
+        let mut singles = Vec::new();
+        for lane in 0..PACKET {
+            singles.push(rays.single(lane));
+        }
+        singles
+    }
+
+    #[test]
+    fn a_lane_alone_has_the_numbers_of_a_ray_made_ready_alone() {
+        let directions =
+            [[1.0, 0.5, -0.25], [-0.5, 1.0, 0.0], [0.0, -0.0, -2.0], [-1.0, -1.0, -1.0], [0.0, 3.0, 3.0], [2.0, 1e-20, -1e-20]];
+        let of = |lane: usize| (directions[lane % 6], [lane as f32 - 7.5, 0.0, 1e3 * lane as f32]);
+        let origin = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).1[axis]));
+        let direction = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).0[axis]));
+        for level in [Level::new(), Level::baseline()] {
+            let singles = dispatch!(level, simd => singles(simd, &origin, &direction));
+            for (lane, single) in singles.iter().enumerate() {
+                let ([dx, dy, dz], [x, y, z]) = of(lane);
+                let alone = PreparedRay::new([x, y, z, 0.0], [dx, dy, dz, 0.0], 0.25, 9.0).expect("a ray that can hit something");
+                assert_eq!(numbers(single), numbers(&alone), "{level:?}, lane {lane}");
+                assert_eq!(single.t_min, alone.t_min);
+            }
+        }
     }
 }

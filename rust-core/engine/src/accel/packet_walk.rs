@@ -2,7 +2,8 @@
 
 use super::node::{ChildRef, Node, STACK, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays};
-use fearless_simd::{f32x8, f32x16, prelude::*};
+use fearless_simd::{f32x8, f32x16, prelude::*, u32x8};
+use gonio_simd::Sort8;
 
 /// Below this many live lanes the rays go on one by one.
 pub(super) const FEWEST_LANES: u32 = 3;
@@ -21,6 +22,9 @@ pub(super) type PacketStack = [PacketEntry; STACK];
 
 /// An empty stack.
 pub(super) static EMPTY_PACKET_STACK: PacketStack = [PacketEntry { near: [0.0; PACKET], child: ChildRef::ROOT, lanes: 0 }; STACK];
+
+/// The numbers of a node's slots.
+const SLOTS: [u32; WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 /// What happens at the leaves of a packet's walk.
 pub(super) trait PacketVisitor<S: Simd> {
@@ -105,10 +109,10 @@ fn push_children<S: Simd, V: PacketVisitor<S>>(
     stack: &mut PacketStack,
     top: &mut usize,
 ) {
-    let mut order = [0u64; WIDTH];
-    let n = interval_test(simd, node, group, t_max.reduce_max(), V::ORDERED, &mut order);
-    for &key in &order[..n] {
-        let slot = key as usize % WIDTH;
+    let (mut distances, mut slots) = ([0; WIDTH], [0; WIDTH]);
+    let n = interval_test::<S, V>(simd, node, group, t_max.reduce_max(), &mut distances, &mut slots);
+    for &slot in &slots[..n] {
+        let slot = slot as usize % WIDTH;
         let mut enter = rays.t_min;
         let mut leave = t_max;
         for axis in 0..3 {
@@ -135,9 +139,16 @@ fn opposite(row: usize) -> usize {
     if row < 3 { row + 3 } else { row - 3 }
 }
 
-/// The slots some ray of the group may meet, farthest (or largest) first, in the low bits of `order`; returns their number.
+/// The slots some ray of the group may meet, farthest (or largest) first; returns their number.
 #[inline(always)]
-fn interval_test<S: Simd>(simd: S, node: &Node, group: &Group<S>, t_max: f32, ordered: bool, order: &mut [u64; WIDTH]) -> usize {
+fn interval_test<S: Simd, V: PacketVisitor<S>>(
+    simd: S,
+    node: &Node,
+    group: &Group<S>,
+    t_max: f32,
+    distances: &mut [u32; WIDTH],
+    slots: &mut [u32; WIDTH],
+) -> usize {
     let mut enter = f32x8::splat(simd, 0.0);
     let mut leave = f32x8::splat(simd, t_max);
     for axis in 0..3 {
@@ -148,22 +159,12 @@ fn interval_test<S: Simd>(simd: S, node: &Node, group: &Group<S>, t_max: f32, or
         enter = (near_plane * low).min(near_plane * high).max(enter);
         leave = (far_plane * low).max(far_plane * high).min(leave);
     }
-    let mut mask = enter.simd_le(leave).to_bitmask() as u32;
-    let mut near = [0.0; WIDTH];
-    enter.store_slice(&mut near);
-    let mut n = 0;
-    while mask != 0 {
-        let slot = mask.trailing_zeros() as usize % WIDTH;
-        mask &= mask - 1;
-        let distance = if ordered { u64::from(near[slot].to_bits()) } else { 0 };
-        let key = (distance << 32) | slot as u64;
-        let mut place = n;
-        while place > 0 && order[(place - 1) % WIDTH] < key {
-            order[place % WIDTH] = order[(place - 1) % WIDTH];
-            place -= 1;
-        }
-        order[place % WIDTH] = key;
-        n += 1;
+    let mask = enter.simd_le(leave).to_bitmask() as u32;
+    let all = u32x8::from_slice(simd, &SLOTS);
+    if V::ORDERED {
+        simd.sort8(enter, mask, all, distances, slots);
+    } else {
+        simd.choose8(mask, all, slots);
     }
-    n
+    mask.count_ones() as usize
 }

@@ -68,6 +68,13 @@ impl PreparedRay {
     /// `None` when the ray can hit nothing: parts of it are not finite, its direction is zero, or its interval is empty.
     #[inline(always)]
     pub(super) fn new(origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<Self> {
+        let mut ray = Self::NOTHING;
+        ray.prepare(origin, direction, t_min, t_max).then_some(ray)
+    }
+
+    /// [`PreparedRay::new`] in the place where the ray stays; false when it can hit nothing.
+    #[inline(always)]
+    pub(super) fn prepare(&mut self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> bool {
         let ([x, y, z, _], [ox, oy, oz, _]) = (direction.map(f32::abs), origin.map(f32::abs));
         let (largest, start) = (larger(larger(x, y), z), larger(larger(ox, oy), oz));
         // The sum catches NaN, which the maxima drop.
@@ -78,14 +85,9 @@ impl PreparedRay {
             & (sum < f32::INFINITY)
             & (t_min <= t_max);
         if !usable {
-            return None;
+            return false;
         }
         let major = if (x >= y) & (x >= z) { 0 } else { 1 + usize::from(y < z) };
-        Some(Self::with_major(origin, direction, t_min, largest, start, major))
-    }
-
-    #[inline(always)]
-    fn with_major(origin: Padded, direction: Padded, t_min: f32, largest: f32, start: f32, major: usize) -> Self {
         let smallest = largest * SMALLEST_SHARE;
         let pad = start * ROUNDING_PAD;
         let (mut reciprocal, mut near_offset, mut far_offset) = ([0.0; 4], [0.0; 4], [0.0; 4]);
@@ -96,6 +98,21 @@ impl PreparedRay {
             near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
             far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
         }
+        *self = Self::with_offsets(origin, direction, reciprocal, [near_offset, far_offset], t_min, major);
+        true
+    }
+
+    /// The ray of these numbers; `offsets` are those of the near planes and of the far ones.
+    #[inline(always)]
+    pub(super) fn with_offsets(
+        origin: Padded,
+        direction: Padded,
+        reciprocal: Padded,
+        offsets: [Padded; 2],
+        t_min: f32,
+        major: usize,
+    ) -> Self {
+        let [near_offset, far_offset] = offsets;
         let (mut near_rows, mut far_rows) = ([0; 4], [0; 4]);
         for k in 0..4 {
             let backwards = (direction[k].to_bits() >> 31) * 24;

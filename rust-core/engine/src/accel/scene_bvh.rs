@@ -69,7 +69,7 @@ impl SceneBvh {
 const SMALL: usize = 1 << 21;
 
 /// Above this number of instances the top level gets no more care than a mesh, so that moving one stays quick.
-const MANY_INSTANCES: usize = 10_000;
+const MANY_INSTANCES: usize = 50_000;
 
 /// The world box and the record of an instance, if rays can hit it.
 fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
