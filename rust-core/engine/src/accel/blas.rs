@@ -29,6 +29,32 @@ pub struct Blas {
     pub(super) looseness: f32,
 }
 
+/// How much time goes into a [`Blas`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Care {
+    /// As quick to build as rays through many triangles are worth.
+    Quick,
+    /// Several times as long, for rays that are about a tenth faster.
+    Thorough,
+}
+
+/// So many triangles are built with more care in a fraction of a second.
+const FEW_TRIANGLES: usize = 1 << 18;
+
+impl Care {
+    /// For the meshes of a scene that have so many triangles together.
+    pub fn of_scene(triangles: usize) -> Care {
+        if triangles <= FEW_TRIANGLES { Care::Thorough } else { Care::Quick }
+    }
+
+    fn effort(self) -> Effort {
+        match self {
+            Care::Quick => Effort::QUICK,
+            Care::Thorough => Effort::THOROUGH,
+        }
+    }
+}
+
 /// Bytes held by a [`Blas`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlasMemory {
@@ -52,10 +78,10 @@ impl Blas {
     ///
     /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.
     /// `cancel` is read between the steps of the build, which ends with [`Cancelled`] when it is set.
-    pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+    pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         assert!(triangles.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
         let mesh = Triangles { positions, triangles };
-        let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, Effort::MESH, cancel)?;
+        let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
         let looseness = looseness(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
         Ok(Blas { nodes, blocks, outline, triangles: primitives, looseness })

@@ -4,7 +4,7 @@ use super::Cancelled;
 use super::collapse::{LeafMaker, LeafRule};
 use super::division::{Item, Source, divide_all};
 use super::emit::{Pending, Wide};
-use super::flat_tree::{FlatNode, nodes_over};
+use super::flat_tree::{FlatNode, MAX_NODES, nodes_over};
 use super::join::{Share, join};
 use super::node::{Bounds, Kind, MAX_DEPTH, Node};
 use super::part::{PartWork, Piece};
@@ -25,16 +25,19 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// For meshes: twice the search and the reinsertion made the build slower, and no ray faster beyond the noise, in a room of 280 thousand triangles.
-    pub(super) const MESH: Effort = Effort { far: false, short_rounds: 2, reinsertion: 0.02 };
+    /// For what is built often or is large.
+    pub(super) const QUICK: Effort = Effort { far: false, short_rounds: 2, reinsertion: 0.02 };
+    /// For what is small and met by many rays.
+    pub(super) const THOROUGH: Effort = Effort { far: true, short_rounds: 1, reinsertion: 0.5 };
+
     /// For one of many parts, whose upper nodes are put together anew.
-    pub(super) const PART: Effort = Effort { short_rounds: 1, reinsertion: 0.0, ..Effort::MESH };
-    /// For the few boxes of a top level that every ray meets.
-    pub(super) const SCENE: Effort = Effort { far: true, short_rounds: 1, reinsertion: 0.5 };
+    fn part(self) -> Self {
+        Effort { short_rounds: 1, reinsertion: if self.far { self.reinsertion } else { 0.0 }, ..self }
+    }
 
     /// For the tree over the pieces of parts: reinsertion of all where they are few, of half of more.
-    pub(super) fn top(pieces: usize) -> Self {
-        Effort { reinsertion: (8192.0 / pieces as f32).clamp(0.5, 1.0), ..Effort::SCENE }
+    fn top(pieces: usize) -> Self {
+        Effort { reinsertion: (8192.0 / pieces as f32).clamp(0.5, 1.0), ..Effort::THOROUGH }
     }
 }
 
@@ -90,11 +93,12 @@ pub(super) fn shares<S: Source>(
     cancel: &AtomicBool,
 ) -> Result<(Vec<Share>, Bounds), Cancelled> {
     let alone = lists.len() == 1;
-    let part_effort = if alone { effort } else { effort.map(|_| Effort::PART) };
+    let part_effort = if alone { effort } else { effort.map(Effort::part) };
     let pieces = if alone { 1 } else { (ALL_PIECES / lists.len()).clamp(LEAST_PIECES, PIECES) };
     let work = PartWork { source, rule, effort: part_effort, pieces, memory: Mutex::new(Vec::new()), cancel };
     let top = lists.iter().map(|items| nodes_over(items.len())).sum();
     let top_pieces = lists.iter().map(|items| items.len().min(pieces)).sum();
+    assert!(top + nodes_over(top_pieces) <= MAX_NODES, "a binary tree has at most {MAX_NODES} nodes");
     // Zeros of an array type come from the kernel as they are: the first to touch a page is the task that needs it.
     let mut memory = vec![[0u32; size_of::<FlatNode>() / size_of::<u32>()]; top + nodes_over(top_pieces)];
     let row: &mut [FlatNode] = bytemuck::cast_slice_mut(&mut memory);

@@ -23,7 +23,7 @@ pub(super) struct FlatNode {
 const LEAF: u32 = 1 << 31;
 const ELSEWHERE: u32 = 1 << 30;
 
-/// The most nodes of a row.
+/// The most nodes of a row: links hold places below.
 pub(super) const MAX_NODES: usize = ELSEWHERE as usize;
 
 impl FlatNode {

@@ -42,7 +42,7 @@ mod triangle_block;
 mod walk;
 mod wide;
 
-pub use blas::{Blas, BlasMemory};
+pub use blas::{Blas, BlasMemory, Care};
 pub(crate) use block_tests::BlockTests;
 pub use instance::{Geometry, Instance};
 pub use ray::{Hits, NONE, PassedHit, RayBatch};

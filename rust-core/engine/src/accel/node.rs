@@ -145,13 +145,6 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [-f32::INFINITY; 3] };
 
-    pub(super) fn extend(&mut self, point: [f32; 3]) {
-        for ((min, max), x) in self.min.iter_mut().zip(&mut self.max).zip(point) {
-            *min = min.min(x);
-            *max = max.max(x);
-        }
-    }
-
     pub(super) fn union(&self, other: &Bounds) -> Bounds {
         let mut out = *self;
         for axis in 0..3 {

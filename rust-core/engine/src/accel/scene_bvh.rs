@@ -37,7 +37,7 @@ impl SceneBvh {
             }
         }
         assert!(boxes.len() <= MAX_INDEX, "a scene holds at most {MAX_INDEX} instances");
-        let effort = if boxes.len() <= MANY_INSTANCES { Effort::SCENE } else { Effort::MESH };
+        let effort = if boxes.len() <= MANY_INSTANCES { Effort::THOROUGH } else { Effort::QUICK };
         let tree = build(&boxes, &Records(&records), effort, cancel)?;
         let mut record_of = vec![NONE; instances.len()];
         for (place, record) in tree.leaves.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::{
     check,
 };
 use crate::{
-    accel::Blas,
+    accel::{Blas, Care},
     error::{Diagnostic, Error, Result},
     scene::{Mesh, Scene},
 };
@@ -44,6 +44,7 @@ pub(super) fn build_trees(
 ) -> Result<Vec<KeptTree>> {
     let known: HashMap<Arrays, &KeptTree> = previous.iter().map(|kept| (arrays(&kept.points, &kept.triangles), kept)).collect();
     let gone = gone(scene, previous);
+    let care = Care::of_scene(scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum());
     // Arrays of no length may share an address with others.
     let same = |kept: &&KeptTree, mesh: &Mesh| Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles);
     let tree = |mesh: &Mesh| {
@@ -53,7 +54,7 @@ pub(super) fn build_trees(
         }
         let (tree, problem) = match fitted(mesh, &gone) {
             Some(tree) => (tree, None),
-            None => built(mesh, cancel)?,
+            None => built(mesh, care, cancel)?,
         };
         let kept = KeptTree { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds: of_mesh(mesh) };
         Ok((kept, problem))
@@ -90,10 +91,10 @@ fn fitted(mesh: &Mesh, gone: &HashMap<[usize; 2], &KeptTree>) -> Option<Blas> {
     if same { kept.tree.refit(&mesh.points, &mesh.triangles) } else { None }
 }
 
-fn built(mesh: &Mesh, cancel: &AtomicBool) -> Result<(Blas, Option<Diagnostic>)> {
+fn built(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<(Blas, Option<Diagnostic>)> {
     let problem = wrong_triangle(mesh);
     let triangles: &[[u32; 3]] = if problem.is_none() { &mesh.triangles } else { &[] };
-    let tree = Blas::build(&mesh.points, triangles, cancel).map_err(|_| Error::Cancelled)?;
+    let tree = Blas::build(&mesh.points, triangles, care, cancel).map_err(|_| Error::Cancelled)?;
     Ok((tree, problem))
 }
 

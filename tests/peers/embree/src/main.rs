@@ -12,7 +12,7 @@ mod world;
 
 use embree::EmbreeScene;
 use fearless_simd::Level;
-use gonio::accel::{Blas, Geometry, Hits, Instance, SceneBvh};
+use gonio::accel::{Blas, Care, Geometry, Hits, Instance, SceneBvh};
 use rays::{OwnedRays, Random};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -40,12 +40,13 @@ fn main() {
     traversal(&Bench { level, scene: scene(&world), robust, fast, runs }, &world);
 }
 
-fn tree(mesh: &Mesh) -> Blas {
-    Blas::build(&mesh.positions, &mesh.triangles, &AtomicBool::new(false)).expect("nobody cancels")
+fn tree(mesh: &Mesh, care: Care) -> Blas {
+    Blas::build(&mesh.positions, &mesh.triangles, care, &AtomicBool::new(false)).expect("nobody cancels")
 }
 
 fn scene(world: &World) -> SceneBvh {
-    let trees = world.meshes.iter().map(|mesh| Arc::new(tree(mesh))).collect();
+    let care = Care::of_scene(world.triangles());
+    let trees = world.meshes.iter().map(|mesh| Arc::new(tree(mesh, care))).collect();
     let place = |p: &Placement| Instance { geometry: Geometry::Mesh(p.mesh), object_to_world: p.object_to_world, mask: 1, transparent: false };
     let instances: Vec<Instance> = world.placements.iter().map(place).collect();
     SceneBvh::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
@@ -53,7 +54,7 @@ fn scene(world: &World) -> SceneBvh {
 
 /// Builds on one thread (processor seconds) and on two (seconds of the clock) beside Embree's.
 fn builds(world: &World, runs: usize) {
-    let build = || tree(&world.meshes[0]);
+    let build = || tree(&world.meshes[0], Care::of_scene(world.triangles()));
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         let (mut own, mut theirs) = (Vec::new(), Vec::new());

@@ -6,7 +6,7 @@ use crate::accel::collapse::{LeafMaker, LeafRule};
 use crate::accel::division::{PART, Source, divide_all};
 use crate::accel::node::{Bounds, ChildRef, Kind, MAX_DEPTH, WIDTH};
 use crate::accel::ray::NONE;
-use crate::accel::{Blas, Cancelled};
+use crate::accel::{Blas, Cancelled, Care};
 use obvhs::aabb::Aabb;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -24,8 +24,8 @@ impl LeafMaker for Names {
     }
 }
 
-fn built(boxes: &Vec<Bounds>) -> WideTree<[u32; WIDTH]> {
-    build(boxes, &Names, Effort::MESH, &AtomicBool::new(false)).expect("not cancelled")
+fn built(boxes: &Vec<Bounds>, effort: Effort) -> WideTree<[u32; WIDTH]> {
+    build(boxes, &Names, effort, &AtomicBool::new(false)).expect("not cancelled")
 }
 
 /// Asserts that every box is in one leaf, that boxes hold what is below them, and that no way down is too long.
@@ -86,12 +86,14 @@ fn worlds() -> Vec<Vec<Bounds>> {
 #[test]
 fn every_box_is_in_one_leaf() {
     for boxes in worlds() {
-        check(&boxes, &built(&boxes));
-        let few = boxes[..100].to_vec();
-        check(&few, &built(&few));
+        for effort in [Effort::QUICK, Effort::THOROUGH] {
+            check(&boxes, &built(&boxes, effort));
+            let few = boxes[..100].to_vec();
+            check(&few, &built(&few, effort));
+        }
     }
-    check(&[cube([1.0; 3], 1.0)], &built(&vec![cube([1.0; 3], 1.0)]));
-    assert!(built(&Vec::new()).leaves.is_empty());
+    check(&[cube([1.0; 3], 1.0)], &built(&vec![cube([1.0; 3], 1.0)], Effort::QUICK));
+    assert!(built(&Vec::new(), Effort::QUICK).leaves.is_empty());
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn threads_change_no_bit() {
     let mesh = Mesh::soup(&mut Random(72), 2 * PART, 1.0, 0.05);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
-        pool.install(|| Blas::build(&mesh.positions, &mesh.triangles, &AtomicBool::new(false)).expect("not cancelled"))
+        pool.install(|| Blas::build(&mesh.positions, &mesh.triangles, Care::Thorough, &AtomicBool::new(false)).expect("not cancelled"))
     };
     let (one, others) = (on(1), [on(2), on(3)]);
     for other in others {
@@ -149,6 +151,6 @@ fn builds_end_when_they_are_cancelled_on_the_way() {
     for at in [0, PART, boxes.len() + 1, 2 * boxes.len() - 1] {
         let flag = AtomicBool::new(false);
         let source = Cancelling { boxes: &boxes, asked: AtomicUsize::new(0), at, flag: &flag };
-        assert_eq!(build(&source, &Names, Effort::MESH, &flag).err(), Some(Cancelled));
+        assert_eq!(build(&source, &Names, Effort::QUICK, &flag).err(), Some(Cancelled));
     }
 }

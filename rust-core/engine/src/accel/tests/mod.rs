@@ -9,7 +9,7 @@ mod robust;
 mod scenes;
 mod watertight;
 
-use super::{Blas, Geometry, Hits, Instance, RayBatch, SceneBvh};
+use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, SceneBvh};
 use fearless_simd::Level;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -113,7 +113,7 @@ impl Mesh {
     }
 
     fn blas(&self) -> Arc<Blas> {
-        Arc::new(Blas::build(&self.positions, &self.triangles, &AtomicBool::new(false)).expect("not cancelled"))
+        Arc::new(Blas::build(&self.positions, &self.triangles, Care::Quick, &AtomicBool::new(false)).expect("not cancelled"))
     }
 
     /// The mesh alone in a scene.

@@ -2,7 +2,7 @@
 
 use super::oracle::crossing;
 use super::{Geometry, Instance, Mesh, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::accel::{Blas, Cancelled, Hits, NONE, SceneBvh, Shape};
+use crate::accel::{Blas, Cancelled, Care, Hits, NONE, SceneBvh, Shape};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -95,7 +95,7 @@ fn flat_shapes_are_hit_from_both_sides_and_closed_ones_from_outside() {
 
 #[test]
 fn nothing_is_hit_in_empty_scenes() {
-    let empty = Arc::new(Blas::build(&[], &[], &AtomicBool::new(false)).expect("not cancelled"));
+    let empty = Arc::new(Blas::build(&[], &[], Care::Quick, &AtomicBool::new(false)).expect("not cancelled"));
     let singular = [[0.0; 4]; 3];
     let triangle = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], triangles: vec![[0, 1, 2]] }.blas();
     let hidden = [
@@ -140,5 +140,5 @@ fn instances_are_cheap_and_builds_can_be_cancelled() {
     let cancel = AtomicBool::new(true);
     assert_eq!(SceneBvh::build(Vec::new(), &instances, &cancel).err(), Some(Cancelled));
     let mesh = Mesh::soup(&mut random, 1000, 1.0, 0.1);
-    assert_eq!(Blas::build(&mesh.positions, &mesh.triangles, &cancel).err(), Some(Cancelled));
+    assert_eq!(Blas::build(&mesh.positions, &mesh.triangles, Care::Quick, &cancel).err(), Some(Cancelled));
 }
