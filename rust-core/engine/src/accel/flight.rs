@@ -119,7 +119,7 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// Goes on to the nearest child that waits.
     #[inline(always)]
-    fn pop(&mut self, pending: &Pending) -> usize {
+    pub(super) fn go_on(&mut self, pending: &Pending) -> usize {
         loop {
             self.waiting -= 1;
             if !C::ORDERED || pending.near[self.waiting] <= self.farthest {
@@ -153,7 +153,7 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// The step at a node.
     #[inline(always)]
-    pub(super) fn inner<S: Simd>(&mut self, simd: S, pending: &mut Pending) -> usize {
+    pub(super) fn inner<S: Simd>(&mut self, simd: S, pending: &mut Pending) {
         let space = self.current.space();
         let node = &self.nodes[space][self.current.index()];
         let (near, met) = meets(simd, node, &self.rays[space], self.collector.t_max());
@@ -166,12 +166,11 @@ impl<'a, C: Collector> Flight<'a, C> {
             simd.choose8(met, children, sorted);
         }
         self.waiting += met.count_ones() as usize;
-        self.pop(pending)
     }
 
     /// The step at a block of triangles.
     #[inline(always)]
-    pub(super) fn triangles<S: Simd>(&mut self, simd: S, pending: &Pending) -> usize {
+    pub(super) fn triangles<S: Simd>(&mut self, simd: S) -> usize {
         let block = &self.blocks[self.current.index()];
         let mut hits = BlockHits::default();
         let mut mask = Wide(simd).triangles(block, &self.rays[1], self.collector.t_max(), &mut hits);
@@ -183,15 +182,15 @@ impl<'a, C: Collector> Flight<'a, C> {
                 return Kind::End as usize;
             }
         }
-        self.pop(pending)
+        Kind::Next as usize
     }
 
     /// The step at an instance.
     #[inline(always)]
-    pub(super) fn instance(&mut self, scene: &'a SceneBvh, pending: &Pending) -> usize {
+    pub(super) fn instance(&mut self, scene: &'a SceneBvh) -> usize {
         let record = &scene.records[self.current.index()];
         if record.mask & self.mask == 0 {
-            return self.pop(pending);
+            return Kind::Next as usize;
         }
         (self.instance, self.transparent) = (record.id, record.transparent);
         let ray = &self.rays[0];
@@ -205,7 +204,7 @@ impl<'a, C: Collector> Flight<'a, C> {
             Geometry::Mesh(index) => {
                 let t_min = ray.t_min;
                 if !self.rays[1].prepare(origin, direction, t_min, self.collector.t_max()) {
-                    return self.pop(pending);
+                    return Kind::Next as usize;
                 }
                 self.enter(&scene.meshes[index as usize])
             }
@@ -215,7 +214,7 @@ impl<'a, C: Collector> Flight<'a, C> {
                         return Kind::End as usize;
                     }
                 }
-                self.pop(pending)
+                Kind::Next as usize
             }
         }
     }

@@ -28,6 +28,8 @@ pub(super) enum Kind {
     Instance = 1,
     /// The end of a ray: nothing waits any more.
     End = 2,
+    /// Whatever waits next.
+    Next = 3,
     /// A node of a mesh, where nodes of the scene wait as well.
     MeshInner = 4,
     /// A block of triangles of a mesh.

@@ -83,14 +83,19 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
             }
         }
         for place in lists.take(Kind::Instance) {
-            lists.add(flights[place].instance(scene, &pending[place]), place);
+            lists.add(flights[place].instance(scene), place);
         }
         for place in lists.take(Kind::Triangles) {
-            lists.add(flights[place].triangles(simd, &pending[place]), place);
+            lists.add(flights[place].triangles(simd), place);
         }
         // Nodes of the scene and of meshes together: a list that ends sooner than foreseen costs more than what they differ by.
-        for place in List(lists.take(Kind::Inner).0 | lists.take(Kind::MeshInner).0) {
-            lists.add(flights[place].inner(simd, &mut pending[place]), place);
+        let inner = lists.take(Kind::Inner).0 | lists.take(Kind::MeshInner).0;
+        for place in List(inner) {
+            flights[place].inner(simd, &mut pending[place]);
+        }
+        // Not at once in the step itself: what it has just sorted and stored would be waited for.
+        for place in List(inner | lists.take(Kind::Next).0) {
+            lists.add(flights[place].go_on(&pending[place]), place);
         }
     }
 }

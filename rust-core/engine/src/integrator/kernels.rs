@@ -87,8 +87,8 @@ pub(crate) fn sample_light<L: Lanes>(
 
 /// [`super::light_draws::draw_chunk`].
 #[inline(never)]
-pub(super) fn draw_lights<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
-    stage.l.vectorize(
+pub(super) fn draw_lights<L: Lanes>(l: L, stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
+    l.vectorize(
         #[inline(always)]
         || draw_chunk(stage, first, ws),
     );

@@ -70,6 +70,7 @@ impl Default for LightDraws {
 
 impl LightDraws {
     /// Whether hits are worth sorting: lanes would draw lights of several kinds.
+    #[inline(always)]
     pub(super) fn pays<L: Lanes>(lights: &LightTable, hits: usize) -> bool {
         L::COUNT > 1 && lights.has_several_kinds() && hits > 2 * PADDING
     }
@@ -139,7 +140,7 @@ pub(super) fn light<L: Lanes>(
     ws: &mut Workspace,
 ) {
     if !ws.light_draws.made {
-        kernels::draw_lights(stage, at, ws);
+        kernels::draw_lights(stage.l, stage, at, ws);
     }
     let sample = ws.light_draws.load(stage.l, at);
     send(stage, point, wo, lobes, &sample, None, present, ws);
