@@ -126,7 +126,7 @@ impl<'a, C: Collector> Flight<'a, C> {
                 self.current = ChildRef(pending.child[self.waiting]);
                 let kind = self.current.kind();
                 // Other rays take their steps before this one takes its next.
-                prefetch_at(self.addresses[kind].wrapping_add(Kind::SIZES[kind] * self.current.index()), size_of::<TriangleBlock>());
+                prefetch_at(self.addresses[kind].wrapping_add(Kind::SIZES[kind] * self.current.index()), size_of::<Node>());
                 return kind;
             }
         }

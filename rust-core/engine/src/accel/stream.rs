@@ -17,6 +17,9 @@ use std::cell::RefCell;
 /// Rays under way: enough to hide memory, and few enough to stay in the first cache.
 const FLIGHTS: usize = 16;
 
+/// So many others are tested at nodes before a ray goes on to what it met there: what was just sorted and stored would be waited for.
+const BEHIND: usize = 4;
+
 /// Fewer rays than this walk one by one.
 pub(super) const FEWEST_RAYS: usize = 2 * FLIGHTS;
 
@@ -88,13 +91,22 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
         for place in lists.take(Kind::Triangles) {
             lists.add(flights[place].triangles(simd), place);
         }
-        // Nodes of the scene and of meshes together: a list that ends sooner than foreseen costs more than what they differ by.
-        let inner = lists.take(Kind::Inner).0 | lists.take(Kind::MeshInner).0;
-        for place in List(inner) {
-            flights[place].inner(simd, &mut pending[place]);
+        for place in lists.take(Kind::Next) {
+            lists.add(flights[place].go_on(&pending[place]), place);
         }
-        // Not at once in the step itself: what it has just sorted and stored would be waited for.
-        for place in List(inner | lists.take(Kind::Next).0) {
+        // Nodes of the scene and of meshes together: a list that ends sooner than foreseen costs more than what they differ by.
+        let inner = List(lists.take(Kind::Inner).0 | lists.take(Kind::MeshInner).0);
+        let mut tested = List(0);
+        for (before, place) in inner.enumerate() {
+            flights[place].inner(simd, &mut pending[place]);
+            tested.0 |= 1 << place;
+            if before >= BEHIND
+                && let Some(place) = tested.next()
+            {
+                lists.add(flights[place].go_on(&pending[place]), place);
+            }
+        }
+        for place in tested {
             lists.add(flights[place].go_on(&pending[place]), place);
         }
     }
