@@ -65,8 +65,8 @@ impl SceneBvh {
     }
 }
 
-/// Trees of so many bytes stay in a core's second cache, and rays find their way through them in few steps: there one by one is as fast.
-const SMALL: usize = 1 << 21;
+/// In trees of so many bytes, which stay in a core's second cache, one ray after the other is as fast.
+const SMALL: usize = 1 << 20;
 
 /// Above this number of instances the top level gets no more care than a mesh, so that moving one stays quick.
 const MANY_INSTANCES: usize = 50_000;
