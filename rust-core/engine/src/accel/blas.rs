@@ -21,8 +21,6 @@ const SAMPLES: usize = 1 << 16;
 #[derive(Debug)]
 pub struct Blas {
     pub(super) nodes: Vec<Node>,
-    /// Where walks begin.
-    pub(super) start: ChildRef,
     pub(super) blocks: Vec<TriangleBlock>,
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
     pub(super) outline: Vec<Bounds>,
@@ -86,7 +84,7 @@ impl Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
         let looseness = looseness(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Ok(Blas { start: start(&nodes), nodes, blocks, outline, triangles: primitives, looseness })
+        Ok(Blas { nodes, blocks, outline, triangles: primitives, looseness })
     }
 
     /// The bytes of the tree.
@@ -97,11 +95,6 @@ impl Blas {
             triangles: self.triangles,
         }
     }
-}
-
-/// The only child of the root, or the root: the box of an instance says what the root of a few triangles says.
-pub(super) fn start(nodes: &[Node]) -> ChildRef {
-    if nodes[0].bounds_of(1).is_empty() { nodes[0].children[0] } else { ChildRef::ROOT }
 }
 
 /// The boxes of some nodes that hold all triangles of a tree in these bounds.

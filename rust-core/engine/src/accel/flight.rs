@@ -132,15 +132,15 @@ impl<'a, C: Collector> Flight<'a, C> {
         }
     }
 
-    /// To where walks through a mesh's tree begin.
+    /// To the root of a mesh's tree.
     #[inline(always)]
     fn enter(&mut self, mesh: &'a Blas) -> usize {
         self.nodes[1] = &mesh.nodes;
         self.blocks = &mesh.blocks;
         self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
         self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
-        self.current = mesh.start.in_mesh();
-        self.current.kind()
+        self.current = ChildRef::new(Kind::MeshInner, 0);
+        Kind::MeshInner as usize
     }
 
     /// Takes a hit; true when it ends the search.

@@ -48,8 +48,7 @@ pub(super) fn walk_instance<K: Lanes8, C: Collector>(
     let origin = record.world_to_object.point(rays.origin_of(i));
     let direction = record.world_to_object.direction(rays.direction_of(i));
     let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], collector.t_max()) else { return };
-    let mesh = &scene.meshes[index as usize];
-    walk_mesh(lanes, mesh, mesh.start, &ray, record, stack, collector);
+    walk_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, collector);
 }
 
 /// Sends a ray through the part of the scene's tree below `start`.
@@ -99,15 +98,14 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
         }
         if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
             let mesh = &self.scene.meshes[index as usize];
-            return walk_mesh(lanes, mesh, mesh.start, ray, record, self.stack, self.collector);
+            return walk_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.collector);
         }
         let origin = record.world_to_object.point(ray.origin);
         let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
                 let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return false };
-                let mesh = &self.scene.meshes[index as usize];
-                walk_mesh(lanes, mesh, mesh.start, &ray, record, self.stack, self.collector)
+                walk_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.collector)
             }
             Geometry::Shape(shape) => {
                 for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {

@@ -74,12 +74,6 @@ impl ChildRef {
         (self.0 >> 31) as usize
     }
 
-    /// The same, waiting where nodes of the scene wait as well.
-    #[inline(always)]
-    pub(super) fn in_mesh(self) -> ChildRef {
-        ChildRef(self.0 | 1 << 31)
-    }
-
     /// The bits that a node's children have from it: that of a mesh.
     #[inline(always)]
     pub(super) fn child_bits(self) -> u32 {

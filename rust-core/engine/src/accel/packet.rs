@@ -74,7 +74,7 @@ pub(super) fn walk_scene_packet<S: Simd, const ANY: bool>(
 ) {
     let PacketStacks { scene: stack, mesh, single_scene, single_mesh } = stacks;
     let mut visitor = SceneVisitor::<ANY> { scene, masks, mesh_stack: mesh, single_scene, single_mesh, hits };
-    walk_groups(simd, &scene.nodes, ChildRef::ROOT, rays, stack, &mut visitor);
+    walk_groups(simd, &scene.nodes, rays, stack, &mut visitor);
 }
 
 struct SceneVisitor<'a, const ANY: bool> {
@@ -111,7 +111,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
             Geometry::Mesh(index) => {
                 let mesh = &*self.scene.meshes[index as usize];
                 let mut visitor = MeshVisitor::<ANY> { mesh, record, stack: self.single_mesh, hits: self.hits };
-                walk_groups(simd, &mesh.nodes, mesh.start, &rays, self.mesh_stack, &mut visitor);
+                walk_groups(simd, &mesh.nodes, &rays, self.mesh_stack, &mut visitor);
             }
             Geometry::Shape(shape) => {
                 let mut left = lanes;

@@ -38,12 +38,11 @@ pub(super) trait PacketVisitor<S: Simd> {
     fn single(&mut self, simd: S, rays: &PacketRays<S>, start: ChildRef, lane: usize);
 }
 
-/// Sends all live lanes through the part of a tree below `start`, in groups of equal signs and major axis.
+/// Sends all live lanes through a tree, in groups of equal signs and major axis.
 #[inline(always)]
 pub(super) fn walk_groups<S: Simd, V: PacketVisitor<S>>(
     simd: S,
     nodes: &[Node],
-    start: ChildRef,
     rays: &PacketRays<S>,
     stack: &mut PacketStack,
     visitor: &mut V,
@@ -53,11 +52,10 @@ pub(super) fn walk_groups<S: Simd, V: PacketVisitor<S>>(
         let lanes = rays.like_first(waiting);
         waiting &= !lanes;
         if lanes.count_ones() < FEWEST_LANES {
-            singles(simd, rays, start, lanes, visitor);
+            singles(simd, rays, ChildRef::ROOT, lanes, visitor);
         } else {
             let group = Group::new(simd, rays, lanes);
-            stack[0] = PacketEntry { near: [0.0; PACKET], child: start, lanes };
-            walk_packet(simd, nodes, rays, &group, stack, visitor);
+            walk_packet(simd, nodes, rays, &group, lanes, stack, visitor);
         }
     }
 }
@@ -70,16 +68,17 @@ fn singles<S: Simd, V: PacketVisitor<S>>(simd: S, rays: &PacketRays<S>, start: C
     }
 }
 
-/// The walk from what lies lowest on the stack.
 #[inline(always)]
 fn walk_packet<S: Simd, V: PacketVisitor<S>>(
     simd: S,
     nodes: &[Node],
     rays: &PacketRays<S>,
     group: &Group<S>,
+    lanes: u32,
     stack: &mut PacketStack,
     visitor: &mut V,
 ) {
+    stack[0] = PacketEntry { near: [0.0; PACKET], child: ChildRef::ROOT, lanes };
     let mut top = 1;
     while top > 0 {
         top -= 1;

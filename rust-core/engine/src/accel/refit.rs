@@ -1,6 +1,6 @@
 //! The tree of a mesh whose points moved, fitted to them rather than built anew.
 
-use super::blas::{Blas, corners, outline, start, triangle_bounds};
+use super::blas::{Blas, corners, outline, triangle_bounds};
 use super::node::{Bounds, ChildRef, Node, WIDTH};
 use super::ray::NONE;
 use super::triangle_block::TriangleBlock;
@@ -30,7 +30,7 @@ impl Blas {
         let (nodes, bounds) = fit_nodes(&self.nodes, &boxes);
         let fitting = looseness(&nodes, &bounds) <= self.looseness * LOOSEST;
         let outline = outline(&nodes, bounds);
-        fitting.then_some(Blas { start: start(&nodes), nodes, blocks, outline, triangles: self.triangles, looseness: self.looseness })
+        fitting.then_some(Blas { nodes, blocks, outline, triangles: self.triangles, looseness: self.looseness })
     }
 }
 
