@@ -108,10 +108,9 @@ def test_frames_come_in_order_and_their_files_go(job, tmp_path):
 
 def test_a_part_that_fails_ends_the_job(job):
     job, _ = job(2, Client(lost={(1, 2)}))
-    frames = job.frames()
-    next(frames)
     with pytest.raises(gonio.Error, match="worker desk at tcp://worker: no room"):
-        next(frames)
+        # The part may fail before the first frame has all of its own.
+        list(job.frames())
 
 
 def test_a_job_that_is_cancelled_takes_everything_back(job):
