@@ -11,7 +11,7 @@ use super::part::{PartWork, Piece};
 use super::top::{emit_top, plan_top};
 use rayon::prelude::*;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// How much time goes into a binary tree.
 #[derive(Clone, Copy)]
@@ -108,9 +108,7 @@ pub(super) fn shares<S: Source>(
     let row = &*row;
     let (wide, roots) = emit_top(row, top, kind);
     let share = |roots: &[Pending]| {
-        if cancel.load(Ordering::Relaxed) {
-            return Err(Cancelled);
-        }
+        Cancelled::check(cancel)?;
         let mut wide = Wide::new(kind);
         let roots = roots.iter().map(|&Pending { place, node, depth }| (node, wide.tree(row, place, depth))).collect();
         Ok(Share { wide, roots })

@@ -7,7 +7,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use obvhs::ploc::{PlocBuilder, SortPrecision};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// The memory of clusterings, kept from one to the next.
 #[derive(Default)]
@@ -32,9 +32,7 @@ impl Clusters {
         }
         // Reinsertion in ever smaller batches.
         for round in (1..32).step_by(2).filter(|_| effort.reinsertion > 0.0) {
-            if cancel.load(Ordering::Relaxed) {
-                return Err(Cancelled);
-            }
+            Cancelled::check(cancel)?;
             optimizer.run(tree, effort.reinsertion, Some(vec![1.0 / round as f32]));
         }
         Ok(tree)

@@ -8,7 +8,7 @@ use glam::{UVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// What a tree is built over: boxes with numbers from 0.
 pub(super) trait Source: Sync {
@@ -90,17 +90,13 @@ pub(super) fn divide_all<S: Source>(source: &S, pairs: bool, cancel: &AtomicBool
     let grid = Grid::around(&source.extent());
     let chunks = source.len().div_ceil(CHUNK);
     let sorted = (0..chunks).into_par_iter().map(|chunk| {
-        check(cancel)?;
+        Cancelled::check(cancel)?;
         let mut cells = CellSort::with_capacity(CHUNK);
         let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(source.len());
         for_each_item(source, range, pairs, |item, bounds| cells.push(item, grid.cell(bounds)));
         Ok(cells.sorted())
     });
     divide(source, &sorted.collect::<Result<Vec<Sorted>, Cancelled>>()?, 1, cancel)
-}
-
-fn check(cancel: &AtomicBool) -> Result<(), Cancelled> {
-    if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
 }
 
 /// Visits the items of some numbers in their order.
@@ -200,7 +196,7 @@ impl Sorted {
 /// Puts neighbouring cells together up to the size of a part, and divides again what is too large in one cell.
 fn divide<S: Source>(source: &S, sorted: &[Sorted], division: usize, cancel: &AtomicBool) -> Result<Vec<Vec<Item>>, Cancelled> {
     let parts = runs(sorted).into_par_iter().map(|cells| {
-        check(cancel)?;
+        Cancelled::check(cancel)?;
         let mut items = Vec::with_capacity(sorted.iter().map(|chunk| chunk.of(&cells).len()).sum());
         for chunk in sorted {
             items.extend_from_slice(chunk.of(&cells));
@@ -220,7 +216,7 @@ fn sorted_again<S: Source>(source: &S, items: &[Item], cancel: &AtomicBool) -> R
     let centres = items.par_iter().fold(Aabb::empty, with).reduce(Aabb::empty, |a, b| a.union(&b));
     let grid = Grid::around(&centres);
     let sorted = items.par_chunks(CHUNK).map(|chunk| {
-        check(cancel)?;
+        Cancelled::check(cancel)?;
         let mut cells = CellSort::with_capacity(chunk.len());
         for &item in chunk {
             cells.push(item, grid.cell(&item.bounds(source)));

@@ -6,7 +6,7 @@ use super::emit::Wide;
 use super::node::{Node, WIDTH};
 use super::ray::NONE;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// A share: what was made from one part, and the nodes of the part's roots with their numbers in the first share.
 pub(super) struct Share {
@@ -48,9 +48,7 @@ pub(super) fn join<M: LeafMaker>(mut shares: Vec<Share>, maker: &M, cancel: &Ato
 fn in_blocks<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync, cancel: &AtomicBool) -> Result<Vec<T>, Cancelled> {
     let mut made = Vec::with_capacity(count);
     while made.len() < count {
-        if cancel.load(Ordering::Relaxed) {
-            return Err(Cancelled);
-        }
+        Cancelled::check(cancel)?;
         let end = (made.len() + BLOCK).min(count);
         made.par_extend((made.len()..end).into_par_iter().map(&make));
     }

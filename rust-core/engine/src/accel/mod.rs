@@ -49,9 +49,18 @@ pub use ray::{Hits, NONE, PassedHit, RayBatch};
 pub use scene_bvh::SceneBvh;
 pub use shape::Shape;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 /// The build was cancelled through its flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
+
+impl Cancelled {
+    /// Fails once the flag is set.
+    fn check(cancel: &AtomicBool) -> Result<(), Cancelled> {
+        if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+}
 
 impl std::fmt::Display for Cancelled {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

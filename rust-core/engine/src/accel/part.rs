@@ -10,7 +10,7 @@ use obvhs::aabb::Aabb;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// A subtree of a part for the top level.
 pub(super) struct Piece {
@@ -41,9 +41,7 @@ pub(super) struct PartWork<'a, S> {
 impl<S: Source> PartWork<'_, S> {
     /// Writes the binary tree of a part, planned below its pieces, into a row of its length.
     pub(super) fn part(&self, items: &[Item], row: &mut [FlatNode]) -> Result<Vec<Piece>, Cancelled> {
-        if self.cancel.load(Ordering::Relaxed) {
-            return Err(Cancelled);
-        }
+        Cancelled::check(self.cancel)?;
         let mut memory = self.memory.lock().ok().and_then(|mut memory| memory.pop()).unwrap_or_default();
         let PartMemory { boxes, clusters } = &mut memory;
         boxes.clear();

@@ -3,19 +3,17 @@
 //! A register of neighbouring hits draws lights of many kinds, and each kind's sampling would run for the few lanes that drew it.
 
 use super::{
-    direct_light::send,
     kernels,
-    shade::{Point, Stage},
+    shade::Stage,
     state::{Columns3, Workspace, columns3, gather3, load3},
     surface::store3,
 };
 use crate::{
-    bsdf::Lobes,
     graph::CHUNK,
     light::{LightSample, LightTable},
     sampler::dimension,
 };
-use gonio_simd::{Column, Lanes, M, PADDING, Vec3};
+use gonio_simd::{Column, Lanes, PADDING};
 use std::ops::Range;
 
 /// With more lights than this, groups are the kinds.
@@ -77,7 +75,7 @@ impl LightDraws {
 
     /// The samples of a register of hits.
     #[inline(always)]
-    pub(super) fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
+    fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
         let place = l.load_integers(&self.place, at);
         let bits = l.gather_integers(&self.bits, place);
         LightSample {
@@ -128,22 +126,13 @@ impl LightDraws {
     }
 }
 
-/// Queues the shadow rays of a register of hits to the lights drawn; with the chunk's first come the draws of all hits behind.
+/// The light drawn for each of a register of hits; with the chunk's first come the draws of all hits behind.
 #[inline(always)]
-pub(super) fn light<L: Lanes>(
-    stage: &Stage<'_, L>,
-    point: &Point<L>,
-    wo: Vec3<L>,
-    lobes: &Lobes<'_, L>,
-    present: M<L>,
-    at: usize,
-    ws: &mut Workspace,
-) {
+pub(super) fn sample<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) -> LightSample<L> {
     if !ws.light_draws.made {
         kernels::draw_lights(stage.l, stage, at, ws);
     }
-    let sample = ws.light_draws.load(stage.l, at);
-    send(stage, point, wo, lobes, &sample, None, present, ws);
+    ws.light_draws.load(stage.l, at)
 }
 
 /// Draws a light and a place on it for all hits of the chunk from a register's beginning on.

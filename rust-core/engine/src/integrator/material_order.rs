@@ -17,7 +17,7 @@ pub(super) fn list_materials<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace
     ws.material_of.resize(padded(count), NONE);
     for at in (0..padded(count)).step_by(L::COUNT) {
         let alive = l.first(count.saturating_sub(at));
-        let instance = load_to_end(l, &ws.hits.instance, at.min(count));
+        let instance = load_to_end(l, &ws.hits.instance, at);
         let met = alive & instance.ne(NONE);
         let material = tables.geometry.material_lanes(l, instance.keep_if(met), load_to_end(l, &ws.hits.primitive, at));
         met.select(material, l.u(NONE)).store(&mut ws.material_of, at);
@@ -47,40 +47,40 @@ fn sort(materials: usize, execution: Execution, ws: &mut Workspace) {
     ws.material_start[0] = 0;
 }
 
-/// Counts the paths of each material, a register's paths of one material at once: neighbours often share it.
+/// Visits a register's paths of one material at once, as neighbours often share it: the material, the register's place, and a bit for each path.
 #[inline(always)]
-fn count_materials<L: Lanes>(l: L, ws: &mut Workspace) {
-    for at in (0..ws.material_of.len()).step_by(L::COUNT) {
-        let all = l.load_integers(&ws.material_of, at);
+fn for_each_material<L: Lanes>(l: L, material_of: &[u32], mut visit: impl FnMut(usize, usize, u64)) {
+    for at in (0..material_of.len()).step_by(L::COUNT) {
+        let all = l.load_integers(material_of, at);
         let mut left = all.ne(NONE);
         while left.any() {
-            let material = ws.material_of[at + left.bits().trailing_zeros() as usize];
+            let material = material_of[at + left.bits().trailing_zeros() as usize];
             let same = all.eq(material);
-            ws.material_start[material as usize + 1] += same.count() as u32;
+            visit(material as usize, at, same.bits());
             left = left.and_not(same);
         }
     }
 }
 
+/// Counts the paths of each material.
+#[inline(always)]
+fn count_materials<L: Lanes>(l: L, ws: &mut Workspace) {
+    let starts = &mut ws.material_start;
+    for_each_material(l, &ws.material_of, |material, _, paths| starts[material + 1] += paths.count_ones());
+}
+
 /// Puts the paths of each material from its start on.
 #[inline(always)]
 fn place_by_material<L: Lanes>(l: L, ws: &mut Workspace) {
-    for at in (0..ws.material_of.len()).step_by(L::COUNT) {
-        let all = l.load_integers(&ws.material_of, at);
-        let mut left = all.ne(NONE);
-        while left.any() {
-            let material = ws.material_of[at + left.bits().trailing_zeros() as usize];
-            let same = all.eq(material);
-            let start = &mut ws.material_start[material as usize];
-            let (mut bits, places) = (same.bits(), &mut ws.order[*start as usize..]);
-            for place in &mut places[..same.count()] {
-                *place = at as u32 + bits.trailing_zeros();
-                bits &= bits - 1;
-            }
-            *start += same.count() as u32;
-            left = left.and_not(same);
+    let (starts, order) = (&mut ws.material_start, &mut ws.order);
+    for_each_material(l, &ws.material_of, |material, at, mut paths| {
+        let (start, count) = (starts[material], paths.count_ones());
+        for place in &mut order[start as usize..][..count as usize] {
+            *place = at as u32 + paths.trailing_zeros();
+            paths &= paths - 1;
         }
-    }
+        starts[material] += count;
+    });
 }
 
 #[cfg(test)]

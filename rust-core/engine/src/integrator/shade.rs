@@ -4,7 +4,7 @@ use super::{
     accumulate::clamped,
     bounce::{pass_straight, scatter, straight_left, within},
     catcher,
-    direct_light::light,
+    direct_light::{light, send},
     first_surface::{append_measure, covered, record_first},
     guides,
     kernels::{self, LightHit},
@@ -200,7 +200,8 @@ fn shade_lanes<L: Lanes>(
     let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if (smooth & going_on).any() && !tables.lights.is_empty() {
         if LightDraws::pays::<L>(&tables.lights, stage.hits.len()) {
-            light_draws::light(stage, point, wo, lobes, going_on, at, ws);
+            let sample = light_draws::sample(stage, at, ws);
+            send(stage, point, wo, lobes, &sample, None, going_on, ws);
         } else {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
             light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
