@@ -42,7 +42,7 @@ pub(super) struct Flight<'a, C: Collector> {
     /// In the world, and in the space of the mesh it is in.
     rays: [PreparedRay; 2],
     nodes: [&'a [Node]; 2],
-    blocks: &'a [TriangleBlock],
+    blocks: [&'a [TriangleBlock]; 2],
     /// Where in memory the children of a kind begin, for fetching them.
     addresses: [usize; KINDS],
     collector: C,
@@ -68,10 +68,11 @@ impl<'a, C: Collector> Flight<'a, C> {
         let mut addresses = [0; KINDS];
         addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
         addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
+        addresses[Kind::WorldTriangles as usize] = scene.blocks.as_ptr().addr();
         Flight {
             rays: [PreparedRay::NOTHING; 2],
             nodes: [&scene.nodes, &[]],
-            blocks: &[],
+            blocks: [&scene.blocks, &[]],
             addresses,
             collector,
             farthest: 0,
@@ -136,7 +137,7 @@ impl<'a, C: Collector> Flight<'a, C> {
     #[inline(always)]
     fn enter(&mut self, mesh: &'a Blas) -> usize {
         self.nodes[1] = &mesh.nodes;
-        self.blocks = &mesh.blocks;
+        self.blocks[1] = &mesh.blocks;
         self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
         self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
         self.current = ChildRef::new(Kind::MeshInner, 0);
@@ -171,9 +172,10 @@ impl<'a, C: Collector> Flight<'a, C> {
     /// The step at a block of triangles.
     #[inline(always)]
     pub(super) fn triangles<S: Simd>(&mut self, simd: S) -> usize {
-        let block = &self.blocks[self.current.index()];
+        let space = self.current.space();
+        let block = &self.blocks[space][self.current.index()];
         let mut hits = BlockHits::default();
-        let mut mask = Wide(simd).triangles(block, &self.rays[1], self.collector.t_max(), &mut hits);
+        let mut mask = Wide(simd).triangles(block, &self.rays[space], self.collector.t_max(), &mut hits);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
@@ -183,6 +185,17 @@ impl<'a, C: Collector> Flight<'a, C> {
             }
         }
         Kind::Next as usize
+    }
+
+    /// The step at a block of triangles in world space.
+    #[inline(always)]
+    pub(super) fn world_triangles<S: Simd>(&mut self, simd: S, scene: &SceneBvh) -> usize {
+        let owner = scene.owners[self.current.index()];
+        if owner.mask & self.mask == 0 {
+            return Kind::Next as usize;
+        }
+        (self.instance, self.transparent) = (owner.id, owner.transparent);
+        self.triangles(simd)
     }
 
     /// The step at an instance.

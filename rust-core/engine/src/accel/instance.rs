@@ -66,3 +66,19 @@ pub(super) struct InstanceRecord {
     /// The map moves nothing, so that a ray goes on as it is.
     pub(super) identity: bool,
 }
+
+impl InstanceRecord {
+    #[inline(always)]
+    pub(super) fn owner(&self) -> Owner {
+        Owner { id: self.id, mask: self.mask, transparent: self.transparent }
+    }
+}
+
+/// Whose a triangle is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Owner {
+    /// The instance's number.
+    pub(super) id: u32,
+    pub(super) mask: u8,
+    pub(super) transparent: bool,
+}

@@ -2,13 +2,13 @@
 
 use super::blas::Blas;
 use super::collector::{Collector, Hit};
-use super::instance::{Geometry, InstanceRecord};
+use super::instance::{Geometry, InstanceRecord, Owner};
 use super::lanes8::Lanes8;
-use super::node::ChildRef;
+use super::node::{ChildRef, Kind, WIDTH};
 use super::prepared::PreparedRay;
 use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
-use super::triangle_block::BlockHits;
+use super::triangle_block::{BlockHits, TriangleBlock};
 use super::walk::{Stack, Visitor, walk};
 use gonio_simd::prefetch;
 
@@ -85,13 +85,19 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
     fn fetch(&self, child: ChildRef) {
         if child.is_inner() {
             prefetch(&self.scene.nodes, child.index());
-        } else {
+        } else if child.kind() == Kind::Instance as usize {
             prefetch(&self.scene.records, child.index());
+        } else {
+            prefetch(&self.scene.blocks, child.index());
         }
     }
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
+        if leaf.kind() == Kind::WorldTriangles as usize {
+            let owner = self.scene.owners[leaf.index()];
+            return owner.mask & self.mask != 0 && meet(lanes, &self.scene.blocks[leaf.index()], ray, owner, self.collector);
+        }
         let record = &self.scene.records[leaf.index()];
         if record.mask & self.mask == 0 {
             return false;
@@ -160,18 +166,22 @@ impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
-        let block = &self.mesh.blocks[leaf.index()];
-        let mut hits = BlockHits::default();
-        let mut mask = lanes.triangles(block, ray, self.collector.t_max(), &mut hits);
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize % 8;
-            mask &= mask - 1;
-            let hit =
-                Hit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], primitive: block.primitives[lane], instance: self.record.id };
-            if self.collector.add(hit, self.record.transparent) {
-                return true;
-            }
-        }
-        false
+        meet(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.collector)
     }
+}
+
+/// Hands the triangles of a block that a ray meets to a collector; true when it ended the search.
+#[inline(always)]
+fn meet<K: Lanes8, C: Collector>(lanes: K, block: &TriangleBlock, ray: &PreparedRay, owner: Owner, collector: &mut C) -> bool {
+    let mut hits = BlockHits::default();
+    let mut mask = lanes.triangles(block, ray, collector.t_max(), &mut hits);
+    while mask != 0 {
+        let lane = mask.trailing_zeros() as usize % WIDTH;
+        mask &= mask - 1;
+        let hit = Hit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], primitive: block.primitives[lane], instance: owner.id };
+        if collector.add(hit, owner.transparent) {
+            return true;
+        }
+    }
+    false
 }

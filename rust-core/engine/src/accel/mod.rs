@@ -26,6 +26,7 @@ mod packet_query;
 mod packet_ray;
 mod packet_walk;
 mod part;
+mod placement;
 mod prepared;
 mod query;
 mod ray;

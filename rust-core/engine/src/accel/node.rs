@@ -28,19 +28,22 @@ pub(super) enum Kind {
     Instance = 1,
     /// The end of a ray: nothing waits any more.
     End = 2,
-    /// Whatever waits next.
-    Next = 3,
+    /// A block of triangles of the scene, in world space.
+    WorldTriangles = 3,
     /// A node of a mesh, where nodes of the scene wait as well.
     MeshInner = 4,
     /// A block of triangles of a mesh.
     Triangles = 5,
+    /// Whatever waits next.
+    Next = 6,
 }
 
 impl Kind {
     /// Bytes of what a reference of each kind refers to.
-    pub(super) const SIZES: [usize; KINDS] =
-        [size_of::<Node>(), size_of::<InstanceRecord>(), 0, 0, size_of::<Node>(), size_of::<TriangleBlock>(), 0, 0];
+    pub(super) const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<InstanceRecord>(), 0, BLOCK, size_of::<Node>(), BLOCK, 0, 0];
 }
+
+const BLOCK: usize = size_of::<TriangleBlock>();
 
 /// Kinds that three bits can tell apart.
 pub(super) const KINDS: usize = 8;

@@ -4,7 +4,7 @@ use super::blas::Blas;
 use super::collector::{Any, Collector, Hit, Nearest};
 use super::instance::{Geometry, InstanceRecord};
 use super::instance_walk::{SceneWalk, walk_mesh, walk_scene_from};
-use super::node::{ChildRef, WIDTH};
+use super::node::{ChildRef, Kind, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays, lane_of};
 use super::packet_walk::{PacketStack, PacketVisitor, walk_groups};
 use super::ray::NONE;
@@ -86,6 +86,18 @@ struct SceneVisitor<'a, const ANY: bool> {
     hits: &'a mut PacketHits,
 }
 
+impl<const ANY: bool> SceneVisitor<'_, ANY> {
+    /// The lanes whose rays see what has this mask.
+    #[inline(always)]
+    fn seeing(&self, mask: u8) -> u32 {
+        let mut seeing = 0;
+        for (lane, own) in self.masks.iter().enumerate() {
+            seeing |= u32::from(own & mask != 0) << lane;
+        }
+        seeing
+    }
+}
+
 impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
     const ORDERED: bool = !ANY;
 
@@ -95,13 +107,14 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
     }
 
     #[inline(always)]
-    fn leaf(&mut self, simd: S, rays: &PacketRays<S>, _group: &Group<S>, leaf: ChildRef, lanes: u32) {
-        let record = &self.scene.records[leaf.index()];
-        let mut seen = 0;
-        for (lane, mask) in self.masks.iter().enumerate() {
-            seen |= u32::from(mask & record.mask != 0) << lane;
+    fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
+        if leaf.kind() == Kind::WorldTriangles as usize {
+            let owner = self.scene.owners[leaf.index()];
+            let (block, lanes) = (&self.scene.blocks[leaf.index()], lanes & self.seeing(owner.mask));
+            return meet::<S, ANY>(simd, block, rays, group, lanes, owner.id, self.hits);
         }
-        let lanes = lanes & seen;
+        let record = &self.scene.records[leaf.index()];
+        let lanes = lanes & self.seeing(record.mask);
         if lanes == 0 {
             return;
         }
@@ -181,11 +194,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
 
     #[inline(always)]
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
-        let block = &self.mesh.blocks[leaf.index()];
-        for triangle in 0..block.len() {
-            let lanes = if ANY { self.hits.live(simd, lanes) } else { lanes };
-            intersect::<S, ANY>(simd, block, triangle, rays, group, lanes, self.record.id, self.hits);
-        }
+        meet::<S, ANY>(simd, &self.mesh.blocks[leaf.index()], rays, group, lanes, self.record.id, self.hits);
     }
 
     #[inline(always)]
@@ -209,6 +218,23 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
             );
             self.hits.set(lane, nearest.0);
         }
+    }
+}
+
+/// The triangles of a block against sixteen rays.
+#[inline(always)]
+fn meet<S: Simd, const ANY: bool>(
+    simd: S,
+    block: &TriangleBlock,
+    rays: &PacketRays<S>,
+    group: &Group<S>,
+    lanes: u32,
+    instance: u32,
+    hits: &mut PacketHits,
+) {
+    for triangle in 0..block.len() {
+        let lanes = if ANY { hits.live(simd, lanes) } else { lanes };
+        intersect::<S, ANY>(simd, block, triangle, rays, group, lanes, instance, hits);
     }
 }
 

@@ -7,18 +7,24 @@ use super::packet_walk::EMPTY_PACKET_STACK;
 use super::ray::{Hits, RayBatch};
 use super::scene_bvh::SceneBvh;
 use fearless_simd::{Level, dispatch, f32x16, prelude::*};
+use std::cell::RefCell;
 
 impl SceneBvh {
     /// The nearest hit of every ray, consecutive groups of sixteen together: for coherent rays. The hits are those of
     /// [`SceneBvh::first_hit`].
     pub fn first_hit_packets(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
-        dispatch!(level, simd => first_hit_packets(simd, self, rays, hits));
+        STACKS.with_borrow_mut(|stacks| dispatch!(level, simd => first_hit_packets(simd, self, rays, stacks, hits)));
     }
 
     /// [`SceneBvh::occluded`], consecutive groups of sixteen rays together: for coherent rays.
     pub fn occluded_packets(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
-        dispatch!(level, simd => occluded_packets(simd, self, rays, out));
+        STACKS.with_borrow_mut(|stacks| dispatch!(level, simd => occluded_packets(simd, self, rays, stacks, out)));
     }
+}
+
+thread_local! {
+    /// Kept, as clearing them takes as long as some hundred rays.
+    static STACKS: RefCell<PacketStacks> = RefCell::new(PacketStacks::new());
 }
 
 impl PacketStacks {
@@ -73,14 +79,13 @@ fn load<S: Simd>(simd: S, rays: &RayBatch, first: usize) -> Loaded<S> {
 }
 
 #[inline(always)]
-fn first_hit_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
+fn first_hit_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, stacks: &mut PacketStacks, hits: &mut Hits) {
     let rays = rays.same_length();
     hits.resize(rays.len());
-    let mut stacks = PacketStacks::new();
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        walk_scene_packet::<S, false>(simd, scene, &packet.rays, &packet.masks, &mut stacks, &mut found);
+        walk_scene_packet::<S, false>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
         let range = first..first + packet.n;
         hits.t[range.clone()].copy_from_slice(&found.t[..packet.n]);
         hits.u[range.clone()].copy_from_slice(&found.u[..packet.n]);
@@ -91,13 +96,12 @@ fn first_hit_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, hits: 
 }
 
 #[inline(always)]
-fn occluded_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, out: &mut [u8]) {
+fn occluded_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, stacks: &mut PacketStacks, out: &mut [u8]) {
     let rays = rays.same_length();
-    let mut stacks = PacketStacks::new();
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        walk_scene_packet::<S, true>(simd, scene, &packet.rays, &packet.masks, &mut stacks, &mut found);
+        walk_scene_packet::<S, true>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
         for (lane, out) in out[first..first + packet.n].iter_mut().enumerate() {
             // Lanes that were of no use from the start have not been hit either.
             *out = u8::from(packet.rays.lanes & (1 << lane) != 0 && found.t[lane] == -f32::INFINITY);

@@ -4,10 +4,11 @@ use super::Cancelled;
 use super::blas::Blas;
 use super::build::{Effort, build};
 use super::collapse::LeafMaker;
-use super::instance::{Geometry, Instance, InstanceRecord, PackedGeometry};
-use super::node::{Bounds, Kind, LARGEST_COORDINATE, MAX_INDEX, Node};
+use super::instance::{Instance, InstanceRecord, Owner};
+use super::node::{ChildRef, Kind, MAX_INDEX, Node};
+use super::placement::Placement;
 use super::ray::NONE;
-use super::transform::{Affine, inverse, transformed_bounds};
+use super::triangle_block::TriangleBlock;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -18,6 +19,9 @@ pub struct SceneBvh {
     pub(super) records: Vec<InstanceRecord>,
     /// Record of each instance by its number, [`NONE`] for those left out.
     pub(super) record_of: Vec<u32>,
+    /// Triangles that stand in the top level themselves, in world space, and whose they are.
+    pub(super) blocks: Vec<TriangleBlock>,
+    pub(super) owners: Vec<Owner>,
     pub(super) meshes: Vec<Arc<Blas>>,
     /// So large that incoherent rays gain from going together.
     pub(super) is_large: bool,
@@ -28,24 +32,51 @@ impl SceneBvh {
     ///
     /// Instances of missing or empty meshes, with singular maps or beyond 1e12 metres are left out; no ray hits them.
     pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
-        let mut boxes = Vec::with_capacity(instances.len());
-        let mut records = Vec::with_capacity(instances.len());
-        for (id, instance) in instances.iter().enumerate() {
-            if let Some((bounds, record)) = placed(&meshes, instance, id as u32) {
-                boxes.push(bounds);
-                records.push(record);
+        let placement = Placement::new(&meshes, instances, instances.len() <= MOST_OPENED);
+        assert!(placement.boxes.len() <= MAX_INDEX, "the top level holds at most {MAX_INDEX} boxes");
+        let effort = if placement.boxes.len() <= MANY_BOXES { Effort::THOROUGH } else { Effort::QUICK };
+        let tree = build(&placement.boxes, &Numbers, effort, cancel)?;
+        let mut scene = SceneBvh {
+            nodes: tree.nodes,
+            records: Vec::with_capacity(placement.records.len()),
+            record_of: vec![NONE; instances.len()],
+            blocks: Vec::with_capacity(placement.blocks.len()),
+            owners: Vec::with_capacity(placement.blocks.len()),
+            meshes,
+            is_large: false,
+        };
+        scene.fill(&placement, &tree.leaves);
+        scene.is_large = scene.meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + scene.memory() > SMALL;
+        Ok(scene)
+    }
+
+    /// Takes over what was placed in the order of the tree's leaves; instances that were taken apart stay known by their records.
+    fn fill(&mut self, placement: &Placement, leaves: &[u32]) {
+        let mut children = Vec::with_capacity(leaves.len());
+        for &number in leaves {
+            let content = placement.contents[number as usize];
+            children.push(if content.kind() == Kind::Instance as usize {
+                self.keep(placement.records[content.index()]);
+                ChildRef::new(Kind::Instance, self.records.len() - 1)
+            } else {
+                self.blocks.push(placement.blocks[content.index()]);
+                self.owners.push(placement.owners[content.index()]);
+                ChildRef::new(Kind::WorldTriangles, self.blocks.len() - 1)
+            });
+        }
+        for child in self.nodes.iter_mut().flat_map(|node| &mut node.children).filter(|child| !child.is_inner()) {
+            *child = children[child.index()];
+        }
+        for record in &placement.records {
+            if self.record_of[record.id as usize] == NONE {
+                self.keep(*record);
             }
         }
-        assert!(boxes.len() <= MAX_INDEX, "a scene holds at most {MAX_INDEX} instances");
-        let effort = if boxes.len() <= MANY_INSTANCES { Effort::THOROUGH } else { Effort::QUICK };
-        let tree = build(&boxes, &Records(&records), effort, cancel)?;
-        let mut record_of = vec![NONE; instances.len()];
-        for (place, record) in tree.leaves.iter().enumerate() {
-            record_of[record.id as usize] = place as u32;
-        }
-        let bytes =
-            meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + size_of_val(&tree.nodes[..]) + size_of_val(&tree.leaves[..]);
-        Ok(SceneBvh { nodes: tree.nodes, records: tree.leaves, record_of, meshes, is_large: bytes > SMALL })
+    }
+
+    fn keep(&mut self, record: InstanceRecord) {
+        self.record_of[record.id as usize] = self.records.len() as u32;
+        self.records.push(record);
     }
 
     /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
@@ -61,54 +92,31 @@ impl SceneBvh {
 
     /// Bytes of the top level, without the meshes.
     pub fn memory(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.records.capacity() * size_of::<InstanceRecord>() + self.record_of.capacity() * 4
+        let blocks = self.blocks.capacity() * (size_of::<TriangleBlock>() + size_of::<Owner>());
+        let records = self.records.capacity() * size_of::<InstanceRecord>() + self.record_of.capacity() * size_of::<u32>();
+        self.nodes.capacity() * size_of::<Node>() + records + blocks
     }
 }
 
 /// In trees of so many bytes, which stay in a core's second cache, one ray after the other is as fast.
 const SMALL: usize = 1 << 20;
 
-/// Above this number of instances the top level gets no more care than a mesh, so that moving one stays quick.
-const MANY_INSTANCES: usize = 50_000;
+/// Above this number of boxes the top level gets no more care than a mesh, so that moving an instance stays quick.
+const MANY_BOXES: usize = 50_000;
 
-/// The world box and the record of an instance, if rays can hit it.
-fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
-    let shape_bounds;
-    let outline: &[Bounds] = match instance.geometry {
-        Geometry::Mesh(index) => &meshes.get(index as usize)?.outline,
-        Geometry::Shape(shape) => {
-            shape_bounds = [shape.bounds()];
-            &shape_bounds
-        }
-    };
-    if outline.is_empty() {
-        return None;
-    }
-    let placed = outline.iter().map(|bounds| transformed_bounds(&instance.object_to_world, bounds));
-    let bounds = placed.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
-    let usable = bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE);
-    let world_to_object = Affine::new(&inverse(&instance.object_to_world)?)?;
-    let record = InstanceRecord {
-        world_to_object,
-        geometry: PackedGeometry::new(instance.geometry),
-        id,
-        mask: instance.mask,
-        transparent: instance.transparent,
-        identity: instance.object_to_world == Instance::IDENTITY,
-    };
-    usable.then_some((bounds, record))
-}
+/// Above this number of instances none is taken apart, for the same reason.
+const MOST_OPENED: usize = 1 << 12;
 
-/// Puts instance records into the order of the tree.
-struct Records<'a>(&'a [InstanceRecord]);
+/// Leaves hold one box each, by its number.
+struct Numbers;
 
-impl LeafMaker for Records<'_> {
-    type Leaf = InstanceRecord;
+impl LeafMaker for Numbers {
+    type Leaf = u32;
     const CAPACITY: u32 = 1;
     const KIND: Kind = Kind::Instance;
     const COST: f32 = 1.0;
 
-    fn leaf(&self, primitives: &[u32]) -> InstanceRecord {
-        self.0[primitives[0] as usize]
+    fn leaf(&self, primitives: &[u32]) -> u32 {
+        primitives[0]
     }
 }

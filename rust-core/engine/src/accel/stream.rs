@@ -91,6 +91,9 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
         for place in lists.take(Kind::Triangles) {
             lists.add(flights[place].triangles(simd), place);
         }
+        for place in lists.take(Kind::WorldTriangles) {
+            lists.add(flights[place].world_triangles(simd, scene), place);
+        }
         for place in lists.take(Kind::Next) {
             lists.add(flights[place].go_on(&pending[place]), place);
         }

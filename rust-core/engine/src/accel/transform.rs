@@ -76,6 +76,12 @@ pub(super) fn inverse(m: &[[f64; 4]; 3]) -> Option<[[f64; 4]; 3]> {
     inverse.iter().flatten().all(|x| x.is_finite()).then_some(inverse)
 }
 
+/// The image of a point, rounded once.
+pub(super) fn image_of(m: &[[f64; 4]; 3], point: [f32; 3]) -> [f32; 3] {
+    let [x, y, z] = point.map(f64::from);
+    m.map(|row| (row[0] * x + row[1] * y + row[2] * z + row[3]) as f32)
+}
+
 /// A box around the image of a box, widened by the rounding error bound.
 pub(super) fn transformed_bounds(m: &[[f64; 4]; 3], bounds: &Bounds) -> Bounds {
     if bounds.is_empty() {

@@ -285,7 +285,8 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     #[inline(always)]
     pub fn empty(l: L) -> Self {
         Self {
-            slots: [None; MAXIMUM],
+            // One by one: as a whole they would be filled with zeros.
+            slots: std::array::from_fn(|_| None),
             count: 0,
             total: l.f(0.0),
             albedo: Rgb::zero(l),
@@ -302,7 +303,8 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     pub(crate) fn clear(&mut self, l: L) {
         (self.count, self.total, self.albedo, self.kinds) = (0, l.f(0.0), Rgb::zero(l), [Rgb::zero(l); 3]);
         (self.coat, self.emission, self.opacity) = (None, Rgb::zero(l), l.f(1.0));
-        (self.tilts, self.medium) = (Tilts::NONE, None);
+        self.tilts.clear();
+        self.medium = None;
     }
     /// A Lambert lobe alone.
     #[inline(always)]

@@ -40,6 +40,15 @@ impl<L: Lanes> Tilts<L> {
     /// No other frames.
     pub(crate) const NONE: Self = Self { specular: None, coat: None, fuzz: None, smooth: None };
 
+    /// Makes them [`Self::NONE`], one by one: as a whole they would be filled with zeros.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.specular = None;
+        self.coat = None;
+        self.fuzz = None;
+        self.smooth = None;
+    }
+
     /// The frame about a normal, if it is not the shading frame.
     #[inline(always)]
     pub(crate) fn frame(&self, normal: Normal) -> Option<&Frame<L>> {

@@ -73,9 +73,13 @@ impl LightTable {
         self.aim_near(l, &light, p, u, &mut aim);
         self.aim_far(l, &light, index, [p, n], u, infinite, &mut aim);
         let sent = self.emitted(l, &light, aim.wi, aim.uv);
-        let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);
         let point = light.is_kind(LightKind::Point);
-        let radiance = point.select(sent * squared.recip(), sent);
+        let radiance = if point.any() {
+            let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);
+            point.select(sent * squared.recip(), sent)
+        } else {
+            sent
+        };
         let pdf = aim.pdf * probability;
         let facing = light.is_kind(LightKind::FacingDisk);
         let enclosed = if facing.any() { facing & facing_disk::encloses(&light, p) } else { facing };
@@ -246,8 +250,11 @@ impl LightTable {
     /// Whether a flat light's emitting side looks at the point that sees it along `wi`; other lights are kept by their densities.
     #[inline(always)]
     fn faces<L: Lanes>(&self, light: &Reader<'_, L>, from: Vec3<L>, wi: Vec3<L>) -> M<L> {
-        let normal = light.vector(field::NORMAL);
         let one_sided = light.flag(flag::FLAT).and_not(light.flag(flag::TWO_SIDED));
+        if !one_sided.any() {
+            return !one_sided;
+        }
+        let normal = light.vector(field::NORMAL);
         let in_front = normal.dot(from - light.vector(field::ORIGIN)).gt(0.0) & normal.dot(wi).lt(0.0);
         !one_sided | in_front
     }

@@ -2,7 +2,7 @@
 
 use super::oracle::crossing;
 use super::{Geometry, Instance, Mesh, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::accel::{Blas, Cancelled, Care, Hits, NONE, SceneBvh, Shape};
+use crate::accel::{Blas, Cancelled, Care, Hits, NONE, SceneBvh, Shape, triangle_block::TriangleBlock};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -34,6 +34,42 @@ fn placed_instances_match_the_oracle() {
         wrong += usize::from((best.1, best.2) != (hits.instance[i], hits.primitive[i]));
     }
     assert!(wrong <= 3, "{wrong} of 3000 rays");
+}
+
+/// A box of twelve triangles.
+fn cuboid() -> Mesh {
+    let corner = |i: u32| [i & 1, (i >> 1) & 1, (i >> 2) & 1].map(|bit| bit as f32 - 0.5);
+    let sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    Mesh { positions: (0..8).map(corner).collect(), triangles }
+}
+
+/// Triangles that stand in the top level are hit where the mesh in its own space is.
+#[test]
+fn triangles_of_small_meshes_are_hit_in_world_space() {
+    let mut random = Random(24);
+    let instances: Vec<Instance> = (0..100).map(|_| instance(Geometry::Mesh(0), random_placement(&mut random))).collect();
+    let scene = scene(vec![cuboid().blas()], &instances);
+    assert_eq!(scene.blocks.iter().map(TriangleBlock::len).sum::<usize>(), 12 * instances.len());
+    let rays = OwnedRays::random(&mut random, 3000, 1.0, true);
+    let all = first_hits(&scene, levels()[0], &rays);
+    let (mut met, mut alone) = (0, Hits::default());
+    for i in (0..3000).filter(|i| all.instance[*i] != NONE) {
+        scene.first_hit_within(levels()[0], &rays.part(i, i + 1), &all.instance[i..=i], &mut alone);
+        let near = |a: f32, b: f32| (a - b).abs() <= 1e-4 * (1.0 + b.abs());
+        let same = all.primitive[i] == alone.primitive[0] && near(all.u[i], alone.u[0]) && near(all.v[i], alone.v[0]);
+        met += usize::from(near(all.t[i], alone.t[0]) && same);
+    }
+    let hits = all.instance.iter().filter(|&&i| i != NONE).count();
+    // Rays along edges may meet the other triangle.
+    assert!(hits > 1000 && met + 3 >= hits, "{met} of {hits}");
+}
+
+#[test]
+fn many_instances_of_small_meshes_stay_instances() {
+    let placed = |i: u32| [[1.0, 0.0, 0.0, f64::from(i)], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    let instances: Vec<Instance> = (0..4097).map(|i| instance(Geometry::Mesh(0), placed(i))).collect();
+    assert!(scene(vec![cuboid().blas()], &instances).blocks.is_empty());
 }
 
 #[test]
