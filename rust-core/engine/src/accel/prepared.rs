@@ -68,37 +68,22 @@ impl PreparedRay {
     /// `None` when the ray can hit nothing: parts of it are not finite, its direction is zero, or its interval is empty.
     #[inline(always)]
     pub(super) fn new(origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<Self> {
-        let mut ray = Self::NOTHING;
-        ray.prepare(origin, direction, t_min, t_max).then_some(ray)
+        let (reciprocal, offsets, t_min, major) = slopes(&origin, &direction, t_min, t_max)?;
+        Some(Self::with_offsets(origin, direction, reciprocal, offsets, t_min, major))
     }
 
     /// [`PreparedRay::new`] in the place where the ray stays; false when it can hit nothing.
     #[inline(always)]
     pub(super) fn prepare(&mut self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> bool {
-        let ([x, y, z, _], [ox, oy, oz, _]) = (direction.map(f32::abs), origin.map(f32::abs));
-        let (largest, start) = (larger(larger(x, y), z), larger(larger(ox, oy), oz));
-        // The sum catches NaN, which the maxima drop.
-        let sum = x + y + z + ox + oy + oz;
-        let t_min = larger(t_min, 0.0);
-        let usable = (DIRECTION_RANGE[0]..=DIRECTION_RANGE[1]).contains(&largest)
-            & (start <= LARGEST_COORDINATE)
-            & (sum < f32::INFINITY)
-            & (t_min <= t_max);
-        if !usable {
+        let Some((reciprocal, offsets, t_min, major)) = slopes(&origin, &direction, t_min, t_max) else {
             return false;
-        }
-        let major = if (x >= y) & (x >= z) { 0 } else { 1 + usize::from(y < z) };
-        let smallest = largest * SMALLEST_SHARE;
-        let pad = start * ROUNDING_PAD;
-        let (mut reciprocal, mut near_offset, mut far_offset) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for k in 0..4 {
-            let component = larger(direction[k].abs(), smallest).copysign(direction[k]);
-            reciprocal[k] = 1.0 / component;
-            let signed_pad = pad.copysign(direction[k]);
-            near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
-            far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
-        }
-        *self = Self::with_offsets(origin, direction, reciprocal, [near_offset, far_offset], t_min, major);
+        };
+        (self.origin, self.direction, self.reciprocal, self.t_min) = (origin, direction, reciprocal, t_min);
+        [self.near_offset, self.far_offset] = offsets;
+        [self.near_rows, self.far_rows] = rows(&direction);
+        // Read where they are kept now: numbers that an axis chooses would be put into memory once more, and copied from there.
+        [self.start, self.shear] = along_axes(&self.origin, &self.direction, &self.reciprocal, major);
+        self.axes = AXES[major % 3].map(|axis| 8 * axis as u32);
         true
     }
 
@@ -108,22 +93,63 @@ impl PreparedRay {
         origin: Padded,
         direction: Padded,
         reciprocal: Padded,
-        offsets: [Padded; 2],
+        [near_offset, far_offset]: [Padded; 2],
         t_min: f32,
         major: usize,
     ) -> Self {
-        let [near_offset, far_offset] = offsets;
-        let (mut near_rows, mut far_rows) = ([0; 4], [0; 4]);
-        for k in 0..4 {
-            let backwards = (direction[k].to_bits() >> 31) * 24;
-            near_rows[k] = 8 * k as u32 + backwards;
-            far_rows[k] = 8 * k as u32 + 24 - backwards;
-        }
-        let axes = AXES[major % 3];
-        let along = reciprocal[major % 4];
-        let shear = [direction[axes[0] % 4] * along, direction[axes[1] % 4] * along, along];
-        let start = [origin[axes[0] % 4], origin[axes[1] % 4], origin[axes[2] % 4]];
-        let axes = axes.map(|axis| 8 * axis as u32);
+        let [near_rows, far_rows] = rows(&direction);
+        let [start, shear] = along_axes(&origin, &direction, &reciprocal, major);
+        let axes = AXES[major % 3].map(|axis| 8 * axis as u32);
         PreparedRay { origin, direction, reciprocal, near_offset, far_offset, near_rows, far_rows, axes, start, shear, t_min }
     }
+}
+
+/// Where near planes and far planes begin.
+#[inline(always)]
+fn rows(direction: &Padded) -> [[u32; 4]; 2] {
+    let (mut near_rows, mut far_rows) = ([0; 4], [0; 4]);
+    for k in 0..4 {
+        let backwards = (direction[k].to_bits() >> 31) * 24;
+        near_rows[k] = 8 * k as u32 + backwards;
+        far_rows[k] = 8 * k as u32 + 24 - backwards;
+    }
+    [near_rows, far_rows]
+}
+
+/// The origin in the order of the axes, and the slopes with the reciprocal along the largest.
+#[inline(always)]
+fn along_axes(origin: &Padded, direction: &Padded, reciprocal: &Padded, major: usize) -> [[f32; 3]; 2] {
+    let axes = AXES[major % 3];
+    let along = reciprocal[major % 4];
+    let shear = [direction[axes[0] % 4] * along, direction[axes[1] % 4] * along, along];
+    [[origin[axes[0] % 4], origin[axes[1] % 4], origin[axes[2] % 4]], shear]
+}
+
+/// Reciprocals, offsets of near and far planes, lower end of the interval and largest axis of a ray, if it can hit anything.
+#[inline(always)]
+fn slopes(origin: &Padded, direction: &Padded, t_min: f32, t_max: f32) -> Option<(Padded, [Padded; 2], f32, usize)> {
+    let ([x, y, z, _], [ox, oy, oz, _]) = (direction.map(f32::abs), origin.map(f32::abs));
+    let (largest, start) = (larger(larger(x, y), z), larger(larger(ox, oy), oz));
+    // The sum catches NaN, which the maxima drop.
+    let sum = x + y + z + ox + oy + oz;
+    let t_min = larger(t_min, 0.0);
+    let usable = (DIRECTION_RANGE[0]..=DIRECTION_RANGE[1]).contains(&largest)
+        & (start <= LARGEST_COORDINATE)
+        & (sum < f32::INFINITY)
+        & (t_min <= t_max);
+    if !usable {
+        return None;
+    }
+    let major = if (x >= y) & (x >= z) { 0 } else { 1 + usize::from(y < z) };
+    let smallest = largest * SMALLEST_SHARE;
+    let pad = start * ROUNDING_PAD;
+    let (mut reciprocal, mut near_offset, mut far_offset) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+    for k in 0..4 {
+        let component = larger(direction[k].abs(), smallest).copysign(direction[k]);
+        reciprocal[k] = 1.0 / component;
+        let signed_pad = pad.copysign(direction[k]);
+        near_offset[k] = -(origin[k] + signed_pad) * reciprocal[k];
+        far_offset[k] = -(origin[k] - signed_pad) * reciprocal[k];
+    }
+    Some((reciprocal, [near_offset, far_offset], t_min, major))
 }
