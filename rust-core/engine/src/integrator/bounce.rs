@@ -136,16 +136,21 @@ pub(super) fn scatter<L: Lanes>(
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
-    let before = |columns: &[gonio_simd::Column; 3]| gather3(l, columns, point.path);
+    let (mut vertex, mut normal, mut pdf) = (point.position, point.frame.z, sample.pdf);
+    if straight.any() {
+        vertex = straight.select(gather3(l, &ws.paths.vertex, point.path), vertex);
+        normal = straight.select(gather3(l, &ws.paths.normal, point.path), normal);
+        pdf = straight.select(l.gather(&ws.paths.pdf, point.path), pdf);
+    }
     let state = PathLanes {
         origin: spawn(point.position, point.geometric, point.error, wi),
         direction: wi,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
-        vertex: straight.select(before(&ws.paths.vertex), point.position),
-        normal: straight.select(before(&ws.paths.normal), point.frame.z),
+        vertex,
+        normal,
         throughput,
-        pdf: straight.select(l.gather(&ws.paths.pdf, point.path), sample.pdf),
+        pdf,
         width: point.width,
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,

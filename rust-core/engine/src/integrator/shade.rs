@@ -71,7 +71,7 @@ pub(super) struct Point<L: Lanes> {
     pub(super) behind: Rgb<L>,
     /// Where all lobes are mirrors or clear glass.
     pub(super) only_delta: M<L>,
-    /// How much of a camera ray's sample is here.
+    /// How much of a camera ray's sample is here; of other rays, nothing of meaning.
     pub(super) share: F<L>,
 }
 
@@ -143,7 +143,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
         only_delta: l.m(false),
-        share: l.gather(&ws.paths.pdf, path),
+        share: if (flags & flag::CAMERA).ne(0).any() { l.gather(&ws.paths.pdf, path) } else { l.f(0.0) },
     }
 }
 
