@@ -85,7 +85,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
     fn fetch(&self, child: ChildRef) {
         if child.is_inner() {
             prefetch(&self.scene.nodes, child.index());
-        } else if child.kind() == Kind::Instance as usize {
+        } else if child.is(Kind::Instance) {
             prefetch(&self.scene.records, child.index());
         } else {
             prefetch(&self.scene.blocks, child.index());
@@ -94,7 +94,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
-        if leaf.kind() == Kind::WorldTriangles as usize {
+        if leaf.is(Kind::WorldTriangles) {
             let owner = self.scene.owners[leaf.index()];
             return owner.mask & self.mask != 0 && meet(lanes, &self.scene.blocks[leaf.index()], ray, owner, self.collector);
         }

@@ -65,6 +65,11 @@ impl ChildRef {
         self.0 <= INDEX_MASK
     }
 
+    #[inline(always)]
+    pub(super) fn is(self, kind: Kind) -> bool {
+        self.kind() == kind as usize
+    }
+
     /// A number below [`KINDS`].
     #[inline(always)]
     pub(super) fn kind(self) -> usize {

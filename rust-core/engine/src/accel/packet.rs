@@ -108,7 +108,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
 
     #[inline(always)]
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
-        if leaf.kind() == Kind::WorldTriangles as usize {
+        if leaf.is(Kind::WorldTriangles) {
             let owner = self.scene.owners[leaf.index()];
             let (block, lanes) = (&self.scene.blocks[leaf.index()], lanes & self.seeing(owner.mask));
             return meet::<S, ANY>(simd, block, rays, group, lanes, owner.id, self.hits);

@@ -29,7 +29,7 @@ impl Placement {
         let mut placement = Placement::default();
         for (id, instance) in instances.iter().enumerate() {
             let Some((bounds, record)) = placed(meshes, instance, id as u32) else { continue };
-            if !(opened && placement.open(meshes, instance, id as u32)) {
+            if !(opened && placement.open(meshes, instance, record.owner())) {
                 placement.boxes.push(bounds);
                 placement.contents.push(ChildRef::new(Kind::Instance, placement.records.len()));
             }
@@ -39,7 +39,7 @@ impl Placement {
     }
 
     /// Takes an instance of a small mesh apart; false if the mesh is too large, or no mesh at all.
-    fn open(&mut self, meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> bool {
+    fn open(&mut self, meshes: &[Arc<Blas>], instance: &Instance, owner: Owner) -> bool {
         let Geometry::Mesh(mesh) = instance.geometry else { return false };
         let blocks = &meshes[mesh as usize].blocks;
         if blocks.len() > SMALL_MESH {
@@ -50,7 +50,7 @@ impl Placement {
             self.boxes.push(bounds);
             self.contents.push(ChildRef::new(Kind::WorldTriangles, self.blocks.len()));
             self.blocks.push(block);
-            self.owners.push(Owner { id, mask: instance.mask, transparent: instance.transparent });
+            self.owners.push(owner);
         }
         true
     }

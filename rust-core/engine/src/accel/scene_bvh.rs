@@ -55,7 +55,7 @@ impl SceneBvh {
         let mut children = Vec::with_capacity(leaves.len());
         for &number in leaves {
             let content = placement.contents[number as usize];
-            children.push(if content.kind() == Kind::Instance as usize {
+            children.push(if content.is(Kind::Instance) {
                 self.keep(placement.records[content.index()]);
                 ChildRef::new(Kind::Instance, self.records.len() - 1)
             } else {
@@ -85,7 +85,7 @@ impl SceneBvh {
         Ok(())
     }
 
-    /// The mesh trees, in the order of the numbers in [`Geometry::Mesh`].
+    /// The mesh trees, in the order of the numbers in [`Geometry::Mesh`](super::Geometry::Mesh).
     pub fn meshes(&self) -> &[Arc<Blas>] {
         &self.meshes
     }
