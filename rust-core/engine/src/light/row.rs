@@ -122,6 +122,23 @@ impl<'a, L: Lanes> Reader<'a, L> {
         let common = rows.as_chunks::<ROW>().0.get(first as usize).filter(|_| light.eq(first).all());
         Self { l, rows, base: light * ROW as u32, common }
     }
+    /// The reader of a row that all lanes read, if they do.
+    #[inline(always)]
+    pub(crate) fn common(&self) -> Option<Self> {
+        self.common.map(
+            #[inline(always)]
+            |row| Self { common: Some(row), ..*self },
+        )
+    }
+    #[inline(always)]
+    fn common_flags(&self) -> Option<u32> {
+        self.common.map(|row| row[field::FLAGS].to_bits())
+    }
+    /// The kind of light in all lanes, where they read the same row.
+    #[inline(always)]
+    pub(crate) fn common_kind(&self) -> Option<u32> {
+        self.common_flags().map(|flags| flags & flag::KIND)
+    }
     #[inline(always)]
     pub(crate) fn value(&self, field: usize) -> F<L> {
         match self.common {
@@ -156,11 +173,17 @@ impl<'a, L: Lanes> Reader<'a, L> {
     }
     #[inline(always)]
     pub(crate) fn flag(&self, bit: u32) -> M<L> {
-        (self.integer(field::FLAGS) & bit).ne(0)
+        match self.common_flags() {
+            Some(flags) => self.l.m(flags & bit != 0),
+            None => (self.integer(field::FLAGS) & bit).ne(0),
+        }
     }
     #[inline(always)]
     pub(crate) fn is_kind(&self, kind: LightKind) -> M<L> {
-        (self.integer(field::FLAGS) & flag::KIND).eq(kind as u32)
+        match self.common_kind() {
+            Some(common) => self.l.m(common == kind as u32),
+            None => (self.integer(field::FLAGS) & flag::KIND).eq(kind as u32),
+        }
     }
     /// Columns of the sampling frame.
     #[inline(always)]

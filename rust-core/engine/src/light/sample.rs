@@ -66,13 +66,29 @@ impl LightTable {
     /// Draws a direction to a light that has been chosen with some probability.
     #[inline(always)]
     pub(crate) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: Vec3<L>, n: Vec3<L>, u: [F<L>; 2]) -> LightSample<L> {
-        let (index, probability) = chosen;
-        let light = self.reader(l, index);
+        let light = self.reader(l, chosen.0);
+        // What all lanes share is known to be so all the way down: no gathers, no kind of light but one.
+        match light.common() {
+            Some(common) => self.sample_row(l, &common, chosen, p, n, u),
+            None => self.sample_row(l, &light, chosen, p, n, u),
+        }
+    }
+
+    #[inline(always)]
+    fn sample_row<L: Lanes>(
+        &self,
+        l: L,
+        light: &Reader<'_, L>,
+        (index, probability): (U<L>, F<L>),
+        p: Vec3<L>,
+        n: Vec3<L>,
+        u: [F<L>; 2],
+    ) -> LightSample<L> {
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
-        self.aim_near(l, &light, p, u, &mut aim);
-        self.aim_far(l, &light, index, [p, n], u, infinite, &mut aim);
-        let sent = self.emitted(l, &light, aim.wi, aim.uv);
+        self.aim_near(l, light, p, u, &mut aim);
+        self.aim_far(l, light, index, [p, n], u, infinite, &mut aim);
+        let sent = self.emitted(l, light, aim.wi, aim.uv);
         let point = light.is_kind(LightKind::Point);
         let radiance = if point.any() {
             let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);
@@ -82,8 +98,8 @@ impl LightTable {
         };
         let pdf = aim.pdf * probability;
         let facing = light.is_kind(LightKind::FacingDisk);
-        let enclosed = if facing.any() { facing & facing_disk::encloses(&light, p) } else { facing };
-        let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(&light, p, aim.wi) & light.flag(flag::LIT);
+        let enclosed = if facing.any() { facing & facing_disk::encloses(light, p) } else { facing };
+        let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(light, p, aim.wi) & light.flag(flag::LIT);
         LightSample {
             wi: valid.select(aim.wi, Vec3::splat(l, [0.0, 0.0, 1.0])),
             distance: valid.select(aim.distance, l.f(f32::MAX)),
@@ -153,6 +169,12 @@ impl LightTable {
     #[inline(always)]
     fn aim_kind<L: Lanes>(&self, kind: LightKind, light: &Reader<'_, L>, aim: &mut Aim<L>, sample: impl FnOnce() -> Aim<L>) {
         if !self.has(kind) {
+            return;
+        }
+        if let Some(common) = light.common_kind() {
+            if common == kind as u32 {
+                *aim = sample();
+            }
             return;
         }
         let of_kind = light.is_kind(kind);
