@@ -142,6 +142,8 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_quads_f(self, table: &[f32], index: Self::U32) -> [Self::F32; 4];
     /// `values[4 i]` to `values[4 i + 3]` with `i` = `at` + lane; all of them must be there.
     fn load_quads_f(self, values: &[f32], at: usize) -> [Self::F32; 4];
+    /// Writes `values[4 i]` to `values[4 i + 3]` with `i` = lane; there must be room for all lanes.
+    fn store_quads_f(items: [Self::F32; 4], values: &mut [f32]);
     /// The sum over up to 8 terms of `weight · table[i + offset..][..8]`, with `i = min(index, len - 8 - largest offset)`: one load a lane
     /// and term. The table is long enough for index 0.
     fn sum_octets_f(self, table: &[f32], index: Self::U32, offsets: &[u32], weights: &[Self::F32]) -> [Self::F32; 8];
@@ -205,6 +207,24 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn gather_quads(self, table: &[f32], index: U<Self>) -> [F<Self>; 4] {
         let [a, b, c, d] = self.gather_quads_f(table, index.0);
         [F(a), F(b), F(c), F(d)]
+    }
+    /// `table[i]` to `table[i + 3]` with `i = min(index, len - 4)`.
+    #[inline(always)]
+    fn gather_integer_quads(self, table: &[u32], index: U<Self>) -> [U<Self>; 4] {
+        let [a, b, c, d] = self.gather_quads(bytemuck::cast_slice(table), index);
+        [a.to_bits(), b.to_bits(), c.to_bits(), d.to_bits()]
+    }
+    /// Writes items of four values each, one a lane from item `at` on; there must be room for all of them.
+    #[inline(always)]
+    fn store_quads(self, [a, b, c, d]: [F<Self>; 4], values: &mut [f32], at: usize) {
+        Self::store_quads_f([a.0, b.0, c.0, d.0], &mut values[4 * at..4 * (at + Self::COUNT)]);
+    }
+    /// Appends the chosen lanes' items of four values each behind the first `len` items; `values` must have a register's room.
+    #[inline(always)]
+    fn append_quads(self, [a, b, c, d]: [F<Self>; 4], mask: M<Self>, values: &mut [f32], len: usize) {
+        let items =
+            [Self::compress_f(a.0, mask.0), Self::compress_f(b.0, mask.0), Self::compress_f(c.0, mask.0), Self::compress_f(d.0, mask.0)];
+        Self::store_quads_f(items, &mut values[4 * len..4 * (len + Self::COUNT)]);
     }
     /// The items of four values each, one item a lane from item `at` on; all of them must be there.
     #[inline(always)]

@@ -260,6 +260,10 @@ impl Lanes for One {
         [values[4 * at], values[4 * at + 1], values[4 * at + 2], values[4 * at + 3]]
     }
     #[inline(always)]
+    fn store_quads_f(items: [f32; 4], values: &mut [f32]) {
+        values.copy_from_slice(&items);
+    }
+    #[inline(always)]
     fn sum_octets_f(self, table: &[f32], index: u32, offsets: &[u32], weights: &[f32]) -> [f32; 8] {
         sum_of_lane(
             table,

@@ -259,6 +259,14 @@ impl<S: Simd> Lanes for Wide<S> {
         [a, b, c, d]
     }
     #[inline(always)]
+    fn store_quads_f([a, b, c, d]: [S::f32s; 4], values: &mut [f32]) {
+        let ((even, even_too), (odd, odd_too)) = (a.interleave(c), b.interleave(d));
+        let (first, last) = (even.interleave(odd), even_too.interleave(odd_too));
+        for (register, place) in [first.0, first.1, last.0, last.1].into_iter().zip(values.chunks_exact_mut(Self::COUNT)) {
+            register.store_slice(place);
+        }
+    }
+    #[inline(always)]
     fn sum_octets_f(self, table: &[f32], index: S::u32s, offsets: &[u32], weights: &[S::f32s]) -> [S::f32s; 8] {
         self.0.sum_octets(table, index, offsets, weights)
     }

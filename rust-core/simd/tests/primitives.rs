@@ -235,6 +235,14 @@ fn check_compaction<L: Lanes>(l: L) {
         }
         assert!(floats[..3].iter().chain(&floats[3 + L::COUNT..]).all(|x| *x == -1.0), "written outside the register's room");
         assert!(integers[..3].iter().chain(&integers[3 + L::COUNT..]).all(|x| *x == 99), "written outside the register's room");
+        let mut items = [-1.0; 4 * 20];
+        l.append_quads([values, values + 100.0, values + 200.0, values + 300.0], mask, &mut items, 2);
+        let chosen = (0..L::COUNT).filter(|i| bits >> i & 1 == 1);
+        for (place, lane) in (2..).zip(chosen) {
+            let expected = [0.5, 100.5, 200.5, 300.5].map(|first| first + lane as f32);
+            assert_eq!(items[4 * place..4 * place + 4], expected, "mask {bits:b}, {} lanes", L::COUNT);
+        }
+        assert!(items[..8].iter().chain(&items[4 * (2 + L::COUNT)..]).all(|x| *x == -1.0), "written outside the register's room");
     }
 }
 
@@ -261,6 +269,9 @@ fn check_table_reads<L: Lanes>(l: L) {
                 for (k, value) in l.gather_quads(&table, index).into_iter().enumerate() {
                     floats_are("gather_quads", value, |i| table[(list[i] as usize).min(last - 3) + k]);
                 }
+                for (k, value) in l.gather_integer_quads(&integers, index).into_iter().enumerate() {
+                    integers_are("gather_integer_quads", value, |i| integers[(list[i] as usize).min(last - 3) + k]);
+                }
             }
         }
     }
@@ -272,6 +283,9 @@ fn check_table_reads<L: Lanes>(l: L) {
             floats_are("load_quads", value, |i| items[4 * (at + i) + k]);
         }
     }
+    let mut stored = [-1.0; 4 * 20];
+    l.store_quads(l.load_quads(&items, 1), &mut stored, 3);
+    assert_eq!(stored[12..4 * (3 + L::COUNT)], items[4..4 * (1 + L::COUNT)], "{} lanes", L::COUNT);
     for at in 0..32 {
         floats_are("lookup32", l.lookup32(&table, l.iota() + at), |i| table[(i + at as usize) % 32]);
     }

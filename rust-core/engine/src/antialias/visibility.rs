@@ -104,8 +104,7 @@ impl Met {
             column.resize(rays, NONE);
         });
         [&mut self.t].into_iter().chain(&mut self.barycentric).for_each(|column| column.resize(rays, 0.0));
-        for (ray, slot) in slots.iter().enumerate() {
-            let slot = *slot as usize;
+        for (ray, slot) in slots.map(|slot| slot as usize).enumerate() {
             (self.instance[slot], self.primitive[slot], self.t[slot]) = (hits.instance[ray], hits.primitive[ray], hits.t[ray]);
             (self.barycentric[0][slot], self.barycentric[1][slot]) = (hits.u[ray], hits.v[ray]);
         }

@@ -10,9 +10,9 @@ pub(super) fn object_lights(scene: &Scene, geometry: &GeometryTable, triangle_li
     let mut of_objects = vec![0; lights];
     let mut any = false;
     for (instance, first) in triangle_lights.iter().enumerate().filter(|(_, first)| **first != NONE) {
-        let set = geometry.instance_set[instance] as usize;
-        let mesh = &scene.meshes[geometry.instance_mesh[instance] as usize];
-        if geometry.set_catcher.get(set) == Some(&0) {
+        let row = &geometry.instances[instance];
+        let mesh = &scene.meshes[row.mesh as usize];
+        if geometry.set_catcher.get(row.set as usize) == Some(&0) {
             of_objects[*first as usize..*first as usize + mesh.triangles.len()].fill(1);
             any = true;
         }

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     accel::Instance,
     error::{Diagnostic, Error, Result},
-    geometry::{GeometryTable, NONE, PrimvarRef},
+    geometry::{GeometryTable, InstanceRow, NONE, PrimvarKind, PrimvarRef},
     integrator::MaterialTable,
     scene::{Mesh, Primvar, Scene},
 };
@@ -31,9 +31,7 @@ pub(super) fn tables(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
-    for mesh in &scene.meshes {
-        append_mesh(mesh, names, &mut table, diagnostics)?;
-    }
+    let meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).collect();
     let mut instances = Vec::new();
     for (set, group) in scene.instances.iter().enumerate() {
@@ -42,7 +40,8 @@ pub(super) fn tables(
             continue;
         };
         report_unplaceable(bounds, group, diagnostics);
-        append_instances(group, set as u32, *slots, names, materials, origin, &mut table, &mut instances, diagnostics);
+        let row = InstanceRow { mesh: group.mesh.0, ..meshes[group.mesh.index()] };
+        append_instances(group, set as u32, *slots, row, names, materials, origin, &mut table, &mut instances, diagnostics);
     }
     table.set_pass_index = scene.instances.iter().map(|group| group.pass_index).chain([0]).collect();
     if scene.instances.iter().any(|group| group.holdout) {
@@ -56,31 +55,32 @@ pub(super) fn tables(
     Ok(CompiledGeometry { table, instances, first_light })
 }
 
-fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
+/// Appends a mesh; gives its part of its instances' rows.
+fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>) -> Result<InstanceRow> {
     let first_point = (table.points.len() / 3) as u64;
     if (first_point + mesh.points.len() as u64) * 3 >= i32::MAX as u64
         || (table.corners.len() + mesh.triangles.len() * 3) >= i32::MAX as usize
     {
         return Err(Error::scene(&mesh.origin, "the scene has more points or triangles than 2^31 table entries hold"));
     }
-    table.mesh_triangle.push((table.corners.len() / 3) as u32);
-    table.mesh_point.push(first_point as u32);
+    let first_triangle = (table.corners.len() / 3) as u32;
     table.points.extend(mesh.points.iter().flatten());
     table.corners.extend(mesh.triangles.iter().flatten().map(|index| index.saturating_add(first_point as u32)));
-    match &mesh.slots {
+    let first_slot = match &mesh.slots {
         Some(slots) if slots.len() == mesh.triangles.len() => {
-            table.mesh_slot.push(table.slots.len() as u32);
+            let first = table.slots.len() as u32;
             table.slots.extend(slots.iter().map(|slot| u32::from(*slot)));
+            first
         }
-        _ => table.mesh_slot.push(NONE),
-    }
+        _ => NONE,
+    };
     let elements = Elements { uniform: mesh.triangles.len(), points: mesh.points.len(), corners: mesh.triangles.len() * 3 };
     let normals = mesh.normals.as_ref().filter(|normals| normals.components == 3);
-    append_checked(normals, elements, mesh, table, diagnostics);
+    table.any_normals |= append_checked(normals, elements, mesh, table, diagnostics);
     for name in names {
         append_checked(mesh.primvar(name), elements, mesh, table, diagnostics);
     }
-    Ok(())
+    Ok(InstanceRow { first_triangle, first_point: first_point as u32, first_slot, ..InstanceRow::default() })
 }
 
 /// Material slots of a mesh.
@@ -88,13 +88,14 @@ pub(super) fn slots_of(mesh: &Mesh) -> usize {
     mesh.slots.as_ref().map_or(1, |slots| slots.iter().max().map_or(1, |most| usize::from(*most) + 1))
 }
 
+/// Appends a primvar, or that there is none; gives whether there is.
 fn append_checked(
     primvar: Option<&Primvar>,
     elements: Elements,
     mesh: &Mesh,
     table: &mut GeometryTable,
     diagnostics: &mut Vec<Diagnostic>,
-) {
+) -> bool {
     let reference = match primvar {
         None => PrimvarRef::ABSENT,
         Some(primvar) => match problem(primvar, elements) {
@@ -106,29 +107,16 @@ fn append_checked(
         },
     };
     table.primvars.extend(reference.words());
+    reference.kind != PrimvarKind::Absent
 }
 
 /// Room so that no gather finds an empty table, and reading a whole value never leaves it.
 fn pad(table: &mut GeometryTable) {
     table.points.extend([0.0; 12]);
     table.values.extend([0.0; 4]);
-    table.corners.extend([0; 3]);
+    table.corners.extend([0; 4]);
     table.instance_transform.extend([0.0; 12]);
-    let integers = [
-        &mut table.slots,
-        &mut table.value_indices,
-        &mut table.primvars,
-        &mut table.instance_primvars,
-        &mut table.mesh_triangle,
-        &mut table.mesh_point,
-        &mut table.mesh_slot,
-        &mut table.materials,
-    ];
+    let integers = [&mut table.slots, &mut table.value_indices, &mut table.primvars, &mut table.instance_primvars, &mut table.materials];
     integers.into_iter().for_each(|column| column.extend([0; 4]));
-    for column in [&mut table.instance_material, &mut table.instance_number, &mut table.instance_primvar, &mut table.instance_set] {
-        column.push(0);
-    }
-    if table.instance_mesh.is_empty() {
-        table.instance_mesh.push(0);
-    }
+    table.instances.push(InstanceRow::default());
 }

@@ -7,17 +7,18 @@ use super::{
 use crate::{
     accel::{Geometry, Instance},
     error::Diagnostic,
-    geometry::{GeometryTable, NONE, PrimvarRef},
+    geometry::{GeometryTable, InstanceRow, NONE, PrimvarRef},
     integrator::{MaterialTable, ray_mask},
     scene::{Instances, Transform},
 };
 
-/// Puts a set into the tables; `slots` are the material slots of its mesh.
+/// Puts a set into the tables; `slots` are the material slots of its mesh, whose part of the instances' rows is `mesh`.
 #[expect(clippy::too_many_arguments, reason = "a set of instances goes to several tables")]
 pub(super) fn append_instances(
     group: &Instances,
     set: u32,
     slots: usize,
+    mesh: InstanceRow,
     names: &[String],
     materials: &MaterialTable,
     origin: [f64; 3],
@@ -33,6 +34,7 @@ pub(super) fn append_instances(
     table.materials.extend((0..slots).map(number));
     let transparent = (0..slots).any(|slot| materials.transparent(number(slot)));
     let first_primvar = append_own_primvars(group, names, table, diagnostics);
+    let row = InstanceRow { first_primvar, first_material, set, ..mesh };
     let mask = [
         (group.visibility.camera, ray_mask::CAMERA),
         (group.visibility.shadow, ray_mask::SHADOW),
@@ -45,11 +47,7 @@ pub(super) fn append_instances(
     let mask = mask.iter().map(|(seen, bit)| if *seen { *bit } else { 0 }).sum();
     for (number, transform) in group.transforms.iter().enumerate() {
         let rebased = rebased(transform, origin);
-        table.instance_mesh.push(group.mesh.0);
-        table.instance_material.push(first_material);
-        table.instance_number.push(number as u32);
-        table.instance_primvar.push(first_primvar);
-        table.instance_set.push(set);
+        table.instances.push(InstanceRow { number: number as u32, ..row });
         table.instance_transform.extend(rebased.columns.iter().flatten().map(|x| *x as f32));
         instances.push(Instance { geometry: Geometry::Mesh(group.mesh.0), object_to_world: rows(&rebased), mask, transparent });
     }

@@ -34,9 +34,9 @@ impl GroupNames {
         let mut of_light = self.of_light;
         of_light.resize(lights.max(1), other);
         for (instance, first) in triangle_lights.iter().enumerate().filter(|(_, first)| **first != NONE) {
-            let set = geometry.instance_set[instance] as usize;
-            let count = scene.meshes[geometry.instance_mesh[instance] as usize].triangles.len();
-            of_light[*first as usize..*first as usize + count].fill(of_set[set]);
+            let row = &geometry.instances[instance];
+            let count = scene.meshes[row.mesh as usize].triangles.len();
+            of_light[*first as usize..*first as usize + count].fill(of_set[row.set as usize]);
         }
         LightGroups { names: self.names, of_light, of_set }
     }

@@ -237,12 +237,12 @@ fn emissive_triangles(
     if !(0..materials.numbers.len()).any(|material| materials.even_emission(materials.number(material)).is_some()) {
         return Vec::new();
     }
-    let mut first_light = Vec::with_capacity(geometry.instance_mesh.len() + 1);
+    let mut first_light = Vec::with_capacity(geometry.instances.len());
     let mut number = 0;
     for group in &scene.instances {
         let Some(mesh) = scene.meshes.get(group.mesh.index()).filter(|_| !group.transforms.is_empty()) else { continue };
         // Placements of a set have the same materials.
-        let first = geometry.instance_material[number as usize] as usize;
+        let first = geometry.instances[number as usize].first_material as usize;
         let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());
         for transform in &group.transforms {
             let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));

@@ -109,7 +109,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let statistics = CompileStatistics {
         triangles: scene.meshes.iter().map(|mesh| mesh.triangles.len() as u64).sum(),
         instanced_triangles: instanced_triangles(scene),
-        instances: geometry.table.instance_mesh.len() as u64,
+        instances: u64::from(geometry.first_light),
         lights: lights.table.len() as u64,
         geometry_bytes: (trees.iter().map(|kept| kept.tree.memory().bytes()).sum::<usize>() + geometry.table.memory()) as u64,
         texture_bytes: textures.table.bytes() as u64,

@@ -67,6 +67,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         passes: FirstPasses {
             shader: shader_passes::programs(&scene.tables.materials, settings),
             groups: light_groups::passes(&scene.tables.groups, settings),
+            surface: [Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo].iter().any(|aov| settings.aovs.contains(aov)),
             uv: settings.aovs.contains(&Aov::Uv),
             mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
                 start: settings.mist.start,

@@ -51,12 +51,27 @@ pub(super) struct RefLanes<L: Lanes> {
     per_instance: M<L>,
 }
 
+impl<L: Lanes> RefLanes<L> {
+    /// References of meshes' own, by their numbers.
+    #[inline(always)]
+    fn gather(l: L, table: &[u32], number: U<L>) -> Self {
+        let [head, first_value, first_index, _] = l.gather_integer_quads(table, number << 2);
+        Self { kind: head & 0xff, components: head >> 8, first_value, first_index, per_instance: l.m(false) }
+    }
+
+    /// Where there is a value.
+    #[inline(always)]
+    pub(super) fn present(&self) -> M<L> {
+        self.kind.ne(PrimvarKind::Absent as u32)
+    }
+}
+
 impl GeometryTable {
     /// Four components of a primvar column at hits, missing components zero, and where there is a value at all.
     #[inline(always)]
     pub fn primvar<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> ([F<L>; 4], M<L>) {
         let reference = self.reference(l, hit, column);
-        let present = reference.kind.ne(PrimvarKind::Absent as u32);
+        let present = reference.present();
         let mut value = [l.f(0.0); 4];
         if !present.any() {
             return (value, present);
@@ -72,13 +87,6 @@ impl GeometryTable {
         (value, present)
     }
 
-    /// Where a column has a value, and how many components.
-    #[inline(always)]
-    pub(super) fn primvar_presence<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> (U<L>, M<L>) {
-        let reference = self.reference(l, hit, column);
-        (reference.components, reference.kind.ne(PrimvarKind::Absent as u32))
-    }
-
     /// Three components at one corner of the hit triangles.
     #[inline(always)]
     pub(super) fn corner_vector<L: Lanes>(&self, l: L, hit: &HitLanes<L>, reference: &RefLanes<L>, corner: u32) -> Vec3<L> {
@@ -89,7 +97,7 @@ impl GeometryTable {
     #[inline(always)]
     pub(super) fn corner_values<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> [[F<L>; 4]; 3] {
         let reference = self.reference(l, hit, column);
-        let present = reference.kind.ne(PrimvarKind::Absent as u32);
+        let present = reference.present();
         let mut corners = [[l.f(0.0); 4]; 3];
         for (corner, values) in corners.iter_mut().enumerate() {
             let at = self.value_place(l, hit, &reference, corner as u32);
@@ -105,7 +113,7 @@ impl GeometryTable {
     #[inline(always)]
     pub fn corner_uvs<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> [[F<L>; 2]; 3] {
         let reference = self.reference(l, hit, column);
-        let present = reference.kind.ne(PrimvarKind::Absent as u32) & l.u(1).lt(reference.components);
+        let present = reference.present() & l.u(1).lt(reference.components);
         let mut corners = [[l.f(0.0); 2]; 3];
         for (corner, uv) in corners.iter_mut().enumerate() {
             let at = self.value_place(l, hit, &reference, corner as u32);
@@ -117,23 +125,17 @@ impl GeometryTable {
 
     #[inline(always)]
     pub(super) fn reference<L: Lanes>(&self, l: L, hit: &HitLanes<L>, column: usize) -> RefLanes<L> {
-        let at = (hit.mesh * self.columns as u32 + column as u32) << 2;
-        let head = l.gather_integers(&self.primvars, at);
-        let (value, index) = (l.gather_integers(&self.primvars, at + 1), l.gather_integers(&self.primvars, at + 2));
-        let own = RefLanes { kind: head & 0xff, components: head >> 8, first_value: value, first_index: index, per_instance: l.m(false) };
-        let absent = own.kind.eq(PrimvarKind::Absent as u32);
-        let first = l.gather_integers(&self.instance_primvar, hit.instance);
-        let instead = absent & first.ne(NONE);
+        let own = RefLanes::gather(l, &self.primvars, hit.mesh * self.columns as u32 + column as u32);
+        let instead = hit.first_primvar.ne(NONE).and_not(own.present());
         if !instead.any() {
             return own;
         }
-        let at = (first + column as u32) << 2;
-        let head = l.gather_integers(&self.instance_primvars, at);
+        let other = RefLanes::gather(l, &self.instance_primvars, hit.first_primvar + column as u32);
         RefLanes {
-            kind: instead.select(head & 0xff, own.kind),
-            components: instead.select(head >> 8, own.components),
-            first_value: instead.select(l.gather_integers(&self.instance_primvars, at + 1), own.first_value),
-            first_index: instead.select(l.gather_integers(&self.instance_primvars, at + 2), own.first_index),
+            kind: instead.select(other.kind, own.kind),
+            components: instead.select(other.components, own.components),
+            first_value: instead.select(other.first_value, own.first_value),
+            first_index: instead.select(other.first_index, own.first_index),
             per_instance: instead,
         }
     }
@@ -143,7 +145,8 @@ impl GeometryTable {
     fn value_place<L: Lanes>(&self, l: L, hit: &HitLanes<L>, reference: &RefLanes<L>, corner: u32) -> U<L> {
         let kind = |k: PrimvarKind| reference.kind.eq(k as u32);
         let point = hit.points[corner as usize] - hit.first_point;
-        let uniform = reference.per_instance.select(l.gather_integers(&self.instance_number, hit.instance), hit.primitive);
+        let own = reference.per_instance;
+        let uniform = if own.any() { own.select(self.number_lanes(l, hit.instance), hit.primitive) } else { hit.primitive };
         let element = kind(PrimvarKind::Vertex).select(
             point,
             kind(PrimvarKind::FaceVarying).select(hit.primitive * 3 + corner, kind(PrimvarKind::Uniform).select(uniform, l.u(0))),

@@ -1,6 +1,6 @@
 //! Surface points at hits: position with an error bound, normals, and the primvars' derivatives, on lanes.
 
-use super::{GeometryTable, NORMALS};
+use super::{GeometryTable, NORMALS, instance_row::MeshLanes};
 use gonio_simd::{F, Lanes, U, Vec3};
 
 /// Hits of meshes, one per lane, with what is looked up once.
@@ -18,6 +18,8 @@ pub struct HitLanes<L: Lanes> {
     pub mesh: U<L>,
     /// First point of the mesh.
     pub first_point: U<L>,
+    /// First reference to primvars of the instance's own, or [`NONE`](super::NONE).
+    pub first_primvar: U<L>,
     /// Point numbers of the corners over all meshes.
     pub points: [U<L>; 3],
 }
@@ -49,22 +51,9 @@ impl GeometryTable {
     /// Looks up what the hits refer to.
     #[inline(always)]
     pub fn hit_lanes<L: Lanes>(&self, l: L, instance: U<L>, primitive: U<L>, u: F<L>, v: F<L>) -> HitLanes<L> {
-        let mesh = l.gather_integers(&self.instance_mesh, instance);
-        let triangle = l.gather_integers(&self.mesh_triangle, mesh) + primitive;
-        let first = triangle * 3;
-        HitLanes {
-            instance,
-            primitive,
-            u,
-            v,
-            mesh,
-            first_point: l.gather_integers(&self.mesh_point, mesh),
-            points: [
-                l.gather_integers(&self.corners, first),
-                l.gather_integers(&self.corners, first + 1),
-                l.gather_integers(&self.corners, first + 2),
-            ],
-        }
+        let MeshLanes { mesh, first_triangle, first_point, first_primvar } = self.mesh_lanes(l, instance);
+        let [a, b, c, _] = l.gather_integer_quads(&self.corners, (first_triangle + primitive) * 3);
+        HitLanes { instance, primitive, u, v, mesh, first_point, first_primvar, points: [a, b, c] }
     }
 
     /// The points themselves.
@@ -93,11 +82,14 @@ impl GeometryTable {
     /// The interpolated normal carried to world space, on the geometric normal's side.
     #[inline(always)]
     fn shading_normal<L: Lanes>(&self, l: L, hit: &HitLanes<L>, cofactors: [Vec3<L>; 3], sign: F<L>, flat: Vec3<L>) -> Vec3<L> {
-        let (_, present) = self.primvar_presence(l, hit, NORMALS);
-        if !present.any() {
+        if !self.any_normals {
             return flat;
         }
         let reference = self.reference(l, hit, NORMALS);
+        let present = reference.present();
+        if !present.any() {
+            return flat;
+        }
         let n0 = self.corner_vector(l, hit, &reference, 0);
         let n1 = self.corner_vector(l, hit, &reference, 1);
         let n2 = self.corner_vector(l, hit, &reference, 2);

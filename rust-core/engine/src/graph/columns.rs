@@ -28,6 +28,8 @@ pub struct SurfaceColumns {
     pub coat_normal: [Column; 3],
     /// Tangents along the first texture coordinate, not unit; zero where there is none.
     pub tangent: [Column; 3],
+    /// Width of the cone around the ray where it arrives, metres; zero where there is none.
+    pub cone: Column,
     /// Width of a pixel on the surface, metres; zero where the ray has no cone.
     pub width: Column,
     /// Width of a pixel in texture coordinates.
@@ -54,6 +56,7 @@ impl Default for SurfaceColumns {
             smooth_normal: three(),
             coat_normal: three(),
             tangent: three(),
+            cone: column(),
             width: column(),
             uv_width: column(),
             side: column(),

@@ -28,15 +28,22 @@ pub(super) struct FirstSurface<L: Lanes> {
     pub(super) share: F<L>,
     /// Whether it hides what is behind it.
     pub(super) covers: M<L>,
-    pub(super) depth: F<L>,
-    pub(super) normal: Vec3<L>,
-    pub(super) position: Vec3<L>,
-    pub(super) albedo: Rgb<L>,
+    pub(super) look: Option<SurfaceLook<L>>,
     /// Instance set, and the pass indices of the instance and of the material.
     pub(super) numbers: Option<[U<L>; 3]>,
     pub(super) clearness: Option<F<L>>,
     pub(super) uv: Option<[F<L>; 2]>,
-    pub(super) kinds: [Rgb<L>; 3],
+    /// Albedos of the kinds of scattering.
+    pub(super) kinds: Option<[Rgb<L>; 3]>,
+}
+
+/// Where a first surface is, and what it is like.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SurfaceLook<L: Lanes> {
+    pub(super) depth: F<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) position: Vec3<L>,
+    pub(super) albedo: Rgb<L>,
 }
 
 impl FirstHit {
@@ -48,18 +55,20 @@ impl FirstHit {
         }
         let (slot, share) = (surface.slot, surface.share);
         add(&mut self.alpha, slot, share, chosen & surface.covers);
-        add(&mut self.depth, slot, surface.depth * share, chosen);
-        add_rgb(&mut self.normal, slot, (surface.normal * share).into(), chosen);
-        add_rgb(&mut self.position, slot, (surface.position * share).into(), chosen);
-        add_rgb(&mut self.albedo, slot, surface.albedo * share, chosen);
+        if let Some(look) = &surface.look {
+            add(&mut self.depth, slot, look.depth * share, chosen);
+            add_rgb(&mut self.normal, slot, (look.normal * share).into(), chosen);
+            add_rgb(&mut self.position, slot, (look.position * share).into(), chosen);
+            add_rgb(&mut self.albedo, slot, look.albedo * share, chosen);
+        }
         if let Some(clearness) = surface.clearness {
             add(&mut self.clearness, slot, clearness * share, chosen);
         }
         if let Some([u, v]) = surface.uv {
             add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)) * share, chosen);
         }
-        if self.lights.wanted() {
-            for (kind, colour) in surface.kinds.into_iter().enumerate() {
+        if let Some(kinds) = surface.kinds {
+            for (kind, colour) in kinds.into_iter().enumerate() {
                 self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour * share, chosen);
             }
         }

@@ -2,8 +2,9 @@
 
 use super::{
     kernels,
+    paths::PathLanes,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{PathLanes, Workspace, event, flag, gather3},
+    state::{Workspace, event, flag, gather3},
     subsurface::WalkLanes,
     transport::Transport,
 };
@@ -46,7 +47,7 @@ pub(super) fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: 
         vertex: gather3(l, &ws.paths.vertex, point.path),
         normal: gather3(l, &ws.paths.normal, point.path),
         throughput: point.throughput,
-        pdf: l.gather(&ws.paths.pdf, point.path),
+        pdf: point.pdf,
         width: point.width,
         spread: point.spread,
         slot: point.slot,
@@ -140,7 +141,7 @@ pub(super) fn scatter<L: Lanes>(
     if straight.any() {
         vertex = straight.select(gather3(l, &ws.paths.vertex, point.path), vertex);
         normal = straight.select(gather3(l, &ws.paths.normal, point.path), normal);
-        pdf = straight.select(l.gather(&ws.paths.pdf, point.path), pdf);
+        pdf = straight.select(point.pdf, pdf);
     }
     let state = PathLanes {
         origin: spawn(point.position, point.geometric, point.error, wi),

@@ -7,9 +7,10 @@ use super::{
     accumulate::clamped,
     kernels,
     material::Tables,
+    paths::Paths,
     scatter::{add, add_rgb},
     shade::{Point, Stage},
-    state::{BATCH, Columns3, Paths, ShadowRays, Workspace, columns3, flag, gather3, pixel, ray_mask},
+    state::{BATCH, Columns3, ShadowRays, Workspace, columns3, flag, gather3, pixel, ray_mask},
 };
 use crate::accel::NONE;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
@@ -49,15 +50,15 @@ pub(super) fn split(tables: &Tables, ws: &mut Workspace) {
     }
     for path in 0..ws.paths.count {
         let instance = ws.hits.instance[path];
-        if instance == NONE || ws.paths.flags[path] & flag::CAMERA == 0 {
+        if instance == NONE || ws.paths.flags(path) & flag::CAMERA == 0 {
             continue;
         }
-        if geometry.set_catcher[geometry.instance_set[instance as usize] as usize] != 0 {
+        if geometry.set_catcher[geometry.instances[instance as usize].set as usize] != 0 {
             let twin = ws.paths.count;
             ws.paths.copy(path, twin);
             ws.hits.repeat(path);
-            ws.paths.slot[path] += WHOLE;
-            ws.paths.slot[twin] += ALONE;
+            *ws.paths.slot_mut(path) += WHOLE;
+            *ws.paths.slot_mut(twin) += ALONE;
             ws.paths.count += 1;
         }
     }
@@ -70,13 +71,13 @@ pub(super) fn rejoin(tables: &Tables, paths: &mut Paths) {
     }
     let mut kept = 0;
     for path in 0..paths.count {
-        let halved = paths.flags[path] & flag::CAMERA != 0 && paths.slot[path] >= WHOLE;
-        if halved && paths.slot[path] >= ALONE {
+        let halved = paths.flags(path) & flag::CAMERA != 0 && paths.slot(path) >= WHOLE;
+        if halved && paths.slot(path) >= ALONE {
             continue;
         }
         paths.copy(path, kept);
         if halved {
-            paths.slot[kept] -= WHOLE;
+            *paths.slot_mut(kept) -= WHOLE;
         }
         kept += 1;
     }
@@ -86,8 +87,11 @@ pub(super) fn rejoin(tables: &Tables, paths: &mut Paths) {
 /// Lets rays of paths among catchers alone see those alone.
 pub(super) fn narrow(tables: &Tables, paths: &mut Paths) {
     if !tables.geometry.set_catcher.is_empty() {
-        let slots = paths.slot[..paths.count].iter();
-        paths.mask.iter_mut().zip(slots).filter(|(_, slot)| **slot >= ALONE).for_each(|(mask, _)| *mask = ray_mask::CATCHER_SCATTERED);
+        for path in 0..paths.count {
+            if paths.slot(path) >= ALONE {
+                paths.mask[path] = ray_mask::CATCHER_SCATTERED;
+            }
+        }
     }
 }
 
@@ -130,16 +134,7 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_surroundings {
-        let radiance: Rgb<L> = kernels::surroundings(
-            l,
-            tables,
-            None,
-            [vertex, normal],
-            direction,
-            l.gather(&ws.paths.pdf, point.path),
-            [caught, caught],
-            None,
-        );
+        let radiance: Rgb<L> = kernels::surroundings(l, tables, None, [vertex, normal], direction, point.pdf, [caught, caught], None);
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }

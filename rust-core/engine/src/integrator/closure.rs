@@ -8,7 +8,7 @@ use super::{
     material::{Mix, Shading, Tables},
     path::SampleContext,
     state::Workspace,
-    surface::ChunkSource,
+    surface::{ChunkRays, ChunkSource},
     transport::Transport,
 };
 use crate::{
@@ -61,13 +61,12 @@ fn choose_chunk<L: Lanes>(
     count: usize,
     ws: &mut Workspace,
 ) {
-    let cone = Some([&ws.paths.width, &ws.paths.spread]);
-    let source = ChunkSource { order, count, direction: &ws.paths.direction, cone };
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(&ws.paths) };
     kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
-        let index = context.index(l, l.gather_integers(&ws.paths.slot, path));
+        let index = context.index(l, ws.paths.track(l, path).slot);
         let [u, _] = context.sampler.pair(l, index, dimension);
         let mut total = l.f(0.0);
         for closure in 0..mix.count {
@@ -90,8 +89,8 @@ fn choose_chunk<L: Lanes>(
         for lane in 0..L::COUNT.min(count - at) {
             let path = paths[lane] as usize;
             ws.material_of[path] = mix.first + chosen[lane];
-            for (channel, factor) in ws.paths.throughput.iter_mut().zip(&factor) {
-                channel[path] *= factor[lane];
+            for (channel, factor) in ws.paths.carried_mut(path).iter_mut().zip(&factor) {
+                *channel *= factor[lane];
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What is kept of the first surface that a camera ray meets, and holdouts, which hide it.
 
 use super::{
-    accumulate::FirstSurface,
+    accumulate::{FirstSurface, SurfaceLook},
     catcher,
     material::{SurfaceMaterial, Tables},
     shade::{Point, Stage},
@@ -27,7 +27,7 @@ pub(super) fn covered<L: Lanes>(
     let hole = if material.holdout {
         l.m(true)
     } else {
-        let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
+        let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at));
         l.gather_integers(&tables.geometry.set_holdout, set).ne(0)
     };
     present.and_not(hole & camera)
@@ -54,10 +54,7 @@ pub(super) fn record_first<L: Lanes>(
         slot: pixel(point.slot),
         share: point.share,
         covers: catcher::covers(point.slot),
-        depth: (point.position - eye).dot(Vec3::splat(l, transport.forward)),
-        normal: point.frame.z,
-        position: point.position,
-        albedo: lobes.albedo(),
+        look: if transport.passes.surface { Some(look(stage, point, lobes, eye)) } else { None },
         numbers: if transport.passes.numbers { Some(numbers(stage, material, at, ws)) } else { None },
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         clearness: match &transport.passes.mist {
@@ -65,7 +62,7 @@ pub(super) fn record_first<L: Lanes>(
             None => None,
         },
         uv: if transport.passes.uv { Some(texture_coordinates(l, tables, material, at, ws)) } else { None },
-        kinds: lobes.albedo_kinds(),
+        kinds: if ws.first_hit.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
     };
     ws.first_hit.record(l, &surface, seen);
     if let Some(program) = stage.shader {
@@ -73,11 +70,22 @@ pub(super) fn record_first<L: Lanes>(
     }
 }
 
+/// Where the surface is, and what it is like.
+#[inline(always)]
+fn look<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &Lobes<'_, L>, eye: Vec3<L>) -> SurfaceLook<L> {
+    SurfaceLook {
+        depth: (point.position - eye).dot(Vec3::splat(stage.l, stage.transport.forward)),
+        normal: point.frame.z,
+        position: point.position,
+        albedo: lobes.albedo(),
+    }
+}
+
 /// The instance set, and the pass indices of the instance and of the material.
 #[inline(always)]
 fn numbers<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, at: usize, ws: &Workspace) -> [U<L>; 3] {
     let Stage { l, tables, .. } = *stage;
-    let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at));
+    let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at));
     [set, l.gather_integers(&tables.geometry.set_pass_index, set), l.u(material.pass_index)]
 }
 

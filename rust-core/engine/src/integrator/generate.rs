@@ -1,8 +1,9 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
 use super::{
+    paths::{PathLanes, Paths},
     runs::Runs,
-    state::{PathLanes, Paths, flag},
+    state::flag,
 };
 use crate::{
     camera::{CameraRay, CameraTable},

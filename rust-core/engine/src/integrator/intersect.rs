@@ -8,15 +8,16 @@ use super::{
     light_sums::code,
     material::Tables,
     material_order::{list_materials, load_to_end},
+    paths::{CarriedLanes, Paths, TrackLanes},
     scatter::{add, add_light, code_of},
-    state::{Paths, Workspace, flag, gather3},
+    state::{Workspace, flag, gather3},
     transport::Transport,
 };
 use crate::{
     accel::{Hits, NONE, RayBatch, SceneBvh},
     light::power_heuristic,
 };
-use gonio_simd::{Execution, Lanes, M, PADDING, Rgb, U, dispatch};
+use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch};
 
 /// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
 pub(super) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
@@ -94,17 +95,15 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let path = l.load_integers(&ws.at_lights, at);
         let instance = l.gather_integers(&ws.hits.instance, path);
         let light = l.gather_integers(&tables.instance_light, instance - tables.first_light_instance);
-        let direction = gather3(l, &ws.paths.direction, path);
+        let direction = ws.paths.cone(l, path).direction;
         let from = gather3(l, &ws.paths.vertex, path);
         let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
         let hit = LightHit { light, from, normal: gather3(l, &ws.paths.normal, path), direction, point };
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, alive);
-        let flags = l.gather_integers(&ws.paths.flags, path);
+        let (carried, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let sampled = (flags & flag::DELTA).eq(0);
-        let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, path), pdf), l.f(1.0));
-        let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
-        let slot = l.gather_integers(&ws.paths.slot, path);
-        let value = clamped(radiance * throughput * weight, transport.clamp(depth));
+        let weight = sampled.select(power_heuristic(carried.pdf, pdf), l.f(1.0));
+        let value = clamped(radiance * carried.throughput * weight, transport.clamp(depth));
         let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
         add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, arrives);
         add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.first_hit.groups);
@@ -155,19 +154,16 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let path = l.load_integers(&ws.escaped, at);
-        let flags = l.gather_integers(&ws.paths.flags, path);
+        let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
-        let slot = l.gather_integers(&ws.paths.slot, path);
         if transport.surroundings_cover {
-            add(&mut ws.first_hit.alpha, slot, l.gather(&ws.paths.pdf, path), alive & camera);
+            add(&mut ws.first_hit.alpha, slot, pdf, alive & camera);
         }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
         let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
-        let direction = gather3(l, &ws.paths.direction, path);
-        let pdf = l.gather(&ws.paths.pdf, path);
+        let direction = ws.paths.cone(l, path).direction;
         let (known, first) = (transport.known.as_deref(), [camera, delta]);
-        let throughput = Rgb::from(gather3(l, &ws.paths.throughput, path));
         let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
         let value = clamped(unclamped, transport.clamp(depth));
         let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);

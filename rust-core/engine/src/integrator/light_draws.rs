@@ -5,15 +5,14 @@
 use super::{
     kernels,
     shade::Stage,
-    state::{Columns3, Workspace, columns3, gather3, load3},
-    surface::store3,
+    state::{Workspace, load3},
 };
 use crate::{
     graph::CHUNK,
     light::{LightSample, LightTable},
     sampler::dimension,
 };
-use gonio_simd::{Column, Lanes, PADDING};
+use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Vec3};
 use std::ops::Range;
 
 /// With more lights than this, groups are the kinds.
@@ -32,19 +31,19 @@ mod bit {
 pub(super) struct LightDraws {
     /// Whether the draws of the chunk have been made: mirrors and glass want none.
     pub(super) made: bool,
-    /// By hit: the light, its probability, and numbers for the place on it.
+    /// By hit: the light.
     light: Column<u32>,
-    probability: Column,
-    numbers: [Column; 2],
+    /// By hit, items of four: the light once more, its probability and numbers for the place on it; the hit's position and its normal.
+    draw: Column,
+    position: Column,
+    normal: Column,
     /// Where each hit's sample is.
     place: Column<u32>,
     /// The hits, group of lights by group; what fills a group's last register repeats a hit.
     order: Column<u32>,
-    /// The samples in that order.
-    wi: Columns3,
-    distance: Column,
-    radiance: Columns3,
-    pdf: Column,
+    /// The samples in that order, items of four: directions and distances, radiances and densities.
+    way: Column,
+    arriving: Column,
     bits: Column<u32>,
 }
 
@@ -53,14 +52,13 @@ impl Default for LightDraws {
         Self {
             made: false,
             light: Column::new(CHUNK),
-            probability: Column::new(CHUNK),
-            numbers: [Column::new(CHUNK), Column::new(CHUNK)],
+            draw: Column::new(4 * CHUNK),
+            position: Column::new(4 * CHUNK),
+            normal: Column::new(4 * CHUNK),
             place: Column::new(CHUNK),
             order: Column::new(ROOM),
-            wi: columns3(ROOM),
-            distance: Column::new(ROOM),
-            radiance: columns3(ROOM),
-            pdf: Column::new(ROOM),
+            way: Column::new(4 * ROOM),
+            arriving: Column::new(4 * ROOM),
             bits: Column::new(ROOM),
         }
     }
@@ -78,11 +76,12 @@ impl LightDraws {
     fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
         let place = l.load_integers(&self.place, at);
         let bits = l.gather_integers(&self.bits, place);
+        let ([x, y, z, distance], [r, g, b, pdf]) = (l.gather_quads(&self.way, place << 2), l.gather_quads(&self.arriving, place << 2));
         LightSample {
-            wi: gather3(l, &self.wi, place),
-            distance: l.gather(&self.distance, place),
-            radiance: gather3(l, &self.radiance, place).into(),
-            pdf: l.gather(&self.pdf, place),
+            wi: Vec3::new(x, y, z),
+            distance,
+            radiance: Rgb::new(r, g, b),
+            pdf,
             delta: (bits & bit::DELTA).ne(0),
             light: l.load_integers(&self.light, at),
             casts_shadow: (bits & bit::CASTS_SHADOW).ne(0),
@@ -91,10 +90,9 @@ impl LightDraws {
 
     #[inline(always)]
     fn store<L: Lanes>(&mut self, l: L, sample: &LightSample<L>, at: usize) {
-        store3(sample.wi, &mut self.wi, at);
-        sample.distance.store(&mut self.distance, at);
-        store3(sample.radiance.into(), &mut self.radiance, at);
-        sample.pdf.store(&mut self.pdf, at);
+        let (wi, radiance) = (sample.wi, sample.radiance);
+        l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.way, at);
+        l.store_quads([radiance.r, radiance.g, radiance.b, sample.pdf], &mut self.arriving, at);
         let bits = l.u(bit::DELTA).keep_if(sample.delta) | l.u(bit::CASTS_SHADOW).keep_if(sample.casts_shadow);
         bits.store(&mut self.bits, at);
     }
@@ -154,17 +152,17 @@ pub(super) fn draw_chunk<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut 
 fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, ref hits, .. } = *stage;
     let path = l.load_integers(&ws.order, hits.start + at);
-    let index = context.index(l, l.gather_integers(&ws.paths.slot, path));
+    let index = context.index(l, ws.paths.track(l, path).slot);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
     let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
-    let numbers = context.sampler.pair(l, index, base + dimension::LIGHT);
+    let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let (p, n) = (load3(l, &ws.surface.position, at), load3(l, &ws.surface.shading_normal, at));
     let (light, probability) = tables.lights.choose(l, transport.known.as_deref(), p, n, u_choice);
     let draws = &mut ws.light_draws;
     light.store(&mut draws.light, at);
-    probability.store(&mut draws.probability, at);
-    numbers[0].store(&mut draws.numbers[0], at);
-    numbers[1].store(&mut draws.numbers[1], at);
+    l.store_quads([F::from_bits(light), probability, u, v], &mut draws.draw, at);
+    l.store_quads([p.x, p.y, p.z, l.f(0.0)], &mut draws.position, at);
+    l.store_quads([n.x, n.y, n.z, l.f(0.0)], &mut draws.normal, at);
 }
 
 /// Samples the lights of a register of one group.
@@ -173,9 +171,8 @@ fn aim<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, .. } = *stage;
     let draws = &ws.light_draws;
     let hit = l.load_integers(&draws.order, at);
-    let chosen = (l.gather_integers(&draws.light, hit), l.gather(&draws.probability, hit));
-    let numbers = [l.gather(&draws.numbers[0], hit), l.gather(&draws.numbers[1], hit)];
-    let (p, n) = (gather3(l, &ws.surface.position, hit), gather3(l, &ws.surface.shading_normal, hit));
-    let sample = tables.lights.sample_chosen(l, chosen, p, n, numbers);
+    let [light, probability, u, v] = l.gather_quads(&draws.draw, hit << 2);
+    let (p, n) = (Vec3::gather(l, &draws.position, hit << 2), Vec3::gather(l, &draws.normal, hit << 2));
+    let sample = tables.lights.sample_chosen(l, (light.to_bits(), probability), p, n, [u, v]);
     ws.light_draws.store(l, &sample, at);
 }

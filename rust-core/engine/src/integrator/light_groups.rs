@@ -60,7 +60,7 @@ pub(super) fn add_of_surfaces<L: Lanes>(stage: &Stage<'_, L>, at: usize, slot: U
     let Stage { l, tables, transport, .. } = *stage;
     let passes = &transport.passes.groups;
     if passes.wanted() && chosen.any() {
-        let set = l.gather_integers(&tables.geometry.instance_set, l.load_integers(&ws.surface.instance, at).keep_if(chosen));
+        let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at).keep_if(chosen));
         let group = l.gather_integers(&passes.of_set, set);
         ws.first_hit.groups.add(group, slot, value, chosen & group.ne(UNSEEN));
     }

@@ -2,7 +2,7 @@
 
 use super::{material::Tables, state::Workspace, transport::Transport};
 use crate::accel::NONE;
-use gonio_simd::{Execution, Lanes, PADDING, U, dispatch, padded};
+use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch, padded};
 
 /// A register of a column that ends with its last entry, which lanes beyond repeat.
 #[inline(always)]
@@ -30,21 +30,19 @@ pub(super) fn sort_by_material(tables: &Tables, transport: &Transport, ws: &mut 
 }
 
 fn sort(materials: usize, execution: Execution, ws: &mut Workspace) {
-    ws.material_start.clear();
-    ws.material_start.resize(materials + 1, 0);
+    ws.material_end.clear();
+    ws.material_end.resize(materials, 0);
     dispatch!(execution, l => count_materials(l, ws));
-    for m in 0..materials {
-        ws.material_start[m + 1] += ws.material_start[m];
+    ws.material_start.clear();
+    let mut room = 0;
+    for end in &mut ws.material_end {
+        ws.material_start.push(room);
+        // A register's room behind each material's paths: placing writes whole registers.
+        let count = std::mem::replace(end, room);
+        room += if count > 0 { count + PADDING as u32 } else { 0 };
     }
-    let total = ws.material_start[materials] as usize;
-    ws.order.resize(padded(total) + PADDING, 0);
-    ws.order[total..].fill(0);
+    ws.order.resize(padded(room as usize) + PADDING, 0);
     dispatch!(execution, l => place_by_material(l, ws));
-    // Placing moved every start to the next one's place.
-    for m in (1..=materials).rev() {
-        ws.material_start[m] = ws.material_start[m - 1];
-    }
-    ws.material_start[0] = 0;
 }
 
 /// Visits a register's paths of one material at once, as neighbours often share it: the material, the register's place, and a bit for each path.
@@ -65,22 +63,24 @@ fn for_each_material<L: Lanes>(l: L, material_of: &[u32], mut visit: impl FnMut(
 /// Counts the paths of each material.
 #[inline(always)]
 fn count_materials<L: Lanes>(l: L, ws: &mut Workspace) {
-    let starts = &mut ws.material_start;
-    for_each_material(l, &ws.material_of, |material, _, paths| starts[material + 1] += paths.count_ones());
+    let counts = &mut ws.material_end;
+    for_each_material(l, &ws.material_of, |material, _, paths| counts[material] += paths.count_ones());
 }
 
 /// Puts the paths of each material from its start on.
 #[inline(always)]
 fn place_by_material<L: Lanes>(l: L, ws: &mut Workspace) {
-    let (starts, order) = (&mut ws.material_start, &mut ws.order);
-    for_each_material(l, &ws.material_of, |material, at, mut paths| {
-        let (start, count) = (starts[material], paths.count_ones());
-        for place in &mut order[start as usize..][..count as usize] {
-            *place = at as u32 + paths.trailing_zeros();
-            paths &= paths - 1;
-        }
-        starts[material] += count;
-    });
+    let (ends, order) = (&mut ws.material_end, &mut ws.order);
+    for_each_material(
+        l,
+        &ws.material_of,
+        #[inline(always)]
+        |material, at, paths| {
+            let end = &mut ends[material];
+            (l.iota() + at as u32).append(M(l.mask_from_bits(paths)), order, *end as usize);
+            *end += paths.count_ones();
+        },
+    );
 }
 
 #[cfg(test)]
@@ -96,9 +96,10 @@ mod tests {
         for execution in Execution::all() {
             let mut ws = Workspace { material_of: material_of.clone(), ..Workspace::default() };
             sort(5, execution, &mut ws);
-            assert_eq!(ws.order[..expected.len()], expected, "{execution:?}");
-            assert_eq!(ws.material_start[5] as usize, expected.len(), "{execution:?}");
-            assert!(ws.order.len() >= padded(expected.len()) + PADDING);
+            let ranges = ws.material_start.iter().zip(&ws.material_end).map(|(start, end)| *start as usize..*end as usize);
+            let sorted: Vec<u32> = ranges.flat_map(|range| ws.order[range].to_vec()).collect();
+            assert_eq!(sorted, expected, "{execution:?}");
+            assert!(ws.order.len() >= ws.material_end[4] as usize + PADDING);
         }
     }
 }

@@ -7,9 +7,10 @@ use super::{
     kernels,
     material::Tables,
     path::SampleContext,
+    paths::PathLanes,
     scatter::add_rgb,
     shadow::make_room,
-    state::{BATCH, PathLanes, ShadowLanes, Workspace, flag, load3},
+    state::{BATCH, ShadowLanes, Workspace, flag, load3},
     transport::Transport,
 };
 use crate::{

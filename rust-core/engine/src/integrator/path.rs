@@ -15,7 +15,7 @@ use super::{
     shadow::{make_room, trace_shadows},
     state::{Workspace, flag},
     subsurface::walk,
-    surface::ChunkSource,
+    surface::{ChunkRays, ChunkSource},
     transport::Transport,
     whitted,
 };
@@ -151,9 +151,8 @@ impl Tracer<'_> {
     /// Shades all surface hits, material by material, a chunk at a time.
     pub(super) fn shade(&self, context: &SampleContext<'_>, ws: &mut Workspace) {
         let most = self.transport.hits_together();
-        let mut first = 0;
         for material in 0..self.tables.materials.surfaces.len() {
-            let end = ws.material_start[material + 1] as usize;
+            let (mut first, end) = (ws.material_start[material] as usize, ws.material_end[material] as usize);
             while first < end {
                 let count = (end - first).min(most);
                 make_room(self.tables, &self.transport, context.depth == 0, count, ws);
@@ -168,12 +167,7 @@ impl Tracer<'_> {
         let shader = ws.shader_program(&self.transport, material, first, count);
         let material = &self.tables.materials.surfaces[material];
         let start = Instant::now();
-        let source = ChunkSource {
-            order: &ws.order[first..],
-            count,
-            direction: &ws.paths.direction,
-            cone: Some([&ws.paths.width, &ws.paths.spread]),
-        };
+        let source = ChunkSource { order: &ws.order[first..], count, rays: ChunkRays::Paths(&ws.paths) };
         kernels::surface_points(l, self.tables, &material.program, &ws.hits, &source, &mut ws.surface);
         let mut start = ws.statistics.spent(2, start);
         if let Some(program) = shader {

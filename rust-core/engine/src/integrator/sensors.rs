@@ -5,8 +5,9 @@
 
 use super::{
     generate::{TileArea, morton_even},
+    paths::PathLanes,
     runs::Runs,
-    state::{PathLanes, TILE, Workspace, append3, flag, gather3},
+    state::{TILE, Workspace, append3, flag, gather3},
 };
 use crate::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes, Rgb};

@@ -13,6 +13,7 @@ use super::{
     light_sums::code,
     material::{SurfaceMaterial, Tables},
     path::SampleContext,
+    paths::{CarriedLanes, TrackLanes},
     scatter::{add_light, code_of},
     state::{Workspace, flag, gather3, load3},
     transport::{Sight, Transport},
@@ -71,6 +72,8 @@ pub(super) struct Point<L: Lanes> {
     pub(super) behind: Rgb<L>,
     /// Where all lobes are mirrors or clear glass.
     pub(super) only_delta: M<L>,
+    /// Density of the path's direction per solid angle, but for camera rays.
+    pub(super) pdf: F<L>,
     /// How much of a camera ray's sample is here; of other rays, nothing of meaning.
     pub(super) share: F<L>,
 }
@@ -122,8 +125,8 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
     let shading = load3(l, &ws.surface.shading_normal, at);
     let frame =
         if material.anisotropic { Frame::from_tangent(shading, load3(l, &ws.surface.tangent, at)) } else { Frame::from_normal(shading) };
-    let flags = l.gather_integers(&ws.paths.flags, path);
-    let spread = l.gather(&ws.paths.spread, path);
+    let CarriedLanes { throughput, pdf } = ws.paths.carried(l, path);
+    let TrackLanes { slot, flags, counts, spread } = ws.paths.track(l, path);
     Point {
         alive,
         path,
@@ -132,18 +135,19 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         geometric: load3(l, &ws.surface.geometric_normal, at),
         frame,
         wo: load3(l, &ws.surface.wo, at),
-        throughput: gather3(l, &ws.paths.throughput, path).into(),
+        throughput,
         flags,
-        counts: l.gather_integers(&ws.paths.counts, path),
-        slot: l.gather_integers(&ws.paths.slot, path),
+        counts,
+        slot,
         instance: l.load_integers(&ws.surface.instance, at),
-        width: l.gather(&ws.hits.t, path).mul_add(spread, l.gather(&ws.paths.width, path)),
+        width: l.load(&ws.surface.cone, at),
         spread,
         bounces: flags >> flag::BOUNCE_SHIFT,
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
         only_delta: l.m(false),
-        share: if (flags & flag::CAMERA).ne(0).any() { l.gather(&ws.paths.pdf, path) } else { l.f(0.0) },
+        pdf,
+        share: pdf,
     }
 }
 
@@ -284,7 +288,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
             let (from, normal) = (gather3(l, &ws.paths.vertex, point.path), gather3(l, &ws.paths.normal, point.path));
             let hit = LightHit { light, from, normal, direction: -point.wo, point: point.position };
             let (_, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, sampled);
-            let weight = sampled.select(power_heuristic(l.gather(&ws.paths.pdf, point.path), pdf), l.f(1.0));
+            let weight = sampled.select(power_heuristic(point.pdf, pdf), l.f(1.0));
             value = value * weight;
         }
     }

@@ -59,7 +59,7 @@ impl Workspace {
     /// The program of a surface's passes, if the camera sees any of the chunk's hits.
     pub(super) fn shader_program<'a>(&self, transport: &'a Transport, surface: usize, first: usize, count: usize) -> Option<&'a Program> {
         let program = transport.passes.shader.programs.get(surface)?.as_ref()?;
-        let seen = |path: &u32| self.paths.flags[*path as usize] & flag::CAMERA != 0;
+        let seen = |path: &u32| self.paths.flags(*path as usize) & flag::CAMERA != 0;
         self.order[first..first + count].iter().any(seen).then_some(program)
     }
 }

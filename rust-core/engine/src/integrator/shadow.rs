@@ -9,7 +9,7 @@ use super::{
     shade::{parameter_values, threshold},
     shadow_order::ShadowOrder,
     state::{SHADOW_ROOM, ShadowRays, Workspace, load3},
-    surface::ChunkSource,
+    surface::{ChunkRays, ChunkSource},
     transport::Transport,
 };
 use crate::{
@@ -115,7 +115,7 @@ fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit],
         Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, hits, &order, None, &mut factors, ws),
         Shading::Mix(mix) => {
             let mix = &tables.materials.mixes[mix as usize];
-            let source = ChunkSource { order: &order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
+            let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Directions(&ws.shadows.direction) };
             kernels::run_program(l, tables, &mix.program, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
             let mut weights = std::mem::take(&mut ws.weights);
             weights.clear();
@@ -151,7 +151,7 @@ fn add_transmittance<L: Lanes>(
     if !material.transparent {
         return;
     }
-    let source = ChunkSource { order, count: hits.len(), direction: &ws.shadows.direction, cone: None };
+    let source = ChunkSource { order, count: hits.len(), rays: ChunkRays::Directions(&ws.shadows.direction) };
     kernels::run_program(l, tables, &material.program, hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
     let values = parameter_values(material, &ws.outputs);
     for at in (0..hits.len()).step_by(L::COUNT) {

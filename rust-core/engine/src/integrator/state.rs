@@ -5,6 +5,7 @@ use super::{
     light_draws::LightDraws,
     light_sums::{LightSums, code},
     material::Tables,
+    paths::Paths,
     shader_passes::ShaderSums,
     shadow_order::ShadowOrder,
     statistics::Statistics,
@@ -18,7 +19,7 @@ use crate::{
     graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns},
     light::Arrival,
 };
-use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+use gonio_simd::{Column, Lanes, M, Rgb, U, Vec3, padded};
 
 /// Pixels along a tile's side.
 pub const TILE: usize = 64;
@@ -103,117 +104,6 @@ pub(super) fn append3<L: Lanes>(v: Vec3<L>, mask: M<L>, columns: &mut Columns3, 
     v.x.append(mask, x, len);
     v.y.append(mask, y, len);
     v.z.append(mask, z, len);
-}
-
-/// Paths with a ray each.
-#[derive(Debug)]
-pub(crate) struct Paths {
-    /// Paths in the columns.
-    pub(crate) count: usize,
-    pub(crate) origin: Columns3,
-    pub(crate) direction: Columns3,
-    pub(super) t_min: Column,
-    pub(super) t_max: Column,
-    /// The point that scattered the ray, and its normal: what lights are sampled from.
-    pub(super) vertex: Columns3,
-    pub(super) normal: Columns3,
-    pub(super) throughput: Columns3,
-    /// Density of the direction per solid angle; of a camera ray, how much of its sample it stands for.
-    pub(super) pdf: Column,
-    /// Width of the path's cone at the ray's start, and its growth a metre.
-    pub(super) width: Column,
-    pub(super) spread: Column,
-    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance; see [`super::catcher`] for more.
-    pub(super) slot: Column<u32>,
-    pub(super) flags: Column<u32>,
-    /// Scatterings so far, a byte each: diffuse, glossy, transmitted, straight through.
-    pub(super) counts: Column<u32>,
-    /// Absorption a metre of what the ray goes through.
-    pub(super) medium: Columns3,
-    /// Visibility bits of the ray.
-    pub(super) mask: Vec<u8>,
-}
-
-/// One register of paths, to be appended.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PathLanes<L: Lanes> {
-    pub(super) origin: Vec3<L>,
-    pub(super) direction: Vec3<L>,
-    pub(super) t_min: F<L>,
-    pub(super) t_max: F<L>,
-    pub(super) vertex: Vec3<L>,
-    pub(super) normal: Vec3<L>,
-    pub(super) throughput: Rgb<L>,
-    pub(super) pdf: F<L>,
-    pub(super) width: F<L>,
-    pub(super) spread: F<L>,
-    pub(super) slot: U<L>,
-    pub(super) flags: U<L>,
-    pub(super) counts: U<L>,
-    pub(super) medium: Rgb<L>,
-}
-
-impl Default for Paths {
-    fn default() -> Self {
-        // A register's room behind the last path: appending writes whole registers.
-        let room = padded(CAPACITY) + gonio_simd::PADDING;
-        Self {
-            count: 0,
-            origin: columns3(room),
-            direction: columns3(room),
-            t_min: Column::new(room),
-            t_max: Column::new(room),
-            vertex: columns3(room),
-            normal: columns3(room),
-            throughput: columns3(room),
-            pdf: Column::new(room),
-            width: Column::new(room),
-            spread: Column::new(room),
-            slot: Column::new(room),
-            flags: Column::new(room),
-            counts: Column::new(room),
-            medium: columns3(room),
-            mask: vec![0; room],
-        }
-    }
-}
-
-impl Paths {
-    /// Appends the chosen lanes; `camera` bits of the flags decide the rays' visibility mask.
-    #[inline(always)]
-    pub(super) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
-        let n = self.count;
-        append3(p.origin, chosen, &mut self.origin, n);
-        append3(p.direction, chosen, &mut self.direction, n);
-        p.t_min.append(chosen, &mut self.t_min, n);
-        p.t_max.append(chosen, &mut self.t_max, n);
-        append3(p.vertex, chosen, &mut self.vertex, n);
-        append3(p.normal, chosen, &mut self.normal, n);
-        append3(p.throughput.into(), chosen, &mut self.throughput, n);
-        p.pdf.append(chosen, &mut self.pdf, n);
-        p.width.append(chosen, &mut self.width, n);
-        p.spread.append(chosen, &mut self.spread, n);
-        p.slot.append(chosen, &mut self.slot, n);
-        p.flags.append(chosen, &mut self.flags, n);
-        p.counts.append(chosen, &mut self.counts, n);
-        append3(p.medium.into(), chosen, &mut self.medium, n);
-        self.count += chosen.count();
-    }
-
-    /// Moves a path to another place of the columns, over what is there.
-    pub(super) fn copy(&mut self, from: usize, to: usize) {
-        let threes = [&mut self.origin, &mut self.direction, &mut self.vertex, &mut self.normal, &mut self.throughput, &mut self.medium];
-        let ones = [&mut self.t_min, &mut self.t_max, &mut self.pdf, &mut self.width, &mut self.spread];
-        threes.into_iter().flatten().chain(ones).for_each(|column| column[to] = column[from]);
-        [&mut self.slot, &mut self.flags, &mut self.counts].into_iter().for_each(|column| column[to] = column[from]);
-    }
-
-    /// Sets the visibility bits of all rays by their flags.
-    pub(super) fn set_masks(&mut self) {
-        for (mask, flags) in self.mask[..self.count].iter_mut().zip(&self.flags[..self.count]) {
-            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3) };
-        }
-    }
 }
 
 /// One register of shadow rays, to be appended.
@@ -484,9 +374,10 @@ pub struct Workspace {
     pub(super) walk_hits: Hits,
     /// Walks that reached the surface.
     pub(super) out: Vec<u32>,
-    /// Path numbers in the order of their materials.
+    /// Path numbers in the order of their materials, and where each material's begin and end.
     pub(super) order: Vec<u32>,
     pub(super) material_start: Vec<u32>,
+    pub(super) material_end: Vec<u32>,
     pub(super) material_of: Vec<u32>,
     /// Mixes and the paths at them.
     pub(super) mixed: Vec<(u32, u32)>,
@@ -509,8 +400,8 @@ pub struct Workspace {
 
 impl Workspace {
     /// Slots of the rays at hand, and what they have hit.
-    pub fn hits_by_slot(&self) -> (&[u32], &Hits) {
-        (&self.paths.slot[..self.paths.count], &self.hits)
+    pub fn hits_by_slot(&self) -> (impl Iterator<Item = u32>, &Hits) {
+        ((0..self.paths.count).map(|path| self.paths.slot(path)), &self.hits)
     }
 
     /// Lets rays that see sharply alone have sums of their own.

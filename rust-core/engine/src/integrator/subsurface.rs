@@ -10,7 +10,7 @@ use super::{
     path::SampleContext,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
     state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3},
-    surface::{ChunkSource, store3},
+    surface::{ChunkRays, ChunkSource, store3},
     transport::Transport,
 };
 use crate::{
@@ -232,7 +232,7 @@ fn come_out_chunk<L: Lanes>(
     count: usize,
     ws: &mut Workspace,
 ) {
-    let source = ChunkSource { order, count, direction: &ws.walks.direction, cone: None };
+    let source = ChunkSource { order, count, rays: ChunkRays::Directions(&ws.walks.direction) };
     kernels::surface_points(l, tables, program, &ws.walk_hits, &source, &mut ws.surface);
     let stage = Stage { l, tables, transport, context, shader: None, hits: 0..count };
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
@@ -269,6 +269,7 @@ fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Worksp
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
         only_delta: l.m(false),
+        pdf: l.f(0.0),
         share: l.f(0.0),
     }
 }

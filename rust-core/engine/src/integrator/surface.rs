@@ -1,11 +1,24 @@
 //! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
 
-use super::{material::Tables, state::gather3};
+use super::{
+    material::Tables,
+    paths::{ConeLanes, Paths},
+    state::{Columns3, gather3},
+};
 use crate::{
     accel::{Hits, PassedHit},
     graph::{Program, SurfaceColumns},
 };
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
+
+/// The rays of a chunk.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ChunkRays<'a> {
+    /// Those of paths, with cones around them.
+    Paths(&'a Paths),
+    /// Directions alone.
+    Directions(&'a Columns3),
+}
 
 /// What a chunk of hits is looked up from.
 #[derive(Clone, Copy, Debug)]
@@ -14,9 +27,7 @@ pub(super) struct ChunkSource<'a> {
     pub(super) order: &'a [u32],
     /// Rays of the chunk.
     pub(super) count: usize,
-    pub(super) direction: &'a [Column; 3],
-    /// Cone width at the rays' starts, and growth a metre.
-    pub(super) cone: Option<[&'a Column; 2]>,
+    pub(super) rays: ChunkRays<'a>,
 }
 
 /// A register of hits.
@@ -76,11 +87,14 @@ pub(super) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     out.origin = tables.origin.map(|x| x as f32);
     for at in (0..source.count).step_by(L::COUNT) {
         let hits = hits.load(l, l.load_integers(source.order, at));
-        let width = match source.cone {
-            Some([width, spread]) => hits.distance.mul_add(l.gather(spread, hits.ray), l.gather(width, hits.ray)),
-            None => l.f(0.0),
+        let (direction, width) = match source.rays {
+            ChunkRays::Paths(paths) => {
+                let ConeLanes { direction, width } = paths.cone(l, hits.ray);
+                (direction, hits.distance.mul_add(paths.track(l, hits.ray).spread, width))
+            }
+            ChunkRays::Directions(columns) => (gather3(l, columns, hits.ray), l.f(0.0)),
         };
-        surface_lanes(l, tables, program, &hits, gather3(l, source.direction, hits.ray), width, out, at);
+        surface_lanes(l, tables, program, &hits, direction, width, out, at);
     }
 }
 
@@ -124,6 +138,7 @@ fn surface_lanes<L: Lanes>(
     store3(tangent, &mut out.tangent, at);
     // A pixel's cone meets an inclined surface in a longer ellipse; its shorter axis would blur less, its longer one more.
     let cosine = point.geometric_normal.dot(wo).abs().max(0.05);
+    width.store(&mut out.cone, at);
     let width = width / cosine.sqrt();
     width.store(&mut out.width, at);
     (width * density).store(&mut out.uv_width, at);

@@ -58,6 +58,8 @@ pub enum Sight {
 /// What passes want to know of first surfaces beyond the usual.
 #[derive(Clone, Debug, Default)]
 pub struct FirstPasses {
+    /// Depth, normal, position and albedo.
+    pub surface: bool,
     /// Texture coordinates.
     pub uv: bool,
     /// Start, depth and falloff of the mist.

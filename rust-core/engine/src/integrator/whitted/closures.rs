@@ -4,8 +4,8 @@ use super::super::{
     closure::{for_mixes, share, weight},
     kernels,
     material::{Mix, Shading, Tables},
-    state::{Columns3, Workspace, gather3},
-    surface::ChunkSource,
+    state::Workspace,
+    surface::{ChunkRays, ChunkSource},
     transport::Transport,
 };
 use crate::{accel::NONE, graph::CHUNK};
@@ -15,8 +15,7 @@ use gonio_simd::{Column, Lanes, PADDING, Rgb, dispatch};
 #[derive(Debug, Default)]
 pub(super) struct Undivided {
     material_of: Vec<u32>,
-    throughput: Columns3,
-    share: Column,
+    carried: Column,
 }
 
 /// Most closures of a material.
@@ -31,8 +30,7 @@ pub(super) fn keep(tables: &Tables, ws: &mut Workspace) {
     }
     let undivided = &mut ws.branches.undivided;
     undivided.material_of.clone_from(&ws.material_of);
-    undivided.throughput.clone_from(&ws.paths.throughput);
-    undivided.share.clone_from(&ws.paths.pdf);
+    undivided.carried.clone_from(&ws.paths.carried);
 }
 
 /// Lets each hit on a mix be on the closure of this number, each other hit on its surface the first time alone.
@@ -68,8 +66,7 @@ fn select_chunk<L: Lanes>(
         order[..count].iter().for_each(|path| number(*path as usize, ws, NONE));
         return;
     }
-    let cone = Some([&ws.paths.width, &ws.paths.spread]);
-    let source = ChunkSource { order, count, direction: &ws.paths.direction, cone };
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(&ws.paths) };
     kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
@@ -78,17 +75,14 @@ fn select_chunk<L: Lanes>(
             total += share(weight(l, &ws.outputs, one, at));
         }
         let own = weight(l, &ws.outputs, closure, at);
-        let throughput = Rgb::from(gather3(l, &ws.branches.undivided.throughput, path)) * own;
-        let part = l.gather(&ws.branches.undivided.share, path) * (share(own) / total.max(1e-20));
-        let (paths, part) = (path.to_array(), part.to_array());
+        let [r, g, b, whole] = l.gather_quads(&ws.branches.undivided.carried, path << 2);
+        let part = (whole * (share(own) / total.max(1e-20))).to_array();
+        let (paths, throughput) = (path.to_array(), Rgb::new(r, g, b) * own);
         let throughput = [throughput.r.to_array(), throughput.g.to_array(), throughput.b.to_array()];
         for lane in 0..L::COUNT.min(count - at) {
             let path = paths[lane] as usize;
             number(path, ws, if part[lane] > 0.0 { mix.first + closure as u32 } else { NONE });
-            ws.paths.pdf[path] = part[lane];
-            for (column, value) in ws.paths.throughput.iter_mut().zip(&throughput) {
-                column[path] = value[lane];
-            }
+            ws.paths.carried_mut(path).copy_from_slice(&[throughput[0][lane], throughput[1][lane], throughput[2][lane], part[lane]]);
         }
     }
 }

@@ -17,9 +17,10 @@ use super::{
     material_order::sort_by_material,
     measure::measure,
     path::{MOST_DEPTH, SampleContext, Tracer},
+    paths::Paths,
     runs::Runs,
     shadow::trace_shadows,
-    state::{Paths, Workspace},
+    state::Workspace,
     transport::Transport,
 };
 use crate::{bsdf::Way, sampler::Sampler};

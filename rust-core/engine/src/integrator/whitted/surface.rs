@@ -5,8 +5,9 @@ use super::super::{
     direct_light::send,
     kernels,
     material::SurfaceMaterial,
+    paths::PathLanes,
     shade::{Point, Stage, meet, show, threshold},
-    state::{PathLanes, Workspace, event, flag},
+    state::{Workspace, event, flag},
     transport::Sight,
 };
 use crate::{
