@@ -4,7 +4,7 @@ use super::{
     kernels,
     paths::PathLanes,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{Workspace, event, flag, gather3},
+    state::{Workspace, event, flag},
     subsurface::WalkLanes,
     transport::Transport,
 };
@@ -39,13 +39,14 @@ pub(super) fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: 
         return;
     }
     let direction = -point.wo;
+    let from = ws.paths.vertex(l, point.path);
     let state = PathLanes {
         origin: spawn(point.position, point.geometric, point.error, direction),
         direction,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
-        vertex: gather3(l, &ws.paths.vertex, point.path),
-        normal: gather3(l, &ws.paths.normal, point.path),
+        vertex: from.position,
+        normal: from.normal,
         throughput: point.throughput,
         pdf: point.pdf,
         width: point.width,
@@ -139,8 +140,9 @@ pub(super) fn scatter<L: Lanes>(
     let straight = sample.straight;
     let (mut vertex, mut normal, mut pdf) = (point.position, point.frame.z, sample.pdf);
     if straight.any() {
-        vertex = straight.select(gather3(l, &ws.paths.vertex, point.path), vertex);
-        normal = straight.select(gather3(l, &ws.paths.normal, point.path), normal);
+        let from = ws.paths.vertex(l, point.path);
+        vertex = straight.select(from.position, vertex);
+        normal = straight.select(from.normal, normal);
         pdf = straight.select(point.pdf, pdf);
     }
     let state = PathLanes {

@@ -10,7 +10,7 @@ use super::{
     paths::Paths,
     scatter::{add, add_rgb},
     shade::{Point, Stage},
-    state::{BATCH, Columns3, ShadowRays, Workspace, columns3, flag, gather3, pixel, ray_mask},
+    state::{BATCH, Columns3, ShadowRays, Workspace, columns3, flag, pixel, ray_mask},
 };
 use crate::accel::NONE;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
@@ -128,13 +128,14 @@ pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
         add(&mut ws.first_hit.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
-    let (vertex, normal) = (gather3(l, &ws.paths.vertex, point.path), gather3(l, &ws.paths.normal, point.path));
+    let from = ws.paths.vertex(l, point.path);
     let Some((coverage, behind)) = &mut ws.first_hit.catchers.sums else { return };
     if !transport.surroundings_cover {
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_surroundings {
-        let radiance: Rgb<L> = kernels::surroundings(l, tables, None, [vertex, normal], direction, point.pdf, [caught, caught], None);
+        let radiance: Rgb<L> =
+            kernels::surroundings(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }

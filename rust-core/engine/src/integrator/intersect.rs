@@ -8,7 +8,7 @@ use super::{
     light_sums::code,
     material::Tables,
     material_order::{list_materials, load_to_end},
-    paths::{CarriedLanes, Paths, TrackLanes},
+    paths::{CarriedLanes, Paths, TrackLanes, VertexLanes},
     scatter::{add, add_light, code_of},
     state::{Workspace, flag, gather3},
     transport::Transport,
@@ -96,9 +96,9 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let instance = l.gather_integers(&ws.hits.instance, path);
         let light = l.gather_integers(&tables.instance_light, instance - tables.first_light_instance);
         let direction = ws.paths.cone(l, path).direction;
-        let from = gather3(l, &ws.paths.vertex, path);
+        let from = ws.paths.vertex(l, path);
         let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
-        let hit = LightHit { light, from, normal: gather3(l, &ws.paths.normal, path), direction, point };
+        let hit = LightHit { light, from: from.position, normal: from.normal, direction, point };
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, alive);
         let (carried, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let sampled = (flags & flag::DELTA).eq(0);
@@ -161,7 +161,8 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         }
         let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
-        let from = [gather3(l, &ws.paths.vertex, path), gather3(l, &ws.paths.normal, path)];
+        let VertexLanes { position, normal } = ws.paths.vertex(l, path);
+        let from = [position, normal];
         let direction = ws.paths.cone(l, path).direction;
         let (known, first) = (transport.known.as_deref(), [camera, delta]);
         let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;

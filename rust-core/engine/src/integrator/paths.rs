@@ -12,15 +12,15 @@ pub(crate) struct Paths {
     pub(crate) direction: Columns3,
     pub(super) t_min: Column,
     pub(super) t_max: Column,
-    /// The point that scattered the ray, and its normal: what lights are sampled from.
-    pub(super) vertex: Columns3,
-    pub(super) normal: Columns3,
     /// Absorption a metre of what the ray goes through.
     pub(super) medium: Columns3,
     /// Items of throughput and density, see [`CarriedLanes`].
     pub(super) carried: Column,
     /// Items of directions and widths, see [`ConeLanes`].
     cone: Column,
+    /// Items of points and of normals, the fourth of no meaning, see [`VertexLanes`].
+    vertex: Column,
+    normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
     track: Column<u32>,
     /// Visibility bits of the ray.
@@ -62,6 +62,13 @@ pub(super) struct ConeLanes<L: Lanes> {
     pub(super) width: F<L>,
 }
 
+/// The points that scattered paths' rays: what lights are sampled from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VertexLanes<L: Lanes> {
+    pub(super) position: Vec3<L>,
+    pub(super) normal: Vec3<L>,
+}
+
 /// Whose paths are, and how they came.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackLanes<L: Lanes> {
@@ -88,11 +95,11 @@ impl Default for Paths {
             direction: columns3(room),
             t_min: Column::new(room),
             t_max: Column::new(room),
-            vertex: columns3(room),
-            normal: columns3(room),
             medium: columns3(room),
             carried: Column::new(4 * room),
             cone: Column::new(4 * room),
+            vertex: Column::new(4 * room),
+            normal: Column::new(4 * room),
             track: Column::new(4 * room),
             mask: vec![0; room],
         }
@@ -108,11 +115,11 @@ impl Paths {
         append3(p.direction, chosen, &mut self.direction, n);
         p.t_min.append(chosen, &mut self.t_min, n);
         p.t_max.append(chosen, &mut self.t_max, n);
-        append3(p.vertex, chosen, &mut self.vertex, n);
-        append3(p.normal, chosen, &mut self.normal, n);
         append3(p.medium.into(), chosen, &mut self.medium, n);
         l.append_quads([p.throughput.r, p.throughput.g, p.throughput.b, p.pdf], chosen, &mut self.carried, n);
         l.append_quads([p.direction.x, p.direction.y, p.direction.z, p.width], chosen, &mut self.cone, n);
+        l.append_quads([p.vertex.x, p.vertex.y, p.vertex.z, l.f(0.0)], chosen, &mut self.vertex, n);
+        l.append_quads([p.normal.x, p.normal.y, p.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
         let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
         l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
         self.count += chosen.count();
@@ -130,6 +137,12 @@ impl Paths {
     pub(super) fn cone<L: Lanes>(&self, l: L, path: U<L>) -> ConeLanes<L> {
         let [x, y, z, width] = l.gather_quads(&self.cone, path << 2);
         ConeLanes { direction: Vec3::new(x, y, z), width }
+    }
+
+    /// The points that scattered some paths' rays.
+    #[inline(always)]
+    pub(super) fn vertex<L: Lanes>(&self, l: L, path: U<L>) -> VertexLanes<L> {
+        VertexLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
     }
 
     /// Whose some paths are, and how they came.
@@ -161,9 +174,10 @@ impl Paths {
 
     /// Moves a path to another place of the columns, over what is there.
     pub(super) fn copy(&mut self, from: usize, to: usize) {
-        let threes = [&mut self.origin, &mut self.direction, &mut self.vertex, &mut self.normal, &mut self.medium];
+        let threes = [&mut self.origin, &mut self.direction, &mut self.medium];
         threes.into_iter().flatten().chain([&mut self.t_min, &mut self.t_max]).for_each(|column| column[to] = column[from]);
-        [&mut self.carried, &mut self.cone].into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
+        let items = [&mut self.carried, &mut self.cone, &mut self.vertex, &mut self.normal];
+        items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
         self.track.copy_within(4 * from..4 * from + 4, 4 * to);
     }
 

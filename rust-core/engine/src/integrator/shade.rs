@@ -285,8 +285,8 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
         let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
         if sampled.any() {
             let light = (first + l.load_integers(&ws.surface.primitive, at)).keep_if(sampled);
-            let (from, normal) = (gather3(l, &ws.paths.vertex, point.path), gather3(l, &ws.paths.normal, point.path));
-            let hit = LightHit { light, from, normal, direction: -point.wo, point: point.position };
+            let from = ws.paths.vertex(l, point.path);
+            let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.position };
             let (_, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, sampled);
             let weight = sampled.select(power_heuristic(point.pdf, pdf), l.f(1.0));
             value = value * weight;

@@ -10,7 +10,7 @@ use super::{
     shadow_order::ShadowOrder,
     statistics::Statistics,
     subsurface::Walks,
-    transport::Transport,
+    transport::{FirstPasses, Transport},
     whitted::Branches,
 };
 use crate::{
@@ -211,7 +211,7 @@ pub(super) fn add_scaled(to: &mut Columns3, from: &Columns3, factor: f32) {
     }
 }
 
-/// What the camera sees first, by pixel slot; sums over the samples of a block.
+/// What the camera sees first, by pixel slot; sums over the samples of a block. Columns that no pass wants are empty.
 #[derive(Debug)]
 pub struct FirstHit {
     /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second, then that of shadow catchers.
@@ -258,17 +258,17 @@ impl Default for FirstHit {
             radiance: columns3(2 * BATCH),
             alpha: Column::new(BATCH),
             depth: Column::new(BATCH),
-            normal: columns3(BATCH),
-            position: columns3(BATCH),
-            albedo: columns3(BATCH),
-            guides: [columns3(BATCH), columns3(BATCH)],
+            normal: Columns3::default(),
+            position: Columns3::default(),
+            albedo: Columns3::default(),
+            guides: Default::default(),
             prim_id: Column::new(BATCH),
             object_index: Column::new(BATCH),
             material_index: Column::new(BATCH),
-            uv: columns3(BATCH),
+            uv: Columns3::default(),
             clearness: Column::new(BATCH),
             rays: Column::new(BATCH),
-            sharp: columns3(BATCH),
+            sharp: Columns3::default(),
             lights: LightSums::default(),
             groups: LightSums::default(),
             shader: ShaderSums::default(),
@@ -278,6 +278,25 @@ impl Default for FirstHit {
 }
 
 impl FirstHit {
+    /// Makes room for what passes want, and for nothing else.
+    fn prepare_passes(&mut self, passes: &FirstPasses) {
+        let [albedo, normal] = &mut self.guides;
+        for (columns, wanted) in [
+            (&mut self.normal, passes.surface),
+            (&mut self.position, passes.surface),
+            (&mut self.albedo, passes.surface),
+            (&mut self.uv, passes.uv),
+            (&mut self.sharp, passes.guides),
+            (albedo, passes.guides),
+            (normal, passes.guides),
+        ] {
+            let room = if wanted { BATCH } else { 0 };
+            if columns[0].len() != room {
+                *columns = columns3(room);
+            }
+        }
+    }
+
     /// Makes room for the sums of shadow catchers.
     pub fn prepare_catchers(&mut self) {
         if self.catchers.is_empty() {
@@ -423,6 +442,7 @@ impl Workspace {
         for sums in [&mut self.first_hit, &mut self.sharp_hit] {
             sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
             sums.groups.prepare(transport.passes.groups.count);
+            sums.prepare_passes(&transport.passes);
         }
         self.first_hit.shader.prepare(&transport.passes.shader);
         if !tables.geometry.set_catcher.is_empty() {
