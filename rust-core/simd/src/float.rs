@@ -64,6 +64,11 @@ impl<L: Lanes> F<L> {
     pub fn safe_sqrt(self) -> Self {
         self.max(0.0).sqrt()
     }
+    /// `1 / √self` within two units in the last place: infinite for zero, NaN below. Cheaper than root and division where the level has an estimate.
+    #[inline(always)]
+    pub fn inverse_root(self) -> Self {
+        F(self.lanes().inverse_root_f(self.0))
+    }
     /// `1 / self`, exact division.
     #[inline(always)]
     pub fn recip(self) -> Self {

@@ -31,7 +31,7 @@ impl<L: Lanes> Frame<L> {
         let flat = tangent - n * n.dot(tangent);
         let squared = flat.length_squared();
         let usable = squared.gt(tangent.length_squared() * 1e-7) & squared.is_finite();
-        let unit = flat * squared.sqrt().recip();
+        let unit = flat * squared.inverse_root();
         // Projected again, for a short remainder is mostly rounding error.
         let x = usable.select(unit - n * n.dot(unit), any.x);
         Self { x, y: n.cross(x), z: n }

@@ -61,6 +61,7 @@ mod octets;
 mod one;
 mod prefetch;
 mod rgb;
+mod root;
 mod sort;
 mod transcendental;
 mod vector;

@@ -76,14 +76,14 @@ impl<L: Lanes> Vec3<L> {
     /// Unit vector; NaN for the zero vector.
     #[inline(always)]
     pub fn normalize(self) -> Self {
-        self * self.length().recip()
+        self * self.length_squared().inverse_root()
     }
     /// Unit vector, or `fallback` where the length is zero or not finite.
     #[inline(always)]
     pub fn normalize_or(self, fallback: Self) -> Self {
         let squared = self.length_squared();
         let usable = squared.gt(0.0) & squared.is_finite();
-        usable.select(self * squared.sqrt().recip(), fallback)
+        usable.select(self * squared.inverse_root(), fallback)
     }
     /// `self * s + o`.
     #[inline(always)]

@@ -23,6 +23,7 @@ function!(Pow, x, y => x.pow(y));
 function!(Asin, x, _ => x.asin());
 function!(Acos, x, _ => x.acos());
 function!(Atan2, y, x => y.atan2(x));
+function!(InverseRoot, x, _ => x.inverse_root());
 
 const INFINITY: f32 = f32::INFINITY;
 const DENORMAL: f32 = 1e-40;
@@ -285,4 +286,14 @@ fn zero_keeps_its_sign() {
             assert_eq!(got[0], 0.0, "{}", execution.name());
         }
     }
+}
+
+#[test]
+fn inverse_roots() {
+    let x = floats(1e-38, 3e38, 10_007);
+    check::<InverseRoot>("inverse_root", &x, |x| 1.0 / x.sqrt(), ulps, 2.0);
+    check_values::<InverseRoot>(
+        "inverse_root",
+        &[([0.0, 0.0], INFINITY), ([INFINITY, 0.0], 0.0), ([-1.0, 0.0], f32::NAN), ([f32::NAN, 0.0], f32::NAN), ([4.0, 0.0], 0.5)],
+    );
 }

@@ -36,7 +36,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     #[inline(always)]
     pub(super) fn coat_tint(&mut self, presence: F<L>, ior: F<L>) {
         let colour = self.rgb(p::COAT_COLOR).max(1e-6);
-        let view = (1.0 - (1.0 - self.coat_mu * self.coat_mu) / (ior * ior)).max(1e-4).sqrt().recip();
+        let view = (1.0 - (1.0 - self.coat_mu * self.coat_mu) / (ior * ior)).max(1e-4).inverse_root();
         let tint = CoatTint { log: Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()), weight: presence, ior, view };
         match self.surface.switches.coat_path {
             CoatPath::Both => {

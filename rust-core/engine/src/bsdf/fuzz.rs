@@ -38,7 +38,7 @@ impl<L: Lanes> FuzzLobe<L> {
         let mu = wo.z.saturate();
         let [albedo, a, b] = energy::fuzz(l, r.max(1e-3), mu);
         let radius2 = wo.x.mul_add(wo.x, wo.y * wo.y);
-        let inverse_radius = radius2.max(1e-20).sqrt().recip();
+        let inverse_radius = radius2.max(1e-20).inverse_root();
         let tilted = radius2.gt(1e-12);
         let azimuth = [tilted.select(wo.x * inverse_radius, l.f(1.0)), tilted.select(wo.y * inverse_radius, l.f(0.0))];
         (Self::Zeltner { azimuth, inverse: [a, b], albedo }, albedo)

@@ -102,7 +102,7 @@ impl<L: Lanes> GlassLobe<L> {
         // One half vector for both: the relative index is 1 in a reflection. It points to the upper side.
         let sum = wi * passes.select(eta, l.f(1.0)) + wo;
         let length2 = sum.length_squared().max(1e-20);
-        let h = sum * sum.z.gt(0.0).select(l.f(1.0), l.f(-1.0)) * length2.sqrt().recip();
+        let h = sum * sum.z.gt(0.0).select(l.f(1.0), l.f(-1.0)) * length2.inverse_root();
         let (c, d) = (wo.dot(h), wi.dot(h));
         let possible = wo.z.gt(0.0) & !self.delta & c.gt(0.0) & passes.select(d.lt(0.0), d.gt(0.0));
         let split = self.interface.split(c.saturate());

@@ -87,7 +87,7 @@ impl<L: Lanes> Widths<L> {
     fn beckmann_lambda(&self, v: Vec3<L>) -> F<L> {
         let (x, y) = (v.x * self.x, v.y * self.y);
         let slope2 = x.mul_add(x, y * y) / (v.z * v.z).max(1e-12);
-        let a = slope2.max(1e-12).sqrt().recip();
+        let a = slope2.max(1e-12).inverse_root();
         let fit = a.mul_add(a.mul_add(0.396, -1.259), 1.0) / (a * a.mul_add(2.181, 3.535));
         fit.keep_if(slope2.ge(0.39))
     }
@@ -112,7 +112,7 @@ impl<L: Lanes> Widths<L> {
         let (nx, ny) = (exponent(self.x), exponent(self.y));
         let (sin, cos) = u[0].sin_cos_turns();
         let (x, y) = (cos * (ny + 1.0).sqrt(), sin * (nx + 1.0).sqrt());
-        let inverse = x.mul_add(x, y * y).sqrt().recip();
+        let inverse = x.mul_add(x, y * y).inverse_root();
         let (x, y) = (x * inverse, y * inverse);
         let power = nx.mul_add(x * x, ny * y * y) + 1.0;
         let z = (1.0 - u[1]).max(1e-12).pow(power.recip());

@@ -38,6 +38,6 @@ pub(super) fn opening<L: Lanes>(l: L, direction: Vec3<L>) -> [Vec3<L>; 2] {
     let across = ahead - direction * ahead.dot(direction);
     let squared = across.length_squared();
     let clear = squared.gt(1e-12);
-    let x = clear.select(across * squared.max(1e-12).sqrt().recip(), Vec3::splat(l, [1.0, 0.0, 0.0]));
+    let x = clear.select(across * squared.max(1e-12).inverse_root(), Vec3::splat(l, [1.0, 0.0, 0.0]));
     [x, direction.cross(x)]
 }

@@ -5,6 +5,7 @@ use super::projected_area::{Outline, ProjectedArea};
 use super::record::{LightKind, LightRecord};
 use super::row::{ROW, field, flag};
 use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, narrow, scale, unit_or, widen};
+use std::f64::consts::TAU;
 
 /// Half angles below this cannot be told from a point in single precision directions.
 const SMALLEST_HALF_ANGLE: f64 = 2e-5;
@@ -31,7 +32,7 @@ fn flat_normal(axes: [Vector; 3]) -> Vector {
     if dot(n, axes[2]) > 0.0 || axes[2] == [0.0; 3] { scale(n, -1.0) } else { n }
 }
 
-/// The frame in which the emitter takes its simplest form, and the half extents there.
+/// The frame in which the emitter takes its simplest form, and what [`field::HALF`] keeps.
 fn sampling_frame(kind: LightKind, axes: [Vector; 3], normal: Vector) -> ([Vector; 3], [f64; 2]) {
     let [x, y, z] = axes;
     match kind {
@@ -50,7 +51,7 @@ fn sampling_frame(kind: LightKind, axes: [Vector; 3], normal: Vector) -> ([Vecto
             let side = unit_or(cross(up, front), [1.0, 0.0, 0.0]);
             (
                 [if dot(side, x) < 0.0 { scale(side, -1.0) } else { side }, up, front],
-                [if kind == LightKind::FacingDisk { length(x) } else { 0.0 }, 0.0],
+                if kind == LightKind::FacingDisk { [length(x), 1.0 / (TAU * dot(x, x))] } else { [0.0; 2] },
             )
         }
     }

@@ -76,7 +76,7 @@ impl<L: Lanes> Estimate<L> {
 
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
-        let nearness = squared.sqrt().recip();
+        let nearness = squared.inverse_root();
         // The cosine of an angle less another one is at most the cosine of the one plus the sine of the other.
         let sine = (self.radius * nearness).min(1.0);
         let inside = squared.le(self.radius * self.radius);

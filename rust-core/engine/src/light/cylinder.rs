@@ -55,7 +55,7 @@ impl<L: Lanes> Line<L> {
 fn visible<L: Lanes>(light: &Reader<'_, L>, p: Vec3<L>) -> (F<L>, F<L>, F<L>) {
     let local = light.in_frame(p - light.vector(field::ORIGIN));
     let squared = local.y * local.y + local.z * local.z;
-    let inverse = squared.sqrt().recip();
+    let inverse = squared.inverse_root();
     ((1.0 - squared.recip()).sqrt(), local.y * inverse, local.z * inverse)
 }
 
@@ -76,7 +76,7 @@ impl Emitter for Cylinder {
     fn density<L: Lanes>(l: L, light: &Reader<'_, L>, from: Vec3<L>, _: Vec3<L>, hit: Vec3<L>) -> (F<L>, [F<L>; 2]) {
         let (limit, toward_y, toward_z) = visible(light, from);
         let local = light.in_frame(hit - light.vector(field::ORIGIN));
-        let inverse = (local.y * local.y + local.z * local.z).sqrt().recip();
+        let inverse = (local.y * local.y + local.z * local.z).inverse_root();
         let (y, z) = (local.y * inverse, local.z * inverse);
         let cosine = y * toward_y + z * toward_z;
         let line = Line::new(light, from, y, z);

@@ -41,10 +41,11 @@ struct Stretch<L: Lanes> {
 impl<L: Lanes> Seen<L> {
     #[inline(always)]
     fn new(l: L, from: Vec3<L>, reach: F<L>) -> Self {
-        let f = (from.x * from.x + from.y * from.y).sqrt();
+        let squared = from.x * from.x + from.y * from.y;
         let h = from.z.abs();
-        let off = f.gt(0.0);
-        let inverse = off.select(f, l.f(1.0)).recip();
+        let off = squared.gt(0.0);
+        let inverse = off.select(squared, l.f(1.0)).inverse_root();
+        let f = squared * inverse;
         let centre = [off.select(-from.x * inverse, l.f(1.0)), -from.y * inverse];
         let thin = reach.lt(THIN);
         let reach = h * reach;
@@ -79,9 +80,11 @@ impl<L: Lanes> Seen<L> {
         if !self.near.any() {
             return by_area;
         }
-        let length = (v.x * v.x + v.y * v.y).max(f32::MIN_POSITIVE).sqrt();
+        let level = (v.x * v.x + v.y * v.y).max(f32::MIN_POSITIVE);
+        let inverse = level.inverse_root();
+        let length = level * inverse;
         let [x, y] = self.centre;
-        let (cosine, sine) = ((v.x * x + v.y * y) / length, (v.y * x - v.x * y) / length);
+        let (cosine, sine) = ((v.x * x + v.y * y) * inverse, (v.y * x - v.x * y) * inverse);
         let stretch = self.stretch(sine, cosine);
         let by_stretch_area = stretch.around * 2.0 * squared * squared.sqrt() / (stretch.squares * self.h);
         let by_stretch = self.thin.select(by_stretch_area, stretch.pdf).keep_if(length.le(self.reach));

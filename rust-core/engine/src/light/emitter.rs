@@ -20,9 +20,9 @@ impl<L: Lanes> Aim<L> {
     /// Along a vector from the lit point to the emitter's point; the density is left to the caller.
     #[inline(always)]
     pub(crate) fn towards(v: Vec3<L>) -> Self {
-        let distance = v.length();
-        let zero = distance.lanes().f(0.0);
-        Self { wi: v * distance.recip(), distance, pdf: zero, uv: [zero; 2] }
+        let squared = v.length_squared();
+        let (inverse, zero) = (squared.inverse_root(), squared.lanes().f(0.0));
+        Self { wi: v * inverse, distance: squared * inverse, pdf: zero, uv: [zero; 2] }
     }
 }
 

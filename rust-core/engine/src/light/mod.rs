@@ -24,6 +24,7 @@ mod row;
 mod sample;
 mod shaping;
 mod size;
+mod solid_angle;
 mod sphere;
 mod table;
 mod texture;

@@ -5,10 +5,8 @@
 
 use super::emitter::{Aim, Emitter};
 use super::row::{Reader, field};
+use super::solid_angle::{BY_AREA_BELOW, SolidAngle};
 use gonio_simd::{F, Lanes, M, Vec3};
-
-/// Below this solid angle points are drawn by area: the two differ little and area is the steadier.
-const BY_AREA_BELOW: f32 = 1e-3;
 
 /// The rectangle as seen from a point: at height `h > 0` over the plane, the part that the beam's spread can reach it from spanning `x` and `y` around it.
 #[derive(Clone, Copy)]
@@ -23,14 +21,6 @@ struct Seen<L: Lanes> {
     solid_angle: F<L>,
 }
 
-/// Solid angle of the triangle of three vectors whose triple product is `volume` (Van Oosterom and Strackee 1983).
-#[inline(always)]
-fn triangle<L: Lanes>(volume: F<L>, a: Vec3<L>, b: Vec3<L>, c: Vec3<L>) -> F<L> {
-    let (ra, rb, rc) = (a.length(), b.length(), c.length());
-    let denominator = ra * rb * rc + a.dot(b) * rc + a.dot(c) * rb + b.dot(c) * ra;
-    volume.atan2(denominator) * 2.0
-}
-
 impl<L: Lanes> Seen<L> {
     #[inline(always)]
     fn new(light: &Reader<'_, L>, from: Vec3<L>) -> Self {
@@ -42,10 +32,12 @@ impl<L: Lanes> Seen<L> {
         let centre = [-local.x, -local.y];
         let (x, y) = (within_reach(centre[0], half_x, reach), within_reach(centre[1], half_y, reach));
         let volume = h * ((x[1] - x[0]) * (y[1] - y[0]));
-        let (near, far) = (Vec3::new(x[0], y[0], -h), Vec3::new(x[1], y[1], -h));
-        let first = triangle(volume, near, Vec3::new(x[1], y[0], -h), far);
-        let second = triangle(volume, near, far, Vec3::new(x[0], y[1], -h));
-        Self { x, y, centre, h, reach, solid_angle: first + second }
+        let [a, b] = [Vec3::new(x[0], y[0], -h), Vec3::new(x[1], y[0], -h)];
+        let [c, d] = [Vec3::new(x[1], y[1], -h), Vec3::new(x[0], y[1], -h)];
+        let [ia, ib] = [a.length_squared().inverse_root(), b.length_squared().inverse_root()];
+        let [ic, id] = [c.length_squared().inverse_root(), d.length_squared().inverse_root()];
+        let (first, second) = (SolidAngle::new(volume, [a, b, c], [ia, ib, ic]), SolidAngle::new(volume, [a, c, d], [ia, ic, id]));
+        Self { x, y, centre, h, reach, solid_angle: first.value + second.value }
     }
     #[inline(always)]
     fn by_area(&self) -> M<L> {

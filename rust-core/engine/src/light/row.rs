@@ -16,7 +16,7 @@ pub(crate) mod field {
     pub(crate) const INVERSE: usize = 12;
     /// Magnitude of the inverse's determinant.
     pub(crate) const DENSITY: usize = 21;
-    /// Half extents of a rectangle in its frame, 2; half length of a cylinder, 1.
+    /// Half extents of a rectangle in its frame, 2; half length of a cylinder, 1; radius of a facing disk and its reciprocal square over 2π, 2.
     pub(crate) const HALF: usize = 22;
     /// Emitted radiance, 3.
     pub(crate) const RADIANCE: usize = 24;
@@ -125,10 +125,8 @@ impl<'a, L: Lanes> Reader<'a, L> {
     /// The reader of a row that all lanes read, if they do.
     #[inline(always)]
     pub(crate) fn common(&self) -> Option<Self> {
-        self.common.map(
-            #[inline(always)]
-            |row| Self { common: Some(row), ..*self },
-        )
+        let row = self.common?;
+        Some(Self { base: self.l.u(0), common: Some(row), ..*self })
     }
     #[inline(always)]
     fn common_flags(&self) -> Option<u32> {

@@ -25,14 +25,15 @@ impl Emitter for Sphere {
         let centre = light.in_frame(light.vector(field::ORIGIN) - p);
         let squared = centre.length_squared();
         let (density, one_minus_cosine) = cone(squared);
-        let distance = squared.sqrt();
+        let inverse = squared.inverse_root();
+        let distance = squared * inverse;
         // 1 − cos itself is drawn, which keeps its digits where the cone is thin.
         let fall = one_minus_cosine * u[0];
         let sine_squared = fall * (2.0 - fall);
         let sine = sine_squared.safe_sqrt();
         let cosine = 1.0 - fall;
         let (sine_turn, cosine_turn) = u[1].sin_cos_turns();
-        let frame = Frame::from_normal(centre * distance.recip());
+        let frame = Frame::from_normal(centre * inverse);
         let direction = frame.to_world(Vec3::new(sine * cosine_turn, sine * sine_turn, cosine));
         let along = distance * cosine - (1.0 - squared * sine_squared).safe_sqrt();
         let aim = Aim::towards((direction * along).transform(light.frame()));

@@ -163,7 +163,7 @@ impl<L: Lanes> Node<L> {
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
         let scatter = self.half.length_squared() * SCATTERED;
-        let nearness = self.gap(towards).length_squared().max(f32::MIN_POSITIVE).sqrt().recip();
+        let nearness = self.gap(towards).length_squared().max(f32::MIN_POSITIVE).inverse_root();
         let receiver = (mean_above(n.dot(towards), self.reach(n)) * nearness).min(1.0);
 
         let leaving = -self.axis.dot(towards);
