@@ -5,6 +5,7 @@ import bpy
 
 from .. import measuring
 from .denoise import GONIO_OT_add_denoise_node
+from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
 from .point_meter import GONIO_OT_point_meter
@@ -15,6 +16,7 @@ CLASSES = (
     GONIO_OT_settings_from_cycles,
     GONIO_OT_add_denoise_node,
     GONIO_OT_use_standard_view,
+    GONIO_OT_expose_for_daylight,
     GONIO_OT_measure_grids,
     GONIO_OT_point_meter,
     GONIO_OT_report_jump,

@@ -74,6 +74,7 @@ class GONIO_WORLD_PT_daylight(WorldPanel, Panel):
         layout.prop(settings, "north")
         if settings.use_daylight:
             _draw_sun(layout.box().column(align=True), context.world)
+            layout.operator("gonio.expose_for_daylight")
 
 
 def _draw_sun(column, world) -> None:

@@ -213,3 +213,32 @@ def test_a_changed_sky_is_baked_without_its_disc(tmp_path):
 
     found, _, report = world_with(build)
     assert len(found) == 1 and any("disc is left out" in line.text for line in report.diagnostics)
+
+
+@pytest.mark.blender
+def test_the_exposure_of_an_hour_is_one_click_away(tmp_path):
+    import bpy
+    import numpy
+    import scenes
+
+    scene = scenes.lit_floor(samples=256, width=16, height=16)
+    bpy.data.objects.remove(scene.objects["Lamp"])
+    bpy.data.objects["Floor"].active_material = scenes.diffuse("Grey", (0.18, 0.18, 0.18))
+    scene.gonio.film_exposure = 2.0
+    assert not bpy.ops.gonio.expose_for_daylight.poll()
+    world = scene.world.gonio
+    world.use_daylight = True
+    scene.gonio.tone_map = "LOCAL"
+    assert not bpy.ops.gonio.expose_for_daylight.poll()
+    scene.gonio.tone_map = "NONE"
+    for hour in (12.0, 18.5):
+        world.hour = hour
+        assert bpy.ops.gonio.expose_for_daylight() == {"FINISHED"}
+        scenes.render(tmp_path / "a.exr")
+        found = scenes.read(tmp_path / "a.exr")
+        light = sum(weight * found[f"ViewLayer.Combined.{channel}"] for weight, channel in ((0.2126, "R"), (0.7152, "G"), (0.0722, "B")))
+        assert numpy.mean(light) * 2.0**scene.view_settings.exposure == pytest.approx(0.18, rel=0.01), hour
+    world.hour, before = 0.0, scene.view_settings.exposure
+    with pytest.raises(RuntimeError, match="Neither sun nor sky"):
+        bpy.ops.gonio.expose_for_daylight()
+    assert scene.view_settings.exposure == before
