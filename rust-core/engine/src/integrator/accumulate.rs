@@ -1,9 +1,9 @@
 //! What is kept of the first surface a camera ray meets, and limits on contributions.
 
 use super::{
+    first_hit::FirstHit,
     light_sums::code,
     scatter::{add, add_rgb},
-    state::FirstHit,
 };
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
 

@@ -1,6 +1,6 @@
 //! What lights brought and what they did not, noted down where somebody learns from it.
 
-use super::state::Workspace;
+use super::workspace::Workspace;
 use crate::light::Arrival;
 use gonio_simd::{Lanes, M, Vec3};
 

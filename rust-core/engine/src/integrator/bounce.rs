@@ -1,12 +1,12 @@
 //! Where paths go from a surface: on, straight through, or under it.
 
 use super::{
-    kernels,
+    event, flag, kernels,
     paths::PathLanes,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{Workspace, event, flag},
     subsurface::WalkLanes,
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{
     bsdf::{Lobes, subsurface::Medium},

@@ -5,12 +5,16 @@
 
 use super::{
     accumulate::clamped,
-    kernels,
+    batch::{BATCH, pixel},
+    columns::{Columns3, columns3},
+    flag, kernels,
     material::Tables,
     paths::Paths,
+    ray_mask,
     scatter::{add, add_rgb},
     shade::{Point, Stage},
-    state::{BATCH, Columns3, ShadowRays, Workspace, columns3, flag, pixel, ray_mask},
+    shadow_rays::ShadowRays,
+    workspace::Workspace,
 };
 use crate::accel::NONE;
 use gonio_simd::{Column, Lanes, M, Rgb, U};

@@ -7,9 +7,9 @@ use super::{
     kernels,
     material::{Mix, Shading, Tables},
     path::SampleContext,
-    state::Workspace,
     surface::{ChunkRays, ChunkSource},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{
     accel::NONE,

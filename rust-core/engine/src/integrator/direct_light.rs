@@ -7,7 +7,8 @@ use super::{
     light_groups::add_of_lights,
     scatter::{add_sampled, code_of_sampled},
     shade::{Point, Stage},
-    state::{ShadowLanes, Workspace},
+    shadow_rays::ShadowLanes,
+    workspace::Workspace,
 };
 use crate::{
     bsdf::Lobes,

@@ -4,7 +4,7 @@ use super::{
     bounce::scatter,
     direct_light::light,
     shade::{Point, Stage},
-    state::Workspace,
+    workspace::Workspace,
 };
 use crate::{bsdf::subsurface, sampler::dimension};
 use gonio_simd::{Lanes, Vec3};

@@ -2,12 +2,16 @@
 
 use super::{
     accumulate::{FirstSurface, SurfaceLook},
+    batch::pixel,
     catcher,
+    columns::append3,
+    flag,
     material::{SurfaceMaterial, Tables},
+    measure_points::MeasurePoints,
     shade::{Point, Stage},
     shader_passes,
-    state::{MeasurePoints, Workspace, append3, flag, pixel},
     transport::Mist,
+    workspace::Workspace,
 };
 use crate::bsdf::Lobes;
 use gonio_simd::{F, Lanes, M, U, Vec3};

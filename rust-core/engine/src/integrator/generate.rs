@@ -1,9 +1,9 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
 use super::{
+    flag,
     paths::{PathLanes, Paths},
     runs::Runs,
-    state::flag,
 };
 use crate::{
     camera::{CameraRay, CameraTable},

@@ -5,12 +5,14 @@
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
 use super::{
+    batch::BATCH,
+    flag,
     path::Tracer,
     runs::Runs,
     scatter::add_rgb,
     shade::{Point, Stage},
-    state::{BATCH, Workspace, flag},
     transport::{FirstPasses, Sight, Transport},
+    workspace::Workspace,
 };
 use crate::bsdf::Lobes;
 use gonio_simd::{Lanes, M, Rgb, U};

@@ -2,7 +2,9 @@
 
 use super::{
     accumulate::clamped,
-    catcher, guides,
+    catcher,
+    columns::gather3,
+    flag, guides,
     kernels::{self, LightHit},
     light_groups::add_of_lights,
     light_sums::code,
@@ -10,8 +12,8 @@ use super::{
     material_order::{list_materials, load_to_end},
     paths::{CarriedLanes, Paths, TrackLanes, VertexLanes},
     scatter::{add, add_light, code_of},
-    state::{Workspace, flag, gather3},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{
     accel::{Hits, NONE, RayBatch, SceneBvh},

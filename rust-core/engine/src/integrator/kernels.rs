@@ -7,8 +7,8 @@ use super::{
     light_draws::draw_chunk,
     material::Tables,
     shade::Stage,
-    state::Workspace,
     surface::{ChunkSource, HitSource, surface_chunk},
+    workspace::Workspace,
 };
 use crate::{
     bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way},

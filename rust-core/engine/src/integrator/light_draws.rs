@@ -2,11 +2,7 @@
 //!
 //! A register of neighbouring hits draws lights of many kinds, and each kind's sampling would run for the few lanes that drew it.
 
-use super::{
-    kernels,
-    shade::Stage,
-    state::{Workspace, load3},
-};
+use super::{columns::load3, kernels, shade::Stage, workspace::Workspace};
 use crate::{
     graph::CHUNK,
     light::{LightSample, LightTable},

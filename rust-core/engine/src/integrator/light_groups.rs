@@ -1,6 +1,6 @@
 //! Light groups: radiance by the group of the light that it comes from.
 
-use super::{light_sums::LightSums, shade::Stage, state::Workspace};
+use super::{light_sums::LightSums, shade::Stage, workspace::Workspace};
 use gonio_simd::{Lanes, M, Rgb, U};
 use std::sync::Arc;
 

@@ -1,6 +1,9 @@
 //! Radiance by where it comes from, for the passes of light.
 
-use super::state::{BATCH, add_scaled, columns3};
+use super::{
+    batch::BATCH,
+    columns::{add_scaled, columns3},
+};
 use gonio_simd::{Column, Lanes, M, Rgb, U};
 
 /// What a contribution counts as. 0 to 2 are direct light by the kind of the first scattering.

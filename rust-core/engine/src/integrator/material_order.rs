@@ -1,6 +1,6 @@
 //! Hits in the order of their materials.
 
-use super::{material::Tables, state::Workspace, transport::Transport};
+use super::{material::Tables, transport::Transport, workspace::Workspace};
 use crate::accel::NONE;
 use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch, padded};
 

@@ -3,15 +3,8 @@
 //! Irradiance E = ∫ L cosθ dω equals π times the radiance that a white Lambertian surface sends out, so the same estimators serve.
 
 use super::{
-    arrivals::note_lost,
-    kernels,
-    material::Tables,
-    path::SampleContext,
-    paths::PathLanes,
-    scatter::add_rgb,
-    shadow::make_room,
-    state::{BATCH, ShadowLanes, Workspace, flag, load3},
-    transport::Transport,
+    arrivals::note_lost, batch::BATCH, columns::load3, flag, kernels, material::Tables, path::SampleContext, paths::PathLanes,
+    scatter::add_rgb, shadow::make_room, shadow_rays::ShadowLanes, transport::Transport, workspace::Workspace,
 };
 use crate::{
     geometry::{spawn, spawn_to},

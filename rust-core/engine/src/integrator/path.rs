@@ -3,6 +3,7 @@
 use super::{
     catcher,
     closure::choose_closures,
+    flag,
     generate::{TileArea, generate, generate_at},
     intersect::{find_first, intersect},
     kernels,
@@ -13,11 +14,11 @@ use super::{
     sensors::{SensorTable, place},
     shade::{Stage, shade_chunk},
     shadow::{make_room, trace_shadows},
-    state::{Workspace, flag},
     subsurface::walk,
     surface::{ChunkRays, ChunkSource},
     transport::Transport,
     whitted,
+    workspace::Workspace,
 };
 use crate::{camera::CameraTable, film::Placement, sampler::Sampler};
 use gonio_simd::{Lanes, U, dispatch};

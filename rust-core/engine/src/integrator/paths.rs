@@ -1,6 +1,10 @@
 //! Paths under way: the ray of each in columns, as the tracer wants it, and in items of four what the stages read of chosen paths.
 
-use super::state::{CAPACITY, Columns3, append3, columns3, flag, ray_mask};
+use super::{
+    batch::CAPACITY,
+    columns::{Columns3, append3, columns3},
+    flag, ray_mask,
+};
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
 
 /// Paths with a ray each.

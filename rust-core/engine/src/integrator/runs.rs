@@ -3,7 +3,7 @@
 //! A batch has 64 runs of 64 slots, a run belongs to one zone of the tile. Usually that is the zone of the same number, one sample of each
 //! pixel at a time. Where few zones are left, several samples of theirs start together, so that registers stay full.
 
-use super::state::{BATCH, pixel};
+use super::batch::{BATCH, pixel};
 use crate::sampler::Sampler;
 use gonio_simd::{Lanes, U};
 use std::ops::Range;

@@ -1,9 +1,6 @@
 //! Adding lanes to sums by slot.
 
-use super::{
-    light_sums::code,
-    state::{FirstHit, flag},
-};
+use super::{first_hit::FirstHit, flag, light_sums::code};
 use gonio_simd::{Column, F, Lanes, M, Rgb, U};
 
 /// Adds a colour to the sums at each chosen lane's slot. Slots of one register differ, since each belongs to another path.

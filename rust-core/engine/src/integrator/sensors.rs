@@ -4,10 +4,13 @@
 //! net of the sampler's sequence and the lanes of a register lie side by side.
 
 use super::{
+    batch::TILE,
+    columns::{append3, gather3},
+    flag,
     generate::{TileArea, morton_even},
     paths::PathLanes,
     runs::Runs,
-    state::{TILE, Workspace, append3, flag, gather3},
+    workspace::Workspace,
 };
 use crate::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes, Rgb};

@@ -4,9 +4,10 @@ use super::{
     accumulate::clamped,
     bounce::{pass_straight, scatter, straight_left, within},
     catcher,
+    columns::{gather3, load3},
     direct_light::{light, send},
     first_surface::{append_measure, covered, record_first},
-    guides,
+    flag, guides,
     kernels::{self, LightHit},
     light_draws::{self, LightDraws},
     light_groups::add_of_surfaces,
@@ -15,9 +16,9 @@ use super::{
     path::SampleContext,
     paths::{CarriedLanes, TrackLanes},
     scatter::{add_light, code_of},
-    state::{Workspace, flag, gather3, load3},
     transport::{Sight, Transport},
     whitted,
+    workspace::Workspace,
 };
 use crate::{
     bsdf::{Hits, Lobes, ParameterValues, normals::Normals, parameter::COUNT},

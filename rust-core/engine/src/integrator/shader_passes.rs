@@ -1,10 +1,12 @@
 //! Shader passes: what materials compute for passes of their own, summed where the camera sees them first.
 
 use super::{
+    batch::{BATCH, pixel},
+    flag,
     scatter::add,
     shade::Point,
-    state::{BATCH, Workspace, flag, pixel},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::graph::{Program, Source};
 use gonio_simd::{Column, Lanes, M};

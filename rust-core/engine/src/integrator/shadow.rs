@@ -2,15 +2,18 @@
 
 use super::{
     arrivals::note_arrivals,
-    catcher, kernels,
+    catcher,
+    columns::load3,
+    kernels,
     light_groups::add_of_lights,
     material::{Shading, Tables},
     scatter::add_sampled,
     shade::{parameter_values, threshold},
     shadow_order::ShadowOrder,
-    state::{SHADOW_ROOM, ShadowRays, Workspace, load3},
+    shadow_rays::{SHADOW_ROOM, ShadowRays},
     surface::{ChunkRays, ChunkSource},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{
     accel::{PassedHit, RayBatch},

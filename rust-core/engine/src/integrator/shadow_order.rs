@@ -1,6 +1,9 @@
 //! Shadow rays in the order of their lights: those that lead to one light from one tile go together as packets.
 
-use super::state::{Columns3, SHADOW_ROOM, ShadowRays, columns3};
+use super::{
+    columns::{Columns3, columns3},
+    shadow_rays::{SHADOW_ROOM, ShadowRays},
+};
 use crate::{
     accel::{RayBatch, SceneBvh},
     light::LightTable,

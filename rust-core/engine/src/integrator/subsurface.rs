@@ -4,14 +4,16 @@
 //! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
 
 use super::{
+    batch::CAPACITY,
+    columns::{Columns3, append3, columns3, gather3, load3},
     exit::leave,
-    kernels,
+    flag, kernels,
     material::Tables,
     path::SampleContext,
     shade::{CONE_PER_ROUGHNESS, Point, Stage},
-    state::{CAPACITY, Columns3, Workspace, append3, columns3, flag, gather3, load3},
     surface::{ChunkRays, ChunkSource, store3},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{
     accel::{Hits, NONE, RayBatch},

@@ -1,9 +1,9 @@
 //! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
 
 use super::{
+    columns::{Columns3, gather3},
     material::Tables,
     paths::{ConeLanes, Paths},
-    state::{Columns3, gather3},
 };
 use crate::{
     accel::{Hits, PassedHit},

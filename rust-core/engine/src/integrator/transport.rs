@@ -1,6 +1,6 @@
 //! What does not change during a render.
 
-use super::{light_groups::GroupPasses, shader_passes::ShaderPasses, state::SHADOW_ROOM};
+use super::{light_groups::GroupPasses, shader_passes::ShaderPasses, shadow_rays::SHADOW_ROOM};
 use crate::{
     graph::CHUNK,
     light::{Draw, KnownLights},

@@ -4,9 +4,9 @@ use super::super::{
     closure::{for_mixes, share, weight},
     kernels,
     material::{Mix, Shading, Tables},
-    state::Workspace,
     surface::{ChunkRays, ChunkSource},
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{accel::NONE, graph::CHUNK};
 use gonio_simd::{Column, Lanes, PADDING, Rgb, dispatch};

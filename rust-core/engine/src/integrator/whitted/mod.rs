@@ -20,8 +20,8 @@ use super::{
     paths::Paths,
     runs::Runs,
     shadow::trace_shadows,
-    state::Workspace,
     transport::Transport,
+    workspace::Workspace,
 };
 use crate::{bsdf::Way, sampler::Sampler};
 use closures::Undivided;

@@ -3,12 +3,12 @@
 use super::super::{
     bounce::{straight_left, within},
     direct_light::send,
-    kernels,
+    event, flag, kernels,
     material::SurfaceMaterial,
     paths::PathLanes,
     shade::{Point, Stage, meet, show, threshold},
-    state::{Workspace, event, flag},
     transport::Sight,
+    workspace::Workspace,
 };
 use crate::{
     bsdf::{Lobes, Way},

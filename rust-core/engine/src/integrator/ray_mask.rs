@@ -1,0 +1,18 @@
+//! Visibility bits of rays.
+
+/// Rays from the camera.
+pub const CAMERA: u8 = 1;
+/// Rays to lights.
+pub const SHADOW: u8 = 2;
+/// Diffusely scattered rays.
+pub const DIFFUSE: u8 = 4;
+/// Rays of glossy reflection.
+pub const GLOSSY: u8 = 8;
+/// Rays of transmission.
+pub const TRANSMISSION: u8 = 16;
+/// Rays to lights that see shadow catchers alone.
+pub const CATCHER_SHADOW: u8 = 32;
+/// Scattered rays that see shadow catchers alone.
+pub const CATCHER_SCATTERED: u8 = 64;
+/// All scattered rays.
+pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;
