@@ -3,6 +3,8 @@
 //! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample`] chooses a light and a direction;
 //! [`LightTable::eval_hit`] and [`LightTable::escaped`] weigh rays that found a light by the BSDF. Formulas are UsdLux's, in cd/m².
 
+mod aim_far;
+mod aim_near;
 mod beam;
 mod blackbody;
 mod build;
@@ -12,10 +14,13 @@ mod disk;
 mod distant;
 mod dome;
 mod draws;
+mod emitted;
 mod emitter;
+mod escaped;
 mod facing_disk;
 mod far_field;
 mod goniogram;
+mod met;
 mod portal;
 mod projected_area;
 mod record;

@@ -1,0 +1,93 @@
+//! Aiming at infinite lights.
+
+use super::emitter::Aim;
+use super::portal::Portals;
+use super::record::LightKind;
+use super::row::Reader;
+use super::table::{InfiniteLight, LightTable};
+use super::{distant, dome};
+use gonio_simd::{F, Lanes, M, U, Vec3};
+
+impl LightTable {
+    /// Aims at infinite lights.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "one stage of sampling, with its whole state")]
+    pub(super) fn aim_far<L: Lanes>(
+        &self,
+        l: L,
+        light: &Reader<'_, L>,
+        index: U<L>,
+        [p, n]: [Vec3<L>; 2],
+        u: [F<L>; 2],
+        infinite: M<L>,
+        aim: &mut Aim<L>,
+    ) {
+        if !infinite.any() {
+            return;
+        }
+        if self.has(LightKind::Distant) {
+            let of_kind = light.is_kind(LightKind::Distant);
+            let (wi, pdf) = distant::sample(l, light, u);
+            aim.wi = of_kind.select(wi, aim.wi);
+            aim.pdf = of_kind.select(pdf, aim.pdf);
+        }
+        for infinite in self.infinite.iter().filter(|infinite| infinite.kind == LightKind::Dome) {
+            let chosen = index.eq(infinite.light);
+            if !chosen.any() {
+                continue;
+            }
+            let (wi, pdf, place) = match self.portals_at(l, p) {
+                Some(portals) => self.aim_at_dome_through(l, infinite, &portals, [p, n], u),
+                None => self.aim_at_dome(l, infinite, n, u),
+            };
+            aim.wi = chosen.select(wi, aim.wi);
+            aim.pdf = chosen.select(pdf, aim.pdf);
+            aim.uv = [chosen.select(place[0], aim.uv[0]), chosen.select(place[1], aim.uv[1])];
+        }
+    }
+
+    /// A direction to a dome by its own brightness, its density and its place in the image.
+    #[inline(always)]
+    fn aim_at_dome<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, u: [F<L>; 2]) -> (Vec3<L>, F<L>, [F<L>; 2]) {
+        match &infinite.distribution {
+            Some(distribution) => {
+                let (local, pdf, place) = distribution.sample(l, u);
+                (local.transform(self.reader(l, l.u(infinite.light)).frame()), pdf, place)
+            }
+            None => {
+                let (wi, pdf) = dome::sample_constant(l, n, u);
+                (wi, pdf, [l.f(0.0); 2])
+            }
+        }
+    }
+
+    /// The same where some directions go through portals.
+    #[inline(always)]
+    fn aim_at_dome_through<L: Lanes>(
+        &self,
+        l: L,
+        infinite: &InfiniteLight,
+        portals: &Portals<L>,
+        [p, n]: [Vec3<L>; 2],
+        u: [F<L>; 2],
+    ) -> (Vec3<L>, F<L>, [F<L>; 2]) {
+        let (through, of_portal, of_dome) = self.split_by_portal(portals, u[0]);
+        let (wi, _, _) = self.aim_at_dome(l, infinite, n, [of_dome, u[1]]);
+        let wi = through.select(self.aim_through_portal(l, portals, p, [of_portal, u[1]]), wi);
+        let (pdf, place) = self.dome_density(l, infinite, n, wi);
+        (wi, self.portal_density(l, portals, p, wi, pdf), place)
+    }
+
+    /// Density of a direction to a dome by its own brightness, and its place in the image.
+    #[inline(always)]
+    pub(super) fn dome_density<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, wi: Vec3<L>) -> (F<L>, [F<L>; 2]) {
+        match &infinite.distribution {
+            Some(distribution) => {
+                let local = self.reader(l, l.u(infinite.light)).in_frame(wi);
+                let place = dome::place(local);
+                (distribution.pdf(l, local, place), place)
+            }
+            None => (dome::pdf_constant(l, n, wi), [l.f(0.0); 2]),
+        }
+    }
+}

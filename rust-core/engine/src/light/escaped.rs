@@ -1,0 +1,59 @@
+//! Light that rays meet on leaving the scene.
+
+use super::distant;
+use super::record::LightKind;
+use super::row::field;
+use super::sample::power_heuristic;
+use super::table::{InfiniteLight, LightTable};
+use super::tree::KnownLights;
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+
+impl LightTable {
+    /// Light that a ray from `from` (normal `n` there, zero where there is no surface) along unit `wi` meets on leaving the scene: the sum of the infinite
+    /// lights' radiances, each times its power-heuristic weight against `bsdf_pdf`. The weight is 1 where the ray is a camera ray (`first`,
+    /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
+    pub fn escaped<L: Lanes>(
+        &self,
+        l: L,
+        known: Option<&KnownLights>,
+        from: Vec3<L>,
+        n: Vec3<L>,
+        wi: Vec3<L>,
+        bsdf_pdf: F<L>,
+        first: M<L>,
+        delta: M<L>,
+        only: Option<u32>,
+    ) -> Rgb<L> {
+        let mut sum = Rgb::zero(l);
+        for infinite in self.infinite.iter().filter(|infinite| only.is_none_or(|only| infinite.light == only)) {
+            let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
+            let weighed = (!(first | delta)) & pdf.gt(0.0);
+            let mut weight = l.f(1.0);
+            if weighed.any() {
+                let pdf = pdf * self.choice_probability(l, known, from, n, l.u(infinite.light));
+                weight = weighed.select(power_heuristic(bsdf_pdf, pdf), weight);
+            }
+            let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
+            sum += (radiance * weight).keep_if(seen);
+        }
+        sum
+    }
+
+    /// Radiance of one infinite light along `wi` and the density of its sampling.
+    #[inline(always)]
+    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let light = self.reader(l, l.u(infinite.light));
+        if infinite.kind == LightKind::Distant {
+            let (inside, density) = distant::density(&light, wi);
+            return (light.colour(field::RADIANCE).keep_if(inside), density.keep_if(inside));
+        }
+        let (mut pdf, place) = self.dome_density(l, infinite, n, wi);
+        if let Some(portals) = self.portals_at(l, from) {
+            pdf = self.portal_density(l, &portals, from, wi, pdf);
+        }
+        let textured = infinite.distribution.is_some();
+        (if textured { self.emitted(l, &light, wi, place) } else { light.colour(field::RADIANCE) }, pdf)
+    }
+}

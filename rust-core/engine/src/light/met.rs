@@ -1,0 +1,106 @@
+//! Light of what a ray met that has a place.
+
+use super::cylinder::Cylinder;
+use super::disk::Disk;
+use super::emitter::Emitter;
+use super::facing_disk::FacingDisk;
+use super::record::LightKind;
+use super::rectangle::Rectangle;
+use super::row::{Reader, flag};
+use super::sphere::Sphere;
+use super::table::LightTable;
+use super::tree::KnownLights;
+use super::triangle::Triangle;
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+impl LightTable {
+    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the density with which [`Self::sample`] at `from` with
+    /// normal `n` would have drawn it. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
+    pub fn eval_hit<L: Lanes>(
+        &self,
+        l: L,
+        known: Option<&KnownLights>,
+        light: U<L>,
+        from: Vec3<L>,
+        n: Vec3<L>,
+        wi: Vec3<L>,
+        hit: Vec3<L>,
+        mask: M<L>,
+    ) -> (Rgb<L>, F<L>) {
+        if self.count == 0 || !mask.any() {
+            return (Rgb::zero(l), l.f(0.0));
+        }
+        // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.
+        let index = mask.select(light, l.u(light.to_array()[mask.bits().trailing_zeros() as usize]));
+        let light = self.reader(l, index);
+        let mut density = (l.f(0.0), [l.f(0.0); 2]);
+        self.density_kind(
+            LightKind::Rectangle,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Rectangle::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Disk,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Disk::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Sphere,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Sphere::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Cylinder,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Cylinder::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Triangle,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || Triangle::density(l, &light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::FacingDisk,
+            &light,
+            &mut density,
+            #[inline(always)]
+            || FacingDisk::density(l, &light, from, wi, hit),
+        );
+        let (pdf, uv) = density;
+        let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
+        let probability = self.choice_probability(l, known, from, n, index);
+        (self.emitted(l, &light, wi, uv).keep_if(valid), (pdf * probability).keep_if(valid))
+    }
+
+    /// Runs one kind's density where some lane has it.
+    #[inline(always)]
+    fn density_kind<L: Lanes>(
+        &self,
+        kind: LightKind,
+        light: &Reader<'_, L>,
+        density: &mut (F<L>, [F<L>; 2]),
+        evaluate: impl FnOnce() -> (F<L>, [F<L>; 2]),
+    ) {
+        if !self.has(kind) {
+            return;
+        }
+        let of_kind = light.is_kind(kind);
+        if of_kind.any() {
+            let (pdf, uv) = evaluate();
+            density.0 = of_kind.select(pdf, density.0);
+            density.1 = [of_kind.select(uv[0], density.1[0]), of_kind.select(uv[1], density.1[1])];
+        }
+    }
+}
