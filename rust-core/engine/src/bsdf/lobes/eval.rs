@@ -1,0 +1,64 @@
+//! Evaluation of all lobes.
+
+use super::{Lobes, Shape, Side};
+use gonio_simd::{F, Lanes, Rgb, Vec3};
+
+/// What an evaluation is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// A direction that a light gave.
+    All,
+    /// A direction that the lobes gave: bump rules leave more open.
+    Sampled,
+    /// The part of a light's direction that is not of facets and interfaces.
+    Diffuse,
+}
+
+impl<L: Lanes> Lobes<'_, L> {
+    /// BSDF × |cos θi| of all lobes but delta ones, and the density with which [`Self::sample`] finds `wi`.
+    #[inline(always)]
+    pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        evaluate(l, self, wo, wi, Asked::All)
+    }
+    /// The same for what is asked for.
+    #[inline(always)]
+    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
+        let mut sum = Rgb::zero(l);
+        let mut density = l.f(0.0);
+        #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
+        let coat = match &self.coat {
+            Some(coat) => Some(coat.colour(wi)),
+            None => None,
+        };
+        for slot in self.slots[..self.count].iter().flatten() {
+            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)) {
+                continue;
+            }
+            let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
+            let open = asked == Asked::Sampled && (!slot.is_diffuse() || slot.side != Side::Reflected);
+            if let Some(factor) = self.tilts.shadow(slot.normal, wi, slot.is_diffuse(), open) {
+                value = value * factor;
+            }
+            if let (true, Some(tint)) = (slot.coated, coat) {
+                value = value * tint;
+            }
+            sum += value;
+            density = slot.share.mul_add(pdf, density);
+        }
+        (sum, density / self.total.max(1e-20))
+    }
+    /// The diffuse part of [`Self::eval`]: all but facets and interfaces.
+    #[inline(always)]
+    pub fn eval_diffuse(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+        evaluate(l, self, wo, wi, Asked::Diffuse).0
+    }
+}
+
+/// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
+#[inline(never)]
+pub(super) fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sum(l, wo, wi, asked),
+    )
+}

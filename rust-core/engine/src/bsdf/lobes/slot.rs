@@ -1,0 +1,172 @@
+//! One lobe in its place: its shape, its frame and its weight.
+
+use super::super::diffuse::DiffuseLobe;
+use super::super::fuzz::FuzzLobe;
+use super::super::glass::GlassLobe;
+use super::super::measured::MeasuredLobe;
+use super::super::normals::{Normal, Tilts};
+use super::super::reflect::ReflectLobe;
+use super::super::subsurface::EntryLobe;
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+
+/// The shape of a lobe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape<'s, L: Lanes> {
+    /// Diffuse reflection.
+    Diffuse(DiffuseLobe<L>),
+    /// Glossy or mirror reflection.
+    Reflect(ReflectLobe<L>),
+    /// Reflection and refraction.
+    Glass(GlassLobe<L>),
+    /// Fuzz.
+    Fuzz(FuzzLobe<L>),
+    /// Straight through.
+    Straight,
+    /// Into a medium.
+    Subsurface(EntryLobe<L>),
+    /// As measured.
+    Measured(MeasuredLobe<'s, L>),
+}
+
+/// Where a lobe sends light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// Back.
+    Reflected,
+    /// Through the surface, as the mirror image of a reflection.
+    Mirrored,
+    /// Back and through.
+    Both,
+}
+
+/// A lobe in its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slot<'s, L: Lanes> {
+    pub(crate) shape: Shape<'s, L>,
+    /// Factor on the lobe's value.
+    pub(crate) weight: Rgb<L>,
+    /// Share in the choice of lobes, not normalised.
+    pub(crate) share: F<L>,
+    /// Cosine and sine of the tangent's turn.
+    pub(crate) turn: Option<[F<L>; 2]>,
+    pub(crate) side: Side,
+    pub(crate) normal: Normal,
+    /// Whether the light's way through the coat tints the lobe.
+    pub(crate) coated: bool,
+}
+
+/// A direction in a frame whose tangent is turned by an angle of this cosine and sine.
+#[inline(always)]
+pub(crate) fn turned<L: Lanes>(v: Vec3<L>, turn: Option<[F<L>; 2]>) -> Vec3<L> {
+    match turn {
+        Some([cos, sin]) => Vec3::new(cos.mul_add(v.x, sin * v.y), cos.mul_add(v.y, -(sin * v.x)), v.z),
+        None => v,
+    }
+}
+
+/// A direction, usable where it is over the surface.
+#[inline(always)]
+fn above<L: Lanes>(wi: Vec3<L>) -> (Vec3<L>, M<L>) {
+    (wi, wi.z.gt(0.0))
+}
+
+impl<L: Lanes> Slot<'_, L> {
+    /// A direction in the frame that the shape is defined in.
+    #[inline(always)]
+    fn in_shape_frame(&self, tilts: &Tilts<L>, v: Vec3<L>) -> Vec3<L> {
+        turned(tilts.seen(self.normal, v), self.turn)
+    }
+    /// A direction back in the shading frame.
+    #[inline(always)]
+    fn in_shading_frame(&self, tilts: &Tilts<L>, v: Vec3<L>) -> Vec3<L> {
+        let z = if self.side == Side::Mirrored { -v.z } else { v.z };
+        let v = match self.turn {
+            Some([cos, sin]) => Vec3::new(cos.mul_add(v.x, -(sin * v.y)), cos.mul_add(v.y, sin * v.x), z),
+            None => Vec3::new(v.x, v.y, z),
+        };
+        match tilts.frame(self.normal) {
+            Some(frame) => frame.to_world(v),
+            None => v,
+        }
+    }
+    /// Value × cosine and pdf of the lobe alone, with its weight.
+    #[inline(always)]
+    pub(super) fn eval(&self, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let wo = self.in_shape_frame(tilts, wo);
+        let mut wi = self.in_shape_frame(tilts, wi);
+        if self.side == Side::Mirrored {
+            wi.z = -wi.z;
+        }
+        let (value, pdf) = match &self.shape {
+            Shape::Diffuse(lobe) => lobe.eval(wo, wi),
+            Shape::Reflect(lobe) => lobe.eval(wo, wi),
+            Shape::Glass(lobe) => lobe.eval(wo, wi),
+            Shape::Fuzz(lobe) => {
+                let (value, pdf) = lobe.eval(wo, wi);
+                (Rgb::grey(value), pdf)
+            }
+            Shape::Measured(lobe) => lobe.eval(wo, wi),
+            Shape::Straight | Shape::Subsurface(_) => return (Rgb::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
+        };
+        (value * self.weight, pdf)
+    }
+    /// A direction of the lobe, whether it is on the side it was meant for, and whether that is the other one; `u[0]` is what the choice of
+    /// lobes left over.
+    #[inline(always)]
+    pub(super) fn sample(&self, tilts: &Tilts<L>, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, [M<L>; 2]) {
+        let wo = self.in_shape_frame(tilts, wo);
+        let (wi, usable) = match &self.shape {
+            Shape::Diffuse(_) => above(DiffuseLobe::sample([u[1], u[2]])),
+            Shape::Reflect(lobe) => above(lobe.sample(wo, [u[1], u[2]])),
+            Shape::Glass(lobe) => lobe.sample(wo, u),
+            Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
+            Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), wo.x.lanes().m(true)),
+            Shape::Subsurface(lobe) => lobe.sample(wo, u),
+            Shape::Measured(lobe) => lobe.sample(wo, u),
+        };
+        let through = match self.side {
+            Side::Reflected => wi.x.lanes().m(false),
+            Side::Mirrored => wi.x.lanes().m(true),
+            Side::Both => wi.z.lt(0.0),
+        };
+        (self.in_shading_frame(tilts, wi), [usable, through])
+    }
+    /// Lanes in which the lobe is a mirror or smooth.
+    #[inline(always)]
+    pub(super) fn delta(&self, l: L) -> M<L> {
+        match &self.shape {
+            Shape::Reflect(lobe) => lobe.delta,
+            Shape::Glass(lobe) => lobe.delta,
+            Shape::Straight => l.m(true),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
+        }
+    }
+    /// Weight and probability of the delta lanes for the direction `wi`.
+    #[inline(always)]
+    pub(super) fn delta_eval(&self, l: L, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let (wo, wi) = (tilts.seen(self.normal, wo), tilts.seen(self.normal, wi));
+        let (value, pdf) = match &self.shape {
+            Shape::Reflect(lobe) => (lobe.mirror(wo), l.f(1.0)),
+            Shape::Glass(lobe) => lobe.smooth(wo, wi),
+            Shape::Straight | Shape::Subsurface(_) => (Rgb::grey(l.f(1.0)), l.f(1.0)),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Measured(_) => (Rgb::zero(l), l.f(0.0)),
+        };
+        (value * self.weight, pdf)
+    }
+    /// Roughness r.
+    #[inline(always)]
+    pub(super) fn roughness(&self, l: L) -> F<L> {
+        match &self.shape {
+            Shape::Reflect(lobe) => lobe.roughness(),
+            Shape::Glass(lobe) => lobe.roughness(),
+            Shape::Straight => l.f(0.0),
+            Shape::Measured(lobe) => l.f(lobe.roughness()),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
+        }
+    }
+    /// Whether the bump rules count the lobe as diffuse.
+    #[inline(always)]
+    pub(super) fn is_diffuse(&self) -> bool {
+        matches!(self.shape, Shape::Diffuse(_) | Shape::Fuzz(_))
+    }
+}
