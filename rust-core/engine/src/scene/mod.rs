@@ -3,10 +3,13 @@
 //! Front ends fill a [`Scene`]; nothing here knows how it is computed. Lengths are metres, transforms f64, colours linear Rec.709,
 //! radiances scaled so that their luminance is in cd/m².
 
+mod antialiasing;
+mod aov;
 mod blob;
 mod bundle;
 mod camera;
 mod goniogram;
+mod graph;
 mod instance;
 mod light;
 mod light_quantity;
@@ -19,26 +22,23 @@ mod settings;
 mod texture;
 mod transform;
 
+pub use antialiasing::Antialiasing;
+pub use aov::{Aov, LightPart, OTHER_LIGHTS, ScatteringKind, ShaderValue};
 pub(crate) use bundle::digest_scene;
 pub use bundle::{load_bundle, save_bundle, with_images};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use goniogram::Goniogram;
+pub use graph::{Channel, Graph, Input, Node, NodeId, Operation, OutputKind, Quantity, Space};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
-pub use material::{
-    Channel, Closure, Distribution, Graph, Input, Material, Model, Node, NodeId, Operation, OutputKind, Quantity, ShaderOutput, Space,
-    SubsurfaceMethod,
-};
+pub use material::{Closure, Distribution, Material, Model, ShaderOutput, SubsurfaceMethod};
 pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
-pub use settings::{
-    Antialiasing, Aov, Background, Crop, Filter, Integrator, LightPart, MOST_LIGHT_SAMPLES, Mist, OTHER_LIGHTS, ScatteringKind, Settings,
-    ShaderValue,
-};
+pub use settings::{Background, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
 pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
 pub use transform::Transform;
 
