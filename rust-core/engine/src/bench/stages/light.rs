@@ -94,7 +94,8 @@ fn sky() -> Scene {
 fn goniogram() -> Arc<Goniogram> {
     let horizontal_deg: Vec<f32> = (0..=24).map(|plane| 15.0 * plane as f32).collect();
     let vertical_deg: Vec<f32> = (0..=36).map(|angle| 5.0 * angle as f32).collect();
-    let factor = |plane: f32, angle: f32| 120.0 + 80.0 * angle.to_radians().cos() * plane.to_radians().cos();
+    // One value at each pole, whatever the plane.
+    let factor = |plane: f32, angle: f32| 120.0 + 80.0 * angle.to_radians().sin() * plane.to_radians().cos();
     let factors = horizontal_deg.iter().flat_map(|plane| vertical_deg.iter().map(move |angle| factor(*plane, *angle))).collect();
     Arc::new(Goniogram { horizontal_deg, vertical_deg, factors, ..Goniogram::default() })
 }
