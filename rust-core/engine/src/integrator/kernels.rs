@@ -2,6 +2,8 @@
 //!
 //! Inlined at every call they would make stages of a hundred thousand instructions, which compile for minutes and run no faster: a call costs
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
+//!
+//! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
 
 use super::{
     light_draws::draw_chunk,
@@ -62,10 +64,10 @@ pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [Sharp
 
 /// [`crate::light::LightTable::take`].
 #[inline(never)]
-pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, [p, n]: [Vec3<L>; 2]) -> LightSample<L> {
+pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, point: [Vec3<L>; 2]) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.take(l, draw, p, n),
+        || tables.lights.take(l, draw, point[0], point[1]),
     )
 }
 
@@ -75,13 +77,13 @@ pub(crate) fn sample_light<L: Lanes>(
     l: L,
     tables: &Tables,
     known: Option<&KnownLights>,
-    [p, n]: [Vec3<L>; 2],
+    point: [Vec3<L>; 2],
     u_choice: F<L>,
     u: [F<L>; 2],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample(l, known, p, n, u_choice, u),
+        || tables.lights.sample(l, known, point[0], point[1], u_choice, u),
     )
 }
 
@@ -120,15 +122,15 @@ pub(super) fn surroundings<L: Lanes>(
     l: L,
     tables: &Tables,
     known: Option<&KnownLights>,
-    [from, normal]: [Vec3<L>; 2],
+    vertex: [Vec3<L>; 2],
     direction: Vec3<L>,
     pdf: F<L>,
-    [first, delta]: [M<L>; 2],
+    first_and_delta: [M<L>; 2],
     only: Option<u32>,
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.escaped(l, known, from, normal, direction, pdf, first, delta, only),
+        || tables.lights.escaped(l, known, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
     )
 }
 
