@@ -1,0 +1,100 @@
+//! What a stage says about itself.
+
+use super::problem::file_origin;
+use crate::context::UpAxis;
+use crate::prim::Prim;
+use crate::pxr::Module;
+use gonio::Diagnostic;
+use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Metres in a unit where a stage does not say.
+const FALLBACK_METRES_PER_UNIT: f64 = 0.01;
+
+/// A camera of a stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CameraInfo {
+    /// The prim's name.
+    pub name: String,
+    /// The prim's path.
+    pub path: String,
+}
+
+/// What a stage says about itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageInfo {
+    /// The vertical axis.
+    pub up_axis: UpAxis,
+    /// Metres in a unit.
+    pub metres_per_unit: f64,
+    /// First and last time code, where authored.
+    pub time_range: Option<[f64; 2]>,
+    /// Time codes a second.
+    pub time_codes_per_second: f64,
+    /// The path of the camera to take where none is named: `main_cam`, or the first.
+    pub default_camera: Option<String>,
+    /// All cameras outside prototypes.
+    pub cameras: Vec<CameraInfo>,
+    /// Prims read, by type; filled by [`Stage::load`].
+    pub prim_counts: BTreeMap<String, usize>,
+    /// What could not be composed: missing references, cycles.
+    pub composition_errors: Vec<Diagnostic>,
+}
+
+/// Asks the stage, and reports what it says wrongly.
+pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut Vec<Diagnostic>) -> PyResult<StageInfo> {
+    let geom = Module::UsdGeom.import(stage.py())?;
+    let origin = file_origin(path);
+    let mut warn = |message: String| diagnostics.push(Diagnostic::warning(&origin, message));
+    let axis: String = geom.call_method1("GetStageUpAxis", (stage,))?.extract()?;
+    if axis != "Y" && axis != "Z" {
+        warn(format!("upAxis is '{axis}', expected Y or Z; Y is used"));
+    }
+    let mut metres_per_unit: f64 = geom.call_method1("GetStageMetersPerUnit", (stage,))?.extract()?;
+    if !(metres_per_unit > 0.0 && metres_per_unit.is_finite()) {
+        warn(format!("metersPerUnit is {metres_per_unit}, expected a number above 0; {FALLBACK_METRES_PER_UNIT} is used"));
+        metres_per_unit = FALLBACK_METRES_PER_UNIT;
+    }
+    let mut time_codes_per_second: f64 = stage.call_method0("GetTimeCodesPerSecond")?.extract()?;
+    if !(time_codes_per_second > 0.0 && time_codes_per_second.is_finite()) {
+        warn(format!("timeCodesPerSecond is {time_codes_per_second}, expected a number above 0; 24 is used"));
+        time_codes_per_second = 24.0;
+    }
+    let mut time_range = None;
+    if stage.call_method0("HasAuthoredTimeCodeRange")?.is_truthy()? {
+        let range: [f64; 2] = [stage.call_method0("GetStartTimeCode")?.extract()?, stage.call_method0("GetEndTimeCode")?.extract()?];
+        if range.iter().all(|code| code.is_finite()) && range[0] <= range[1] {
+            time_range = Some(range);
+        } else {
+            warn(format!(
+                "the time range is {} to {}, expected a finite one that begins before it ends; it is ignored",
+                range[0], range[1]
+            ));
+        }
+    }
+    let cameras = cameras(stage)?;
+    let primary: String = Module::UsdUtils.import(stage.py())?.call_method0("GetPrimaryCameraName")?.extract()?;
+    let default_camera = cameras.iter().find(|camera| camera.name == primary).or(cameras.first()).map(|camera| camera.path.clone());
+    Ok(StageInfo {
+        up_axis: if axis == "Z" { UpAxis::Z } else { UpAxis::Y },
+        metres_per_unit,
+        time_range,
+        time_codes_per_second,
+        default_camera,
+        cameras,
+        ..StageInfo::default()
+    })
+}
+
+fn cameras(stage: &Bound<'_, PyAny>) -> PyResult<Vec<CameraInfo>> {
+    let class = Module::UsdGeom.item(stage.py(), "Camera")?;
+    let mut cameras = Vec::new();
+    for prim in stage.call_method0("Traverse")?.try_iter()? {
+        let prim = Prim::new(prim?);
+        if prim.is_a(&class) {
+            cameras.push(CameraInfo { name: prim.name(), path: prim.path() });
+        }
+    }
+    Ok(cameras)
+}

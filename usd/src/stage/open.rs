@@ -1,0 +1,143 @@
+//! Opening a stage: its layers, what of it is populated, and its variants.
+
+use super::problem::{format_error, unreadable};
+use crate::memory_limit::MemoryLimit;
+use crate::options::StageOptions;
+use crate::prim::Prim;
+use crate::pxr::{self, Module};
+use crate::{material, nesting, skeleton};
+use gonio::{Diagnostic, Error, Result};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use std::path::Path;
+
+/// A stage with its layer for skinned points.
+pub(super) struct Prepared<'py> {
+    pub(super) stage: Bound<'py, PyAny>,
+    pub(super) baked: Bound<'py, PyAny>,
+    pub(super) documents: Option<material::Substitution>,
+}
+
+/// The stage with variants chosen and skeletons' instances taken apart, and the layer for skinned points, which is the edit target.
+pub(super) fn open_prepared<'py>(
+    py: Python<'py>,
+    path: &Path,
+    options: &StageOptions,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Prepared<'py>> {
+    let unreadable = |error: PyErr| unreadable(py, path, &error);
+    let anonymous = |name: &str| Module::Sdf.item(py, "Layer")?.call_method1("CreateAnonymous", (name,));
+    let session = anonymous("session.usda").map_err(unreadable)?;
+    let baked = anonymous("skinned.usda").map_err(unreadable)?;
+    let add = || session.getattr("subLayerPaths")?.call_method1("append", (baked.getattr("identifier")?,));
+    add().map_err(unreadable)?;
+    let stage = open_layers(py, path, options, &session)?;
+    select_variants(&stage, options)?;
+    let documents = material::substitute_documents(&stage, diagnostics);
+    let apart = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
+    if let Some(first) = apart.first() {
+        diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one", apart.len())));
+    }
+    stage.call_method1("SetEditTarget", (&baked,)).map_err(unreadable)?;
+    Ok(Prepared { stage, baked, documents })
+}
+
+/// The stage, with the session layer as the edit target.
+fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, session: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>> {
+    let _limit = MemoryLimit::new(py);
+    let root = find_layer(py, path)?;
+    if let Some(layer) = &options.session_layer {
+        check_file(layer)?;
+        let found = find_layer(py, layer)?;
+        let add = || session.getattr("subLayerPaths")?.call_method1("append", (found.getattr("identifier")?,));
+        add().map_err(|error| unreadable(py, layer, &error))?;
+    }
+    let mask = population_mask(py, options)?;
+    let open = || -> PyResult<Bound<'py, PyAny>> {
+        let class = Module::Usd.item(py, "Stage")?;
+        let load = class.getattr(if options.load_payloads { "LoadAll" } else { "LoadNone" })?;
+        let stage = match mask {
+            Some(mask) => class.call_method1("OpenMasked", (&root, session, mask, load))?,
+            None => class.call_method1("Open", (&root, session, load))?,
+        };
+        stage.call_method1("SetEditTarget", (session,))?;
+        Ok(stage)
+    };
+    open().map_err(|error| unreadable(py, path, &error))
+}
+
+fn find_layer<'py>(py: Python<'py>, path: &Path) -> Result<Bound<'py, PyAny>> {
+    let find = || Module::Sdf.item(py, "Layer")?.call_method1("FindOrOpen", (path.to_string_lossy().as_ref(),));
+    let layer = find().map_err(|error| unreadable(py, path, &error))?;
+    if layer.is_none() { Err(format_error(path, "the file cannot be read as a USD layer")) } else { Ok(layer) }
+}
+
+fn population_mask<'py>(py: Python<'py>, options: &StageOptions) -> Result<Option<Bound<'py, PyAny>>> {
+    if options.population_mask.is_empty() {
+        return Ok(None);
+    }
+    let failed = |problem: String| Error::Setting { name: "mask".into(), problem };
+    for path in &options.population_mask {
+        let is_valid = Module::Sdf.item(py, "Path").and_then(|class| class.call_method1("IsValidPathString", (path,))?.is_truthy());
+        if !path.starts_with('/') || !is_valid.unwrap_or(false) {
+            return Err(failed(format!("'{path}' was found, expected a prim path such as /World/Chair")));
+        }
+    }
+    let mask = || Module::Usd.item(py, "StagePopulationMask")?.call1((PyList::new(py, &options.population_mask)?,));
+    mask().map(Some).map_err(|error| failed(pxr::message_of(py, &error)))
+}
+
+fn select_variants(stage: &Bound<'_, PyAny>, options: &StageOptions) -> Result<()> {
+    let py = stage.py();
+    for selection in &options.variants {
+        let failed = |problem: String| Error::Setting { name: "variant".into(), problem };
+        let names = || -> PyResult<Option<Vec<String>>> {
+            let prim = Prim::new(stage.call_method1("GetPrimAtPath", (&selection.prim,))?);
+            if !prim.is_valid() {
+                return Ok(None);
+            }
+            let set = prim.object().call_method1("GetVariantSet", (&selection.set,))?;
+            let names: Vec<String> = set.call_method0("GetVariantNames")?.extract()?;
+            if names.contains(&selection.variant) {
+                set.call_method1("SetVariantSelection", (&selection.variant,))?;
+            }
+            Ok(Some(names))
+        };
+        match names().map_err(|error| failed(pxr::message_of(py, &error)))? {
+            None => return Err(failed(format!("there is no prim {}", selection.prim))),
+            Some(names) if names.is_empty() => return Err(failed(format!("{} has no variant set '{}'", selection.prim, selection.set))),
+            Some(names) if !names.contains(&selection.variant) => {
+                let (prim, set, variant) = (&selection.prim, &selection.set, &selection.variant);
+                return Err(failed(format!("{prim}{{{set}}} has no variant '{variant}'; it has {}", names.join(", "))));
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// What can be said about the file without `pxr`.
+pub(super) fn check_file(path: &Path) -> Result<()> {
+    let text = path.to_string_lossy();
+    // Addresses of other asset systems, and files inside packages, are the resolver's business.
+    if text.contains("://") || text.ends_with(']') {
+        return Ok(());
+    }
+    let metadata = std::fs::metadata(path).map_err(|error| Error::io(path, error))?;
+    if metadata.is_dir() {
+        return Err(format_error(path, "a folder was found, expected a USD file"));
+    }
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if !matches!(extension.as_str(), "usd" | "usda" | "usdc" | "usdz") {
+        return Err(format_error(path, format!("the file's ending is '{extension}', expected usd, usda, usdc or usdz")));
+    }
+    if metadata.len() == 0 {
+        return Err(format_error(path, "the file is empty"));
+    }
+    match nesting::too_deep_at(path) {
+        Some(line) => {
+            Err(Error::Format { path: path.to_owned(), line: Some(line), problem: "brackets are nested too deep to be read".into() })
+        }
+        None => Ok(()),
+    }
+}
