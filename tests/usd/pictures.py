@@ -81,6 +81,20 @@ def Camera "{name}"
 }}
 """
 
+# A lamp whose strength changes from frame to frame.
+MOVING = """
+def SphereLight "Lamp"
+{
+    float inputs:intensity.timeSamples = { 1: 100, 2: 200, 3: 400 }
+    float inputs:radius = 0.2
+    double3 xformOp:translate = (1, 3, 1)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+# A mesh with a corner that there is not.
+BROKEN = 'def Mesh "Broken"\n{\n    int[] faceVertexCounts = [3]\n    int[] faceVertexIndices = [0, 1, 9]\n    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}\n'
+
 
 def camera(name="Cam", x=0):
     """A camera in front of the room."""
@@ -122,6 +136,13 @@ def read(path):
     file = OpenEXR.File(str(path), separate_channels=True)
     channels = {name: np.array(channel.pixels) for name, channel in file.channels().items()}
     return Picture(channels, dict(file.header()))
+
+
+def same(first, second):
+    """Whether all channels are equal to the bit."""
+    return first.channels.keys() == second.channels.keys() and all(
+        np.array_equal(first[name], second[name], equal_nan=True) for name in first.channels
+    )
 
 
 def png_size(path):

@@ -12,17 +12,6 @@ import pytest
 PASSES = "color,illuminance,primId,sample_count"
 
 
-@pytest.fixture(scope="module")
-def room(tmp_path_factory):
-    return pictures.room(tmp_path_factory.mktemp("room") / "room.usda")
-
-
-def same(first, second):
-    return first.channels.keys() == second.channels.keys() and all(
-        np.array_equal(first[name], second[name], equal_nan=True) for name in first.channels
-    )
-
-
 def line(room, *options, size=96, spp=64):
     return ["render", str(room), "--res", str(size), str(size), "--spp", str(spp), "--aov", PASSES, "-q", *map(str, options)]
 
@@ -42,14 +31,14 @@ def test_parts_merge_to_the_whole(run, room, tmp_path):
     done = run("merge", *reversed(parts), "-o", tmp_path / "merged.exr", "-o", tmp_path / "merged.png")
     assert done.returncode == 0 and "samples 0:64 of 64" in done.stderr and (tmp_path / "merged.png").exists(), done.stderr
     whole, merged = pictures.read(tmp_path / "whole.exr"), pictures.read(tmp_path / "merged.exr")
-    assert same(whole, merged)
+    assert pictures.same(whole, merged)
     assert merged.header["gonio:samples"] == "64" and merged.header["gonio:camera"] == whole.header["gonio:camera"]
 
 
 def test_a_finished_checkpoint_gives_the_picture_again(run, room, tmp_path):
     assert run(*line(room, "-o", tmp_path / "a.exr", "--checkpoint", tmp_path / "c")).returncode == 0
     assert run(*line(room, "-o", tmp_path / "b.exr", "--checkpoint", tmp_path / "c", "--resume")).returncode == 0
-    assert same(pictures.read(tmp_path / "a.exr"), pictures.read(tmp_path / "b.exr"))
+    assert pictures.same(pictures.read(tmp_path / "a.exr"), pictures.read(tmp_path / "b.exr"))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.exr", "b.exr", "c"]
 
 
@@ -123,7 +112,7 @@ def kill_often(run, command, room, tmp_path, renders, kills):
         whole = pictures.read(tmp_path / "whole.exr")
         for number in range(renders):
             path = tmp_path / f"{threshold}-{number}.exr"
-            assert same(whole, render_with_kills(command, room, path, kills, chance, *options)), path.name
+            assert pictures.same(whole, render_with_kills(command, room, path, kills, chance, *options)), path.name
 
 
 def test_kills_do_not_change_a_bit(run, command, room, tmp_path):

@@ -11,11 +11,6 @@ import pytest
 PASSES = "color,illuminance,primId,sample_count"
 
 
-@pytest.fixture(scope="module")
-def room(tmp_path_factory):
-    return pictures.room(tmp_path_factory.mktemp("room") / "room.usda")
-
-
 def line(room, *options, spp=16):
     return ["render", str(room), "--res", "130", "96", "--spp", str(spp), "--aov", PASSES, "-q", *map(str, options)]
 

@@ -35,11 +35,6 @@ def render(run, stage, folder, *options):
     return run("render", stage, "-o", folder / "out.exr", "--res", 16, 16, "--spp", 1, "--time-limit", 20, *options, timeout=60)
 
 
-@pytest.fixture(scope="module")
-def room(tmp_path_factory):
-    return pictures.room(tmp_path_factory.mktemp("room") / "room.usda")
-
-
 def judge(done, folder):
     """Asserts what every run must fulfil; gives whether there is a picture."""
     assert not any(word in done.stderr for word in BAD_WORDS), done.stderr

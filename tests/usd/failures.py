@@ -1,0 +1,10 @@
+"""Runs of the command line that end with an error."""
+
+
+def fails(run, *arguments, status=1):
+    """The one line that the run says."""
+    done = run(*arguments)
+    assert done.returncode == status, (done.returncode, done.stderr)
+    lines = done.stderr.strip().splitlines()
+    assert len(lines) == 1 and lines[0].startswith("gonio: error: "), done.stderr
+    return lines[0]
