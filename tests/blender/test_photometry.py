@@ -133,6 +133,32 @@ def test_files_that_are_not_there_are_reported(tmp_path: Path):
 
 
 @pytest.mark.blender
+def test_tilt_factors_that_change_beside_their_luminaire(tmp_path: Path):
+    import importlib
+
+    import bpy
+    import gonio
+
+    luminaire = importlib.import_module("gonio_extension.luminaire")
+    tilted = IES.replace("TILT=NONE", "tilt = lamp.tlt").format(size="0 0 0")
+    (tmp_path / "lamp.ies").write_text(tilted)
+    light = bpy.data.lights.new("Lamp", "POINT")
+    light.gonio.use_photometry, light.gonio.file, light.gonio.tilt = True, str(tmp_path / "lamp.ies"), 1.5707963
+
+    def straight_down():
+        return luminaire.figures(light)["cuts"][0][0][1]
+
+    found = {}
+    for factor in ("0.5", "0.25"):
+        (tmp_path / "lamp.tlt").write_text(f"1\n2\n0 90\n1 {factor}\n")
+        found[factor] = straight_down()
+    assert abs(found["0.5"] - 2.0 * found["0.25"]) < 1e-6 * found["0.5"] and found["0.25"] > 0.0, found
+    (tmp_path / "lamp.tlt").unlink()
+    with pytest.raises(gonio.FormatError, match="no tilt factors"):
+        straight_down()
+
+
+@pytest.mark.blender
 def test_portals_have_no_photometry(tmp_path: Path):
     import scenes
     from recorder import depsgraph, exporter
