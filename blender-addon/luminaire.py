@@ -9,6 +9,8 @@ from pathlib import Path
 import bpy
 import gonio
 
+from .file_version import file_version
+
 # An IES file's line with the name of a file of tilt factors; what it means is the reader's business, here it is looked at for changes.
 TILT_LINE = re.compile(rb"^[ \t]*TILT[ \t]*=[ \t]*(.*?)[ \t]*\r?$", re.IGNORECASE | re.MULTILINE)
 
@@ -24,8 +26,8 @@ def file_of(light):
     if not settings.use_photometry or not settings.file or light.type == "SUN":
         return None
     path = Path(bpy.path.abspath(settings.file, library=light.library))
-    version = _version(path)
-    return str(path), (version, _version_beside(str(path), version)), settings.lamp_set, degrees(settings.tilt)
+    version = file_version(path)
+    return str(path), (version, _version_beside(path, version)), settings.lamp_set, degrees(settings.tilt)
 
 
 def goniogram(light):
@@ -40,16 +42,11 @@ def figures(light):
     return None if found is None else _figures(*found)
 
 
-def _version(path: Path):
-    state = path.stat()
-    return state.st_mtime_ns, state.st_size
-
-
 def _version_beside(path, version):
     """The version of the file of tilt factors, or None without one."""
     name = _tilt_file(path, version)
     try:
-        return _version(Path(path).with_name(name)) if name else None
+        return file_version(path.with_name(name)) if name else None
     except (OSError, ValueError):
         # The reader says what is wrong with it.
         return None
@@ -59,7 +56,7 @@ def _version_beside(path, version):
 @lru_cache(maxsize=64)
 def _tilt_file(path, _version):
     """What the file says of its tilt: a file's name, or a word that is none's."""
-    line = TILT_LINE.search(Path(path).read_bytes())
+    line = TILT_LINE.search(path.read_bytes())
     return line.group(1).decode("latin-1") if line else None
 
 

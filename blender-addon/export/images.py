@@ -6,6 +6,8 @@ import os
 import bpy
 import numpy as np
 
+from ..file_version import file_version
+
 # Blender's names of colour spaces -> gonio's. Data is taken as it is.
 COLOUR_SPACES = {
     "sRGB": "srgb_texture",
@@ -109,8 +111,7 @@ class Images:
             return None, None
         if image.file_format not in READABLE:
             return self._pixels(image, user, report)
-        state = os.stat(path)
-        return ("file", path, state.st_mtime_ns, state.st_size), lambda: ({"source": {"File": path}}, {})
+        return ("file", path, *file_version(path)), lambda: ({"source": {"File": path}}, {})
 
     def _tiled(self, image, report):
         path = bpy.path.abspath(image.filepath_raw, library=image.library)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of measured materials: read once, kept from one export to the next."""
 
-import os
-
 import gonio
+
+from ..file_version import file_version
 
 
 class Measurements:
@@ -14,8 +14,7 @@ class Measurements:
 
     def number(self, path):
         """The number of a file as it is now; raises OSError or `gonio.Error` where it cannot be read."""
-        state = os.stat(path)
-        key = (str(path), state.st_mtime_ns, state.st_size)
+        key = (str(path), *file_version(path))
         # A file that cannot be read takes no place.
         found = None if key in self._slots else gonio.MeasuredBsdf.from_file(path)
         number, is_new = self._slots.take(key)

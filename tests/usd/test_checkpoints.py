@@ -8,18 +8,13 @@ import time
 import numpy as np
 import pictures
 import pytest
+from failures import error_of
 
 PASSES = "color,illuminance,primId,sample_count"
 
 
 def line(room, *options, size=96, spp=64):
     return ["render", str(room), "--res", str(size), str(size), "--spp", str(spp), "--aov", PASSES, "-q", *map(str, options)]
-
-
-def fails(done):
-    lines = done.stderr.strip().splitlines()
-    assert done.returncode == 1 and len(lines) == 1 and lines[0].startswith("gonio: error: "), done.stderr
-    return lines[0]
 
 
 def test_parts_merge_to_the_whole(run, room, tmp_path):
@@ -44,7 +39,7 @@ def test_a_finished_checkpoint_gives_the_picture_again(run, room, tmp_path):
 
 def test_frames_have_checkpoints_of_their_own(run, room, tmp_path):
     options = ("-f", "1:2", "-o", tmp_path / "a.#.exr")
-    assert "checkpoint" in fails(run(*line(room, *options, "--checkpoint", tmp_path / "c", spp=1)))
+    assert "checkpoint" in error_of(run(*line(room, *options, "--checkpoint", tmp_path / "c", spp=1)))
     assert run(*line(room, *options, "--checkpoint", tmp_path / "c.#", spp=1)).returncode == 0
     assert (tmp_path / "c.1").exists() and (tmp_path / "c.2").exists()
 
@@ -52,24 +47,24 @@ def test_frames_have_checkpoints_of_their_own(run, room, tmp_path):
 def test_what_cannot_be_used_is_told_in_one_line(run, room, tmp_path):
     kept = ("--checkpoint", tmp_path / "c")
     assert run(*line(room, *kept, spp=16)).returncode == 0
-    assert "--resume" in fails(run(*line(room, *kept, spp=16)))
-    assert "its samples is 16, 32 was asked for" in fails(run(*line(room, *kept, "--resume", spp=32)))
-    assert "its resolution is [96,96], [64,64] was asked for" in fails(run(*line(room, *kept, "--resume", spp=16, size=64)))
+    assert "--resume" in error_of(run(*line(room, *kept, spp=16)))
+    assert "its samples is 16, 32 was asked for" in error_of(run(*line(room, *kept, "--resume", spp=32)))
+    assert "its resolution is [96,96], [64,64] was asked for" in error_of(run(*line(room, *kept, "--resume", spp=16, size=64)))
     stage = room.read_text()
     other = tmp_path / "room.usda"
     other.write_text(stage.replace("double radius = 0.6", "double radius = 0.7"))
-    assert "another scene" in fails(run(*line(other, *kept, "--resume", spp=16)))
+    assert "another scene" in error_of(run(*line(other, *kept, "--resume", spp=16)))
     (tmp_path / "c").write_bytes((tmp_path / "c").read_bytes()[:-9])
-    assert "ends before its time" in fails(run(*line(room, *kept, "--resume", spp=16)))
+    assert "ends before its time" in error_of(run(*line(room, *kept, "--resume", spp=16)))
 
 
 @pytest.mark.parametrize("samples", ["5:16", "0:0", "0:99", "16:8", "a:b", "16"])
 def test_ranges_that_would_cut_blocks(run, room, tmp_path, samples):
-    assert "samples: " in fails(run(*line(room, "-o", tmp_path / "a.exr", "--samples", samples, spp=32)))
+    assert "samples: " in error_of(run(*line(room, "-o", tmp_path / "a.exr", "--samples", samples, spp=32)))
 
 
 def test_a_part_knows_no_noise_threshold(run, room, tmp_path):
-    said = fails(run(*line(room, "-o", tmp_path / "a.exr", "--samples", "0:16", "--noise-threshold", 0.1)))
+    said = error_of(run(*line(room, "-o", tmp_path / "a.exr", "--samples", "0:16", "--noise-threshold", 0.1)))
     assert "noise threshold" in said
 
 
@@ -141,4 +136,4 @@ def test_denoising_without_the_extra_is_one_line(run, room, tmp_path):
     (tmp_path / "pyoidn.py").write_text("raise ImportError('no such thing')\n")
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])}
     done = run(*line(room, "-o", tmp_path / "a.exr", "--denoise", spp=1), env=environment)
-    assert "pip install 'gonio[denoise]'" in fails(done)
+    assert "pip install 'gonio[denoise]'" in error_of(done)

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import environments
 import gonio
-import numpy
 import pytest
 
 sys.path.append(str(environments.ROOT / "tests" / "usd"))
@@ -127,10 +126,7 @@ def ended(process):
 
 
 def same(first, second):
-    first, second = pictures.read(first), pictures.read(second)
-    return first.channels.keys() == second.channels.keys() and all(
-        numpy.array_equal(first[name], second[name], equal_nan=True) for name in first.channels
-    )
+    return pictures.same(pictures.read(first), pictures.read(second))
 
 
 @pytest.mark.parametrize("seed", range(6))
