@@ -23,6 +23,15 @@ def test_parts_are_the_clusters_affair(run, room, others):
     assert done.returncode == 2 and "--dask <ADDRESS>' cannot be used with" in done.stderr
 
 
+def test_the_files_that_workers_need(tmp_path):
+    from gonio.farm.source import files_of
+
+    layer = pictures.room(tmp_path / "layer.usda")
+    stage = tmp_path / "stage.usda"
+    stage.write_text(f"#usda 1.0\n(\n    subLayers = [@{layer.name}@]\n)\n")
+    assert {Path(file).name for file in files_of([stage])} == {"stage.usda", "layer.usda"}
+
+
 def test_options_of_clusters_need_one(run, room):
     assert run(*line(room, "-o", "a.exr", "--dask-send")).returncode == 2
     assert run(*line(room, "-o", "a.exr", "--dask-parts", 4)).returncode == 2

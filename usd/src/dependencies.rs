@@ -19,7 +19,7 @@ pub fn files_of_stage(py: Python<'_>, path: &Path) -> Result<Vec<String>> {
 }
 
 fn names(py: Python<'_>, path: &Path) -> PyResult<Vec<String>> {
-    let found = Module::UsdUtils.item(py, "ComputeAllDependencies")?.call1((path,))?;
+    let found = Module::UsdUtils.item(py, "ComputeAllDependencies")?.call1((path.to_string_lossy().as_ref(),))?;
     let (layers, assets, _unresolved): (Vec<Bound<'_, PyAny>>, Vec<String>, Bound<'_, PyAny>) = found.extract()?;
     let layers = layers.iter().map(|layer| layer.getattr("realPath")?.extract::<String>());
     let names = layers.chain(assets.into_iter().map(Ok)).collect::<PyResult<Vec<_>>>()?;
