@@ -29,7 +29,7 @@ pub(super) fn light<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, .. } = *stage;
-    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), [point.position, point.frame.z], u[0], [u[1], u[2]]);
+    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), &point.position, &point.frame.z, &u);
     send(stage, point, wo, lobes, &sample, None, present, ws);
 }
 

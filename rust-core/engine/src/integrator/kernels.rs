@@ -4,6 +4,7 @@
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
 //!
 //! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
+//! Points that many branches read go by reference down to them: as values they would be stored once more for all branches together.
 
 use super::{
     light_draws::draw_chunk,
@@ -64,10 +65,10 @@ pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [Sharp
 
 /// [`crate::light::LightTable::take`].
 #[inline(never)]
-pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, point: [Vec3<L>; 2]) -> LightSample<L> {
+pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.take(l, draw, point[0], point[1]),
+        || tables.lights.take(l, draw, p, n),
     )
 }
 
@@ -77,13 +78,13 @@ pub(crate) fn sample_light<L: Lanes>(
     l: L,
     tables: &Tables,
     known: Option<&KnownLights>,
-    point: [Vec3<L>; 2],
-    u_choice: F<L>,
-    u: [F<L>; 2],
+    p: &Vec3<L>,
+    n: &Vec3<L>,
+    u: &[F<L>; 3],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample(l, known, point[0], point[1], u_choice, u),
+        || tables.lights.sample(l, known, p, n, u[0], &[u[1], u[2]]),
     )
 }
 

@@ -169,6 +169,6 @@ fn aim<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let hit = l.load_integers(&draws.order, at);
     let [light, probability, u, v] = l.gather_quads(&draws.draw, hit << 2);
     let (p, n) = (Vec3::gather(l, &draws.position, hit << 2), Vec3::gather(l, &draws.normal, hit << 2));
-    let sample = tables.lights.sample_chosen(l, (light.to_bits(), probability), p, n, [u, v]);
+    let sample = tables.lights.sample_chosen(l, (light.to_bits(), probability), &p, &n, &[u, v]);
     ws.light_draws.store(l, &sample, at);
 }

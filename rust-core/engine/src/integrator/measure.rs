@@ -52,7 +52,7 @@ fn take_draws<L: Lanes>(l: L, tables: &Tables, draws: &[Draw], chunk: Range<usiz
         for draw in draws {
             let reached = tables.lights.reaches(l, draw, point.position, point.frame.z) & point.alive;
             if reached.any() {
-                let sample = kernels::take_draw(l, tables, draw, [point.position, point.frame.z]);
+                let sample = kernels::take_draw(l, tables, draw, &point.position, &point.frame.z);
                 light(l, &point, &sample, Some(draw.share), ws);
             }
         }
@@ -68,8 +68,9 @@ fn sample<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &Samp
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
         let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
-            let (known, u) = (transport.known.as_deref(), context.sampler.pair(l, index, base + dimension::LIGHT));
-            let sample = kernels::sample_light(l, tables, known, [point.position, point.frame.z], u_choice, u);
+            let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+            let known = transport.known.as_deref();
+            let sample = kernels::sample_light(l, tables, known, &point.position, &point.frame.z, &[u_choice, u, v]);
             light(l, &point, &sample, None, ws);
         }
         start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);

@@ -17,14 +17,15 @@ impl LightTable {
         l: L,
         light: &Reader<'_, L>,
         index: U<L>,
-        [p, n]: [Vec3<L>; 2],
-        u: [F<L>; 2],
+        [p, n]: [&Vec3<L>; 2],
+        u: &[F<L>; 2],
         infinite: M<L>,
         aim: &mut Aim<L>,
     ) {
         if !infinite.any() {
             return;
         }
+        let (p, n, u) = (*p, *n, *u);
         if self.has(LightKind::Distant) {
             let of_kind = light.is_kind(LightKind::Distant);
             let (wi, pdf) = distant::sample(l, light, u);

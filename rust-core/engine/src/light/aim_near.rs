@@ -15,55 +15,55 @@ use gonio_simd::{F, Lanes, Vec3};
 impl LightTable {
     /// Aims at lights that have a place.
     #[inline(always)]
-    pub(super) fn aim_near<L: Lanes>(&self, l: L, light: &Reader<'_, L>, p: Vec3<L>, u: [F<L>; 2], aim: &mut Aim<L>) {
+    pub(super) fn aim_near<L: Lanes>(&self, l: L, light: &Reader<'_, L>, p: &Vec3<L>, u: &[F<L>; 2], aim: &mut Aim<L>) {
         self.aim_kind(
             LightKind::Rectangle,
             light,
             aim,
             #[inline(always)]
-            || Rectangle::sample(l, light, p, u),
+            || Rectangle::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::Disk,
             light,
             aim,
             #[inline(always)]
-            || Disk::sample(l, light, p, u),
+            || Disk::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::Sphere,
             light,
             aim,
             #[inline(always)]
-            || Sphere::sample(l, light, p, u),
+            || Sphere::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::Cylinder,
             light,
             aim,
             #[inline(always)]
-            || Cylinder::sample(l, light, p, u),
+            || Cylinder::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::Triangle,
             light,
             aim,
             #[inline(always)]
-            || Triangle::sample(l, light, p, u),
+            || Triangle::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::FacingDisk,
             light,
             aim,
             #[inline(always)]
-            || FacingDisk::sample(l, light, p, u),
+            || FacingDisk::sample(l, light, *p, *u),
         );
         self.aim_kind(
             LightKind::Point,
             light,
             aim,
             #[inline(always)]
-            || Aim { pdf: l.f(1.0), ..Aim::towards(light.vector(field::ORIGIN) - p) },
+            || Aim { pdf: l.f(1.0), ..Aim::towards(light.vector(field::ORIGIN) - *p) },
         );
     }
 

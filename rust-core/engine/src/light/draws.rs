@@ -64,11 +64,11 @@ impl LightTable {
 
     /// A draw seen from point `p` with normal `n`: [`Self::sample`] with the draw's numbers.
     #[inline(always)]
-    pub fn take<L: Lanes>(&self, l: L, draw: &Draw, p: Vec3<L>, n: Vec3<L>) -> LightSample<L> {
+    pub fn take<L: Lanes>(&self, l: L, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
         let place: [F<L>; 2] = [l.f(draw.place[0]), l.f(draw.place[1])];
         match draw.light {
-            Some(light) => self.sample_chosen(l, (l.u(light), l.f(1.0)), p, n, place),
-            None => self.sample(l, None, p, n, l.f(draw.choice), place),
+            Some(light) => self.sample_chosen(l, (l.u(light), l.f(1.0)), p, n, &place),
+            None => self.sample(l, None, p, n, l.f(draw.choice), &place),
         }
     }
 }

@@ -24,6 +24,9 @@ impl LightTable {
     #[inline(always)]
     pub(super) fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
         let plain = light.colour(field::RADIANCE);
+        if !light.flag(flag::VARIED).any() {
+            return plain;
+        }
         let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi) * per_area(l, light, -wi));
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);

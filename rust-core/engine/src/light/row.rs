@@ -104,6 +104,8 @@ pub(crate) mod flag {
     pub(crate) const ROUND: u32 = 1 << 19;
     /// And so is the first with them.
     pub(crate) const ALL_ROUND: u32 = 1 << 20;
+    /// What it sends differs by direction or place.
+    pub(crate) const VARIED: u32 = 1 << 21;
 }
 
 /// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.

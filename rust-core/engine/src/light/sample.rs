@@ -42,21 +42,21 @@ impl LightTable {
         &self,
         l: L,
         known: Option<&KnownLights>,
-        p: Vec3<L>,
-        n: Vec3<L>,
+        p: &Vec3<L>,
+        n: &Vec3<L>,
         u_choice: F<L>,
-        u: [F<L>; 2],
+        u: &[F<L>; 2],
     ) -> LightSample<L> {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let chosen = self.choose(l, known, p, n, u_choice);
+        let chosen = self.choose(l, known, *p, *n, u_choice);
         self.sample_chosen(l, chosen, p, n, u)
     }
 
     /// Draws a direction to a light that has been chosen with some probability.
     #[inline(always)]
-    pub(crate) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: Vec3<L>, n: Vec3<L>, u: [F<L>; 2]) -> LightSample<L> {
+    pub(crate) fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: &Vec3<L>, n: &Vec3<L>, u: &[F<L>; 2]) -> LightSample<L> {
         let light = self.reader(l, chosen.0);
         // What all lanes share is known to be so all the way down: no gathers, no kind of light but one.
         match light.common() {
@@ -71,9 +71,9 @@ impl LightTable {
         l: L,
         light: &Reader<'_, L>,
         (index, probability): (U<L>, F<L>),
-        p: Vec3<L>,
-        n: Vec3<L>,
-        u: [F<L>; 2],
+        p: &Vec3<L>,
+        n: &Vec3<L>,
+        u: &[F<L>; 2],
     ) -> LightSample<L> {
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
@@ -89,8 +89,8 @@ impl LightTable {
         };
         let pdf = aim.pdf * probability;
         let facing = light.is_kind(LightKind::FacingDisk);
-        let enclosed = if facing.any() { facing & facing_disk::encloses(light, p) } else { facing };
-        let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(light, p, aim.wi) & light.flag(flag::LIT);
+        let enclosed = if facing.any() { facing & facing_disk::encloses(light, *p) } else { facing };
+        let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(light, *p, aim.wi) & light.flag(flag::LIT);
         LightSample {
             wi: valid.select(aim.wi, Vec3::splat(l, [0.0, 0.0, 1.0])),
             distance: valid.select(aim.distance, l.f(f32::MAX)),

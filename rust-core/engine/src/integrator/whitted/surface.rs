@@ -102,7 +102,7 @@ fn light<L: Lanes>(
         }
         before = Some(draw);
         if reached.any() {
-            let sample = kernels::take_draw(l, tables, draw, [point.position, point.frame.z]);
+            let sample = kernels::take_draw(l, tables, draw, &point.position, &point.frame.z);
             send(stage, point, wo, lobes, &sample, Some(draw.share), reached, ws);
         }
     }

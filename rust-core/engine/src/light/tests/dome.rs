@@ -117,7 +117,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
     let never: M<L> = l.m(false);
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample(l, None, p, n, numbers[0], [numbers[1], numbers[2]]);
+        let s = table.sample(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
         let by_light = (s.radiance.g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));

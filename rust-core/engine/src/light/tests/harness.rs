@@ -49,7 +49,7 @@ fn kernel<L: Lanes>(l: L, table: &LightTable, known: Option<&KnownLights>, p: [f
     let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, n));
     for at in (0..u[0].len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample(l, known, p, n, numbers[0], [numbers[1], numbers[2]]);
+        let s = table.sample(l, known, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let [x, y, z] = &mut drawn.wi;
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);

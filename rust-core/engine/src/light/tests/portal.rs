@@ -113,7 +113,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
     };
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample(l, None, p, n, numbers[0], [numbers[1], numbers[2]]);
+        let s = table.sample(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
         let by_light = (s.radiance.g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
