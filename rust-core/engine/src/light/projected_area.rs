@@ -88,6 +88,12 @@ impl ProjectedArea {
     }
 }
 
+/// The area that the side at a place of the row shows to unit `direction`; a function, as closures that `map` calls may stay calls, without lanes.
+#[inline(always)]
+fn side<L: Lanes>(light: &Reader<'_, L>, place: usize, direction: Vec3<L>) -> F<L> {
+    light.vector(field::OPENING_SIDES + place).dot(direction).abs()
+}
+
 /// One over the area that a light's opening shows to unit `direction`, 0 where it shows none; 1 for lights that are no openings.
 #[inline(always)]
 pub(super) fn per_area<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> F<L> {
@@ -95,10 +101,7 @@ pub(super) fn per_area<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>
     if !opening.any() {
         return l.f(1.0);
     }
-    let [a, b, c] = [0, 3, 6].map(
-        #[inline(always)]
-        |k| light.vector(field::OPENING_SIDES + k).dot(direction).abs(),
-    );
+    let (a, b, c) = (side(light, 0, direction), side(light, 3, direction), side(light, 6, direction));
     let tilt = light.vector(field::OPENING_TILT).dot(direction);
     let round = b * b + c * c;
     let cylinder = a + round.sqrt();

@@ -37,10 +37,16 @@ struct Cell<L: Lanes> {
     share: F<L>,
 }
 
+/// Which cell a coordinate lies in; a function, as closures that `map` calls may stay calls, without lanes.
+#[inline(always)]
+fn step<L: Lanes>(x: F<L>, per_metre: f32) -> U<L> {
+    (x * per_metre + SHIFT).floor().to_i32()
+}
+
 /// Place in a table and key of the cell that holds a point.
 #[inline(always)]
 fn hashed<L: Lanes>(p: Vec3<L>, per_metre: f32) -> [U<L>; 2] {
-    let [x, y, z] = [p.x, p.y, p.z].map(|x| (x * per_metre + SHIFT).floor().to_i32());
+    let (x, y, z) = (step(p.x, per_metre), step(p.y, per_metre), step(p.z, per_metre));
     let mixed = (x * 0x8da6_b343) ^ (y * 0xd816_3841) ^ (z * 0xcb1a_b31f);
     let key = ((x * 0x9e37_79b1) ^ (y * 0x85eb_ca77) ^ (z * 0xc2b2_ae3d)) | 1;
     [mixed ^ (mixed >> 15), key]
