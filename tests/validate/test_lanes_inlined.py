@@ -24,6 +24,7 @@ def built() -> str:
 
 
 @pytest.mark.validate
+@pytest.mark.timeout(1800)  # Building takes minutes.
 def test_no_operation_on_lanes_is_a_call() -> None:
     if shutil.which("nm") is None:
         pytest.skip("nm is not installed")
