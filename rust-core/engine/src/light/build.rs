@@ -191,7 +191,6 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
         (record.opening.is_some(), flag::OPENING),
         (record.opening.is_some_and(|part| part.area.outline != Outline::Faces), flag::ROUND),
         (record.opening.is_some_and(|part| part.area.outline == Outline::Ellipsoid), flag::ALL_ROUND),
-        (shaped || spot || spread || record.opening.is_some(), flag::VARIED),
         (lit, flag::LIT),
     ] {
         bits |= if set { bit } else { 0 };

@@ -53,7 +53,6 @@ impl LightTable {
         if let Some(portals) = self.portals_at(l, from) {
             pdf = self.portal_density(l, &portals, from, wi, pdf);
         }
-        let textured = infinite.distribution.is_some();
-        (if textured { self.emitted(l, &light, wi, place) } else { light.colour(field::RADIANCE) }, pdf)
+        (self.emitted(l, &light, wi, place), pdf)
     }
 }

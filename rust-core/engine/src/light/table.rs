@@ -63,8 +63,9 @@ impl LightTable {
             fill_row(record, mean * goniogram.map_or(1.0, |goniogram| f64::from(goniogram.peak())), row);
             row[field::GONIOGRAM] = f32::from_bits(record.goniogram.filter(|_| goniogram.is_some()).map_or(0, |number| number + 1));
             fill_texture(image.map(|(place, _)| place), row);
-            if goniogram.is_some() || image.is_some() {
-                row[field::FLAGS] = f32::from_bits(row[field::FLAGS].to_bits() | flag::VARIED);
+            let flags = row[field::FLAGS].to_bits();
+            if flags & (flag::SHAPED | flag::OPENING) != 0 || goniogram.is_some() || image.is_some() {
+                row[field::FLAGS] = f32::from_bits(flags | flag::VARIED);
             }
             if record.portal {
                 if record.kind == LightKind::Rectangle && row[field::DENSITY].is_finite() {
