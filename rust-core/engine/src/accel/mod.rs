@@ -1,10 +1,10 @@
 //! Ray tracing acceleration: two levels of 8-wide bounding volume hierarchies.
 //!
 //! A [`Blas`] holds the triangles of one mesh, a [`SceneBvh`] the instances of many. Incoherent rays walk the tree each its own way, eight
-//! boxes or triangles at a time, many of them under way at once (`stream.rs`); coherent rays walk it in packets of sixteen. All walks are
-//! watertight and find the same nearest hit: boxes are widened by a bound on the rounding errors (`prepared.rs`), triangles are tested by
-//! edge functions whose signs are never wrong (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive
-//! number.
+//! boxes or triangles at a time, many of them under way at once (`stream.rs`) where that is found to be faster (`trial.rs`); coherent rays walk
+//! it in packets of sixteen. All walks are watertight and find the same nearest hit: boxes are widened by a bound on the rounding errors
+//! (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong (`triangle_block.rs`), and equal distances are settled by
+//! the lower instance and primitive number.
 
 mod blas;
 mod block_tests;
@@ -39,6 +39,7 @@ mod stream;
 mod tests;
 mod top;
 mod transform;
+mod trial;
 mod triangle_block;
 mod walk;
 mod wide;

@@ -1,12 +1,13 @@
 //! The queries a batch of incoherent rays can ask, and their loops.
 
-use super::collector::{Hit, Nearest, NearestHits, Occluded, OccludedOrPassed, Query};
+use super::collector::{Any, Collector, Hit, Nearest, NearestHits, Occluded, OccludedOrPassed, Query};
 use super::instance_walk::{SceneWalk, walk_instance, walk_scene};
 use super::lanes8::Lanes8;
 use super::ray::{Hits, PassedHit, RayBatch};
 use super::scalar::Scalar;
 use super::scene_bvh::SceneBvh;
 use super::stream::{FEWEST_RAYS, stream, with_pending};
+use super::trial::{FEWEST_TRIED, Part};
 use super::walk::EMPTY_STACK;
 use super::wide::Wide;
 use fearless_simd::{Level, dispatch};
@@ -30,7 +31,7 @@ impl SceneBvh {
 
     /// [`SceneBvh::first_hit`] without vector code.
     pub fn first_hit_scalar(&self, rays: &RayBatch, hits: &mut Hits) {
-        one_by_one(Scalar, self, rays, &mut NearestHits::new(hits, rays.len()));
+        one_by_one(Scalar, self, rays, Part::ALL, &mut NearestHits::new(hits, rays.len()));
     }
 
     /// `out[i] = 1` when ray `i` hits anything, transparent or not, else 0; `out` is as long as the batch.
@@ -40,7 +41,7 @@ impl SceneBvh {
 
     /// [`SceneBvh::occluded`] without vector code.
     pub fn occluded_scalar(&self, rays: &RayBatch, out: &mut [u8]) {
-        one_by_one(Scalar, self, rays, &mut Occluded(out));
+        one_by_one(Scalar, self, rays, Part::ALL, &mut Occluded(out));
     }
 
     /// Every hit up to the first opaque one: `out[i] = 1` when ray `i` meets an opaque instance, else 0 and its hits on transparent
@@ -51,30 +52,41 @@ impl SceneBvh {
 
     /// [`SceneBvh::blocked_or_passed`] without vector code.
     pub fn blocked_or_passed_scalar(&self, rays: &RayBatch, out: &mut [u8], passed: &mut Vec<PassedHit>) {
-        one_by_one(Scalar, self, rays, &mut OccludedOrPassed { occluded: out, passed });
+        one_by_one(Scalar, self, rays, Part::ALL, &mut OccludedOrPassed { occluded: out, passed });
     }
 
-    /// Whether many incoherent rays are under way at once, which is as fast as packets of coherent shadow rays, or faster.
+    /// Whether many incoherent shadow rays are under way at once, which is as fast as packets of coherent ones, or faster.
     pub fn has_streams(&self, level: Level) -> bool {
-        self.is_large && sorts_fast(level)
+        sorts_fast(level) && self.trials.settled(level, Any::ORDERED).unwrap_or(self.is_large)
     }
 
     /// Many rays under way at once where that pays, else one by one.
     fn ask<Q: Query>(&self, level: Level, rays: &RayBatch, query: &mut Q) {
-        if self.has_streams(level) && rays.len() >= FEWEST_RAYS {
-            with_pending(|pending| dispatch!(level, simd => stream(simd, self, rays, pending, query)));
-        } else {
-            dispatch!(level, simd => one_by_one(Wide(simd), self, rays, query));
+        let mut walk = |together, part| {
+            if together {
+                with_pending(|pending| dispatch!(level, simd => stream(simd, self, rays, part, pending, query)));
+            } else {
+                dispatch!(level, simd => one_by_one(Wide(simd), self, rays, part, query));
+            }
+        };
+        let (n, ordered) = (rays.len(), Q::Collector::ORDERED);
+        if n < FEWEST_RAYS || !sorts_fast(level) {
+            return walk(false, Part::ALL);
+        }
+        match self.trials.settled(level, ordered) {
+            Some(together) => walk(together, Part::ALL),
+            None if n < FEWEST_TRIED => walk(self.is_large, Part::ALL),
+            None => self.trials.compare(level, ordered, n, walk),
         }
     }
 }
 
 #[inline(always)]
-fn one_by_one<K: Lanes8, Q: Query>(lanes: K, scene: &SceneBvh, rays: &RayBatch, query: &mut Q) {
+fn one_by_one<K: Lanes8, Q: Query>(lanes: K, scene: &SceneBvh, rays: &RayBatch, part: Part, query: &mut Q) {
     let rays = rays.same_length();
     let (mut upper, mut lower) = (EMPTY_STACK, EMPTY_STACK);
     let mut collector = query.collector();
-    for i in 0..rays.len() {
+    for i in part.of(rays.len()) {
         query.begin(&mut collector, i, rays.t_max[i]);
         let ended = walk_scene(lanes, scene, &mut SceneWalk { stack: &mut upper, mesh_stack: &mut lower }, &rays, i, &mut collector);
         query.end(i, &collector, ended);

@@ -8,6 +8,7 @@ use super::instance::{Instance, InstanceRecord, Owner};
 use super::node::{ChildRef, Kind, MAX_INDEX, Node};
 use super::placement::Placement;
 use super::ray::NONE;
+use super::trial::Trials;
 use super::triangle_block::TriangleBlock;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -23,8 +24,10 @@ pub struct SceneBvh {
     pub(super) blocks: Vec<TriangleBlock>,
     pub(super) owners: Vec<Owner>,
     pub(super) meshes: Vec<Arc<Blas>>,
-    /// So large that incoherent rays gain from going together.
+    /// So large that incoherent rays may gain from going together.
     pub(super) is_large: bool,
+    /// Whether they do.
+    pub(super) trials: Trials,
 }
 
 impl SceneBvh {
@@ -44,6 +47,7 @@ impl SceneBvh {
             owners: Vec::with_capacity(placement.blocks.len()),
             meshes,
             is_large: false,
+            trials: Trials::default(),
         };
         scene.fill(&placement, &tree.leaves);
         scene.is_large = scene.meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + scene.memory() > SMALL;
@@ -81,7 +85,8 @@ impl SceneBvh {
 
     /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
     pub fn rebuild(&mut self, instances: &[Instance], cancel: &AtomicBool) -> Result<(), Cancelled> {
-        *self = SceneBvh::build(self.meshes.clone(), instances, cancel)?;
+        let rebuilt = SceneBvh::build(self.meshes.clone(), instances, cancel)?;
+        *self = SceneBvh { trials: std::mem::take(&mut self.trials), ..rebuilt };
         Ok(())
     }
 
@@ -98,7 +103,7 @@ impl SceneBvh {
     }
 }
 
-/// In trees of so many bytes, which stay in a core's second cache, one ray after the other is as fast.
+/// In trees of so many bytes, which stay in a core's second cache, one ray after the other is thought to be as fast until it has been tried.
 const SMALL: usize = 1 << 20;
 
 /// Above this number of boxes the top level gets no more care than a mesh, so that moving an instance stays quick.

@@ -11,6 +11,7 @@ use super::flight::{Flight, Pending};
 use super::node::{KINDS, Kind};
 use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
+use super::trial::{Numbers, Part};
 use fearless_simd::prelude::*;
 use std::cell::RefCell;
 
@@ -67,19 +68,19 @@ pub(super) fn with_pending(run: impl FnOnce(&mut AllPending)) {
     PENDING.with_borrow_mut(|pending| run(pending));
 }
 
-/// Sends all rays of a batch through the scene.
+/// Sends the rays of a part of a batch through the scene.
 #[inline(always)]
-pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBatch, pending: &mut AllPending, query: &mut Q) {
+pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBatch, part: Part, pending: &mut AllPending, query: &mut Q) {
     let rays = &rays.same_length();
     let mut flights: [Flight<Q::Collector>; FLIGHTS] = std::array::from_fn(|_| Flight::new(scene, query.collector()));
     let mut lists = Lists([0; KINDS]);
     lists.0[Kind::End as usize] = (1 << FLIGHTS) - 1;
-    let (mut next, mut under_way) = (0, FLIGHTS);
+    let (mut numbers, mut under_way) = (part.of(rays.len()), FLIGHTS);
     while under_way > 0 {
         for place in lists.take(Kind::End) {
             let flight = &mut flights[place];
             flight.end(query);
-            if take_up(rays, &mut next, flight, &mut pending[place], query) {
+            if take_up(rays, &mut numbers, flight, &mut pending[place], query) {
                 lists.add(Kind::Inner as usize, place);
             } else {
                 under_way -= 1;
@@ -117,10 +118,15 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
 
 /// Starts the next ray that can hit something; false when there is none.
 #[inline(always)]
-fn take_up<Q: Query>(rays: &RayBatch, next: &mut usize, flight: &mut Flight<Q::Collector>, pending: &mut Pending, query: &mut Q) -> bool {
-    while *next < rays.len() {
-        *next += 1;
-        if flight.start(pending, rays, *next - 1, query) {
+fn take_up<Q: Query>(
+    rays: &RayBatch,
+    numbers: &mut Numbers,
+    flight: &mut Flight<Q::Collector>,
+    pending: &mut Pending,
+    query: &mut Q,
+) -> bool {
+    for ray in numbers {
+        if flight.start(pending, rays, ray, query) {
             return true;
         }
         flight.end(query);

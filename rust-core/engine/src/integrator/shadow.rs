@@ -96,8 +96,12 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
     let mut passed = std::mem::take(&mut ws.passed);
     let material_of = |hit: &PassedHit| tables.geometry.material(hit.instance, hit.primitive);
-    // The distance settles the order, so that the product is the same however the tree was walked.
-    passed.sort_unstable_by(|a, b| (material_of(a), a.ray).cmp(&(material_of(b), b.ray)).then(a.t.total_cmp(&b.t)));
+    // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.
+    let numbers = |hit: &PassedHit| (hit.instance, hit.primitive);
+    passed.sort_unstable_by(|a, b| {
+        let order = (material_of(a), a.ray).cmp(&(material_of(b), b.ray));
+        order.then(a.t.total_cmp(&b.t)).then_with(|| numbers(a).cmp(&numbers(b)))
+    });
     for hits in passed.chunk_by(|a, b| material_of(a) == material_of(b)) {
         let material = material_of(&hits[0]);
         for chunk in hits.chunks(CHUNK) {

@@ -1,7 +1,7 @@
 //! Single rays, packets and the scalar path find the same.
 
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, SceneBvh, instance, levels, scene};
-use crate::accel::{NONE, Shape};
+use crate::accel::{NONE, Shape, trial::Trials};
 
 /// A random map: rotation by a quaternion, scale with a mirror now and then, translation.
 pub(super) fn random_placement(random: &mut Random) -> [[f64; 4]; 3] {
@@ -83,6 +83,29 @@ fn rays_that_go_together_find_what_each_finds_alone() {
                 .map(|(hits, i)| ([hits.t[i], hits.u[i], hits.v[i]].map(f32::to_bits), hits.primitive[i], hits.instance[i]));
             assert_eq!(a, b, "ray {i}, {level:?}");
             assert_eq!(*is_blocked, u8::from(alone.instance[0] != NONE), "ray {i}, {level:?}");
+        }
+    }
+}
+
+#[test]
+fn rays_find_the_same_while_ways_are_tried_and_after() {
+    let mut random = Random(15);
+    let (together, _) = busy_scene(&mut random, 300);
+    for n in [700, 2113] {
+        let rays = OwnedRays::random(&mut random, n, 1.0, false);
+        for level in levels() {
+            let tried = SceneBvh { trials: Trials::default(), ..together.clone() };
+            let known = super::first_hits(&together, level, &rays);
+            let mut blocked = vec![9; n];
+            together.occluded(level, &rays.batch(), &mut blocked);
+            for turn in 0..40 {
+                assert_eq!(super::first_hits(&tried, level, &rays), known, "turn {turn}, {level:?}");
+                let mut found = vec![9; n];
+                tried.occluded(level, &rays.batch(), &mut found);
+                assert_eq!(found, blocked, "turn {turn}, {level:?}");
+            }
+            let streams = level.as_avx2().is_some();
+            assert_eq!(tried.trials.settled(level, true).is_some() && tried.trials.settled(level, false).is_some(), streams, "{level:?}");
         }
     }
 }

@@ -128,8 +128,8 @@ fn instance(geometry: Geometry, object_to_world: [[f64; 4]; 3]) -> Instance {
 
 /// A scene whose rays go together however small it is.
 fn scene(meshes: Vec<Arc<Blas>>, instances: &[Instance]) -> SceneBvh {
-    let mut scene = SceneBvh::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled");
-    scene.is_large = true;
+    let scene = SceneBvh::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled");
+    scene.trials.settle(true);
     scene
 }
 
