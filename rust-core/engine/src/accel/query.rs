@@ -7,7 +7,7 @@ use super::ray::{Hits, PassedHit, RayBatch};
 use super::scalar::Scalar;
 use super::scene_bvh::SceneBvh;
 use super::stream::{FEWEST_RAYS, stream, with_pending};
-use super::trial::{FEWEST_TRIED, Part};
+use super::trial::{Part, Way};
 use super::walk::EMPTY_STACK;
 use super::wide::Wide;
 use fearless_simd::{Level, dispatch};
@@ -57,7 +57,7 @@ impl SceneBvh {
 
     /// Whether many incoherent shadow rays are under way at once, which is as fast as packets of coherent ones, or faster.
     pub fn has_streams(&self, level: Level) -> bool {
-        sorts_fast(level) && self.trials.settled(level, Any::ORDERED).unwrap_or(self.is_large)
+        sorts_fast(level) && self.trials.together(level, Any::ORDERED, self.is_large)
     }
 
     /// Many rays under way at once where that pays, else one by one.
@@ -73,10 +73,10 @@ impl SceneBvh {
         if n < FEWEST_RAYS || !sorts_fast(level) {
             return walk(false, Part::ALL);
         }
-        match self.trials.settled(level, ordered) {
-            Some(together) => walk(together, Part::ALL),
-            None if n < FEWEST_TRIED => walk(self.is_large, Part::ALL),
-            None => self.trials.compare(level, ordered, n, walk),
+        match self.trials.way(level, ordered, n, self.is_large) {
+            Way::Together => walk(true, Part::ALL),
+            Way::OneByOne => walk(false, Part::ALL),
+            Way::Both(turn) => self.trials.compare(level, ordered, turn, n, walk),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Together or one by one: which of the two is faster for incoherent rays depends on the scene and on the machine's caches, so it is tried out.
 //!
-//! The first long batches are walked by both, each taking every other stretch of rays, and timed. Hits are the same either way; only time is won.
+//! The first long batches, and a few later ones, are walked by both, each taking every other stretch of rays, and timed. Hits are the same either
+//! way; only time is won.
 
 use fearless_simd::Level;
 use std::sync::atomic::{AtomicI32, AtomicU32, Ordering::Relaxed};
@@ -10,10 +11,14 @@ use std::time::{Duration, Instant};
 const STRETCH: usize = 64;
 
 /// Fewer rays tell nothing about a way.
-pub(super) const FEWEST_TRIED: usize = 512;
+const FEWEST_TRIED: usize = 512;
 
-/// Comparisons until it is settled: one alone says little, as a thread may be stopped at any time.
-const COMPARISONS: u32 = 32;
+/// So many batches are walked both ways at first, and one in [`SELDOM`] later: rays of another kind may come.
+const FIRST: u32 = 32;
+const SELDOM: u32 = 16;
+
+/// How far ahead one way can be: one comparison says little, as a thread may be stopped at any time, but what was before is not for ever.
+const FARTHEST_AHEAD: i32 = 8;
 
 /// The rays of a batch that are walked: all, or every other stretch.
 #[derive(Clone, Copy, Debug)]
@@ -54,27 +59,50 @@ impl Iterator for Numbers {
     }
 }
 
+/// How to walk a batch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Way {
+    Together,
+    OneByOne,
+    /// One half each way, and compared; the number of the comparison.
+    Both(u32),
+}
+
 /// Whether going together is faster.
 #[derive(Debug, Default)]
 struct Trial {
-    held: AtomicU32,
+    /// Batches so far.
+    batches: AtomicU32,
     /// How often it was, less how often it was not.
     lead: AtomicI32,
 }
 
 impl Trial {
-    fn settled(&self) -> Option<bool> {
-        (self.held.load(Relaxed) >= COMPARISONS).then(|| self.lead.load(Relaxed) > 0)
+    /// Whether going together is faster as far as known; `guess` while nothing is.
+    fn together(&self, guess: bool) -> bool {
+        let lead = self.lead.load(Relaxed);
+        lead > 0 || (lead == 0 && guess)
+    }
+
+    fn way(&self, n: usize, guess: bool) -> Way {
+        if n >= FEWEST_TRIED {
+            let turn = self.batches.fetch_add(1, Relaxed);
+            if turn < FIRST || turn.is_multiple_of(SELDOM) {
+                return Way::Both(if turn < FIRST { turn } else { turn / SELDOM });
+            }
+        }
+        if self.together(guess) { Way::Together } else { Way::OneByOne }
     }
 
     fn note(&self, together_won: bool) {
-        self.lead.fetch_add(if together_won { 1 } else { -1 }, Relaxed);
+        let moved = self.lead.load(Relaxed) + if together_won { 1 } else { -1 };
+        self.lead.store(moved.clamp(-FARTHEST_AHEAD, FARTHEST_AHEAD), Relaxed);
     }
 }
 
 impl Clone for Trial {
     fn clone(&self) -> Self {
-        Trial { held: self.held.load(Relaxed).into(), lead: self.lead.load(Relaxed).into() }
+        Trial { batches: self.batches.load(Relaxed).into(), lead: self.lead.load(Relaxed).into() }
     }
 }
 
@@ -91,29 +119,32 @@ impl Trials {
         &self.0[2 * usize::from(widest) + usize::from(ordered)]
     }
 
-    /// Whether going together is faster, once it is known.
-    pub(super) fn settled(&self, level: Level, ordered: bool) -> Option<bool> {
-        self.of(level, ordered).settled()
+    /// Whether going together is faster as far as known; `guess` while nothing is.
+    pub(super) fn together(&self, level: Level, ordered: bool, guess: bool) -> bool {
+        self.of(level, ordered).together(guess)
+    }
+
+    /// How to walk a batch of `n` rays.
+    pub(super) fn way(&self, level: Level, ordered: bool, n: usize, guess: bool) -> Way {
+        self.of(level, ordered).way(n, guess)
     }
 
     /// Has `walk` walk both halves of `n` rays, one of them together (true), and keeps in mind which took less time a ray.
-    pub(super) fn compare(&self, level: Level, ordered: bool, n: usize, mut walk: impl FnMut(bool, Part)) {
-        let trial = self.of(level, ordered);
-        let turn = trial.held.fetch_add(1, Relaxed);
+    pub(super) fn compare(&self, level: Level, ordered: bool, turn: u32, n: usize, mut walk: impl FnMut(bool, Part)) {
         // What goes first finds colder caches, and halves may differ: each way takes each place in turn.
         let first = turn & 1 == 0;
         let [one, other] = if turn & 2 == 0 { Part::HALVES } else { [Part::HALVES[1], Part::HALVES[0]] };
         let before = time(|| walk(first, one)) * other.of(n).count() as u32;
         let after = time(|| walk(!first, other)) * one.of(n).count() as u32;
-        trial.note(if before < after { first } else { !first });
+        self.of(level, ordered).note(if before < after { first } else { !first });
     }
 
-    /// Settled without having been tried.
+    /// As if it had been tried.
     #[cfg(test)]
     pub(super) fn settle(&self, together: bool) {
         for trial in &self.0 {
-            trial.held.store(COMPARISONS, Relaxed);
-            trial.lead.store(i32::from(together), Relaxed);
+            trial.batches.store(FIRST + 1, Relaxed);
+            trial.lead.store(if together { FARTHEST_AHEAD } else { -FARTHEST_AHEAD }, Relaxed);
         }
     }
 }
@@ -139,21 +170,27 @@ mod tests {
     }
 
     #[test]
-    fn each_way_walks_each_half_first_and_what_wins_more_often_is_kept() {
+    fn each_way_walks_each_half_first_and_second() {
         let (level, trials) = (Level::new(), Trials::default());
         let mut turns = Vec::new();
-        for _ in 0..COMPARISONS {
-            assert_eq!(trials.settled(level, true), None);
-            trials.compare(level, true, 1000, |together, part| turns.push((together, part.of(1000).next() == Some(0))));
+        for batch in 0..FIRST {
+            let Way::Both(turn) = trials.way(level, true, 1000, false) else { panic!("batch {batch} is walked one way") };
+            trials.compare(level, true, turn, 1000, |together, part| turns.push((together, part.of(1000).next() == Some(0))));
         }
         for turn in [(true, true), (true, false), (false, true), (false, false)] {
-            assert_eq!(turns.iter().step_by(2).filter(|other| **other == turn).count(), COMPARISONS as usize / 4);
+            assert_eq!(turns.iter().step_by(2).filter(|other| **other == turn).count(), FIRST as usize / 4);
         }
-        assert_eq!(trials.settled(level, false), None);
-        let trial = Trial { held: COMPARISONS.into(), lead: 0.into() };
-        for (won, settled) in [(true, true), (false, false), (false, false), (true, false), (true, true)] {
-            trial.note(won);
-            assert_eq!(trial.settled(), Some(settled));
+    }
+
+    #[test]
+    fn what_won_more_often_is_kept_until_the_other_does() {
+        let trial = Trial { batches: (FIRST + 1).into(), lead: 0.into() };
+        assert_eq!([trial.way(100, true), trial.way(100, false)], [Way::Together, Way::OneByOne]);
+        for (won, way) in [(false, Way::OneByOne), (true, Way::Together)] {
+            (0..100).for_each(|_| trial.note(won));
+            assert_eq!(trial.way(1000, !won), way);
         }
+        let both = (0..10 * SELDOM).filter(|_| matches!(trial.way(1000, false), Way::Both(_))).count();
+        assert_eq!(both, 10);
     }
 }
