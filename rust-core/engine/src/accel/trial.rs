@@ -13,12 +13,12 @@ const STRETCH: usize = 64;
 /// Fewer rays tell nothing about a way.
 const FEWEST_TRIED: usize = 512;
 
-/// So many batches are walked both ways at first, and one in [`SELDOM`] later: rays of another kind may come.
-const FIRST: u32 = 32;
-const SELDOM: u32 = 16;
+/// A way that is so far ahead is taken: one comparison says little, as a thread may be stopped at any time, but what was before is not for ever.
+const DECIDED: i32 = 5;
 
-/// How far ahead one way can be: one comparison says little, as a thread may be stopped at any time, but what was before is not for ever.
-const FARTHEST_AHEAD: i32 = 8;
+/// Of the first batches as many as it takes are walked both ways, but no more than these, and then one in [`SELDOM`]: rays of another kind may come.
+const FIRST: u32 = 32;
+const SELDOM: u32 = 256;
 
 /// The rays of a batch that are walked: all, or every other stretch.
 #[derive(Clone, Copy, Debug)]
@@ -87,8 +87,11 @@ impl Trial {
     fn way(&self, n: usize, guess: bool) -> Way {
         if n >= FEWEST_TRIED {
             let turn = self.batches.fetch_add(1, Relaxed);
-            if turn < FIRST || turn.is_multiple_of(SELDOM) {
-                return Way::Both(if turn < FIRST { turn } else { turn / SELDOM });
+            if turn < FIRST && self.lead.load(Relaxed).abs() < DECIDED {
+                return Way::Both(turn);
+            }
+            if turn % SELDOM == SELDOM - 1 {
+                return Way::Both(turn / SELDOM);
             }
         }
         if self.together(guess) { Way::Together } else { Way::OneByOne }
@@ -96,7 +99,7 @@ impl Trial {
 
     fn note(&self, together_won: bool) {
         let moved = self.lead.load(Relaxed) + if together_won { 1 } else { -1 };
-        self.lead.store(moved.clamp(-FARTHEST_AHEAD, FARTHEST_AHEAD), Relaxed);
+        self.lead.store(moved.clamp(-DECIDED, DECIDED), Relaxed);
     }
 }
 
@@ -143,8 +146,8 @@ impl Trials {
     #[cfg(test)]
     pub(super) fn settle(&self, together: bool) {
         for trial in &self.0 {
-            trial.batches.store(FIRST + 1, Relaxed);
-            trial.lead.store(if together { FARTHEST_AHEAD } else { -FARTHEST_AHEAD }, Relaxed);
+            trial.batches.store(FIRST, Relaxed);
+            trial.lead.store(if together { DECIDED } else { -DECIDED }, Relaxed);
         }
     }
 }
@@ -173,24 +176,37 @@ mod tests {
     fn each_way_walks_each_half_first_and_second() {
         let (level, trials) = (Level::new(), Trials::default());
         let mut turns = Vec::new();
-        for batch in 0..FIRST {
-            let Way::Both(turn) = trials.way(level, true, 1000, false) else { panic!("batch {batch} is walked one way") };
+        for turn in 0..4 {
             trials.compare(level, true, turn, 1000, |together, part| turns.push((together, part.of(1000).next() == Some(0))));
         }
-        for turn in [(true, true), (true, false), (false, true), (false, false)] {
-            assert_eq!(turns.iter().step_by(2).filter(|other| **other == turn).count(), FIRST as usize / 4);
+        assert_eq!(turns.len(), 8);
+        for way in [(true, true), (true, false), (false, true), (false, false)] {
+            assert_eq!(turns.iter().step_by(2).filter(|first| **first == way).count(), 1);
         }
     }
 
     #[test]
-    fn what_won_more_often_is_kept_until_the_other_does() {
-        let trial = Trial { batches: (FIRST + 1).into(), lead: 0.into() };
+    fn what_is_ahead_is_kept_until_the_other_is() {
+        let trial = Trial::default();
         assert_eq!([trial.way(100, true), trial.way(100, false)], [Way::Together, Way::OneByOne]);
-        for (won, way) in [(false, Way::OneByOne), (true, Way::Together)] {
-            (0..100).for_each(|_| trial.note(won));
-            assert_eq!(trial.way(1000, !won), way);
+        for turn in 0..DECIDED as u32 {
+            assert_eq!(trial.way(1000, true), Way::Both(turn));
+            trial.note(false);
         }
+        assert_eq!([trial.way(100, true), trial.way(1000, true)], [Way::OneByOne; 2]);
+        (0..=DECIDED).for_each(|_| trial.note(true));
+        assert_eq!(trial.way(1000, false), Way::Together);
         let both = (0..10 * SELDOM).filter(|_| matches!(trial.way(1000, false), Way::Both(_))).count();
         assert_eq!(both, 10);
+    }
+
+    #[test]
+    fn ways_that_are_alike_are_compared_only_so_often() {
+        let trial = Trial::default();
+        for turn in 0..FIRST {
+            assert_eq!(trial.way(1000, true), Way::Both(turn));
+            trial.note(turn % 2 == 0);
+        }
+        assert_eq!([trial.way(1000, true), trial.way(1000, false)], [Way::Together, Way::OneByOne]);
     }
 }

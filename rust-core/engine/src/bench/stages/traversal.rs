@@ -55,13 +55,14 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
         Case::new(name, "ray", count, kernel)
     };
     Ok(vec![
-        case("camera, packets", camera.clone(), Query::Nearest, true),
-        case("camera, single", camera, Query::Nearest, false),
         case("first bounce", first, Query::Nearest, false),
         case("second bounce (incoherent)", second, Query::Nearest, false),
-        case("shadow from camera hits, packets", shadow.clone(), Query::Any, true),
-        case("shadow from camera hits, single", shadow, Query::Any, false),
+        // After those by whose time the tree chooses how single rays walk.
+        case("camera, single", camera.clone(), Query::Nearest, false),
+        case("camera, packets", camera, Query::Nearest, true),
         case("shadow from first bounce", shadow_later, Query::Any, false),
+        case("shadow from camera hits, single", shadow.clone(), Query::Any, false),
+        case("shadow from camera hits, packets", shadow, Query::Any, true),
     ])
 }
 
