@@ -194,7 +194,7 @@ mod tests {
             trial.note(false);
         }
         assert_eq!([trial.way(100, true), trial.way(1000, true)], [Way::OneByOne; 2]);
-        (0..=DECIDED).for_each(|_| trial.note(true));
+        (0..2 * DECIDED).for_each(|_| trial.note(true));
         assert_eq!(trial.way(1000, false), Way::Together);
         let both = (0..10 * SELDOM).filter(|_| matches!(trial.way(1000, false), Way::Both(_))).count();
         assert_eq!(both, 10);
