@@ -1,4 +1,4 @@
-//! Sixteen incoherent rays on their way at once, each a step at a time.
+//! Thirty-two incoherent rays on their way at once, each a step at a time.
 //!
 //! A ray that walks alone waits: for memory, and for branches that no predictor knows, as what it meets next is as good as random. Here all rays
 //! that are to do the same (test a node's boxes, a block of triangles, enter an instance, end) do it one after the other, without a
@@ -16,7 +16,7 @@ use fearless_simd::prelude::*;
 use std::cell::RefCell;
 
 /// Rays under way: enough to hide memory, and few enough to stay in the first cache.
-const FLIGHTS: usize = 16;
+const FLIGHTS: usize = 32;
 
 /// So many others are tested at nodes before a ray goes on to what it met there: what was just sorted and stored would be waited for.
 const BEHIND: usize = 4;
@@ -74,7 +74,7 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
     let rays = &rays.same_length();
     let mut flights: [Flight<Q::Collector>; FLIGHTS] = std::array::from_fn(|_| Flight::new(scene, query.collector()));
     let mut lists = Lists([0; KINDS]);
-    lists.0[Kind::End as usize] = (1 << FLIGHTS) - 1;
+    lists.0[Kind::End as usize] = u32::MAX >> (u32::BITS as usize - FLIGHTS);
     let (mut numbers, mut under_way) = (part.of(rays.len()), FLIGHTS);
     while under_way > 0 {
         for place in lists.take(Kind::End) {
