@@ -130,9 +130,10 @@ void peer_first_hit(const Peer *peer, const Rays *rays, size_t n, int coherent, 
   }
 }
 
-void peer_occluded(const Peer *peer, const Rays *rays, size_t n, int coherent, uint8_t *out) {
+// Never told to be coherent: packets of coherent shadow rays may not come back from among instances, and win nothing elsewhere.
+void peer_occluded(const Peer *peer, const Rays *rays, size_t n, uint8_t *out) {
   struct RTCIntersectContext context;
-  start(&context, coherent);
+  start(&context, 0);
   for (size_t i = 0; i < n; i++) {
     struct RTCRay ray;
     fill(&ray, rays, i);
@@ -165,9 +166,9 @@ void peer_first_hit16(const Peer *peer, const Rays *rays, size_t n, int coherent
 }
 
 // n is a multiple of 16.
-void peer_occluded16(const Peer *peer, const Rays *rays, size_t n, int coherent, uint8_t *out) {
+void peer_occluded16(const Peer *peer, const Rays *rays, size_t n, uint8_t *out) {
   struct RTCIntersectContext context;
-  start(&context, coherent);
+  start(&context, 0);
   int valid[16] __attribute__((aligned(64)));
   memset(valid, 0xff, sizeof valid);
   for (size_t i = 0; i < n; i += 16) {

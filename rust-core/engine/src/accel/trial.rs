@@ -4,8 +4,8 @@
 //! way; only time is won.
 
 use fearless_simd::Level;
-use std::sync::atomic::{AtomicI32, AtomicU32, Ordering::Relaxed};
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering::Relaxed};
+use std::time::Instant;
 
 /// Rays of a stretch: few, so that both ways meet the same part of the scene.
 const STRETCH: usize = 64;
@@ -13,12 +13,18 @@ const STRETCH: usize = 64;
 /// Fewer rays tell nothing about a way.
 const FEWEST_TRIED: usize = 512;
 
-/// A way that is so far ahead is taken: one comparison says little, as a thread may be stopped at any time, but what was before is not for ever.
-const DECIDED: i32 = 5;
+/// Batches are compared at first until this many nanoseconds went into it, or so many batches; what was found longer ago is forgotten by and by.
+const REMEMBERED: f64 = 8e6;
+const FIRST: u32 = 64;
 
-/// Of the first batches as many as it takes are walked both ways, but no more than these, and then one in [`SELDOM`]: rays of another kind may come.
-const FIRST: u32 = 32;
+/// Later one batch in so many is compared: rays of another kind may come.
 const SELDOM: u32 = 256;
+
+/// A way that takes less time by this share of it is clearly faster.
+const CLEARLY: f64 = 0.1;
+
+/// By no more than this share counts a way as faster: a thread may be stopped at any time.
+const MOST: f64 = 0.25;
 
 /// The rays of a batch that are walked: all, or every other stretch.
 #[derive(Clone, Copy, Debug)]
@@ -71,41 +77,57 @@ pub(super) enum Way {
 /// Whether going together is faster.
 #[derive(Debug, Default)]
 struct Trial {
-    /// Batches so far.
     batches: AtomicU32,
-    /// How often it was, less how often it was not.
-    lead: AtomicI32,
+    comparisons: AtomicU32,
+    /// Nanoseconds that comparing took, up to [`REMEMBERED`].
+    spent: AtomicI64,
+    /// Nanoseconds that going together gained.
+    gained: AtomicI64,
+    /// Whether the last comparison spoke clearly against those before, so that the next batch is compared as well.
+    doubted: AtomicBool,
 }
 
 impl Trial {
     /// Whether going together is faster as far as known; `guess` while nothing is.
     fn together(&self, guess: bool) -> bool {
-        let lead = self.lead.load(Relaxed);
-        lead > 0 || (lead == 0 && guess)
+        let gained = self.gained.load(Relaxed);
+        gained > 0 || (gained == 0 && guess)
     }
 
     fn way(&self, n: usize, guess: bool) -> Way {
         if n >= FEWEST_TRIED {
-            let turn = self.batches.fetch_add(1, Relaxed);
-            if turn < FIRST && self.lead.load(Relaxed).abs() < DECIDED {
-                return Way::Both(turn);
-            }
-            if turn % SELDOM == SELDOM - 1 {
-                return Way::Both(turn / SELDOM);
+            let turn = self.batches.fetch_add(1, Relaxed) % SELDOM;
+            let new = self.spent.load(Relaxed) < REMEMBERED as i64 && self.comparisons.load(Relaxed) < FIRST;
+            if new || turn == SELDOM - 1 || self.doubted.load(Relaxed) {
+                return Way::Both(self.comparisons.fetch_add(1, Relaxed));
             }
         }
         if self.together(guess) { Way::Together } else { Way::OneByOne }
     }
 
-    fn note(&self, together_won: bool) {
-        let moved = self.lead.load(Relaxed) + if together_won { 1 } else { -1 };
-        self.lead.store(moved.clamp(-DECIDED, DECIDED), Relaxed);
+    /// Keeps in mind the nanoseconds that a batch takes, or would take, either way.
+    ///
+    /// Batches weigh by their time: those that see the sky alone are walked in no time, and tell nothing of others. None weighs more than half of
+    /// what is remembered.
+    fn note(&self, together: f64, alone: f64) {
+        let (time, before) = (together.min(alone), self.gained.load(Relaxed) as f64);
+        let weight = (0.5 * REMEMBERED).min(time) / time.max(1.0);
+        let gain = weight * (alone - together).clamp(-MOST * time, MOST * time);
+        self.gained.store((before * (1.0 - weight * time / REMEMBERED) + gain) as i64, Relaxed);
+        self.doubted.store(before * gain < 0.0 && gain.abs() > CLEARLY * weight * time, Relaxed);
+        self.spent.store((self.spent.load(Relaxed) as f64 + weight * time).min(REMEMBERED) as i64, Relaxed);
     }
 }
 
 impl Clone for Trial {
     fn clone(&self) -> Self {
-        Trial { batches: self.batches.load(Relaxed).into(), lead: self.lead.load(Relaxed).into() }
+        Trial {
+            batches: self.batches.load(Relaxed).into(),
+            comparisons: self.comparisons.load(Relaxed).into(),
+            spent: self.spent.load(Relaxed).into(),
+            gained: self.gained.load(Relaxed).into(),
+            doubted: self.doubted.load(Relaxed).into(),
+        }
     }
 }
 
@@ -137,25 +159,27 @@ impl Trials {
         // What goes first finds colder caches, and halves may differ: each way takes each place in turn.
         let first = turn & 1 == 0;
         let [one, other] = if turn & 2 == 0 { Part::HALVES } else { [Part::HALVES[1], Part::HALVES[0]] };
-        let before = time(|| walk(first, one)) * other.of(n).count() as u32;
-        let after = time(|| walk(!first, other)) * one.of(n).count() as u32;
-        self.of(level, ordered).note(if before < after { first } else { !first });
+        let mut timed = |together, part: Part| time(|| walk(together, part)) * n as f64 / part.of(n).count().max(1) as f64;
+        let (before, after) = (timed(first, one), timed(!first, other));
+        let (together, alone) = if first { (before, after) } else { (after, before) };
+        self.of(level, ordered).note(together, alone);
     }
 
     /// As if it had been tried.
     #[cfg(test)]
     pub(super) fn settle(&self, together: bool) {
         for trial in &self.0 {
-            trial.batches.store(FIRST, Relaxed);
-            trial.lead.store(if together { DECIDED } else { -DECIDED }, Relaxed);
+            trial.spent.store(REMEMBERED as i64, Relaxed);
+            trial.gained.store(REMEMBERED as i64 * if together { 1 } else { -1 }, Relaxed);
         }
     }
 }
 
-fn time(work: impl FnOnce()) -> Duration {
+/// Nanoseconds that something takes.
+fn time(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
-    start.elapsed()
+    start.elapsed().as_secs_f64() * 1e9
 }
 
 #[cfg(test)]
@@ -185,28 +209,55 @@ mod tests {
         }
     }
 
+    /// A batch that takes so many nanoseconds together, and so many alone; what it was walked by.
+    fn batch(trial: &Trial, together: f64, alone: f64) -> Way {
+        let way = trial.way(1000, true);
+        if matches!(way, Way::Both(_)) {
+            trial.note(together, alone);
+        }
+        way
+    }
+
     #[test]
     fn what_is_ahead_is_kept_until_the_other_is() {
         let trial = Trial::default();
         assert_eq!([trial.way(100, true), trial.way(100, false)], [Way::Together, Way::OneByOne]);
-        for turn in 0..DECIDED as u32 {
-            assert_eq!(trial.way(1000, true), Way::Both(turn));
-            trial.note(false);
-        }
-        assert_eq!([trial.way(100, true), trial.way(1000, true)], [Way::OneByOne; 2]);
-        (0..2 * DECIDED).for_each(|_| trial.note(true));
-        assert_eq!(trial.way(1000, false), Way::Together);
-        let both = (0..10 * SELDOM).filter(|_| matches!(trial.way(1000, false), Way::Both(_))).count();
+        let first = (0..SELDOM - 1).filter(|_| batch(&trial, 1.2e6, 1e6) != Way::OneByOne).count();
+        assert_eq!(first, (REMEMBERED / 1e6) as usize);
+        assert_eq!(trial.way(100, true), Way::OneByOne);
+        let later = (0..20 * SELDOM).find(|_| batch(&trial, 1e6, 1.2e6) == Way::Together).expect("it changes sides");
+        assert!(later < 2 * SELDOM, "{later} batches later");
+        let both = (0..10 * SELDOM).filter(|_| matches!(batch(&trial, 1e6, 1.2e6), Way::Both(_))).count();
         assert_eq!(both, 10);
     }
 
     #[test]
-    fn ways_that_are_alike_are_compared_only_so_often() {
+    fn batches_of_sky_tell_nothing_of_others() {
         let trial = Trial::default();
-        for turn in 0..FIRST {
-            assert_eq!(trial.way(1000, true), Way::Both(turn));
-            trial.note(turn % 2 == 0);
+        for number in 0..640 {
+            if number % 4 == 0 {
+                batch(&trial, 1e6, 1.2e6)
+            } else {
+                batch(&trial, 1e5, 0.7e5)
+            };
         }
-        assert_eq!([trial.way(1000, true), trial.way(1000, false)], [Way::Together, Way::OneByOne]);
+        assert_eq!(trial.way(100, false), Way::Together);
+    }
+
+    #[test]
+    fn a_thread_that_was_stopped_is_forgotten() {
+        let trial = Trial::default();
+        batch(&trial, 1e9, 1e6);
+        (0..8).for_each(|_| _ = batch(&trial, 1e6, 1.2e6));
+        assert_eq!(trial.way(100, false), Way::Together);
+    }
+
+    #[test]
+    fn ways_that_are_alike_are_seldom_compared() {
+        let trial = Trial::default();
+        (0..8).for_each(|_| _ = batch(&trial, 1e6, 1e6));
+        assert_eq!([trial.way(100, true), trial.way(100, false)], [Way::Together, Way::OneByOne]);
+        let both = (0..10 * SELDOM).filter(|_| matches!(batch(&trial, 1e6, 1e6), Way::Both(_))).count();
+        assert!((10..=11).contains(&both), "{both}");
     }
 }

@@ -70,8 +70,8 @@ unsafe extern "C" {
     fn peer_version(out: *mut c_char, size: usize);
     fn peer_first_hit(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
     fn peer_first_hit16(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
-    fn peer_occluded(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, out: *mut u8);
-    fn peer_occluded16(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, out: *mut u8);
+    fn peer_occluded(peer: *const Peer, rays: *const Columns, n: usize, out: *mut u8);
+    fn peer_occluded16(peer: *const Peer, rays: *const Columns, n: usize, out: *mut u8);
 }
 
 /// Denormal numbers count as zero in this thread from now on, as Embree advises.
@@ -131,12 +131,12 @@ impl EmbreeScene {
     }
 
     /// Any hits; `packets` uses `rtcOccluded16`.
-    pub fn occluded(&self, rays: &RayBatch, packets: bool, coherent: bool, out: &mut [u8]) {
+    pub fn occluded(&self, rays: &RayBatch, packets: bool, out: &mut [u8]) {
         assert!(rays.len().is_multiple_of(16) && out.len() == rays.len());
         let columns = Columns::new(rays);
         let run = if packets { peer_occluded16 } else { peer_occluded };
         // SAFETY: all columns have the length of the batch, a multiple of 16.
-        unsafe { run(&self.peer, &columns, rays.len(), coherent.into(), out.as_mut_ptr()) }
+        unsafe { run(&self.peer, &columns, rays.len(), out.as_mut_ptr()) }
     }
 }
 

@@ -109,8 +109,8 @@ fn traversal(bench: &Bench, world: &World) {
     first_hits(bench, "bounce 2", &bounce2, false);
     // After those by whose time the tree chooses how single rays walk.
     first_hits(bench, "camera", &primary, true);
-    occlusions(bench, "shadow 1", &shadow1, true);
-    occlusions(bench, "shadow 2", &shadow2, false);
+    occlusions(bench, "shadow 1", &shadow1);
+    occlusions(bench, "shadow 2", &shadow2);
 }
 
 fn hits(bench: &Bench, rays: &OwnedRays) -> Hits {
@@ -152,21 +152,21 @@ fn first_hits(bench: &Bench, name: &str, rays: &OwnedRays, coherent: bool) {
     print_row(name, rays.len(), &seconds, differ);
 }
 
-fn occlusions(bench: &Bench, name: &str, rays: &OwnedRays, coherent: bool) {
+fn occlusions(bench: &Bench, name: &str, rays: &OwnedRays) {
     let mut seconds = vec![Vec::new(); 6];
     let (mut theirs, mut own) = (vec![0; BATCH], vec![0; BATCH]);
     let mut differ = 0;
     for run in 0..bench.runs {
         let batch = |first| rays.batch(first, BATCH);
-        seconds[0].push(timed(rays, |first| bench.robust.occluded(&batch(first), false, coherent, &mut theirs)));
+        seconds[0].push(timed(rays, |first| bench.robust.occluded(&batch(first), false, &mut theirs)));
         seconds[1].push(timed(rays, |first| bench.scene.occluded(bench.level, &batch(first), &mut own)));
         seconds[2].push(timed(rays, |first| bench.scene.occluded_packets(bench.level, &batch(first), &mut own)));
         seconds[3].push(timed(rays, |first| bench.scene.occluded_scalar(&batch(first), &mut own)));
-        seconds[4].push(timed(rays, |first| bench.robust.occluded(&batch(first), true, coherent, &mut theirs)));
-        seconds[5].push(timed(rays, |first| bench.fast.occluded(&batch(first), false, coherent, &mut theirs)));
+        seconds[4].push(timed(rays, |first| bench.robust.occluded(&batch(first), true, &mut theirs)));
+        seconds[5].push(timed(rays, |first| bench.fast.occluded(&batch(first), false, &mut theirs)));
         if run == 0 {
             timed(rays, |first| {
-                bench.robust.occluded(&batch(first), false, coherent, &mut theirs);
+                bench.robust.occluded(&batch(first), false, &mut theirs);
                 bench.scene.occluded(bench.level, &batch(first), &mut own);
                 differ += theirs.iter().zip(&own).filter(|(a, b)| a != b).count();
             });
