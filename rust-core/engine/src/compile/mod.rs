@@ -32,7 +32,7 @@ pub(crate) use view::{check_tiles, transport, window};
 use crate::{
     accel::{Blas, SceneBvh},
     error::{Diagnostic, Error, Result},
-    integrator::Tables,
+    integrator::{Tables, Workspaces},
     scene::{Camera, Scene},
 };
 use std::{
@@ -56,6 +56,8 @@ pub struct CompiledScene {
     pub diagnostics: Vec<Diagnostic>,
     /// Sizes and times.
     pub statistics: CompileStatistics,
+    /// What renders leave for the next.
+    pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
     images: kept::KeptImages,
     kept_lights: lights::KeptLights,
@@ -142,6 +144,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         bounds,
         diagnostics,
         statistics,
+        workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         images: textures.kept,
         kept_lights: lights.kept,

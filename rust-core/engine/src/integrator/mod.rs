@@ -42,6 +42,7 @@ mod surface;
 mod transport;
 mod whitted;
 mod workspace;
+mod workspaces;
 
 pub use batch::{BATCH, TILE};
 pub use catcher::CatcherSums;
@@ -59,3 +60,4 @@ pub use shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses, ShaderSums};
 pub use statistics::{LANE_BOUNCES, LANE_STAGES, LaneCount, STAGES, Statistics};
 pub use transport::{FirstPasses, Mist, Sight, Transport};
 pub use workspace::Workspace;
+pub use workspaces::Workspaces;

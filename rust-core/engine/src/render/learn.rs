@@ -3,7 +3,7 @@
 use super::source::Source;
 use crate::{
     compile::{CompiledScene, View},
-    integrator::{Runs, Start, TILE, Tracer, Transport, Workspace},
+    integrator::{Runs, Start, TILE, Tracer, Transport},
     light::KnownLights,
     scene::{Antialiasing, Aov, Crop, Integrator, Settings},
 };
@@ -47,7 +47,7 @@ fn from_paths(
     samples: u32,
     cancelled: &dyn Fn() -> bool,
 ) -> Option<Arc<KnownLights>> {
-    let mut workspace = Workspace::default();
+    let mut workspace = scene.workspaces.take();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     workspace.arrivals = Some(Vec::new());
     for y in (window.min[1]..window.max[1]).step_by(TILE) {
@@ -61,7 +61,9 @@ fn from_paths(
             }
         }
     }
-    scene.tables.lights.learn(&workspace.arrivals.take()?).map(Arc::new)
+    let arrivals = workspace.arrivals.take()?;
+    scene.workspaces.leave(workspace);
+    scene.tables.lights.learn(&arrivals).map(Arc::new)
 }
 
 /// The same view in a few pixels, of which the longer side has at most `side`, without passes, of other random numbers.

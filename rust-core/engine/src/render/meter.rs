@@ -4,7 +4,7 @@ use super::learn::reduced;
 use crate::{
     colour::luminance,
     compile::{CompiledScene, View},
-    integrator::{BATCH, Runs, Start, TILE, Tracer, Workspace},
+    integrator::{BATCH, Runs, Start, TILE, Tracer},
     output::KEY,
     scene::Settings,
 };
@@ -23,7 +23,7 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
     let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, SAMPLES), execution) else { return 1.0 };
     let start = Start::Camera(&view.camera, &view.placement);
     let tracer = Tracer { tables: &scene.tables, start, transport: view.transport };
-    let mut workspace = Workspace::default();
+    let mut workspace = scene.workspaces.take();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     for sample in 0..SAMPLES {
         tracer.trace(view.window.min, view.window.max, &Runs::whole(sample), &mut workspace, cancelled);
@@ -31,6 +31,9 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
     let [red, green, blue] = &workspace.first_hit.radiance;
     let luminances = (0..BATCH).map(|i| luminance([red[i], green[i], blue[i]].map(f64::from)));
     let (sum, count) = luminances.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
+    if !cancelled() {
+        scene.workspaces.leave(workspace);
+    }
     let mean = if count > 0.0 { (sum / count).exp() / f64::from(SAMPLES) } else { 0.0 };
     let white = mean as f32 * view.exposure / KEY;
     if white > 0.0 { white } else { 1.0 }

@@ -17,7 +17,6 @@ use std::{
 const SHARP_RAYS: u32 = 32;
 
 /// What a worker keeps from block to block.
-#[derive(Default)]
 struct Room {
     workspace: Workspace,
     antialiaser: Antialiaser,
@@ -26,9 +25,13 @@ struct Room {
 /// Works until nothing is left, the render is cancelled, or something fails.
 pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
     let result = catch_unwind(AssertUnwindSafe(|| {
-        let mut room = Room::default();
+        let mut room = Room { workspace: shared.scene.workspaces.take(), antialiaser: Antialiaser::default() };
         while let Some(work) = shared.schedule.take(&|| shared.cancel.load(Ordering::Relaxed)) {
             trace_block(shared, &work, &mut room, ready);
+        }
+        // What was cancelled may have left paths on their way.
+        if !shared.cancel.load(Ordering::Relaxed) {
+            shared.scene.workspaces.leave(room.workspace);
         }
     }));
     if let Err(panic) = result {
