@@ -20,8 +20,6 @@ pub trait Sort8: Simd {
     /// Writes the distances and values of the slots of `mask`, farthest first, and anything behind them. Distances must not be negative; the
     /// last three of their bits become the slot's number.
     fn sort8(self, near: f32x8<Self>, mask: u32, values: u32x8<Self>, distances: &mut [u32; 8], sorted: &mut [u32; 8]);
-    /// Writes the values of the slots of `mask`, last slot first, and anything behind them.
-    fn choose8(self, mask: u32, values: u32x8<Self>, chosen: &mut [u32; 8]);
 }
 
 /// Bits that a slot's number takes.
@@ -50,28 +48,6 @@ kernel!(
         store(descending8(keys), values.into(), distances, sorted);
     }
 );
-#[cfg(target_arch = "x86_64")]
-kernel!(
-    #[inline(always)]
-    fn choose8_avx512(_simd: Avx512, mask: u32, values: u32x8<Avx512>, chosen: &mut [u32; 8]) {
-        let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-        let compressed = _mm256_maskz_compress_epi32(mask as u8, slots);
-        let backwards = _mm256_sub_epi32(_mm256_set1_epi32(mask.count_ones() as i32 - 1), slots);
-        let order = _mm256_permutevar8x32_epi32(compressed, backwards);
-        // SAFETY: the array holds eight words.
-        unsafe { _mm256_storeu_si256(chosen.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(values.into(), order)) };
-    }
-);
-#[cfg(target_arch = "x86_64")]
-kernel!(
-    #[inline(always)]
-    fn choose8_avx2(_simd: Avx2, mask: u32, values: u32x8<Avx2>, chosen: &mut [u32; 8]) {
-        // The slots' numbers are distances here.
-        let keys = _mm256_and_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), lanes_of(mask));
-        store(descending8(keys), values.into(), &mut [0; 8], chosen);
-    }
-);
-
 /// All bits in the lanes of a mask.
 #[cfg(target_arch = "x86_64")]
 #[inline]
@@ -149,22 +125,6 @@ impl<S: Simd> Sort8 for S {
             }
         }
     }
-
-    #[inline(always)]
-    fn choose8(self, mask: u32, values: u32x8<S>, chosen: &mut [u32; 8]) {
-        match self.level() {
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512(t) => choose8_avx512(t, mask, u32x8::from_slice(t, values.as_slice()), chosen),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2(t) => choose8_avx2(t, mask, u32x8::from_slice(t, values.as_slice()), chosen),
-            _ => {
-                let slots = (0..8).rev().filter(|slot| (mask >> slot) & 1 == 1);
-                for (out, slot) in chosen.iter_mut().zip(slots) {
-                    *out = values[slot];
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -175,12 +135,10 @@ mod tests {
     const VALUES: [u32; 8] = [10, 11, 12, 13, 14, 15, 16, 17];
 
     #[inline(always)]
-    fn sorted<S: Simd>(simd: S, near: &[f32; 8], mask: u32) -> ([u32; 8], [u32; 8], [u32; 8]) {
-        let (mut distances, mut values, mut chosen) = ([0; 8], [0; 8], [0; 8]);
-        let all = u32x8::from_slice(simd, &VALUES);
-        simd.sort8(f32x8::from_slice(simd, near), mask, all, &mut distances, &mut values);
-        simd.choose8(mask, all, &mut chosen);
-        (distances, values, chosen)
+    fn sorted<S: Simd>(simd: S, near: &[f32; 8], mask: u32) -> ([u32; 8], [u32; 8]) {
+        let (mut distances, mut values) = ([0; 8], [0; 8]);
+        simd.sort8(f32x8::from_slice(simd, near), mask, u32x8::from_slice(simd, &VALUES), &mut distances, &mut values);
+        (distances, values)
     }
 
     /// Every level that this machine has, and the fallback.
@@ -196,18 +154,13 @@ mod tests {
         let near = [3.0, 0.0, 7.5, 7.5, 1e-30, f32::INFINITY, 2.0, 0.0];
         for level in levels() {
             for mask in 0..256u32 {
-                let (distances, values, chosen) = dispatch!(level, simd => sorted(simd, &near, mask));
+                let (distances, values) = dispatch!(level, simd => sorted(simd, &near, mask));
                 let slots: Vec<u32> = (0..8).filter(|slot| mask >> slot & 1 == 1).collect();
                 let mut keys: Vec<u32> = slots.iter().map(|&slot| (near[slot as usize].to_bits() & !SLOT) | slot).collect();
                 keys.sort_unstable_by(|a, b| b.cmp(a));
                 let n = slots.len();
                 assert_eq!(distances[..n], keys[..], "{level:?} {mask:b}");
                 assert_eq!(values[..n], keys.iter().map(|key| VALUES[(key & SLOT) as usize]).collect::<Vec<_>>()[..], "{level:?} {mask:b}");
-                assert_eq!(
-                    chosen[..n],
-                    slots.iter().rev().map(|&slot| VALUES[slot as usize]).collect::<Vec<_>>()[..],
-                    "{level:?} {mask:b}"
-                );
             }
         }
     }

@@ -8,6 +8,7 @@ use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, R
 use super::refit::looseness;
 use super::triangle_block::TriangleBlock;
 use glam::Vec3A;
+use gonio_simd::prefetch;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
 
@@ -74,6 +75,16 @@ impl BlasMemory {
 }
 
 impl Blas {
+    /// Has memory fetch a child of a node.
+    #[inline(always)]
+    pub(super) fn fetch(&self, child: ChildRef) {
+        if child.is_inner() {
+            prefetch(&self.nodes, child.index());
+        } else {
+            prefetch(&self.blocks, child.index());
+        }
+    }
+
     /// Builds the tree of a mesh: points `positions[n][3]` and triangles `triangles[m][3]` of point numbers.
     ///
     /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.

@@ -60,7 +60,7 @@ impl Wide {
     }
 }
 
-/// The binary nodes in the slots of a wide node, smallest area first.
+/// The binary nodes in the slots of a wide node, largest area first.
 fn slots(row: &[FlatNode], place: usize) -> ([usize; WIDTH], usize) {
     let mut slots = [(0.0f32, 0usize); WIDTH];
     let mut n = 0;
@@ -87,7 +87,7 @@ fn slots(row: &[FlatNode], place: usize) -> ([usize; WIDTH], usize) {
         }
         let area = node.bounds().half_area();
         let mut slot = n;
-        while slot > 0 && slots[slot - 1].0 > area {
+        while slot > 0 && slots[slot - 1].0 < area {
             slots[slot] = slots[slot - 1];
             slot -= 1;
         }

@@ -10,7 +10,7 @@ use super::ray::{NONE, RayBatch};
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use super::wide::{Wide, meets};
-use fearless_simd::{prelude::*, u32x8};
+use fearless_simd::{f32x4, prelude::*, u32x8};
 use gonio_simd::{Sort8, prefetch_at};
 
 /// What may wait in both levels, with the end and the room that a whole register of children takes.
@@ -88,10 +88,18 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// Takes up ray `i` for a query; false when it can hit nothing.
     #[inline(always)]
-    pub(super) fn start<Q: Query<Collector = C>>(&mut self, pending: &mut Pending, rays: &RayBatch, i: usize, query: &Q) -> bool {
+    pub(super) fn start<S: Simd, Q: Query<Collector = C>>(
+        &mut self,
+        simd: S,
+        pending: &mut Pending,
+        rays: &RayBatch,
+        i: usize,
+        query: &Q,
+    ) -> bool {
         query.begin(&mut self.collector, i, rays.t_max[i]);
         (self.number, self.ended) = (i as u32, false);
-        if !self.rays[0].prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) {
+        let [origin, direction] = [f32x4::from_slice(simd, &rays.origin_of(i)), f32x4::from_slice(simd, &rays.direction_of(i))];
+        if !self.rays[0].prepare(simd, origin, direction, rays.t_min[i], rays.t_max[i]) {
             return false;
         }
         self.mask = rays.mask[i];
@@ -159,14 +167,15 @@ impl<'a, C: Collector> Flight<'a, C> {
         let node = &self.nodes[space][self.current.index()];
         let (near, met) = meets(simd, node, &self.rays[space], self.collector.t_max());
         let children = u32x8::from_slice(simd, bytemuck::cast_ref::<_, [u32; WIDTH]>(&node.children)) | self.current.child_bits();
-        let [distances, sorted] = pending.places(self.waiting);
+        let [distances, waiting] = pending.places(self.waiting);
+        let mask = met.to_bitmask() as u32;
         if C::ORDERED {
-            simd.sort8(near, met, children, distances, sorted);
+            simd.sort8(near, mask, children, distances, waiting);
         } else {
             // Smallest box on top: often a leaf, and a likely end of the search.
-            simd.choose8(met, children, sorted);
+            children.compress(met).store_slice(waiting);
         }
-        self.waiting += met.count_ones() as usize;
+        self.waiting += mask.count_ones() as usize;
     }
 
     /// The step at a block of triangles.
@@ -200,7 +209,7 @@ impl<'a, C: Collector> Flight<'a, C> {
 
     /// The step at an instance.
     #[inline(always)]
-    pub(super) fn instance(&mut self, scene: &'a SceneBvh) -> usize {
+    pub(super) fn instance<S: Simd>(&mut self, simd: S, scene: &'a SceneBvh) -> usize {
         let record = &scene.records[self.current.index()];
         if record.mask & self.mask == 0 {
             return Kind::Next as usize;
@@ -211,17 +220,16 @@ impl<'a, C: Collector> Flight<'a, C> {
             self.rays[1] = *ray;
             return self.enter(&scene.meshes[index as usize]);
         }
-        let origin = record.world_to_object.point(ray.origin);
-        let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let t_min = ray.t_min;
-                if !self.rays[1].prepare(origin, direction, t_min, self.collector.t_max()) {
+                let ([origin, direction], t_min) = (record.world_to_object.images(simd, &ray.origin, &ray.direction), ray.t_min);
+                if !self.rays[1].prepare(simd, origin, direction, t_min, self.collector.t_max()) {
                     return Kind::Next as usize;
                 }
                 self.enter(&scene.meshes[index as usize])
             }
             Geometry::Shape(shape) => {
+                let (origin, direction) = (record.world_to_object.point(ray.origin), record.world_to_object.direction(ray.direction));
                 for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
                     if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent) {
                         return Kind::End as usize;

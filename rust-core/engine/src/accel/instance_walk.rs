@@ -10,7 +10,6 @@ use super::ray::RayBatch;
 use super::scene_bvh::SceneBvh;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use super::walk::{Stack, Visitor, walk};
-use gonio_simd::prefetch;
 
 /// The stacks of the two levels.
 pub(super) struct SceneWalk<'a> {
@@ -28,7 +27,7 @@ pub(super) fn walk_scene<K: Lanes8, C: Collector>(
     i: usize,
     collector: &mut C,
 ) -> bool {
-    let Some(ray) = PreparedRay::new(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
+    let Some(ray) = lanes.prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
     walk_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], collector)
 }
 
@@ -83,13 +82,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
 
     #[inline(always)]
     fn fetch(&self, child: ChildRef) {
-        if child.is_inner() {
-            prefetch(&self.scene.nodes, child.index());
-        } else if child.is(Kind::Instance) {
-            prefetch(&self.scene.records, child.index());
-        } else {
-            prefetch(&self.scene.blocks, child.index());
-        }
+        self.scene.fetch(child);
     }
 
     #[inline(always)]
@@ -106,14 +99,13 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
             let mesh = &self.scene.meshes[index as usize];
             return walk_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.collector);
         }
-        let origin = record.world_to_object.point(ray.origin);
-        let direction = record.world_to_object.direction(ray.direction);
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = PreparedRay::new(origin, direction, ray.t_min, self.collector.t_max()) else { return false };
+                let Some(ray) = lanes.image(&record.world_to_object, ray, self.collector.t_max()) else { return false };
                 walk_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.collector)
             }
             Geometry::Shape(shape) => {
+                let (origin, direction) = (record.world_to_object.point(ray.origin), record.world_to_object.direction(ray.direction));
                 for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
                     let hit = Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id };
                     if self.collector.add(hit, record.transparent) {
@@ -157,11 +149,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
 
     #[inline(always)]
     fn fetch(&self, child: ChildRef) {
-        if child.is_inner() {
-            prefetch(&self.mesh.nodes, child.index());
-        } else {
-            prefetch(&self.mesh.blocks, child.index());
-        }
+        self.mesh.fetch(child);
     }
 
     #[inline(always)]

@@ -1,11 +1,18 @@
-//! The two inner operations of a walk with one ray, at the width of the data.
+//! The inner operations of a walk with one ray, at the width of the data.
 
 use super::node::{Node, WIDTH};
-use super::prepared::PreparedRay;
+use super::prepared::{Padded, PreparedRay};
+use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 
-/// Tests of one ray against the eight boxes of a node, and against the eight triangles of a block.
+/// Making a ray ready, and testing it against the eight boxes of a node, and against the eight triangles of a block.
 pub(super) trait Lanes8: Copy {
+    /// [`PreparedRay::new`].
+    fn prepare(self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<PreparedRay>;
+
+    /// The image of a ray, made ready up to `t_max`.
+    fn image(self, map: &Affine, ray: &PreparedRay, t_max: f32) -> Option<PreparedRay>;
+
     /// The slots whose boxes the ray meets up to `t_max`, as a mask; `near` receives the distances to all boxes.
     fn boxes(self, node: &Node, ray: &PreparedRay, t_max: f32, near: &mut [f32; WIDTH]) -> u32;
 

@@ -104,7 +104,7 @@ pub(super) const MAX_INDEX: usize = INDEX_MASK as usize;
 
 /// Eight boxes and what is in them; 256 bytes, four cache lines.
 ///
-/// Slots are sorted by surface area, smallest first; empty slots come last and hold an empty box, which no ray hits. The inner children of
+/// Slots are sorted by surface area, largest first; empty slots come last and hold an empty box, which no ray hits. The inner children of
 /// a node lie next to each other in memory.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]

@@ -107,6 +107,11 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
     }
 
     #[inline(always)]
+    fn fetch(&self, child: ChildRef) {
+        self.scene.fetch(child);
+    }
+
+    #[inline(always)]
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
         if leaf.is(Kind::WorldTriangles) {
             let owner = self.scene.owners[leaf.index()];
@@ -190,6 +195,11 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
     #[inline(always)]
     fn t_max(&self) -> &[f32; PACKET] {
         &self.hits.t
+    }
+
+    #[inline(always)]
+    fn fetch(&self, child: ChildRef) {
+        self.mesh.fetch(child);
     }
 
     #[inline(always)]

@@ -32,6 +32,8 @@ pub(super) trait PacketVisitor<S: Simd> {
     const ORDERED: bool;
     /// Nothing beyond these distances is of interest; minus infinity for lanes that are done.
     fn t_max(&self) -> &[f32; PACKET];
+    /// Has memory fetch a child that waits for its turn.
+    fn fetch(&self, child: ChildRef);
     /// Visits a leaf with the lanes of a mask.
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32);
     /// Goes on from `start` with one lane alone.
@@ -89,7 +91,7 @@ fn walk_packet<S: Simd, V: PacketVisitor<S>>(
         if lanes.count_ones() < FEWEST_LANES {
             singles(simd, rays, child, lanes, visitor);
         } else if child.is_inner() {
-            push_children::<S, V>(simd, &nodes[child.index()], rays, group, lanes, t_max, stack, &mut top);
+            push_children(simd, &nodes[child.index()], rays, group, lanes, t_max, stack, &mut top, visitor);
         } else {
             visitor.leaf(simd, rays, group, child, lanes);
         }
@@ -108,6 +110,7 @@ fn push_children<S: Simd, V: PacketVisitor<S>>(
     t_max: f32x16<S>,
     stack: &mut PacketStack,
     top: &mut usize,
+    visitor: &V,
 ) {
     let (mut distances, mut slots) = ([0; WIDTH], [0; WIDTH]);
     let n = interval_test::<S, V>(simd, node, group, t_max.reduce_max(), &mut distances, &mut slots);
@@ -129,6 +132,7 @@ fn push_children<S: Simd, V: PacketVisitor<S>>(
             entry.child = node.children[slot];
             entry.lanes = lanes;
             *top += 1;
+            visitor.fetch(node.children[slot]);
         }
     }
 }
@@ -159,12 +163,13 @@ fn interval_test<S: Simd, V: PacketVisitor<S>>(
         enter = (near_plane * low).min(near_plane * high).max(enter);
         leave = (far_plane * low).max(far_plane * high).min(leave);
     }
-    let mask = enter.simd_le(leave).to_bitmask() as u32;
+    let met = enter.simd_le(leave);
+    let mask = met.to_bitmask() as u32;
     let all = u32x8::from_slice(simd, &SLOTS);
     if V::ORDERED {
         simd.sort8(enter, mask, all, distances, slots);
     } else {
-        simd.choose8(mask, all, slots);
+        all.compress(met).store_slice(slots);
     }
     mask.count_ones() as usize
 }

@@ -2,7 +2,8 @@
 
 use super::lanes8::Lanes8;
 use super::node::{Node, WIDTH};
-use super::prepared::PreparedRay;
+use super::prepared::{Padded, PreparedRay};
+use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 
 /// Boxes and triangles in loops over plain numbers.
@@ -10,6 +11,16 @@ use super::triangle_block::{BlockHits, TriangleBlock};
 pub(super) struct Scalar;
 
 impl Lanes8 for Scalar {
+    #[inline(always)]
+    fn prepare(self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<PreparedRay> {
+        PreparedRay::new(origin, direction, t_min, t_max)
+    }
+
+    #[inline(always)]
+    fn image(self, map: &Affine, ray: &PreparedRay, t_max: f32) -> Option<PreparedRay> {
+        PreparedRay::new(map.point(ray.origin), map.direction(ray.direction), ray.t_min, t_max)
+    }
+
     #[inline(always)]
     fn boxes(self, node: &Node, ray: &PreparedRay, t_max: f32, near: &mut [f32; WIDTH]) -> u32 {
         let mut far = [t_max; WIDTH];
@@ -33,7 +44,7 @@ impl Lanes8 for Scalar {
 
     #[inline(always)]
     fn triangles(self, block: &TriangleBlock, ray: &PreparedRay, t_max: f32, hits: &mut BlockHits) -> u32 {
-        let [x_axis, y_axis, z_axis] = ray.axes.map(|axis| axis as usize / WIDTH);
+        let [x_axis, y_axis, z_axis, _] = ray.axes.map(|axis| axis as usize / WIDTH);
         let mut mask = 0;
         for lane in 0..WIDTH {
             let corner = |k: usize| {

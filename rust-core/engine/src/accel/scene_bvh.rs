@@ -10,6 +10,7 @@ use super::placement::Placement;
 use super::ray::NONE;
 use super::trial::Trials;
 use super::triangle_block::TriangleBlock;
+use gonio_simd::prefetch;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -93,6 +94,18 @@ impl SceneBvh {
     /// The mesh trees, in the order of the numbers in [`Geometry::Mesh`](super::Geometry::Mesh).
     pub fn meshes(&self) -> &[Arc<Blas>] {
         &self.meshes
+    }
+
+    /// Has memory fetch a child of the top level.
+    #[inline(always)]
+    pub(super) fn fetch(&self, child: ChildRef) {
+        if child.is_inner() {
+            prefetch(&self.nodes, child.index());
+        } else if child.is(Kind::Instance) {
+            prefetch(&self.records, child.index());
+        } else {
+            prefetch(&self.blocks, child.index());
+        }
     }
 
     /// Bytes of the top level, without the meshes.

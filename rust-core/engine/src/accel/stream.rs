@@ -80,14 +80,14 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
         for place in lists.take(Kind::End) {
             let flight = &mut flights[place];
             flight.end(query);
-            if take_up(rays, &mut numbers, flight, &mut pending[place], query) {
+            if take_up(simd, rays, &mut numbers, flight, &mut pending[place], query) {
                 lists.add(Kind::Inner as usize, place);
             } else {
                 under_way -= 1;
             }
         }
         for place in lists.take(Kind::Instance) {
-            lists.add(flights[place].instance(scene), place);
+            lists.add(flights[place].instance(simd, scene), place);
         }
         for place in lists.take(Kind::Triangles) {
             lists.add(flights[place].triangles(simd), place);
@@ -118,7 +118,8 @@ pub(super) fn stream<S: Simd, Q: Query>(simd: S, scene: &SceneBvh, rays: &RayBat
 
 /// Starts the next ray that can hit something; false when there is none.
 #[inline(always)]
-fn take_up<Q: Query>(
+fn take_up<S: Simd, Q: Query>(
+    simd: S,
     rays: &RayBatch,
     numbers: &mut Numbers,
     flight: &mut Flight<Q::Collector>,
@@ -126,7 +127,7 @@ fn take_up<Q: Query>(
     query: &mut Q,
 ) -> bool {
     for ray in numbers {
-        if flight.start(pending, rays, ray, query) {
+        if flight.start(simd, pending, rays, ray, query) {
             return true;
         }
         flight.end(query);

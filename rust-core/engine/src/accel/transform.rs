@@ -2,6 +2,7 @@
 
 use super::node::{Bounds, ROUNDING_PAD};
 use super::prepared::Padded;
+use fearless_simd::{f32x4, prelude::*};
 
 /// `point -> x * column 0 + y * column 1 + z * column 2 + column 3`: the columns one behind the other, and a number that means nothing, so that
 /// each column can be read as four.
@@ -41,6 +42,14 @@ impl Affine {
             out[k] = (x[k] * p[0] + y[k] * p[1]) + (z[k] * p[2] + moved[k]);
         }
         out
+    }
+
+    /// The images of a point and a direction, all components at once and to the same bits.
+    #[inline(always)]
+    pub(super) fn images<S: Simd>(&self, simd: S, point: &Padded, direction: &Padded) -> [f32x4<S>; 2] {
+        let (x, y) = (f32x4::from_slice(simd, &self.0[..4]), f32x4::from_slice(simd, &self.0[3..7]));
+        let (z, moved) = (f32x4::from_slice(simd, &self.0[6..10]), f32x4::from_slice(simd, &self.0[9..13]));
+        [(x * point[0] + y * point[1]) + (z * point[2] + moved), (x * direction[0] + y * direction[1]) + z * direction[2]]
     }
 
     /// The image of a direction.

@@ -89,13 +89,13 @@ fn descend<V: Visitor<K>, K: Lanes8>(
     }
     if !V::ORDERED {
         // Smallest box first: often a leaf, and a likely end of the search.
-        let mut rest = rest;
+        let (mut slot, mut rest) = (first, rest);
         while rest != 0 {
-            let slot = (31 - rest.leading_zeros()) as usize % WIDTH;
             push(stack, top, entry(0.0, node.children[slot]), visitor);
-            rest ^= 1 << slot;
+            slot = rest.trailing_zeros() as usize % WIDTH;
+            rest &= rest - 1;
         }
-        return node.children[first];
+        return node.children[slot];
     }
     let second = rest.trailing_zeros() as usize % WIDTH;
     let (a, b) = (entry(near[first], node.children[first]), entry(near[second], node.children[second]));

@@ -2,9 +2,10 @@
 
 use super::lanes8::Lanes8;
 use super::node::{Node, WIDTH};
-use super::prepared::PreparedRay;
+use super::prepared::{Padded, PreparedRay};
+use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
-use fearless_simd::{f32x8, prelude::*};
+use fearless_simd::{f32x4, f32x8, mask32x8, prelude::*};
 
 /// Eight lanes of a vector level.
 #[derive(Clone, Copy)]
@@ -12,10 +13,25 @@ pub(super) struct Wide<S: Simd>(pub(super) S);
 
 impl<S: Simd> Lanes8 for Wide<S> {
     #[inline(always)]
+    fn prepare(self, origin: Padded, direction: Padded, t_min: f32, t_max: f32) -> Option<PreparedRay> {
+        let simd = self.0;
+        let mut ray = PreparedRay::NOTHING;
+        let [origin, direction] = [f32x4::from_slice(simd, &origin), f32x4::from_slice(simd, &direction)];
+        ray.prepare(simd, origin, direction, t_min, t_max).then_some(ray)
+    }
+
+    #[inline(always)]
+    fn image(self, map: &Affine, ray: &PreparedRay, t_max: f32) -> Option<PreparedRay> {
+        let [origin, direction] = map.images(self.0, &ray.origin, &ray.direction);
+        let mut image = PreparedRay::NOTHING;
+        image.prepare(self.0, origin, direction, ray.t_min, t_max).then_some(image)
+    }
+
+    #[inline(always)]
     fn boxes(self, node: &Node, ray: &PreparedRay, t_max: f32, near: &mut [f32; WIDTH]) -> u32 {
-        let (enter, mask) = meets(self.0, node, ray, t_max);
+        let (enter, met) = meets(self.0, node, ray, t_max);
         enter.store_slice(near);
-        mask
+        met.to_bitmask() as u32
     }
 
     #[inline(always)]
@@ -41,9 +57,9 @@ impl<S: Simd> Lanes8 for Wide<S> {
     }
 }
 
-/// Distances to the boxes of a node, and the slots of those that the ray meets.
+/// Distances to the boxes of a node, and those that the ray meets.
 #[inline(always)]
-pub(super) fn meets<S: Simd>(simd: S, node: &Node, ray: &PreparedRay, t_max: f32) -> (f32x8<S>, u32) {
+pub(super) fn meets<S: Simd>(simd: S, node: &Node, ray: &PreparedRay, t_max: f32) -> (f32x8<S>, mask32x8<S>) {
     let numbers = node.numbers();
     let [x, y, z, _] = ray.near_rows;
     let [fx, fy, fz, _] = ray.far_rows;
@@ -55,7 +71,7 @@ pub(super) fn meets<S: Simd>(simd: S, node: &Node, ray: &PreparedRay, t_max: f32
     let leave_z = plane(simd, numbers, fz, ray.reciprocal[2], ray.far_offset[2]);
     let enter = enter_x.max(enter_y).max(enter_z.max(f32x8::splat(simd, ray.t_min)));
     let leave = leave_x.min(leave_y).min(leave_z.min(f32x8::splat(simd, t_max)));
-    (enter, enter.simd_le(leave).to_bitmask() as u32)
+    (enter, enter.simd_le(leave))
 }
 
 /// Distances to one plane of each box.
@@ -75,7 +91,7 @@ struct ShearedRay<S: Simd> {
 impl<S: Simd> ShearedRay<S> {
     #[inline(always)]
     fn new(simd: S, ray: &PreparedRay) -> Self {
-        let [x, y, z] = ray.start;
+        let [x, y, z, _] = ray.start;
         // The masks say that a corner has this coordinate, so that nothing has to be checked.
         let axes = [(ray.axes[0] & 24) as usize, (ray.axes[1] & 24) as usize, (ray.axes[2] & 24) as usize];
         let origin = [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)];
