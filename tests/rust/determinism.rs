@@ -1,6 +1,6 @@
 //! The same bits for any number of threads, the same picture at every SIMD level.
 
-use gonio::scene::{Aov, LightShape, Settings};
+use gonio::scene::{Aov, Integrator, LightShape, Settings};
 use gonio_simd::Execution;
 use gonio_tests::{
     picture::{compiled, mean, render, settings},
@@ -22,6 +22,21 @@ fn threads_do_not_change_a_bit() {
     let one = render(&scene, &Settings { threads: 1, ..base.clone() }, Execution::best());
     let two = render(&scene, &Settings { threads: 2, ..base }, Execution::best());
     assert!(one == two);
+}
+
+/// Workers leave their workspaces for the next render of a scene, at whatever level and with whatever passes that is.
+#[test]
+fn renders_leave_no_trace_in_the_next() {
+    let scene = compiled(&scene());
+    let passes = [Aov::Color, Aov::Illuminance, Aov::Normal, Aov::Depth, Aov::Albedo];
+    let wanted = settings(70, 6, &passes);
+    let alone = render(&scene, &wanted, Execution::best());
+    for execution in Execution::all() {
+        let other = Settings { integrator: Integrator::Whitted, ..settings(64, 3, &[Aov::Color]) };
+        render(&scene, &settings(64, 3, &[Aov::Color]), execution);
+        render(&scene, &other, execution);
+        assert!(render(&scene, &wanted, Execution::best()) == alone, "{}", execution.name());
+    }
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let (p, n) = (load3(l, &ws.surface.position, at), load3(l, &ws.surface.shading_normal, at));
-    let (light, probability) = tables.lights.choose(l, transport.known.as_deref(), p, n, u_choice);
+    let (light, probability) = tables.lights.choose(l, transport.known.as_deref(), &p, &n, u_choice);
     let draws = &mut ws.light_draws;
     light.store(&mut draws.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut draws.draw, at);

@@ -136,14 +136,15 @@ impl LightTable {
 
     /// Draws a light for each point and gives its probability: 0 where no light can arrive.
     #[inline(always)]
-    pub fn choose<L: Lanes>(&self, l: L, known: Option<&KnownLights>, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+    pub fn choose<L: Lanes>(&self, l: L, known: Option<&KnownLights>, p: &Vec3<L>, n: &Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
         match (&self.choice, known) {
-            (Choice::Tree(tree), Some(known)) => known.choose(l, tree, &self.rows, p, n, u),
-            (Choice::Tree(tree), None) => tree.choose(l, &self.rows, p, n, u),
+            // One light wants no registers of the point.
             (Choice::Weighed, _) if self.count <= 1 => (l.u(0), l.f(1.0)),
             // Most scenes have few; room for 64 would be cleared each time.
-            (Choice::Weighed, _) if self.count <= FEW => self.choose_weighed::<L, FEW>(l, p, n, u),
-            (Choice::Weighed, _) => self.choose_weighed::<L, WEIGHED>(l, p, n, u),
+            (Choice::Weighed, _) if self.count <= FEW => self.choose_weighed::<L, FEW>(l, *p, *n, u),
+            (Choice::Weighed, _) => self.choose_weighed::<L, WEIGHED>(l, *p, *n, u),
+            (Choice::Tree(tree), Some(known)) => known.choose(l, tree, &self.rows, *p, *n, u),
+            (Choice::Tree(tree), None) => tree.choose(l, &self.rows, *p, *n, u),
         }
     }
 

@@ -50,7 +50,7 @@ impl LightTable {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let chosen = self.choose(l, known, *p, *n, u_choice);
+        let chosen = self.choose(l, known, p, n, u_choice);
         self.sample_chosen(l, chosen, p, n, u)
     }
 
