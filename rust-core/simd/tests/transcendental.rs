@@ -20,6 +20,7 @@ function!(Exp, x, _ => x.exp());
 function!(Log2, x, _ => x.log2());
 function!(Ln, x, _ => x.ln());
 function!(Pow, x, y => x.pow(y));
+function!(NormalPow, x, y => x.normal_pow(y));
 function!(Asin, x, _ => x.asin());
 function!(Acos, x, _ => x.acos());
 function!(Atan2, y, x => y.atan2(x));
@@ -214,6 +215,7 @@ fn powers() {
     // Highlights of narrow lobes: bases near 1 and large exponents.
     pairs.extend(sweep(0.99, 1.0, 20_001).into_iter().map(|x| [x, 1000.0]));
     check2::<Pow>("pow", &pairs, f64::powf, relative, |exact| 2e-7 + 1.8e-7 * exact.ln().abs());
+    check2::<NormalPow>("normal_pow", &pairs, f64::powf, relative, |exact| 2e-7 + 1.8e-7 * exact.ln().abs());
     check2::<Pow>("pow 1e-5", &pairs, f64::powf, relative, |_| 1e-5);
     let cases = [
         ([0.0, 0.0], 1.0),

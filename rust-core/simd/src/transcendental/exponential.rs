@@ -35,11 +35,17 @@ impl<L: Lanes> F<L> {
     /// 2 to the power of `self`; error 2 ulp, exact for integers. Results below 2⁻¹²⁶ (denormals) are 0, above `f32::MAX` ∞; NaN for NaN.
     #[inline(always)]
     pub fn exp2(self) -> Self {
+        within_domain(self.normal_exp2(), self, -126.0, 128.0_f32.next_down())
+    }
+
+    /// [`exp2`](Self::exp2) where that is normal and finite.
+    #[inline(always)]
+    fn normal_exp2(self) -> Self {
         let whole = self.round();
         let f = self - whole;
         let power = polynomial(f, EXP2).mul_add(f, 1.0);
         // The exponent is added to the bits, for 2^128 as a factor would be infinite.
-        within_domain(scale_by_power(power, whole.to_i32()), self, -126.0, 128.0_f32.next_down())
+        scale_by_power(power, whole.to_i32())
     }
 
     /// e to the power of `self`; error 2 ulp. Results below 2⁻¹²⁶ (denormals) are 0, above `f32::MAX` ∞; NaN for NaN.
@@ -57,12 +63,18 @@ impl<L: Lanes> F<L> {
     /// denormals, ∞ for ∞, NaN for negative numbers and NaN.
     #[inline(always)]
     pub fn log2(self) -> Self {
+        self.logarithm_or_special(self.normal_log2())
+    }
+
+    /// [`log2`](Self::log2) of a positive, normal and finite number.
+    #[inline(always)]
+    fn normal_log2(self) -> Self {
         let bits = self.to_bits();
         let exponent = (bits - ROOT_HALF_BITS).sar(MANTISSA_BITS);
         let f = F::from_bits(bits - (exponent << MANTISSA_BITS)) - 1.0;
         // f is kept outside the polynomial, so that its rounding errors shrink with log2(1 + f) / f - 1.
         let fraction = polynomial(f, LOG2).mul_add(f, f);
-        self.logarithm_or_special(exponent.i32_to_float() + fraction)
+        exponent.i32_to_float() + fraction
     }
 
     /// `logarithm` where `self` is positive, normal and finite; the limits of the logarithm elsewhere.
@@ -88,5 +100,11 @@ impl<L: Lanes> F<L> {
         let l = self.lanes();
         let y = y.to_f(l);
         y.eq(0.0).select(l.f(1.0), (y * self.log2()).exp2())
+    }
+
+    /// [`pow`](Self::pow) for positive, normal and finite `self`, where the result is so too; unspecified elsewhere.
+    #[inline(always)]
+    pub fn normal_pow(self, y: impl ToF<L>) -> Self {
+        (y.to_f(self.lanes()) * self.normal_log2()).normal_exp2()
     }
 }

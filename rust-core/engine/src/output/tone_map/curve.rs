@@ -78,13 +78,13 @@ fn srgb_each<L: Lanes>(colour: Rgb<L>) -> Rgb<L> {
 #[inline(always)]
 fn srgb<L: Lanes>(x: F<L>) -> F<L> {
     let x = x.saturate();
-    x.lt(0.003_130_8).select(x * 12.92, x.max(1e-8).pow(1.0 / 2.4).mul_add(1.055, -0.055))
+    x.lt(0.003_130_8).select(x * 12.92, x.max(1e-8).normal_pow(1.0 / 2.4).mul_add(1.055, -0.055))
 }
 
 /// The inverse of PQ's curve (SMPTE ST 2084, ITU-R BT.2100) of a value that is 1 at reference white.
 #[inline(always)]
 fn pq<L: Lanes>(x: F<L>) -> F<L> {
     let x = (x * (DisplaySpace::REFERENCE_WHITE / 10_000.0)).saturate();
-    let power = x.max(1e-12).pow(0.159_301_76);
+    let power = x.max(1e-12).normal_pow(0.159_301_76);
     (power.mul_add(18.851_563, 0.835_937_5) / power.mul_add(18.6875, 1.0)).pow(78.843_75).saturate()
 }
