@@ -16,18 +16,24 @@ use gonio_simd::{Sort8, prefetch_at};
 /// What may wait in both levels, with the end and the room that a whole register of children takes.
 const PENDING: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 1 + WIDTH;
 
+/// The room of each list. Processors look for what was just stored by the last twelve bits of its address: with one and a half times 4096 bytes
+/// and a cache line, the two lists of a ray differ in them, and those of its neighbours too.
+const ROOM: usize = (4096 + 2048 + 64) / size_of::<u32>();
+const _: () = assert!(PENDING <= ROOM);
+
 /// Bits of a distance that the slot takes while children are sorted.
 const SLOT_BITS: u32 = WIDTH as u32 - 1;
 
 /// Children that wait: the bits of their distances, and what they are.
+#[repr(C, align(64))]
 pub(super) struct Pending {
-    near: [u32; PENDING],
-    child: [u32; PENDING],
+    near: [u32; ROOM],
+    child: [u32; ROOM],
 }
 
 impl Pending {
     /// None.
-    pub(super) const EMPTY: Pending = Pending { near: [0; PENDING], child: [0; PENDING] };
+    pub(super) const EMPTY: Pending = Pending { near: [0; ROOM], child: [0; ROOM] };
 
     /// Eight places from `first` on.
     #[inline(always)]
@@ -215,22 +221,20 @@ impl<'a, C: Collector> Flight<'a, C> {
             return Kind::Next as usize;
         }
         (self.instance, self.transparent) = (record.id, record.transparent);
-        let ray = &self.rays[0];
-        if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
-            self.rays[1] = *ray;
-            return self.enter(&scene.meshes[index as usize]);
-        }
+        let ([ray, image], map, t_max) = (&mut self.rays, &record.world_to_object, self.collector.t_max());
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let ([origin, direction], t_min) = (record.world_to_object.images(simd, &ray.origin, &ray.direction), ray.t_min);
-                if !self.rays[1].prepare(simd, origin, direction, t_min, self.collector.t_max()) {
-                    return Kind::Next as usize;
-                }
-                self.enter(&scene.meshes[index as usize])
+                let may_hit = if record.keeps_directions {
+                    image.shift(simd, ray, map.translation(simd), t_max)
+                } else {
+                    let [origin, direction] = map.images(simd, &ray.origin, &ray.direction);
+                    image.prepare(simd, origin, direction, ray.t_min, t_max)
+                };
+                if may_hit { self.enter(&scene.meshes[index as usize]) } else { Kind::Next as usize }
             }
             Geometry::Shape(shape) => {
-                let (origin, direction) = (record.world_to_object.point(ray.origin), record.world_to_object.direction(ray.direction));
-                for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
+                let (origin, direction) = (map.point(ray.origin), map.direction(ray.direction));
+                for hit in shape.crossings(origin, direction, ray.t_min, t_max).into_iter().flatten() {
                     if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent) {
                         return Kind::End as usize;
                     }

@@ -65,6 +65,8 @@ pub(super) struct InstanceRecord {
     pub(super) transparent: bool,
     /// The map moves nothing, so that a ray goes on as it is.
     pub(super) identity: bool,
+    /// The map moves and does nothing else, so that directions stay what they are.
+    pub(super) keeps_directions: bool,
 }
 
 impl InstanceRecord {

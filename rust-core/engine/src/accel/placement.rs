@@ -91,6 +91,7 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
         mask: instance.mask,
         transparent: instance.transparent,
         identity: instance.object_to_world == Instance::IDENTITY,
+        keeps_directions: world_to_object.keeps_directions(),
     };
     usable.then_some((bounds, record))
 }

@@ -119,6 +119,28 @@ impl PreparedRay {
         true
     }
 
+    /// Another ray moved, in the place where it stays: to the bits of [`PreparedRay::new`], but for the direction, which no test reads, and
+    /// zeros that keep their signs; false when it can hit nothing.
+    #[inline(always)]
+    pub(super) fn shift<S: Simd>(&mut self, simd: S, ray: &PreparedRay, translation: f32x4<S>, t_max: f32) -> bool {
+        let origin = f32x4::from_slice(simd, &ray.origin) + translation;
+        let distance = origin.abs();
+        if !((distance.simd_le(LARGEST_COORDINATE).to_bitmask() & 7 == 7) & (ray.t_min <= t_max)) {
+            return false;
+        }
+        let reciprocal = f32x4::from_slice(simd, &ray.reciprocal);
+        let pad = (largest_of(simd, distance) * ROUNDING_PAD).copysign(reciprocal);
+        let order = u8x16::from_slice(simd, &ORDER[ray.axes[2] as usize / 8 % 3]);
+        origin.store_slice(&mut self.origin);
+        reciprocal.store_slice(&mut self.reciprocal);
+        (-(origin + pad) * reciprocal).store_slice(&mut self.near_offset);
+        (-(origin - pad) * reciprocal).store_slice(&mut self.far_offset);
+        origin.swizzle_dyn(order).store_slice(&mut self.start);
+        (self.near_rows, self.far_rows, self.axes) = (ray.near_rows, ray.far_rows, ray.axes);
+        (self.shear, self.t_min) = (ray.shear, ray.t_min);
+        true
+    }
+
     /// The ray of these numbers; `offsets` are those of the near planes and of the far ones.
     #[inline(always)]
     pub(super) fn with_offsets(
@@ -237,6 +259,24 @@ mod tests {
                 let lanes_image = alone.and_then(|ray| dispatch!(level, simd => Wide(simd).image(&map, &ray, t_max)));
                 assert_eq!(bits(lanes), bits(alone), "{level:?} {origin:?} {direction:?}");
                 assert_eq!(bits(lanes_image), bits(image), "{level:?} {origin:?} {direction:?}");
+            }
+        }
+        assert!(of_use > 100, "{of_use}");
+    }
+
+    #[test]
+    fn a_ray_is_shifted_to_its_image() {
+        let map = Affine::new(&[[1.0, 0.0, 0.0, 3.0], [0.0, 1.0, 0.0, -7.0], [0.0, 0.0, 1.0, 0.01]]).expect("finite");
+        let no_sign_of_zero = |direction: &Padded| direction.iter().all(|x| *x != 0.0 || x.is_sign_positive());
+        let mut of_use = 0;
+        for (origin, direction, [t_min, t_max]) in rays().into_iter().filter(|(_, direction, _)| no_sign_of_zero(direction)) {
+            let Some(ray) = Scalar.prepare(origin, direction, t_min, t_max) else { continue };
+            let image = Scalar.image(&map, &ray, t_max);
+            of_use += usize::from(image.is_some());
+            for level in [Level::new(), Level::baseline()] {
+                let mut shifted = PreparedRay { direction, ..PreparedRay::NOTHING };
+                let may_hit = dispatch!(level, simd => shifted.shift(simd, &ray, map.translation(simd), t_max));
+                assert_eq!(bits(may_hit.then_some(shifted)), bits(image), "{level:?} {origin:?} {direction:?}");
             }
         }
         assert!(of_use > 100, "{of_use}");

@@ -47,6 +47,7 @@ impl<'a> RayBatch<'a> {
     }
 
     /// Cuts all columns to one length, so that later indexing is checked once.
+    #[inline(always)]
     pub(super) fn same_length(self) -> Self {
         let n = self.len();
         let cut = |column: &'a [f32]| &column[..n];

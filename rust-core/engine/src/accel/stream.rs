@@ -19,7 +19,7 @@ use std::cell::RefCell;
 const FLIGHTS: usize = 32;
 
 /// So many others are tested at nodes before a ray goes on to what it met there: what was just sorted and stored would be waited for.
-const BEHIND: usize = 4;
+const BEHIND: usize = 8;
 
 /// Fewer rays than this walk one by one.
 pub(super) const FEWEST_RAYS: usize = 2 * FLIGHTS;

@@ -48,8 +48,19 @@ impl Affine {
     #[inline(always)]
     pub(super) fn images<S: Simd>(&self, simd: S, point: &Padded, direction: &Padded) -> [f32x4<S>; 2] {
         let (x, y) = (f32x4::from_slice(simd, &self.0[..4]), f32x4::from_slice(simd, &self.0[3..7]));
-        let (z, moved) = (f32x4::from_slice(simd, &self.0[6..10]), f32x4::from_slice(simd, &self.0[9..13]));
+        let (z, moved) = (f32x4::from_slice(simd, &self.0[6..10]), self.translation(simd));
         [(x * point[0] + y * point[1]) + (z * point[2] + moved), (x * direction[0] + y * direction[1]) + z * direction[2]]
+    }
+
+    /// The image of the origin.
+    #[inline(always)]
+    pub(super) fn translation<S: Simd>(&self, simd: S) -> f32x4<S> {
+        f32x4::from_slice(simd, &self.0[9..13])
+    }
+
+    /// Whether directions are their own images.
+    pub(super) fn keeps_directions(&self) -> bool {
+        self.0[..9] == [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     }
 
     /// The image of a direction.
