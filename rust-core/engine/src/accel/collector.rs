@@ -88,8 +88,7 @@ impl Query for NearestHits<'_> {
 
     #[inline(always)]
     fn end(&mut self, i: usize, nearest: &Nearest, _ended: bool) {
-        let (hits, hit) = (&mut *self.0, &nearest.0);
-        (hits.t[i], hits.u[i], hits.v[i], hits.primitive[i], hits.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
+        self.0.set(i, &nearest.0);
     }
 }
 

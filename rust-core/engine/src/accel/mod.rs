@@ -6,6 +6,7 @@
 //! (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong (`triangle_block.rs`), and equal distances are settled by
 //! the lower instance and primitive number.
 
+mod apart;
 mod blas;
 mod block_tests;
 mod build;
@@ -47,7 +48,7 @@ mod wide;
 pub use blas::{Blas, BlasMemory, Care};
 pub(crate) use block_tests::BlockTests;
 pub use instance::{Geometry, Instance};
-pub use ray::{Hits, NONE, PassedHit, RayBatch};
+pub use ray::{Covered, Hits, NONE, PassedHit, RayBatch};
 pub use scene_bvh::SceneBvh;
 pub use shape::Shape;
 

@@ -7,6 +7,7 @@ use super::packet_walk::EMPTY_PACKET_STACK;
 use super::ray::{Hits, RayBatch};
 use super::scene_bvh::SceneBvh;
 use fearless_simd::{Level, dispatch, f32x16, prelude::*};
+use gonio_simd::Execution;
 use std::cell::RefCell;
 
 impl SceneBvh {
@@ -14,6 +15,7 @@ impl SceneBvh {
     /// [`SceneBvh::first_hit`].
     pub fn first_hit_packets(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
         STACKS.with_borrow_mut(|stacks| dispatch!(level, simd => first_hit_packets(simd, self, rays, stacks, hits)));
+        self.meet_apart(Execution::Vector(level), rays, hits);
     }
 
     /// [`SceneBvh::occluded`], consecutive groups of sixteen rays together: for coherent rays.

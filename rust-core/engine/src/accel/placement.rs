@@ -24,12 +24,12 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// Places instances; with `opened` those of small meshes are taken apart.
-    pub(super) fn new(meshes: &[Arc<Blas>], instances: &[Instance], opened: bool) -> Self {
+    /// Places instances; with `opened` those of small meshes are taken apart. Those from `first_apart` on get no boxes.
+    pub(super) fn new(meshes: &[Arc<Blas>], instances: &[Instance], first_apart: usize, opened: bool) -> Self {
         let mut placement = Placement::default();
         for (id, instance) in instances.iter().enumerate() {
             let Some((bounds, record)) = placed(meshes, instance, id as u32) else { continue };
-            if !(opened && placement.open(meshes, instance, record.owner())) {
+            if id < first_apart && !(opened && placement.open(meshes, instance, record.owner())) {
                 placement.boxes.push(bounds);
                 placement.contents.push(ChildRef::new(Kind::Instance, placement.records.len()));
             }

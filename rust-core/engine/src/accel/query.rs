@@ -11,7 +11,7 @@ use super::trial::{Part, Way};
 use super::walk::EMPTY_STACK;
 use super::wide::Wide;
 use fearless_simd::{Level, dispatch};
-use gonio_simd::sorts_fast;
+use gonio_simd::{Execution, sorts_fast};
 
 impl SceneBvh {
     /// The nearest hit of every ray on the mesh of one instance, whatever else is in the way: `instances[i]` is that of ray `i`.
@@ -27,11 +27,13 @@ impl SceneBvh {
     /// The nearest hit of every ray: for incoherent rays.
     pub fn first_hit(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
         self.ask(level, rays, &mut NearestHits::new(hits, rays.len()));
+        self.meet_apart(Execution::Vector(level), rays, hits);
     }
 
     /// [`SceneBvh::first_hit`] without vector code.
     pub fn first_hit_scalar(&self, rays: &RayBatch, hits: &mut Hits) {
         one_by_one(Scalar, self, rays, Part::ALL, &mut NearestHits::new(hits, rays.len()));
+        self.meet_apart(Execution::Scalar, rays, hits);
     }
 
     /// `out[i] = 1` when ray `i` hits anything, transparent or not, else 0; `out` is as long as the batch.

@@ -1,5 +1,6 @@
 //! Batches of rays and of hits, one entry a ray.
 
+use super::collector::Hit;
 use super::prepared::Padded;
 
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
@@ -74,6 +75,16 @@ pub struct Hits {
     pub primitive: Vec<u32>,
     /// The instance's number, [`NONE`] for a miss.
     pub instance: Vec<u32>,
+    /// What the rays that hit a shape apart from the tree would hit without all of those, in the order of the rays.
+    pub covered: Vec<Covered>,
+}
+
+/// The hit of a ray, or its miss, behind shapes that stand apart from the tree; as in [`Hits`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Covered {
+    /// The ray's number in its batch.
+    pub(super) ray: u32,
+    pub(super) hit: Hit,
 }
 
 impl Hits {
@@ -81,6 +92,16 @@ impl Hits {
     pub fn repeat(&mut self, entry: usize) {
         [&mut self.t, &mut self.u, &mut self.v].into_iter().for_each(|column| column.push(column[entry]));
         [&mut self.primitive, &mut self.instance].into_iter().for_each(|column| column.push(column[entry]));
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize) -> Hit {
+        Hit { t: self.t[i], u: self.u[i], v: self.v[i], primitive: self.primitive[i], instance: self.instance[i] }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, hit: &Hit) {
+        (self.t[i], self.u[i], self.v[i], self.primitive[i], self.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
     }
 
     /// Sets the number of entries; new entries are misses.

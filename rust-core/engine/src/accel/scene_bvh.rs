@@ -1,6 +1,7 @@
 //! The tree over the instances of a scene.
 
 use super::Cancelled;
+use super::apart::{Apart, MOST_APART};
 use super::blas::Blas;
 use super::build::{Effort, build};
 use super::collapse::LeafMaker;
@@ -25,6 +26,8 @@ pub struct SceneBvh {
     pub(super) blocks: Vec<TriangleBlock>,
     pub(super) owners: Vec<Owner>,
     pub(super) meshes: Vec<Arc<Blas>>,
+    /// Shapes that are not in the tree.
+    pub(super) apart: Vec<Apart>,
     /// So large that incoherent rays may gain from going together.
     pub(super) is_large: bool,
     /// Whether they do.
@@ -36,7 +39,19 @@ impl SceneBvh {
     ///
     /// Instances of missing or empty meshes, with singular maps or beyond 1e12 metres are left out; no ray hits them.
     pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
-        let placement = Placement::new(&meshes, instances, instances.len() <= MOST_OPENED);
+        SceneBvh::build_with_lights(meshes, instances, instances.len(), cancel)
+    }
+
+    /// [`SceneBvh::build`] where the instances from `first_light` on are shapes that no shadow ray sees: queries for what is in a ray's way need
+    /// not find them.
+    pub fn build_with_lights(
+        meshes: Vec<Arc<Blas>>,
+        instances: &[Instance],
+        first_light: usize,
+        cancel: &AtomicBool,
+    ) -> Result<SceneBvh, Cancelled> {
+        let first_apart = if instances.len() - first_light <= MOST_APART { first_light } else { instances.len() };
+        let placement = Placement::new(&meshes, instances, first_apart, instances.len() <= MOST_OPENED);
         assert!(placement.boxes.len() <= MAX_INDEX, "the top level holds at most {MAX_INDEX} boxes");
         let effort = if placement.boxes.len() <= MANY_BOXES { Effort::THOROUGH } else { Effort::QUICK };
         let tree = build(&placement.boxes, &Numbers, effort, cancel)?;
@@ -47,10 +62,13 @@ impl SceneBvh {
             blocks: Vec::with_capacity(placement.blocks.len()),
             owners: Vec::with_capacity(placement.blocks.len()),
             meshes,
+            apart: Vec::new(),
             is_large: false,
             trials: Trials::default(),
         };
         scene.fill(&placement, &tree.leaves);
+        let in_place = (first_apart..).zip(&instances[first_apart..]).filter(|(number, _)| scene.record_of[*number] != NONE);
+        scene.apart = in_place.filter_map(|(number, instance)| Apart::new(instance, scene.record_of[number])).collect();
         scene.is_large = scene.meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + scene.memory() > SMALL;
         Ok(scene)
     }

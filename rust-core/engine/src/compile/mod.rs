@@ -107,7 +107,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
-    let bvh = SceneBvh::build(blases, &geometry.instances, cancel).map_err(|_| Error::Cancelled)?;
+    let first_light = geometry.first_light as usize;
+    let bvh = SceneBvh::build_with_lights(blases, &geometry.instances, first_light, cancel).map_err(|_| Error::Cancelled)?;
     let statistics = CompileStatistics {
         triangles: scene.meshes.iter().map(|mesh| mesh.triangles.len() as u64).sum(),
         instanced_triangles: instanced_triangles(scene),

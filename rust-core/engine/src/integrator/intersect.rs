@@ -113,7 +113,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
     ws.at_lights.truncate(count);
 }
 
-/// Traces on behind the shapes of lights: they shine and block nothing.
+/// Goes on behind the shapes of lights, which shine and block nothing: to what is known to be there, or what tracing finds.
 fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
     for path in &ws.at_lights {
         let i = *path as usize;
@@ -130,7 +130,12 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
         t_max: &chosen.t_max,
         mask: &chosen.mask,
     };
-    first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
+    if tables.bvh.has_shapes_apart() {
+        tables.bvh.first_hit_before(transport.execution, &rays, &ws.hits.covered, &mut ws.retraced);
+    } else {
+        first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
+    }
+    std::mem::swap(&mut ws.hits.covered, &mut ws.retraced.covered);
     for (from, to) in waiting.iter().enumerate() {
         let to = *to as usize;
         ws.hits.t[to] = ws.retraced.t[from];

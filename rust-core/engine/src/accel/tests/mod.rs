@@ -1,6 +1,7 @@
 //! Tests of the accelerator against an oracle in f64, and of all execution paths against each other.
 
 mod agreement;
+mod apart;
 mod building;
 mod degenerate;
 mod oracle;

@@ -1,0 +1,130 @@
+//! Shapes that stand apart from the tree: few, and seen by no shadow ray. A register of rays is tested against a ball around each, which costs
+//! less than what the tree would take; rays that meet the ball are tested against the shape.
+
+use super::collector::{Collector, Hit, Nearest};
+use super::instance::{Geometry, Instance};
+use super::ray::{Covered, Hits, NONE, RayBatch};
+use super::scene_bvh::SceneBvh;
+use super::shape::Shape;
+use gonio_simd::{Execution, F, Lanes, PADDING, Vec3, dispatch};
+
+/// More shapes than this stand in the tree.
+pub(super) const MOST_APART: usize = 8;
+
+/// A shape's record, and a ball around it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Apart {
+    pub(super) record: u32,
+    centre: [f32; 3],
+    radius: f32,
+}
+
+/// A ball's radius is widened by this share of its distance, for rounding.
+const ROUNDING: f32 = 2e-6;
+
+impl Apart {
+    /// The shape of an instance whose record has a number; `None` for meshes.
+    pub(super) fn new(instance: &Instance, record: u32) -> Option<Self> {
+        let Geometry::Shape(shape) = instance.geometry else { return None };
+        let column = |k: usize| instance.object_to_world.map(|row| row[k]);
+        let [x, y, z] = [column(0), column(1), column(2)];
+        let radius = match shape {
+            Shape::Rectangle => 0.5 * (dot(x, x) + dot(y, y) + 2.0 * dot(x, y).abs()).sqrt(),
+            Shape::Disk => reach(&[x, y]),
+            Shape::Sphere => reach(&[x, y, z]),
+            Shape::Cylinder => 0.5 * dot(x, x).sqrt() + reach(&[y, z]),
+        };
+        Some(Apart { record, centre: column(3).map(|x| x as f32), radius: radius as f32 * (1.0 + ROUNDING) })
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// How far these axes take the points of the unit ball at most: the root of a bound on the largest eigenvalue of their products (Gershgorin).
+fn reach(axes: &[[f64; 3]]) -> f64 {
+    let products = |a: &[f64; 3]| axes.iter().map(|b| dot(*a, *b).abs()).sum::<f64>();
+    axes.iter().map(products).fold(0.0, f64::max).sqrt()
+}
+
+impl SceneBvh {
+    /// Whether shapes stand apart: then all shapes of lights do.
+    pub fn has_shapes_apart(&self) -> bool {
+        !self.apart.is_empty()
+    }
+
+    /// The nearest hit of every ray on shapes that stand apart, or else what is known of what is behind: an entry a ray.
+    pub fn first_hit_before(&self, execution: Execution, rays: &RayBatch, behind: &[Covered], hits: &mut Hits) {
+        hits.resize(rays.len());
+        for (i, covered) in behind[..rays.len()].iter().enumerate() {
+            hits.set(i, &covered.hit);
+        }
+        self.meet_apart(execution, rays, hits);
+    }
+
+    /// Replaces hits by nearer ones on the shapes that stand apart.
+    pub(super) fn meet_apart(&self, execution: Execution, rays: &RayBatch, hits: &mut Hits) {
+        hits.covered.clear();
+        if self.has_shapes_apart() {
+            dispatch!(execution, l => meet(l, self, rays, hits));
+            hits.covered.sort_unstable_by_key(|covered| covered.ray);
+        }
+    }
+
+    /// The hit of ray `i` on one of them, if it is the nearest.
+    fn meet_one(&self, apart: &Apart, rays: &RayBatch, i: usize, hits: &mut Hits) {
+        let record = &self.records[apart.record as usize];
+        let Geometry::Shape(shape) = record.geometry.get() else { return };
+        if record.mask & rays.mask[i] == 0 {
+            return;
+        }
+        let map = &record.world_to_object;
+        let (origin, direction) = (map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)));
+        let before = hits.get(i);
+        let mut nearest = Nearest(before);
+        for hit in shape.crossings(origin, direction, rays.t_min[i].max(0.0), before.t).into_iter().flatten() {
+            nearest.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent);
+        }
+        if nearest.0 != before {
+            if before.instance < self.records[self.apart[0].record as usize].id || before.instance == NONE {
+                hits.covered.push(Covered { ray: i as u32, hit: before });
+            }
+            hits.set(i, &nearest.0);
+        }
+    }
+}
+
+#[inline(always)]
+fn meet<L: Lanes>(l: L, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
+    for at in (0..rays.len()).step_by(L::COUNT) {
+        let vector = |columns: &[&[f32]; 3]| Vec3::new(column(l, columns[0], at), column(l, columns[1], at), column(l, columns[2], at));
+        let (origin, direction) = (vector(&rays.origin), vector(&rays.direction));
+        let (t_min, t_max) = (column(l, rays.t_min, at), column(l, &hits.t, at));
+        let inverse_length = direction.length_squared().inverse_root();
+        for apart in &scene.apart {
+            let way = Vec3::splat(l, apart.centre) - origin;
+            let along = way.dot(direction) * (inverse_length * inverse_length);
+            let foot = way - direction * along;
+            let radius = (way.x.abs() + way.y.abs() + way.z.abs()).mul_add(ROUNDING, l.f(apart.radius));
+            let half = radius * inverse_length;
+            let near = foot.length_squared().le(radius * radius) & t_min.le(along + half) & (along - half).le(t_max);
+            let mut lanes = (near & l.first(rays.len() - at)).bits();
+            while lanes != 0 {
+                scene.meet_one(apart, rays, at + lanes.trailing_zeros() as usize, hits);
+                lanes &= lanes - 1;
+            }
+        }
+    }
+}
+
+/// A register of a column, zeros behind its end.
+#[inline(always)]
+fn column<L: Lanes>(l: L, values: &[f32], at: usize) -> F<L> {
+    if at + L::COUNT <= values.len() {
+        return l.load(values, at);
+    }
+    let mut last = [0.0; PADDING];
+    last[..values.len() - at].copy_from_slice(&values[at..]);
+    l.load(&last, 0)
+}
