@@ -1,12 +1,12 @@
 //! Shapes that stand apart from the tree: few, and seen by no shadow ray. A register of rays is tested against a ball around each, which costs
 //! less than what the tree would take; rays that meet the ball are tested against the shape.
 
-use super::collector::{Collector, Hit, Nearest};
+use super::collector::Nearest;
 use super::instance::{Geometry, Instance};
 use super::ray::{Covered, Hits, NONE, RayBatch};
 use super::scene_bvh::SceneBvh;
 use super::shape::Shape;
-use gonio_simd::{Execution, F, Lanes, PADDING, Vec3, dispatch};
+use gonio_simd::{Execution, F, Lanes, Vec3, dispatch};
 
 /// More shapes than this stand in the tree.
 pub(super) const MOST_APART: usize = 8;
@@ -79,13 +79,9 @@ impl SceneBvh {
         if record.mask & rays.mask[i] == 0 {
             return;
         }
-        let map = &record.world_to_object;
-        let (origin, direction) = (map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)));
         let before = hits.get(i);
         let mut nearest = Nearest(before);
-        for hit in shape.crossings(origin, direction, rays.t_min[i].max(0.0), before.t).into_iter().flatten() {
-            nearest.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent);
-        }
+        record.meet_shape(shape, rays.origin_of(i), rays.direction_of(i), rays.t_min[i].max(0.0), &mut nearest);
         if nearest.0 != before {
             if before.instance < self.records[self.apart[0].record as usize].id || before.instance == NONE {
                 hits.covered.push(Covered { ray: i as u32, hit: before });
@@ -118,13 +114,8 @@ fn meet<L: Lanes>(l: L, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
     }
 }
 
-/// A register of a column, zeros behind its end.
+/// A register of a column, its last value behind its end.
 #[inline(always)]
 fn column<L: Lanes>(l: L, values: &[f32], at: usize) -> F<L> {
-    if at + L::COUNT <= values.len() {
-        return l.load(values, at);
-    }
-    let mut last = [0.0; PADDING];
-    last[..values.len() - at].copy_from_slice(&values[at..]);
-    l.load(&last, 0)
+    if at + L::COUNT <= values.len() { l.load(values, at) } else { l.gather(values, l.iota() + at as u32) }
 }

@@ -233,13 +233,9 @@ impl<'a, C: Collector> Flight<'a, C> {
                 if may_hit { self.enter(&scene.meshes[index as usize]) } else { Kind::Next as usize }
             }
             Geometry::Shape(shape) => {
-                let (origin, direction) = (map.point(ray.origin), map.direction(ray.direction));
-                for hit in shape.crossings(origin, direction, ray.t_min, t_max).into_iter().flatten() {
-                    if self.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id }, record.transparent) {
-                        return Kind::End as usize;
-                    }
-                }
-                Kind::Next as usize
+                self.ended = record.meet_shape(shape, ray.origin, ray.direction, ray.t_min, &mut self.collector);
+                self.shorten();
+                if self.ended { Kind::End as usize } else { Kind::Next as usize }
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Placed geometry: what the caller says, and the record the traversal reads.
 
+use super::collector::{Collector, Hit};
+use super::prepared::Padded;
 use super::shape::Shape;
 use super::transform::Affine;
 
@@ -70,6 +72,17 @@ pub(super) struct InstanceRecord {
 }
 
 impl InstanceRecord {
+    /// Hands the hits of a ray of the world on the instance's shape to a collector; true when it ended the search.
+    #[inline(always)]
+    pub(super) fn meet_shape<C: Collector>(&self, shape: Shape, origin: Padded, direction: Padded, t_min: f32, collector: &mut C) -> bool {
+        let (origin, direction) = (self.world_to_object.point(origin), self.world_to_object.direction(direction));
+        shape
+            .crossings(origin, direction, t_min, collector.t_max())
+            .into_iter()
+            .flatten()
+            .any(|hit| collector.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: self.id }, self.transparent))
+    }
+
     #[inline(always)]
     pub(super) fn owner(&self) -> Owner {
         Owner { id: self.id, mask: self.mask, transparent: self.transparent }

@@ -104,16 +104,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
                 let Some(ray) = lanes.image(&record.world_to_object, ray, self.collector.t_max()) else { return false };
                 walk_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.collector)
             }
-            Geometry::Shape(shape) => {
-                let (origin, direction) = (record.world_to_object.point(ray.origin), record.world_to_object.direction(ray.direction));
-                for hit in shape.crossings(origin, direction, ray.t_min, self.collector.t_max()).into_iter().flatten() {
-                    let hit = Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: record.id };
-                    if self.collector.add(hit, record.transparent) {
-                        return true;
-                    }
-                }
-                false
-            }
+            Geometry::Shape(shape) => record.meet_shape(shape, ray.origin, ray.direction, ray.t_min, self.collector),
         }
     }
 }

@@ -94,11 +94,13 @@ impl Hits {
         [&mut self.primitive, &mut self.instance].into_iter().for_each(|column| column.push(column[entry]));
     }
 
+    /// An entry.
     #[inline(always)]
     pub(super) fn get(&self, i: usize) -> Hit {
         Hit { t: self.t[i], u: self.u[i], v: self.v[i], primitive: self.primitive[i], instance: self.instance[i] }
     }
 
+    /// Writes an entry.
     #[inline(always)]
     pub(super) fn set(&mut self, i: usize, hit: &Hit) {
         (self.t[i], self.u[i], self.v[i], self.primitive[i], self.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
