@@ -28,16 +28,12 @@ struct Sampling {
 }
 
 pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
-    let case = |name: &str, scene: &Scene| {
-        let [x, _, z] = cube();
-        let mut points = columns3();
-        for i in 0..BATCH {
-            (points[0][i], points[2][i]) = (4.0 * x[i] - 2.0, 4.0 * z[i] - 2.0);
-        }
-        let (scene, numbers) = (compiled(scene, cancel)?, cube());
-        let kernel = Sampling { scene, points, numbers, direction: columns3(), radiance: columns3(), pdf: Column::new(BATCH) };
-        Ok(Case::new(name, "sample", BATCH, kernel))
-    };
+    let case = |(name, scene): (&str, Scene)| Ok(Case::new(name, "sample", BATCH, Sampling::new(&scene, cancel)?));
+    lights().into_iter().map(case).collect()
+}
+
+/// What is sampled, by name.
+fn lights() -> Vec<(&'static str, Scene)> {
     let shapes = [
         ("rectangle", LightShape::Rectangle { width: 1.0, height: 0.6 }),
         ("disk", LightShape::Disk { radius: 0.4 }),
@@ -49,18 +45,15 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
         ("parallel", LightShape::Distant { angle_deg: 0.0 }),
         ("dome", LightShape::Dome { format: DomeFormat::LatLong }),
     ];
-    let mut cases = Vec::new();
-    for (name, shape) in shapes {
-        cases.push(case(name, &alone(shape))?);
-    }
-    for (name, beam) in beams() {
-        cases.push(case(name, &Scene { lights: vec![beam], ..Scene::default() })?);
-    }
-    cases.push(case("dome with an image", &sky())?);
-    cases.push(case("triangle", &triangle())?);
-    cases.push(case("luminaire", &luminaire())?);
-    cases.push(case("nine lights of five kinds", &scenes::room())?);
-    Ok(cases)
+    let mut lights: Vec<_> = shapes.map(|(name, shape)| (name, alone(shape))).into();
+    lights.extend(beams().map(|(name, beam)| (name, Scene { lights: vec![beam], ..Scene::default() })));
+    lights.extend([
+        ("dome with an image", sky()),
+        ("triangle", triangle()),
+        ("luminaire", luminaire()),
+        ("nine lights of five kinds", scenes::room()),
+    ]);
+    lights
 }
 
 /// Points whose intensity depends on the direction: a spot's cone, a power of the cosine, a table.
@@ -131,6 +124,21 @@ fn sample<L: Lanes>(l: L, tables: &Tables, job: [&[Column; 3]; 2], out: [&mut [C
     }
 }
 
+impl Sampling {
+    /// Of a scene's lights, from places on its floor.
+    fn new(scene: &Scene, cancel: &AtomicBool) -> Result<Self> {
+        let (scene, numbers, mut points) = (compiled(scene, cancel)?, cube(), columns3());
+        let origin = scene.tables.origin;
+        for i in 0..BATCH {
+            let place = [4.0 * numbers[0][i] - 2.0, 0.0, 4.0 * numbers[2][i] - 2.0];
+            for (axis, column) in points.iter_mut().enumerate() {
+                column[i] = (f64::from(place[axis]) - origin[axis]) as f32;
+            }
+        }
+        Ok(Self { scene, points, numbers, direction: columns3(), radiance: columns3(), pdf: Column::new(BATCH) })
+    }
+}
+
 impl Kernel for Sampling {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let Self { scene, points, numbers, direction, radiance, pdf } = self;
@@ -139,5 +147,20 @@ impl Kernel for Sampling {
     }
     fn outcome(&self) -> Outcome {
         Outcome::of(self.direction.iter().chain(&self.radiance).chain([&self.pdf]).map(|column| &column[..]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_floor_is_lit_by_what_is_measured() {
+        for (name, scene) in lights() {
+            let mut kernel = Sampling::new(&scene, &AtomicBool::new(false)).expect(name);
+            kernel.run(Execution::best()).expect(name);
+            let lit = kernel.pdf.iter().filter(|pdf| **pdf > 0.0).count();
+            assert!(lit > BATCH / 2, "{name}: {lit} of {BATCH} samples bring light");
+        }
     }
 }
