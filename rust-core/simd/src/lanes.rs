@@ -177,6 +177,20 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn load_integers(self, values: &[u32], at: usize) -> U<Self> {
         U(self.load_u(&values[at..at + Self::COUNT]))
     }
+    /// Lanes from `values[at..]`; those beyond the end repeat the last value. There is one at least.
+    #[inline(always)]
+    fn load_to_end(self, values: &[f32], at: usize) -> F<Self> {
+        if at + Self::COUNT <= values.len() { self.load(values, at) } else { self.gather(values, self.iota() + at as u32) }
+    }
+    /// Lanes from `values[at..]`; those beyond the end repeat the last value. There is one at least.
+    #[inline(always)]
+    fn load_integers_to_end(self, values: &[u32], at: usize) -> U<Self> {
+        if at + Self::COUNT <= values.len() {
+            self.load_integers(values, at)
+        } else {
+            self.gather_integers(values, self.iota() + at as u32)
+        }
+    }
     /// 0, 1, 2 … by lane.
     #[inline(always)]
     fn iota(self) -> U<Self> {

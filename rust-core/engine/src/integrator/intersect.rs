@@ -9,7 +9,7 @@ use super::{
     light_groups::add_of_lights,
     light_sums::code,
     material::Tables,
-    material_order::{list_materials, load_to_end},
+    material_order::list_materials,
     paths::{CarriedLanes, Paths, TrackLanes, VertexLanes},
     scatter::{add, add_light, code_of},
     transport::Transport,
@@ -77,7 +77,7 @@ fn classify<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
     ws.at_lights.clear();
     let instances = &ws.hits.instance;
     for at in (0..instances.len()).step_by(L::COUNT) {
-        let instance = load_to_end(l, instances, at);
+        let instance = l.load_integers_to_end(instances, at);
         let others = !instance.lt(tables.first_light_instance) & l.first(instances.len() - at);
         if others.any() {
             let (path, escaped) = (l.iota() + at as u32, instance.eq(NONE));

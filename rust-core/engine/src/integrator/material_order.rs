@@ -2,13 +2,7 @@
 
 use super::{material::Tables, transport::Transport, workspace::Workspace};
 use crate::accel::NONE;
-use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch, padded};
-
-/// A register of a column that ends with its last entry, which lanes beyond repeat.
-#[inline(always)]
-pub(super) fn load_to_end<L: Lanes>(l: L, values: &[u32], at: usize) -> U<L> {
-    if at + L::COUNT <= values.len() { l.load_integers(values, at) } else { l.gather_integers(values, l.iota() + at as u32) }
-}
+use gonio_simd::{Execution, Lanes, M, PADDING, dispatch, padded};
 
 /// Looks up the material of every hit, [`NONE`] where there is none.
 #[inline(always)]
@@ -17,9 +11,9 @@ pub(super) fn list_materials<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace
     ws.material_of.resize(padded(count), NONE);
     for at in (0..padded(count)).step_by(L::COUNT) {
         let alive = l.first(count.saturating_sub(at));
-        let instance = load_to_end(l, &ws.hits.instance, at);
+        let instance = l.load_integers_to_end(&ws.hits.instance, at);
         let met = alive & instance.ne(NONE);
-        let material = tables.geometry.material_lanes(l, instance.keep_if(met), load_to_end(l, &ws.hits.primitive, at));
+        let material = tables.geometry.material_lanes(l, instance.keep_if(met), l.load_integers_to_end(&ws.hits.primitive, at));
         met.select(material, l.u(NONE)).store(&mut ws.material_of, at);
     }
 }
