@@ -6,7 +6,7 @@ use super::instance::{Geometry, Instance};
 use super::ray::{Covered, Hits, NONE, RayBatch};
 use super::scene_bvh::SceneBvh;
 use super::shape::Shape;
-use gonio_simd::{Execution, F, Lanes, Vec3, dispatch};
+use gonio_simd::{Execution, Lanes, Vec3, dispatch};
 
 /// More shapes than this stand in the tree.
 pub(super) const MOST_APART: usize = 8;
@@ -19,7 +19,7 @@ pub(super) struct Apart {
     radius: f32,
 }
 
-/// A ball's radius is widened by this share of its distance, for rounding.
+/// A ball's radius is widened by this share of itself, of its distance and of its place's distance from the world's middle, for rounding.
 const ROUNDING: f32 = 2e-6;
 
 impl Apart {
@@ -34,7 +34,9 @@ impl Apart {
             Shape::Sphere => reach(&[x, y, z]),
             Shape::Cylinder => 0.5 * dot(x, x).sqrt() + reach(&[y, z]),
         };
-        Some(Apart { record, centre: column(3).map(|x| x as f32), radius: radius as f32 * (1.0 + ROUNDING) })
+        let centre = column(3).map(|x| x as f32);
+        let away: f32 = centre.iter().map(|x| x.abs()).sum();
+        Some(Apart { record, centre, radius: radius as f32 * (1.0 + ROUNDING) + away * ROUNDING })
     }
 }
 
@@ -94,9 +96,10 @@ impl SceneBvh {
 #[inline(always)]
 fn meet<L: Lanes>(l: L, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
     for at in (0..rays.len()).step_by(L::COUNT) {
-        let vector = |columns: &[&[f32]; 3]| Vec3::new(column(l, columns[0], at), column(l, columns[1], at), column(l, columns[2], at));
+        let vector =
+            |columns: &[&[f32]; 3]| Vec3::new(l.load_to_end(columns[0], at), l.load_to_end(columns[1], at), l.load_to_end(columns[2], at));
         let (origin, direction) = (vector(&rays.origin), vector(&rays.direction));
-        let (t_min, t_max) = (column(l, rays.t_min, at), column(l, &hits.t, at));
+        let (t_min, t_max) = (l.load_to_end(rays.t_min, at), l.load_to_end(&hits.t, at));
         let inverse_length = direction.length_squared().inverse_root();
         for apart in &scene.apart {
             let way = Vec3::splat(l, apart.centre) - origin;
@@ -112,10 +115,4 @@ fn meet<L: Lanes>(l: L, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
             }
         }
     }
-}
-
-/// A register of a column, its last value behind its end.
-#[inline(always)]
-fn column<L: Lanes>(l: L, values: &[f32], at: usize) -> F<L> {
-    if at + L::COUNT <= values.len() { l.load(values, at) } else { l.gather(values, l.iota() + at as u32) }
 }

@@ -81,6 +81,32 @@ fn shapes_apart_are_hit_as_in_the_tree() {
 }
 
 #[test]
+fn shapes_smaller_than_a_millimetre_and_a_kilometre_away_are_hit_as_in_the_tree() {
+    let mut random = Random(49);
+    let mut lit = Lit::new(49, 8);
+    let mut middles = Vec::new();
+    for placed in &mut lit.instances[1..] {
+        let middle = [1000.0, 700.0, -300.0].map(|away| away + 0.01 * f64::from(random.signed()));
+        let [x, y, z] = middle;
+        placed.object_to_world = [[2e-4, 0.0, 0.0, x], [0.0, 2e-4, 0.0, y], [0.0, 0.0, 2e-4, z]];
+        middles.push(middle.map(|x| x as f32));
+    }
+    lit.rays = OwnedRays::default();
+    for i in 0..4000 {
+        let (middle, near, aim) = (middles[i % middles.len()], random.point(), random.point());
+        let origin = if i % 3 == 0 { near } else { [0, 1, 2].map(|axis| middle[axis] + near[axis]) };
+        lit.rays.push(origin, [0, 1, 2].map(|axis| middle[axis] + 3e-4 * aim[axis] - origin[axis]), f32::INFINITY);
+        lit.rays.mask[i] = 3;
+    }
+    let [apart, inside, _] = lit.scenes();
+    for (apart, inside) in all_hits(&apart, &lit.rays.batch()).iter().zip(all_hits(&inside, &lit.rays.batch())) {
+        assert_eq!(visible(apart), inside);
+        let lit = apart.instance.iter().filter(|instance| (1..NONE).contains(*instance)).count();
+        assert!(lit > 200, "{lit} rays hit a shape");
+    }
+}
+
+#[test]
 fn rays_go_on_behind_shapes_apart_as_in_the_tree() {
     let lit = Lit::new(50, 8);
     let [apart, inside, _] = lit.scenes();
