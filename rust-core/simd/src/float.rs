@@ -64,10 +64,10 @@ impl<L: Lanes> F<L> {
     pub fn safe_sqrt(self) -> Self {
         self.max(0.0).sqrt()
     }
-    /// `1 / √self` within two units in the last place: infinite for zero, NaN below. Cheaper than root and division where the level has an estimate.
+    /// `1 / √self` within two units in the last place: infinite for zero, NaN below. No level's estimate, so that all give the same bits.
     #[inline(always)]
     pub fn inverse_root(self) -> Self {
-        F(self.lanes().inverse_root_f(self.0))
+        self.sqrt().recip()
     }
     /// `1 / self`, exact division.
     #[inline(always)]

@@ -59,8 +59,6 @@ pub trait Lanes: Copy + Debug + Send + Sync + 'static {
     fn mul_add_f(a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
     /// Square root.
     fn sqrt_f(a: Self::F32) -> Self::F32;
-    /// `1 / √a` within two units in the last place.
-    fn inverse_root_f(self, a: Self::F32) -> Self::F32;
     /// Absolute value.
     fn abs_f(a: Self::F32) -> Self::F32;
     /// Smaller of two; NaN lanes are left to the hardware.

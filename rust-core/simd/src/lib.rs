@@ -61,7 +61,6 @@ mod octets;
 mod one;
 mod prefetch;
 mod rgb;
-mod root;
 mod sort;
 mod transcendental;
 mod vector;

@@ -94,10 +94,6 @@ impl Lanes for One {
         a.sqrt()
     }
     #[inline(always)]
-    fn inverse_root_f(self, a: f32) -> f32 {
-        1.0 / a.sqrt()
-    }
-    #[inline(always)]
     fn abs_f(a: f32) -> f32 {
         a.abs()
     }

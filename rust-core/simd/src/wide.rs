@@ -1,6 +1,6 @@
 //! As many lanes as the machine's registers hold, through `fearless_simd`.
 
-use crate::{Lanes, gather::Lookup, octets::Octets, root::InverseRoot};
+use crate::{Lanes, gather::Lookup, octets::Octets};
 use fearless_simd::{Simd, prelude::*};
 
 /// The native width of a `fearless_simd` level.
@@ -92,10 +92,6 @@ impl<S: Simd> Lanes for Wide<S> {
     #[inline(always)]
     fn sqrt_f(a: S::f32s) -> S::f32s {
         a.sqrt()
-    }
-    #[inline(always)]
-    fn inverse_root_f(self, a: S::f32s) -> S::f32s {
-        self.0.inverse_root(a)
     }
     #[inline(always)]
     fn abs_f(a: S::f32s) -> S::f32s {

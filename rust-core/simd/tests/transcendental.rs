@@ -65,7 +65,23 @@ fn ulps(got: f32, exact: f64) -> f64 {
     (f64::from(got) - exact).abs() / 2.0_f64.powi((exact.abs().log2().floor() as i32).max(-126) - 23)
 }
 
-/// Asserts that no error, divided by the bound at its arguments, is above one at any level.
+fn same(a: f32, b: f32) -> bool {
+    a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
+}
+
+/// Asserts the same bits at levels that fuse multiplication and addition, and at those that do not: pictures are the same for one lane and four, and
+/// for eight and sixteen.
+fn check_bits<K: Function>(name: &str, pairs: &[[f32; 2]]) {
+    let fuses = |execution: Execution| !matches!(execution.name(), "scalar" | "sse4.2");
+    for neighbours in Execution::all().windows(2).filter(|levels| fuses(levels[0]) == fuses(levels[1])) {
+        let [narrow, wide] = [0, 1].map(|k| map2::<K>(neighbours[k], pairs));
+        for ((pair, narrow), wide) in pairs.iter().zip(narrow).zip(wide) {
+            assert!(same(narrow, wide), "{name} of {pair:?}: {narrow:e} at {}, {wide:e} at {}", neighbours[0].name(), neighbours[1].name());
+        }
+    }
+}
+
+/// Asserts that no error, divided by the bound at its arguments, is above one at any level, and [`check_bits`].
 fn check2<K: Function>(
     name: &str,
     pairs: &[[f32; 2]],
@@ -73,6 +89,7 @@ fn check2<K: Function>(
     error: impl Fn(f32, f64) -> f64,
     bound: impl Fn(f64) -> f64,
 ) {
+    check_bits::<K>(name, pairs);
     let exact: Vec<f64> = pairs.iter().map(|p| exact(f64::from(p[0]), f64::from(p[1]))).collect();
     for execution in Execution::all() {
         let got = map2::<K>(execution, pairs);
@@ -101,8 +118,7 @@ fn check_values<K: Function>(name: &str, cases: &[([f32; 2], f32)]) {
     let pairs: Vec<[f32; 2]> = cases.iter().map(|c| c.0).collect();
     for execution in Execution::all() {
         for ((pair, expected), got) in cases.iter().zip(map2::<K>(execution, &pairs)) {
-            let same = got.to_bits() == expected.to_bits() || (got.is_nan() && expected.is_nan());
-            assert!(same, "{name} at {}: {got} for {pair:?}, expected {expected}", execution.name());
+            assert!(same(got, *expected), "{name} at {}: {got} for {pair:?}, expected {expected}", execution.name());
         }
     }
 }
