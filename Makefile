@@ -12,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt goniogram weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build render extension test test-rust test-python test-blender lint compare-cycles validation validate bench bench-peers clean
+.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -21,8 +21,20 @@ $(VENV)/ready: pyproject.toml
 	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "pyoidn>=2.5,<3" numpy pytest pytest-timeout openexr mypy
 	touch $@
 
+# The wheel of this machine, which the gate's tests install everywhere, so that the engine's code is generated once.
 build: $(VENV)/ready
-	$(BIN)/maturin develop --release --quiet
+	rm -rf dist/here
+	$(BIN)/maturin build --release --quiet --compatibility linux --out dist/here
+	$(BIN)/python -m pip install --quiet --force-reinstall --no-deps dist/here/*.whl
+
+# The quick build into .venv: the scalar level and this machine's own one; Python sources are used where they stand.
+dev: $(VENV)/ready
+	$(BIN)/maturin develop --profile quick --features gonio-simd/own-level --quiet
+
+# The tests of one crate (CRATE=gonio-bsdf), or of those over the public API, from the quick build.
+CRATE ?= gonio-tests
+test-quick:
+	cargo test --profile quick --features gonio-simd/own-level --quiet -p $(CRATE)
 
 render: build
 	mkdir -p out
@@ -35,7 +47,7 @@ $(VENV)/zig: $(VENV)/ready
 	touch $@
 
 # The Blender extension: one zip, the wheel inside, for every system that Blender itself runs on.
-extension: build $(VENV)/zig
+extension: $(VENV)/zig
 	rm -rf dist/wheels
 	PATH="$(BIN):$$PATH" $(BIN)/maturin build --release --quiet --zig --compatibility manylinux_2_28 --out dist/wheels
 	$(BIN)/python blender-addon/build.py dist/wheels/*.whl --output-dir dist
@@ -53,25 +65,31 @@ lint:
 	cargo fmt --all --check
 	cargo clippy --release --quiet --workspace --all-targets -- --deny warnings
 
+# Whether the workspace compiles for ARM; wants the target's standard library (rustup target add aarch64-unknown-linux-gnu).
+cross-check:
+	cargo check --workspace --exclude gonio-python --target aarch64-unknown-linux-gnu
+
 test-rust: $(VENV)/ready
 	cargo test --release --quiet --workspace --exclude gonio-python
 
 test-python: build
 	$(BIN)/python -m pytest tests/python tests/usd
 
+# The extension for this machine alone, with the wheel of `build`, in both versions of Blender.
+blender: build $(addsuffix /ready,$(BPY))
+	$(BIN)/python blender-addon/build.py dist/here/*.whl --output-dir dist
+	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/here/*.whl || exit 1; done
+
 # Each test in a Blender of its own, both versions.
-test-blender: extension $(addsuffix /ready,$(BPY))
-	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl || exit 1; done
+test-blender: blender
 	$(BIN)/python -m pytest tests/blender -m "not validate"
 
 # The same files in Cycles and in gonio, block by block; pictures and figures in out/compare-cycles/index.html.
-compare-cycles: extension $(CURDIR)/.venv-bpy50/ready
-	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
+compare-cycles: blender
 	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/blender/compare_cycles -m validate
 
 # Light against closed forms and independent integrals; docs/validation.md is written of what was measured, whether it holds or not.
-validation: extension $(CURDIR)/.venv-bpy50/ready
-	.venv-bpy50/bin/python -m pip install --quiet --force-reinstall --no-deps dist/wheels/*.whl
+validation: blender
 	rm -rf out/validation
 	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/blender/test_lamps_lux.py -m validate; \
 	    held=$$?; $(BIN)/python tests/validate/lighting/page.py && exit $$held
@@ -89,7 +107,7 @@ validate: test-blender compare-cycles validation fuzz
 
 # Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.
 bench:
-	cargo bench -p gonio
+	cargo bench -p gonio-bench
 
 # Needs Debian's libembree-dev and libllvm19 (15 aborts on processors with AVX-512; DRJIT_LIBLLVM_PATH names another copy), and a C compiler.
 # The page of the pictures is out/peers/index.html, how paths grow with scenes out/peers/scaling.svg; PEERS="--seconds 60" makes them longer.

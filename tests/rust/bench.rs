@@ -1,6 +1,6 @@
 //! The benchmark runs every stage at every level, and all levels do the same work. Nothing is timed.
 
-use gonio::bench::{Options, Report, Stage, plot, run};
+use gonio_bench::{Options, Report, Stage, plot, run};
 use gonio_simd::Execution;
 use std::sync::{LazyLock, atomic::AtomicBool};
 

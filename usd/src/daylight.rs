@@ -16,7 +16,7 @@ pub(crate) fn is_daylight(prim: &Prim<'_>) -> bool {
 }
 
 /// The vertical axis of the scene's sky.
-pub(crate) fn up_axis(axis: UpAxis) -> sky::UpAxis {
+pub fn up_axis(axis: UpAxis) -> sky::UpAxis {
     match axis {
         UpAxis::Y => sky::UpAxis::Y,
         UpAxis::Z => sky::UpAxis::Z,

@@ -28,7 +28,7 @@ pub(crate) fn add<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, mesh: O
 }
 
 /// Up, and the way that meters face when nothing is said: +Y where Z is up, −Z where Y is up.
-pub(crate) fn axes(axis: UpAxis) -> [[f64; 3]; 2] {
+pub fn axes(axis: UpAxis) -> [[f64; 3]; 2] {
     match axis {
         UpAxis::Y => [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
         UpAxis::Z => [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],

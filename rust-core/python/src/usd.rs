@@ -50,7 +50,7 @@ pub(crate) fn load_usd(
 /// The scene that `gonio render` with these arguments, the program's name first, would trace at a frame; relative paths start at `folder`.
 #[pyfunction]
 pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, frame: Option<f64>) -> PyResult<Scene> {
-    let loaded = gonio_usd::cli::farm_scene(py, &arguments, &folder, frame).map_err(exception)?;
+    let loaded = gonio_cli::farm_scene(py, &arguments, &folder, frame).map_err(exception)?;
     Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false })
 }
 
@@ -63,5 +63,5 @@ pub(crate) fn _files_of_stage(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Str
 /// Runs the command line; gives the exit status.
 #[pyfunction]
 pub(crate) fn _main(py: Python<'_>, arguments: Vec<String>) -> i32 {
-    gonio_usd::cli::run(py, arguments)
+    gonio_cli::run(py, arguments)
 }

@@ -52,7 +52,7 @@ impl Execution {
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         let mut all = Vec::new();
-        #[cfg(target_arch = "x86_64")]
+        #[cfg(all(target_arch = "x86_64", not(only_level)))]
         {
             all.extend(best.as_avx512().map(|t| Self::Vector(Level::Avx512(t))));
             all.extend(best.as_avx2().map(|t| Self::Vector(Level::Avx2(t))));
@@ -102,10 +102,48 @@ macro_rules! dispatch {
                 let $lanes = $crate::One;
                 $call
             }
-            $crate::Execution::Vector(level) => $crate::fearless_simd::dispatch!(level, simd => {
+            $crate::Execution::Vector(level) => $crate::dispatch_level!(level, simd => {
                 let $lanes = $crate::Wide(simd);
                 $call
             }),
         }
     };
 }
+
+/// Calls code for a level of `fearless_simd`: `dispatch_level!(level, simd => call(simd, arguments))`; with the feature `own-level` it is
+/// compiled for one level alone.
+#[cfg(not(only_level))]
+#[macro_export]
+macro_rules! dispatch_level {
+    ($level:expr, $simd:ident => $call:expr) => {
+        $crate::fearless_simd::dispatch!($level, $simd => $call)
+    };
+}
+
+/// As above, for the only level that is built.
+#[cfg(only_level)]
+#[macro_export]
+macro_rules! dispatch_level {
+    ($level:expr, $simd:ident => $call:expr) => {{
+        let $simd = $crate::only_level($level);
+        $crate::fearless_simd::Simd::vectorize(
+            $simd,
+            #[inline(always)]
+            || $call,
+        )
+    }};
+}
+
+macro_rules! only_level {
+    ($name:literal, $token:ident, $as_token:ident) => {
+        /// The token of the only level that is built.
+        #[cfg(only_level = $name)]
+        #[inline]
+        pub fn only_level(level: Level) -> fearless_simd::$token {
+            level.$as_token().expect("this build has one SIMD level, which another machine does not have; build it anew here")
+        }
+    };
+}
+only_level!("avx512", Avx512, as_avx512);
+only_level!("avx2", Avx2, as_avx2);
+only_level!("sse4.2", Sse4_2, as_sse4_2);

@@ -67,6 +67,8 @@ mod vector;
 mod wide;
 
 pub use column::{Column, PADDING, padded};
+#[cfg(only_level)]
+pub use execution::only_level;
 pub use execution::{Execution, UnknownLevel};
 pub use fearless_simd;
 pub use float::{F, ToF};

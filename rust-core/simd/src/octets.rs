@@ -2,6 +2,7 @@
 //!
 //! A lane's run is one load, and it is weighed before lanes are put side by side: one transposition serves all terms of a sum.
 
+#[cfg(target_arch = "x86_64")]
 use crate::gather::last_index;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;

@@ -6,7 +6,7 @@ use super::{
     samples::{CHANNELS, Samples},
     tables::{DISCONTINUITIES, QUADS, STEP_WEIGHT, VALUES, WEIGHTS},
 };
-use crate::integrator::TILE;
+use crate::camera::sampler::TILE;
 use gonio_simd::{Column, F, Lanes, Rgb, U};
 
 /// Places from one row of a tile's corners to the next.

@@ -1,6 +1,6 @@
 //! Traced values, and what is compared of them.
 
-use crate::{colour::linear_to_srgb, integrator::FirstHit};
+use crate::{colour::linear_to_srgb, transport::FirstHit};
 use gonio_simd::{Column, Execution, F, Lanes, Rgb, dispatch, padded};
 
 /// Channels of a value: red, green, blue and coverage.

@@ -7,7 +7,8 @@ use super::{
     samples::{CHANNELS, Samples},
     visibility::VisibilityMap,
 };
-use crate::integrator::{BATCH, TILE, Tracer, Workspace, tile_place};
+use crate::camera::sampler::{BATCH, TILE, tile_place};
+use crate::transport::{Tracer, Workspace};
 use gonio_simd::{Column, dispatch};
 
 /// A tile to be traced.

@@ -5,8 +5,9 @@
 
 use crate::{
     accel::NONE,
+    camera::sampler::BATCH,
     geometry::GeometryTable,
-    integrator::{BATCH, Tables, Tracer, Workspace},
+    transport::{Tables, Tracer, Workspace},
 };
 use gonio_simd::{Lanes, dispatch};
 

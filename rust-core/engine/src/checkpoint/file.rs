@@ -1,6 +1,7 @@
 //! The file: the line `gonio checkpoint 1`, the length of the description, the description in JSON, the film tile by tile, a digest of all that.
 
-use super::{Checkpoint, Identity, digest::Digesting};
+use super::{Checkpoint, Identity};
+use crate::scene::Digesting;
 use crate::{
     compile::{check_tiles, window},
     error::{Error, Result},

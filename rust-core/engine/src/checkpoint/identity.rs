@@ -1,9 +1,8 @@
 //! What a checkpoint is of: program, SIMD level, scene and settings. Others would give other bits.
 
-use super::digest::Digest;
 use crate::{
     error::{Error, Result},
-    scene::{Scene, Settings, TextureSource, digest_scene},
+    scene::{Digest, Scene, Settings, TextureSource, digest_scene},
     texture::{find_tiles, is_udim},
 };
 use gonio_simd::Execution;

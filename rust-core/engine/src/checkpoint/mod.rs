@@ -1,12 +1,10 @@
 //! Renders on disk: sums so far, to go on from after a kill, and parts of a render's samples, to be merged. Both give the bits of one undisturbed render.
 
-mod digest;
 mod file;
 mod identity;
 mod merge;
 mod parts;
 
-pub(crate) use digest::Digest;
 pub use file::write_checkpoint;
 pub use identity::Identity;
 pub use merge::merge;

@@ -9,8 +9,8 @@ use crate::{
     accel::Instance,
     error::{Diagnostic, Error, Result},
     geometry::{GeometryTable, InstanceRow, NONE, PrimvarKind, PrimvarRef},
-    integrator::MaterialTable,
     scene::{Mesh, Primvar, Scene},
+    transport::MaterialTable,
 };
 
 /// Flat tables, and what the top-level tree is built from.

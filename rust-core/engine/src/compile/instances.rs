@@ -8,8 +8,8 @@ use crate::{
     accel::{Geometry, Instance},
     error::Diagnostic,
     geometry::{GeometryTable, InstanceRow, NONE, PrimvarRef},
-    integrator::{MaterialTable, ray_mask},
     scene::{Instances, Transform},
+    transport::{MaterialTable, ray_mask},
 };
 
 /// Puts a set into the tables; `slots` are the material slots of its mesh, whose part of the instances' rows is `mesh`.

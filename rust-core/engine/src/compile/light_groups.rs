@@ -2,8 +2,8 @@
 
 use crate::{
     geometry::{GeometryTable, NONE},
-    integrator::{GroupPasses, LightGroups, UNSEEN},
     scene::{Aov, OTHER_LIGHTS, Scene, Settings},
+    transport::{GroupPasses, LightGroups, UNSEEN},
 };
 
 /// The groups met so far.

@@ -13,9 +13,9 @@ use crate::{
     accel::{Geometry, Instance, Shape},
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    integrator::{LightGroups, MaterialTable, ray_mask},
     light::{Goniogram, LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
     scene::{Light, LightShape, Mesh, Scene, Transform},
+    transport::{LightGroups, MaterialTable, ray_mask},
 };
 use std::sync::Arc;
 

@@ -7,8 +7,8 @@ use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Output, Program, Source},
-    integrator::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
     scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
+    transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 use program::{source, steps};
 

@@ -32,8 +32,8 @@ pub(crate) use view::{check_tiles, transport, window};
 use crate::{
     accel::{Blas, SceneBvh},
     error::{Diagnostic, Error, Result},
-    integrator::{Tables, Workspaces},
     scene::{Camera, Scene},
+    transport::{Tables, Workspaces},
 };
 use std::{
     sync::{

@@ -3,8 +3,8 @@
 use crate::{
     film::ChannelLayout,
     graph::{Output, Program},
-    integrator::{MaterialTable, ShaderPasses},
     scene::{Aov, Settings, ShaderValue},
+    transport::{MaterialTable, ShaderPasses},
 };
 
 /// A program for each surface whose material has an output that a pass shows; the places of its outputs are the columns of the sums.

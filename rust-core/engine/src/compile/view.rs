@@ -5,9 +5,9 @@ use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::{Film, FilterTable, Placement},
-    integrator::{FirstPasses, Mist, Sight, Transport},
+    film::{Film, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
+    transport::{FirstPasses, Mist, Sight, Transport},
 };
 use gonio_simd::Execution;
 
@@ -50,7 +50,7 @@ impl View {
         let transport = transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x));
         let placement = match settings.antialiasing {
             Antialiasing::Grid(side) => Placement::Grid(side),
-            _ => Placement::Filter(FilterTable::new(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
+            _ => Placement::Filter(tabulate(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
         };
         Ok(Self { camera: table, placement, rule: samples::rule(settings.antialiasing), transport, exposure: camera.exposure.0, window })
     }

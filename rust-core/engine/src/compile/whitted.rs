@@ -2,9 +2,9 @@
 
 use crate::{
     error::Diagnostic,
-    integrator::MaterialTable,
     light::LightTable,
     scene::{Integrator, Origin, Scene},
+    transport::MaterialTable,
 };
 
 /// Names what [`Integrator::Whitted`] shows otherwise than paths do, beyond the light from surface to surface that it always leaves out.

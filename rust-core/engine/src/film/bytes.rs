@@ -6,7 +6,7 @@ use super::{
     sums::Sums,
     tile::{TileFilm, ZONES},
 };
-use crate::integrator::BATCH;
+use crate::camera::sampler::BATCH;
 use std::io::{Error, ErrorKind, Read, Result, Write};
 
 /// Bytes of a tile without sums.

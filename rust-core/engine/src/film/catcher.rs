@@ -1,11 +1,7 @@
 //! Shadow catchers: what is behind them, dimmed by how much less light they send than they would without the objects.
 
 use super::develop::{Developing, Part};
-use crate::{
-    colour::luminance,
-    integrator::{BATCH, FirstHit},
-    scene::Aov,
-};
+use crate::{camera::sampler::BATCH, colour::luminance, scene::Aov, transport::FirstHit};
 
 /// Radiance of catchers with all objects, and without them; what is behind; coverage.
 pub(super) const CHANNELS: usize = 10;

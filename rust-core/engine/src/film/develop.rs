@@ -2,7 +2,7 @@
 
 use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
-    integrator::{BATCH, TILE, tile_code},
+    camera::sampler::{BATCH, TILE, tile_code},
     scene::{Aov, Crop},
     threads::available_threads,
 };

@@ -1,40 +1,20 @@
-//! Pixel filters as distributions: a sample's place in the pixel is drawn by the filter, so that every sample has weight one.
+//! Pixel filters as tables: the inverse of their cumulative distributions.
 
 use crate::scene::Filter;
+use gonio_camera::{FilterTable, KNOTS};
 
-/// Knots of the tabulated inverse.
-const KNOTS: usize = 257;
-
-/// Where in their pixels samples lie.
-#[derive(Clone, Debug)]
-pub enum Placement {
-    /// At random, by a filter.
-    Filter(FilterTable),
-    /// On a regular grid of so many places along a pixel's side, row after row.
-    Grid(u32),
-}
-
-/// The inverse of a filter's cumulative distribution along one axis.
-#[derive(Clone, Debug)]
-pub struct FilterTable {
-    /// Offset from the pixel's centre in pixels at u = i / 256.
-    pub inverse: Vec<f32>,
-}
-
-impl FilterTable {
-    /// Tabulates a filter of the given full width in pixels.
-    pub fn new(filter: Filter, width: f32) -> Self {
-        let steps = 8192;
-        let mut cumulative = Vec::with_capacity(steps + 1);
-        let mut sum = 0.0;
-        cumulative.push(0.0);
-        for i in 0..steps {
-            sum += weight(filter, (i as f64 + 0.5) / steps as f64 * 2.0 - 1.0);
-            cumulative.push(sum);
-        }
-        let inverse = (0..KNOTS).map(|k| inverse_at(&cumulative, sum * k as f64 / (KNOTS - 1) as f64) * width * 0.5).collect();
-        Self { inverse }
+/// Tabulates a filter of the given full width in pixels.
+pub fn tabulate(filter: Filter, width: f32) -> FilterTable {
+    let steps = 8192;
+    let mut cumulative = Vec::with_capacity(steps + 1);
+    let mut sum = 0.0;
+    cumulative.push(0.0);
+    for i in 0..steps {
+        sum += weight(filter, (i as f64 + 0.5) / steps as f64 * 2.0 - 1.0);
+        cumulative.push(sum);
     }
+    let inverse = (0..KNOTS).map(|k| inverse_at(&cumulative, sum * k as f64 / (KNOTS - 1) as f64) * width * 0.5).collect();
+    FilterTable { inverse }
 }
 
 /// Position in [-1, 1] at which the cumulative sum reaches `target`.
@@ -67,7 +47,7 @@ mod tests {
     #[test]
     fn the_inverse_reproduces_mean_and_variance() {
         for (filter, variance) in [(Filter::Box, 1.0 / 3.0), (Filter::Tent, 1.0 / 6.0)] {
-            let table = FilterTable::new(filter, 2.0);
+            let table = tabulate(filter, 2.0);
             let n = 20_000;
             let values: Vec<f64> = (0..n)
                 .map(|i| {
@@ -86,7 +66,7 @@ mod tests {
     #[test]
     fn every_filter_is_symmetric_and_inside_its_width() {
         for filter in [Filter::Box, Filter::Tent, Filter::Gaussian, Filter::BlackmanHarris] {
-            let table = FilterTable::new(filter, 1.5);
+            let table = tabulate(filter, 1.5);
             for (a, b) in table.inverse.iter().zip(table.inverse.iter().rev()) {
                 assert!((a + b).abs() < 1e-3 && a.abs() <= 0.7501, "{filter:?}");
             }

@@ -16,12 +16,13 @@ pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
 pub use develop::{Image, Layer};
 pub use edge_aware::edge_aware;
-pub use filter::{FilterTable, Placement};
+pub use filter::tabulate;
+pub use gonio_camera::{FilterTable, Placement};
 pub(crate) use noise::decides;
 pub use tile::{Block, TileFilm, TileState, ZONE, ZONES, zone_of};
 
 use crate::{
-    integrator::TILE,
+    camera::sampler::TILE,
     scene::{Crop, Settings},
 };
 use std::{

@@ -9,7 +9,7 @@
 //! makes that small; neither alone does.
 
 use super::{ZONES, bytes, zone_of};
-use crate::integrator::BATCH;
+use crate::camera::sampler::BATCH;
 use std::io::{Read, Result, Write};
 
 /// Keeps values near black from counting too much.

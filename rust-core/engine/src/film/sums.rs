@@ -4,7 +4,7 @@
 //! first sample on keeps two sums, that of the whole groups and that of the blocks of the last, open one. A run from the middle keeps every group by
 //! itself, and the blocks by which its first group is completed.
 
-use crate::integrator::BATCH;
+use crate::camera::sampler::BATCH;
 use std::borrow::Cow;
 
 /// Sums over a run of blocks, channel after channel, `BATCH` values each.

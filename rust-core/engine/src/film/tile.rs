@@ -8,9 +8,10 @@ use super::{
     sums::{Place, Rules, Sums},
 };
 use crate::{
+    camera::sampler::{BATCH, TILE, tile_code, unpack},
     colour::luminance_of_pixel,
-    integrator::{BATCH, FirstHit, TILE, code, tile_code, unpack},
     scene::{Aov, LightPart, Settings},
+    transport::{FirstHit, code},
 };
 use std::{borrow::Cow, collections::BTreeMap, ops::Range};
 

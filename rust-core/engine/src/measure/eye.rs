@@ -8,9 +8,9 @@ use crate::{
     accel::RayBatch,
     compile::{CompiledScene, Luminaire},
     error::{Error, Result},
-    integrator::ray_mask,
     light::{LightSample, LightTable},
     scene::Meter,
+    transport::ray_mask,
 };
 use gonio_simd::{Lanes, One, Vec3};
 

@@ -9,9 +9,9 @@ use crate::{
     compile::CompiledScene,
     error::{Error, Result},
     film::Image,
-    integrator::{Sensor, SensorTable},
     render::{Progress, Render},
     scene::{Aov, Background, Measurand, Meter, Settings},
+    transport::{Sensor, SensorTable},
 };
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc, time::Duration};

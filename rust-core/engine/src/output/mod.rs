@@ -1,17 +1,15 @@
 //! Files: EXR with all passes, PNG and JPEG for looking at, false colour, and comparing images.
 
-mod atomic;
 mod compare;
 mod exr;
 mod false_colour;
 mod picture;
 mod tone_map;
 
-pub use atomic::write_atomically;
-pub(crate) use atomic::write_through;
+pub use crate::scene::{write_atomically, write_through};
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use exr::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, log_average};
-pub(crate) use tone_map::{KEY, ToneCurve, map_lanes};
+pub use tone_map::{KEY, ToneCurve, map_lanes};

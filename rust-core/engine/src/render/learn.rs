@@ -2,10 +2,11 @@
 
 use super::source::Source;
 use crate::{
+    camera::sampler::{Runs, TILE},
     compile::{CompiledScene, View},
-    integrator::{Runs, Start, TILE, Tracer, Transport},
     light::KnownLights,
     scene::{Antialiasing, Aov, Crop, Integrator, Settings},
+    transport::{Start, Tracer, Transport},
 };
 use std::sync::Arc;
 

@@ -2,11 +2,12 @@
 
 use super::learn::reduced;
 use crate::{
+    camera::sampler::{BATCH, Runs, TILE},
     colour::luminance,
     compile::{CompiledScene, View},
-    integrator::{BATCH, Runs, Start, TILE, Tracer},
     output::KEY,
     scene::Settings,
+    transport::{Start, Tracer},
 };
 use gonio_simd::Execution;
 

@@ -14,10 +14,10 @@ use crate::{
     compile::{CompiledScene, View, transport},
     error::{Error, Result},
     film::Film,
-    integrator::{SensorTable, Statistics, Transport},
     light::KnownLights,
     scene::{Crop, Settings},
     threads::available_threads,
+    transport::{SensorTable, Statistics, Transport},
 };
 use schedule::Schedule;
 use source::Source;

@@ -3,7 +3,7 @@
 use crate::{
     antialias::Rule,
     compile::View,
-    integrator::{SensorTable, Start, Transport},
+    transport::{SensorTable, Start, Transport},
 };
 
 /// A camera's view, or sensors.

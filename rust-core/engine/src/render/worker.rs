@@ -3,9 +3,10 @@
 use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source::Source};
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
+    camera::sampler::Runs,
     film::Block,
-    integrator::{Runs, Sight, Tracer, Transport, Workspace},
     scene::{Antialiasing, Aov, Crop, Integrator},
+    transport::{Sight, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{

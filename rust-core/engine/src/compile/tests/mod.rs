@@ -1,3 +1,4 @@
+mod graph;
 mod luminaire;
 mod quantity;
 

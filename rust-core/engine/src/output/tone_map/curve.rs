@@ -4,11 +4,11 @@ use super::{DisplaySpace, Look, ToneMap};
 use gonio_simd::{F, Lanes, Rgb};
 
 /// Grey that the log-average luminance is brought to.
-pub(crate) const KEY: f32 = 0.18;
+pub const KEY: f32 = 0.18;
 
 /// What all pixels of a picture have in common.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ToneCurve {
+pub struct ToneCurve {
     /// Factor on radiance.
     pub(super) scale: f32,
     /// How the photographic operators rise towards white; `None` without them.
@@ -18,7 +18,7 @@ pub(crate) struct ToneCurve {
 
 impl ToneCurve {
     /// The curve of a look at a picture with a log-average luminance.
-    pub(crate) fn new(look: &Look, average: f32) -> Self {
+    pub fn new(look: &Look, average: f32) -> Self {
         let exposure = match look.tone_map {
             ToneMap::None => 1.0,
             ToneMap::Photographic | ToneMap::Local => KEY / average,
@@ -32,7 +32,7 @@ impl ToneCurve {
 
 /// Display values in [0, 1] of a register of scene-linear colours; `around` is the scaled luminance that compresses, each pixel's own if `None`.
 #[inline(always)]
-pub(crate) fn map_lanes<L: Lanes>(colour: Rgb<L>, around: Option<F<L>>, curve: &ToneCurve) -> Rgb<L> {
+pub fn map_lanes<L: Lanes>(colour: Rgb<L>, around: Option<F<L>>, curve: &ToneCurve) -> Rgb<L> {
     let colour = operated(colour, around, curve);
     match curve.space {
         DisplaySpace::Srgb => srgb_each(colour),

@@ -8,7 +8,7 @@ mod space;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use curve::{KEY, ToneCurve, map_lanes};
+pub use curve::{KEY, ToneCurve, map_lanes};
 pub use exposure::{Adaptation, log_average};
 pub use linear::display_linear;
 pub use space::DisplaySpace;

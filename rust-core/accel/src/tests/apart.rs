@@ -1,0 +1,141 @@
+//! Shapes apart from the tree, against the same shapes in it.
+
+use super::agreement::random_placement;
+use super::*;
+use crate::{NONE, Shape};
+use gonio_simd::Execution;
+
+const SHAPES: [Shape; 4] = [Shape::Rectangle, Shape::Disk, Shape::Sphere, Shape::Cylinder];
+
+/// Triangles, and some shapes of every kind; rays of two kinds, one of which does not see some shapes.
+struct Lit {
+    mesh: Arc<Blas>,
+    instances: Vec<Instance>,
+    rays: OwnedRays,
+}
+
+impl Lit {
+    fn new(seed: u64, shapes: usize) -> Self {
+        let mut random = Random(seed);
+        let mesh = Mesh::soup(&mut random, 100, 1.0, 0.2).blas();
+        let mut instances = vec![instance(Geometry::Mesh(0), Instance::IDENTITY)];
+        for number in 0..shapes {
+            let map = random_placement(&mut random).map(|[x, y, z, moved]| [5.0 * x, 5.0 * y, 5.0 * z, moved]);
+            let placed = instance(Geometry::Shape(SHAPES[number % SHAPES.len()]), map);
+            instances.push(Instance { mask: 2 + (number % 3 == 0) as u8, ..placed });
+        }
+        let mut rays = OwnedRays::random(&mut random, 2003, 1.0, true);
+        rays.mask.iter_mut().enumerate().for_each(|(i, mask)| *mask = if i % 4 == 0 { 1 } else { 3 });
+        Lit { mesh, instances, rays }
+    }
+
+    /// With the shapes apart, in the tree, and without them.
+    fn scenes(&self) -> [SceneBvh; 3] {
+        let meshes = || vec![self.mesh.clone()];
+        let apart = SceneBvh::build_with_lights(meshes(), &self.instances, 1, &AtomicBool::new(false)).expect("not cancelled");
+        apart.trials.settle(true);
+        [apart, scene(meshes(), &self.instances), scene(meshes(), &self.instances[..1])]
+    }
+}
+
+/// Hits by all walks.
+fn all_hits(scene: &SceneBvh, rays: &RayBatch) -> Vec<Hits> {
+    let mut alone = Hits::default();
+    scene.first_hit_scalar(rays, &mut alone);
+    let mut all = vec![alone];
+    for level in levels() {
+        for packets in [false, true] {
+            let mut hits = Hits::default();
+            if packets {
+                scene.first_hit_packets(level, rays, &mut hits)
+            } else {
+                scene.first_hit(level, rays, &mut hits)
+            }
+            all.push(hits);
+        }
+    }
+    all
+}
+
+/// Without what is behind.
+fn visible(hits: &Hits) -> Hits {
+    Hits { covered: Vec::new(), ..hits.clone() }
+}
+
+#[test]
+fn shapes_apart_are_hit_as_in_the_tree() {
+    for seed in 40..48 {
+        let lit = Lit::new(seed, 8);
+        let [apart, inside, without] = lit.scenes();
+        assert!(apart.has_shapes_apart() && !inside.has_shapes_apart());
+        let rays = lit.rays.batch();
+        let behind = all_hits(&without, &rays);
+        for ((apart, inside), behind) in all_hits(&apart, &rays).iter().zip(all_hits(&inside, &rays)).zip(behind) {
+            assert_eq!(visible(apart), inside);
+            let lit: Vec<usize> = (0..rays.len()).filter(|i| (1..NONE).contains(&apart.instance[*i])).collect();
+            assert!(lit.len() > 50, "{} rays hit a shape", lit.len());
+            assert_eq!(apart.covered.iter().map(|covered| covered.ray as usize).collect::<Vec<_>>(), lit);
+            assert!(apart.covered.iter().all(|covered| covered.hit == behind.get(covered.ray as usize)));
+        }
+    }
+}
+
+#[test]
+fn shapes_smaller_than_a_millimetre_and_a_kilometre_away_are_hit_as_in_the_tree() {
+    let mut random = Random(49);
+    let mut lit = Lit::new(49, 8);
+    let mut middles = Vec::new();
+    for placed in &mut lit.instances[1..] {
+        let middle = [1000.0, 700.0, -300.0].map(|away| away + 0.01 * f64::from(random.signed()));
+        let [x, y, z] = middle;
+        placed.object_to_world = [[2e-4, 0.0, 0.0, x], [0.0, 2e-4, 0.0, y], [0.0, 0.0, 2e-4, z]];
+        middles.push(middle.map(|x| x as f32));
+    }
+    lit.rays = OwnedRays::default();
+    for i in 0..4000 {
+        let (middle, near, aim) = (middles[i % middles.len()], random.point(), random.point());
+        let origin = if i % 3 == 0 { near } else { [0, 1, 2].map(|axis| middle[axis] + near[axis]) };
+        lit.rays.push(origin, [0, 1, 2].map(|axis| middle[axis] + 3e-4 * aim[axis] - origin[axis]), f32::INFINITY);
+        lit.rays.mask[i] = 3;
+    }
+    let [apart, inside, _] = lit.scenes();
+    for (apart, inside) in all_hits(&apart, &lit.rays.batch()).iter().zip(all_hits(&inside, &lit.rays.batch())) {
+        assert_eq!(visible(apart), inside);
+        let lit = apart.instance.iter().filter(|instance| (1..NONE).contains(*instance)).count();
+        assert!(lit > 200, "{lit} rays hit a shape");
+    }
+}
+
+#[test]
+fn rays_go_on_behind_shapes_apart_as_in_the_tree() {
+    let lit = Lit::new(50, 8);
+    let [apart, inside, _] = lit.scenes();
+    for execution in Execution::all() {
+        let (mut hits, mut again) = (Hits::default(), Hits::default());
+        apart.first_hit_scalar(&lit.rays.batch(), &mut hits);
+        let mut beyond = OwnedRays::default();
+        for covered in &hits.covered {
+            let i = covered.ray as usize;
+            beyond.push(
+                [0, 1, 2].map(|axis| lit.rays.origin[axis][i]),
+                [0, 1, 2].map(|axis| lit.rays.direction[axis][i]),
+                lit.rays.t_max[i],
+            );
+            *beyond.t_min.last_mut().expect("pushed") = hits.t[i].next_up();
+            *beyond.mask.last_mut().expect("pushed") = lit.rays.mask[i];
+        }
+        apart.first_hit_before(execution, &beyond.batch(), &hits.covered, &mut again);
+        let mut traced = Hits::default();
+        inside.first_hit_scalar(&beyond.batch(), &mut traced);
+        assert_eq!(visible(&again), traced, "{}", execution.name());
+        assert!(again.covered.len() > 5, "{} rays hit a second shape", again.covered.len());
+    }
+}
+
+#[test]
+fn many_shapes_stand_in_the_tree() {
+    let lit = Lit::new(51, 9);
+    let [apart, ..] = lit.scenes();
+    assert!(!apart.has_shapes_apart());
+    assert!(all_hits(&apart, &lit.rays.batch())[0].instance.iter().any(|instance| (1..NONE).contains(instance)));
+}

@@ -1,0 +1,46 @@
+//! Camera rays of a tile: numbers, filter, lens and appending.
+
+use super::compiled;
+use crate::{
+    kernel::{Case, Kernel, Outcome},
+    scenes,
+};
+use gonio::camera::sampler::Sampler;
+use gonio::camera::sampler::{BATCH, Runs, TILE};
+use gonio::compile::View;
+use gonio::error::Result;
+use gonio::scene::Settings;
+use gonio::transport::{Paths, TileArea, generate};
+use gonio_simd::{Execution, dispatch};
+use std::sync::atomic::AtomicBool;
+
+struct Generation {
+    view: View,
+    sampler: Sampler,
+    paths: Box<Paths>,
+}
+
+pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
+    let case = |name: &str, lens_radius: f64| {
+        let mut scene = scenes::room();
+        scene.cameras[0].lens_radius = lens_radius;
+        let settings = Settings { resolution: [TILE as u32; 2], ..Settings::default() };
+        let view = View::new(&*compiled(&scene, cancel)?, &settings, Execution::best())?;
+        let kernel = Generation { view, sampler: Sampler::new(0, [0, 0], settings.samples), paths: Box::default() };
+        Ok(Case::new(name, "ray", BATCH, kernel))
+    };
+    Ok(vec![case("pinhole", 0.0)?, case("thin lens", 0.01)?])
+}
+
+impl Kernel for Generation {
+    fn run(&mut self, execution: Execution) -> Result<()> {
+        let Self { view, sampler, paths } = self;
+        let area = TileArea { min: [0; 2], max: [TILE as u32; 2] };
+        dispatch!(execution, l => generate(l, &view.camera, &view.placement, sampler, area, &Runs::whole(0), paths));
+        Ok(())
+    }
+    fn outcome(&self) -> Outcome {
+        let count = self.paths.count;
+        Outcome::of(self.paths.direction.iter().chain(&self.paths.origin).map(|column| &column[..count]))
+    }
+}

@@ -1,0 +1,100 @@
+//! The stages, one file each.
+
+mod bsdf;
+mod function;
+mod generation;
+mod light;
+mod render;
+mod texture;
+mod tone;
+mod traversal;
+mod triangle;
+
+use super::{Options, kernel::Case};
+use gonio::compile::{CompiledScene, compile};
+use gonio::error::Result;
+use gonio::scene::Scene;
+use std::sync::{Arc, atomic::AtomicBool};
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Camera rays.
+    Generation,
+    /// Rays through the trees, by class.
+    Traversal,
+    /// One ray against eight triangles.
+    Triangle,
+    /// Filtered lookups in images.
+    Texture,
+    /// Surfaces: from parameters to lobes, sampling and evaluation.
+    Bsdf,
+    /// Sampling lights by type.
+    Light,
+    /// Elementary functions, gathers, compaction.
+    Function,
+    /// From scene-linear light to display values.
+    Tone,
+    /// Whole renders.
+    Render,
+}
+
+impl Stage {
+    /// All stages in the order of a path.
+    pub const ALL: [Self; 9] = [
+        Self::Generation,
+        Self::Traversal,
+        Self::Triangle,
+        Self::Texture,
+        Self::Bsdf,
+        Self::Light,
+        Self::Function,
+        Self::Tone,
+        Self::Render,
+    ];
+
+    /// The name that the command line takes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Generation => "generation",
+            Self::Traversal => "traversal",
+            Self::Triangle => "triangle",
+            Self::Texture => "texture",
+            Self::Bsdf => "bsdf",
+            Self::Light => "light",
+            Self::Function => "function",
+            Self::Tone => "tone",
+            Self::Render => "render",
+        }
+    }
+
+    /// The stage of a name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|stage| stage.name() == name)
+    }
+
+    /// All names, for messages.
+    pub fn expected() -> String {
+        format!("expected one of {}", Self::ALL.map(Self::name).join(", "))
+    }
+
+    /// What it measures.
+    pub(super) fn cases(self, options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
+        match self {
+            Self::Generation => generation::cases(cancel),
+            Self::Traversal => traversal::cases(cancel),
+            Self::Triangle => triangle::cases(cancel),
+            Self::Texture => texture::cases(cancel),
+            Self::Bsdf => Ok(bsdf::cases()),
+            Self::Light => light::cases(cancel),
+            Self::Function => Ok(function::cases()),
+            Self::Tone => Ok(tone::cases()),
+            Self::Render => render::cases(options, cancel),
+        }
+    }
+}
+
+/// A scene laid out.
+fn compiled(scene: &Scene, cancel: &AtomicBool) -> Result<Arc<CompiledScene>> {
+    compile(scene, None, cancel).map(Arc::new)
+}

@@ -1,0 +1,41 @@
+//! Random numbers: an Owen-scrambled Sobol sequence laid over each tile so that neighbouring pixels' errors differ (blue noise).
+//!
+//! A number depends on (pixel, sample, dimension, seed) alone. All samples of a 64×64 tile form one two-dimensional Sobol sequence: the
+//! pixels are numbered along a Morton curve and each takes a block of 2^k consecutive points, which is itself a scrambled (0, k, 2)-net;
+//! blocks of neighbouring pixels together are nets again, so their errors cancel under the eye's low-pass (Ahmed and Wonka, Screen-Space
+//! Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels, 2020). Pairs of dimensions are decorrelated by
+//! a nested uniform shuffle of the numbering and scrambled by hashing (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020).
+
+mod batch;
+mod morton;
+mod runs;
+mod sobol;
+
+pub use batch::{BATCH, CAPACITY, TILE, pixel};
+pub use morton::{morton_even, tile_code, tile_place};
+pub use runs::{RUN, RUNS, Runs, unpack};
+pub use sobol::{Sampler, hash};
+
+/// The dimensions a path uses, by name: a pair each, `BOUNCE` times the depth apart.
+pub mod dimension {
+    /// Position in the pixel.
+    pub const PIXEL: u32 = 0;
+    /// Position on the lens.
+    pub const LENS: u32 = 1;
+    /// First dimension of the first surface.
+    pub const FIRST_BOUNCE: u32 = 2;
+    /// Dimensions a bounce.
+    pub const BOUNCE: u32 = 8;
+    /// Point on a light, within a bounce.
+    pub const LIGHT: u32 = 0;
+    /// Choice of the light, and Russian roulette, within a bounce.
+    pub const LIGHT_CHOICE: u32 = 1;
+    /// Direction of the BSDF sample, within a bounce.
+    pub const BSDF: u32 = 2;
+    /// Choice of the lobe, and opacity, within a bounce.
+    pub const LOBE: u32 = 3;
+    /// Choice of the closure, within a bounce.
+    pub const CLOSURE: u32 = 7;
+    /// Added for the paths that measure illuminance.
+    pub const MEASURE: u32 = 4;
+}

@@ -1,0 +1,29 @@
+//! `gonio bench`.
+
+use super::{arguments::BenchOptions, print};
+use gonio::{Error, Result, output::write_atomically};
+use gonio_bench::{Options, heading, plot, run};
+use std::{io::Write, sync::atomic::AtomicBool};
+
+/// Measures, and prints the table or everything as JSON.
+pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<i32> {
+    let BenchOptions { stage, seconds, threads, scene, json, plot: chart } = options;
+    let wanted = Options { stages: stage.clone(), seconds: *seconds, threads: *threads, scene: scene.clone() };
+    if !json {
+        print(&heading());
+    }
+    let report = run(&wanted, interrupted, |row| {
+        if !json {
+            print(&row.to_string());
+        }
+    })?;
+    if *json {
+        print(&serde_json::to_string_pretty(&report).map_err(|error| Error::Internal(error.to_string()))?);
+    } else {
+        report.renders.iter().for_each(|render| print(&format!("\n{render}")));
+    }
+    if let Some(path) = chart {
+        write_atomically(path, true, |file| file.write_all(plot(&report).as_bytes()))?;
+    }
+    Ok(0)
+}

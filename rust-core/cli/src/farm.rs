@@ -1,0 +1,127 @@
+//! `gonio render --dask`: the cluster and its workers are the Python side's (`gonio.farm`), the pictures are put together here.
+
+use super::{
+    INTERRUPTED,
+    arguments::{Arguments, Command, RenderOptions},
+    denoise::Denoiser,
+    file_name, list,
+    output::{Notes, Writer},
+    progress::Reporter,
+    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, stage_options},
+};
+use clap::Parser;
+use gonio::{
+    Error, Result,
+    checkpoint::{merge, parts},
+    scene::Scene,
+};
+use gonio_simd::Execution;
+use gonio_usd::{Loaded, SampleTime, Stage, StageOptions};
+use pyo3::{
+    prelude::*,
+    types::{PyCFunction, PyDict, PyTuple},
+};
+use std::{
+    path::{Path, PathBuf},
+    sync::{Mutex, PoisonError, atomic::Ordering},
+    time::Duration,
+};
+
+/// What `gonio render` with these words, the program's name first, would trace at a frame; relative paths start at `folder`.
+pub fn farm_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option<f64>) -> Result<Loaded> {
+    let parsed = Arguments::try_parse_from(words).map_err(|error| Error::setting("arguments", error.to_string()))?;
+    let Command::Render(mut options) = parsed.command else {
+        return Err(Error::setting("arguments", "expected those of gonio render"));
+    };
+    options.inputs().for_each(|path| *path = folder.join(&*path));
+    // The notes are the coordinator's to tell.
+    options.quiet = true;
+    let mut loaded = load(py, &open(py, &options)?, &options, frame)?;
+    if options.files.denoise {
+        Denoiser::ask_for_guides(&mut loaded.scene.settings);
+    }
+    Ok(loaded)
+}
+
+/// Renders all frames asked for on a cluster; `words` are the command line.
+pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[String]) -> Result<i32> {
+    if options.files.output.is_empty() {
+        return Err(Error::setting("output", "no file was given; say -o picture.exr"));
+    }
+    let writer = Writer::new(&options.files, Execution::detect())?;
+    let frames = frames_of(options)?;
+    let folder = std::env::current_dir().map_err(|error| Error::io(Path::new("."), error))?;
+    let inputs: Vec<PathBuf> = options.inputs().map(|path| folder.join(&*path)).collect();
+    let cluster = connect(py, options).map_err(|error| failure(py, &error))?;
+    let stage = open(py, options)?;
+    let first = load(py, &stage, options, frames[0])?;
+    if !options.quiet {
+        list(&first.diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+    }
+    let count = options.farm.dask_parts.map_or_else(|| cluster.call_method1("parts_for", (frames.len(),))?.extract(), Ok);
+    let parts = parts(&first.scene.settings, count.map_err(|error: PyErr| failure(py, &error))?)?;
+    let parts: Vec<_> = parts.iter().map(|part| (part.tiles, part.samples)).collect();
+    let started = || -> PyResult<_> {
+        let stages = cluster.call_method1("stages", (words, folder, inputs, options.farm.dask_send, &frames))?;
+        let report = PyCFunction::new_closure(py, None, None, reporting(options.quiet))?;
+        cluster.call_method1("gather", (stages, parts, report))?.try_iter()
+    };
+    for (frame, files) in frames.iter().zip(started().map_err(|error| failure(py, &error))?) {
+        let files: Vec<PathBuf> = files.and_then(|files| files.extract()).map_err(|error| failure(py, &error))?;
+        let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
+        py.detach(|| write(options, &writer, &files, &first.scene, *frame, time))?;
+    }
+    Ok(0)
+}
+
+fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
+    Stage::open(py, &options.stage.stage, &stage_options(&options.stage)?)
+}
+
+/// The stage at a frame with what the command line says.
+fn load(py: Python<'_>, stage: &Stage, options: &RenderOptions, frame: Option<f64>) -> Result<Loaded> {
+    let time = frame.map_or(SampleTime::Start, SampleTime::Code);
+    let mut loaded = stage.load(py, &StageOptions { time, ..stage_options(&options.stage)? }, &INTERRUPTED)?;
+    complete_scene(options, &mut loaded)?;
+    Ok(loaded)
+}
+
+/// Joins the parts of a frame and writes its pictures; `time` is the frame's, seconds.
+fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], scene: &Scene, frame: Option<f64>, time: f64) -> Result<()> {
+    let whole = merge(files)?;
+    let mut image = whole.film.develop();
+    let hidden = writer.ask_for_passes(&mut scene.settings.clone());
+    writer.finish(&mut image)?;
+    image.layers.retain(|layer| !hidden.contains(&layer.aov));
+    let notes = Notes { exposure: whole.identity.exposure, time, interrupted: false, attributes: &attributes(options, scene) };
+    let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
+    let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();
+    writer.write_all(&outputs, &image, &notes, options.quiet)
+}
+
+/// `gonio.farm.Cluster`, which asks now and then whether Ctrl-C was pressed.
+fn connect<'py>(py: Python<'py>, options: &RenderOptions) -> PyResult<Bound<'py, PyAny>> {
+    let cancelled = |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| INTERRUPTED.load(Ordering::Relaxed);
+    let cancelled = PyCFunction::new_closure(py, None, None, cancelled)?;
+    py.import("gonio.farm")?.call_method1("Cluster", (&options.farm.dask, cancelled))
+}
+
+/// A function that shows how far the whole is: from 0 to 1, in words, seconds left if that can be told, what goes on.
+fn reporting(quiet: bool) -> impl Fn(&Bound<'_, PyTuple>, Option<&Bound<'_, PyDict>>) -> PyResult<()> + Send + 'static {
+    let reporter = Mutex::new(Reporter::new(quiet));
+    move |arguments, _| {
+        let (fraction, done, left, under_way): (f64, String, Option<f64>, String) = arguments.extract()?;
+        let left = left.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        let mut reporter = reporter.lock().unwrap_or_else(PoisonError::into_inner);
+        reporter.tell(fraction, &done, left, &under_way);
+        if fraction >= 1.0 {
+            reporter.clear();
+        }
+        Ok(())
+    }
+}
+
+/// What the Python side complained about.
+fn failure(py: Python<'_>, error: &PyErr) -> Error {
+    if INTERRUPTED.load(Ordering::Relaxed) { Error::Cancelled } else { Error::setting("dask", error.value(py).to_string()) }
+}

@@ -1,0 +1,82 @@
+//! `gonio info`.
+
+use super::{arguments::InfoOptions, light_words::describe, print, render::stage_options};
+use gonio::{
+    Diagnostic, Result,
+    compile::{CompiledScene, compile},
+    scene::Scene,
+};
+use gonio_usd::{SampleTime, load_stage};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::sync::atomic::AtomicBool;
+
+/// Reads the stage, lays it out, and says what would be rendered.
+pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBool) -> Result<i32> {
+    let mut stage_options = stage_options(&options.stage)?;
+    if let Some(frame) = options.frame {
+        stage_options.time = SampleTime::Code(frame);
+    }
+    let loaded = load_stage(py, &options.stage.stage, &stage_options, interrupted)?;
+    let compiled = py.detach(|| compile(&loaded.scene, None, interrupted))?;
+    let diagnostics: Vec<&Diagnostic> = loaded.diagnostics.iter().chain(&compiled.diagnostics).collect();
+    if options.json {
+        print(&as_json(&loaded, &compiled, &diagnostics).to_string());
+    } else {
+        as_text(&loaded, &compiled, &diagnostics).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+fn as_json(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[&Diagnostic]) -> Value {
+    let s = &compiled.statistics;
+    json!({
+        "metres_per_unit": loaded.info.metres_per_unit,
+        "up_axis": format!("{:?}", loaded.info.up_axis),
+        "time_range": loaded.info.time_range,
+        "cameras": loaded.info.cameras.iter().map(|camera| &camera.path).collect::<Vec<_>>(),
+        "prims": loaded.info.prim_counts,
+        "meshes": loaded.scene.meshes.len(),
+        "triangles": s.triangles,
+        "instances": s.instances,
+        "materials": loaded.scene.materials.len(),
+        "textures": loaded.scene.textures.len(),
+        "geometry_bytes": s.geometry_bytes,
+        "texture_bytes": s.texture_bytes,
+        "bounds": if compiled.bounds.is_empty() { Value::Null } else { json!([compiled.bounds.min, compiled.bounds.max]) },
+        "lights": loaded.scene.lights.iter().map(|light| json!({ "path": &*light.origin.name, "what": describe(light) })).collect::<Vec<_>>(),
+        "diagnostics": diagnostics.iter().map(|d| json!({ "origin": &*d.origin.name, "message": d.message })).collect::<Vec<_>>(),
+    })
+}
+
+fn as_text(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[&Diagnostic]) -> Vec<String> {
+    let (info, s) = (&loaded.info, &compiled.statistics);
+    let mut lines = vec![format!("{} m a unit, {:?} up", info.metres_per_unit, info.up_axis)];
+    if let Some([first, last]) = info.time_range {
+        lines.push(format!("time codes {first} to {last}, {} a second", info.time_codes_per_second));
+    }
+    let prims: Vec<String> = info.prim_counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    lines.push(format!("prims: {}", if prims.is_empty() { "none".into() } else { prims.join(", ") }));
+    lines.push(format!(
+        "{} triangles in {} meshes, {} placed ({} triangles)",
+        s.triangles,
+        loaded.scene.meshes.len(),
+        s.instances,
+        s.instanced_triangles
+    ));
+    lines.push(format!("{} materials, {} textures", loaded.scene.materials.len(), loaded.scene.textures.len()));
+    lines.push(format!("memory: {:.1} MB of geometry, {:.1} MB of textures", s.geometry_bytes as f64 / 1e6, s.texture_bytes as f64 / 1e6));
+    if !compiled.bounds.is_empty() {
+        lines.push(format!("bounds: {:.4?} to {:.4?} m", compiled.bounds.min, compiled.bounds.max));
+    }
+    lines.extend(info.cameras.iter().map(|camera| format!("camera {}", camera.path)));
+    lines.extend(loaded.scene.lights.iter().map(|light| format!("light {}: {}", light.origin.name, describe(light))));
+    lines.extend(emissive(&loaded.scene));
+    lines.extend(diagnostics.iter().map(|d| format!("{}: {d}", if d.severity == gonio::Severity::Warning { "warning" } else { "note" })));
+    lines
+}
+
+fn emissive(scene: &Scene) -> Vec<String> {
+    let shining = scene.materials.iter().filter(|material| gonio_usd::view::shines(material));
+    shining.map(|material| format!("emissive material {}", material.origin.name)).collect()
+}

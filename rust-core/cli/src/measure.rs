@@ -1,0 +1,222 @@
+//! `gonio measure`.
+
+use super::{
+    arguments::{GridArguments, MeasureOptions},
+    daylight, falsecolor,
+    file::check_ending,
+    list, print,
+    progress::Reporter,
+    render::{MOST_WARNINGS, stage_options},
+};
+use gonio::{
+    Error, Result,
+    compile::CompiledScene,
+    measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
+    output::{FalseColour, write_atomically},
+    scene::{Measurand, Meter, Origin, Scene},
+};
+use gonio_simd::Execution;
+use gonio_usd::{Loaded, SampleTime, Stage, context::UpAxis};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+/// Measures what stage and options ask for.
+pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    for (option, path, ending) in [("output", &options.output, "png"), ("csv", &options.csv, "csv")] {
+        path.iter().try_for_each(|path| check_ending(option, path, &[ending]))?;
+    }
+    let measurand = Measurand::by_name(&options.quantity).ok_or_else(|| {
+        let expected = Measurand::NAMES.map(|(_, name)| name).join(", ");
+        Error::setting("quantity", format!("'{}' was found, expected one of {expected}", options.quantity))
+    })?;
+    let mut stage_options = stage_options(&options.stage)?;
+    stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    author_grids(py, &stage, &options.grids, measurand)?;
+    let mut loaded = stage.load(py, &stage_options, interrupted)?;
+    loaded.scene.meters.extend(points(options, measurand, loaded.info.up_axis)?);
+    py.detach(|| run(options, loaded, interrupted))
+}
+
+/// Makes the prims that the command line names grids.
+pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments, measurand: Measurand) -> Result<()> {
+    let lengths = [grids.spacing, grids.margin, grids.height];
+    grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.name(), lengths))
+}
+
+fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
+    let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
+    if !options.quiet {
+        list(&loaded.diagnostics, most);
+    }
+    daylight::add(&options.daylight, &mut loaded, options.quiet)?;
+    apply_settings(options, &mut loaded.scene);
+    let scene = &loaded.scene;
+    if scene.meters.is_empty() && scene.grids.is_empty() {
+        let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
+        return Err(Error::setting("grid", problem));
+    }
+    let reporter = Reporter::new(options.quiet);
+    let found = evaluated(scene, None, reporter, interrupted)?;
+    if !options.quiet {
+        list(&found.diagnostics, most);
+    }
+    if let Some(path) = &options.csv {
+        write_atomically(path, true, |file| file.write_all(csv(&found).as_bytes()))?;
+    }
+    if let Some(path) = &options.output {
+        draw(options, &found, path)?;
+    }
+    if options.json {
+        print(&as_json(&found).to_string());
+    } else {
+        found.meters.iter().for_each(|meter| print(&meter_line(meter)));
+        found.grids.iter().flat_map(grid_lines).for_each(|line| print(&line));
+    }
+    Ok(0)
+}
+
+/// What the scene's meters and grids show, with its settings; the trees of `previous` are used again.
+pub(super) fn evaluated(
+    scene: &Scene,
+    previous: Option<&CompiledScene>,
+    mut reporter: Reporter,
+    interrupted: &AtomicBool,
+) -> Result<Measurements> {
+    let mut progress = |progress: &gonio::render::Progress| {
+        reporter.show(progress);
+        let heard = Python::attach(|py| py.check_signals()).is_ok();
+        heard && !interrupted.load(Ordering::Relaxed)
+    };
+    let found = evaluate(scene, Execution::detect(), &mut Watch { previous, cancel: interrupted, progress: &mut progress });
+    reporter.clear();
+    found
+}
+
+fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
+    let settings = &mut scene.settings;
+    settings.samples = options.spp;
+    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
+    settings.integrator = options.integrator.into();
+    options.work.apply(settings);
+}
+
+/// The meters of `--at`.
+fn points(options: &MeasureOptions, measurand: Measurand, axis: UpAxis) -> Result<Vec<Meter>> {
+    let [up, ahead] = gonio_usd::meter::axes(axis);
+    let direction = |name: &str, text: &Option<String>, otherwise| text.as_ref().map_or(Ok(otherwise), |text| triple(name, text));
+    let (normal, facing) = (direction("normal", &options.normal, up)?, direction("facing", &options.facing, ahead)?);
+    let meter = |text: &String| {
+        let position = triple("at", text)?;
+        Ok(Meter { origin: Origin::new(text), position, normal, facing, measurand })
+    };
+    options.at.iter().map(meter).collect()
+}
+
+fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
+    let numbers = text.split(',').map(|part| daylight::number(name, part)).collect::<Result<Vec<f64>>>()?;
+    let wrong = |_| Error::setting(name, format!("'{text}' was found, expected three numbers separated by commas"));
+    numbers.try_into().map_err(wrong)
+}
+
+/// The grids' pictures: under the name given, or with each prim's name before its ending.
+fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<()> {
+    if found.grids.is_empty() {
+        return Err(Error::setting("output", "a value picture wants a grid; points alone have none"));
+    }
+    for (number, grid) in found.grids.iter().enumerate() {
+        let style = FalseColour {
+            scale: falsecolor::scale(&options.scale, &grid.values())?,
+            unit: grid.measurand.unit().into(),
+            contours: true,
+            smoothing: 0,
+            legend: true,
+        };
+        let path = if found.grids.len() == 1 { path.to_owned() } else { named(path, grid, number) };
+        falsecolor::write(&path, &value_picture(grid, &style))?;
+        if !options.quiet && !options.json {
+            print(&path.display().to_string());
+        }
+    }
+    Ok(())
+}
+
+fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let prim = grid.origin.name.rsplit('/').next().unwrap_or_default();
+    path.with_file_name(format!("{stem}.{number}-{prim}.png"))
+}
+
+fn meter_line(meter: &MeterReading) -> String {
+    let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
+    let Reading { value, standard_error } = meter.reading;
+    let (name, unit) = (measurand.name(), spaced(measurand));
+    format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m", meter.meter.origin)
+}
+
+/// The unit's sign with a blank before it; nothing where there is none.
+fn spaced(measurand: Measurand) -> String {
+    let unit = measurand.unit();
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
+fn grid_lines(grid: &GridReading) -> Vec<String> {
+    let (unit, summary) = (spaced(grid.measurand), &grid.summary);
+    let [columns, rows] = grid.size;
+    let [along, across] = grid.spacing;
+    let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2}{unit} ± {:.2}", reading.value, reading.standard_error);
+    vec![
+        format!(
+            "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
+            grid.origin,
+            grid.measurand.name(),
+            summary.points
+        ),
+        figure("average", &summary.average),
+        figure("least", &summary.min),
+        figure("greatest", &summary.max),
+        format!("  U0 (least / average): {:.3}", summary.uniformity()),
+        format!("  Ud (least / greatest): {:.3}", summary.diversity()),
+    ]
+}
+
+fn as_json(found: &Measurements) -> Value {
+    let reading = |reading: &Reading| json!({ "value": reading.value, "standard_error": reading.standard_error });
+    let meter = |meter: &MeterReading| {
+        json!({
+            "name": &*meter.meter.origin.name,
+            "quantity": meter.meter.measurand.name(),
+            "unit": meter.meter.measurand.unit(),
+            "position_m": meter.meter.position,
+            "value": meter.reading.value,
+            "standard_error": meter.reading.standard_error,
+        })
+    };
+    let grid = |grid: &GridReading| {
+        json!({
+            "name": &*grid.origin.name,
+            "quantity": grid.measurand.name(),
+            "unit": grid.measurand.unit(),
+            "columns": grid.size[0],
+            "rows": grid.size[1],
+            "spacing_m": grid.spacing,
+            "points": grid.summary.points,
+            "area_m2": grid.area,
+            "average": reading(&grid.summary.average),
+            "min": reading(&grid.summary.min),
+            "max": reading(&grid.summary.max),
+            "uniformity_u0": grid.summary.uniformity(),
+            "diversity_ud": grid.summary.diversity(),
+            "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "meters": found.meters.iter().map(meter).collect::<Vec<_>>(),
+        "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,357 @@
+//! `gonio render`.
+
+use super::{
+    arguments::{ComplexityArgument, FilterArgument, RenderOptions, StageArguments},
+    checkpoint::{Keeper, sample_range, take_part},
+    daylight, file_name, frames, list,
+    output::{Notes, Writer},
+    print,
+    progress::{Reporter, clock},
+    say,
+};
+use gonio::{
+    Error, Result,
+    checkpoint::Identity,
+    compile::{CompiledScene, compile},
+    film::{Film, Image},
+    render::Render,
+    scene::{Aov, Crop, Filter, Scene, Settings},
+};
+use gonio_simd::Execution;
+use gonio_usd::{
+    Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
+    settings::aov_by_name,
+    view::{Resolution, ViewOptions, complete},
+};
+use pyo3::prelude::*;
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+/// Warnings listed without `--verbose`.
+pub(super) const MOST_WARNINGS: usize = 20;
+
+/// Renders all frames asked for.
+pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    let mut stage_options = stage_options(&options.stage)?;
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    if options.list_cameras {
+        for camera in &stage.info().cameras {
+            print(&camera.path);
+        }
+        return Ok(0);
+    }
+    if options.files.output.is_empty() && options.checkpoint.checkpoint.is_none() {
+        return Err(Error::Setting { name: "output".into(), problem: "no file was given; say -o picture.exr".into() });
+    }
+    let execution = Execution::detect();
+    let writer = Writer::new(&options.files, execution)?;
+    let frames = frames_of(options)?;
+    let mut previous: Option<Arc<CompiledScene>> = None;
+    for frame in &frames {
+        stage_options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
+        let start = Instant::now();
+        let loaded = stage.load(py, &stage_options, interrupted)?;
+        let loading = start.elapsed();
+        let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
+        let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
+        let outputs = options.files.output.iter().map(of_frame).collect();
+        let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
+        let job = Job { options, writer: &writer, execution, outputs, checkpoint, loading, time, interrupted };
+        let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
+        previous = Some(compiled);
+    }
+    Ok(0)
+}
+
+/// The frames asked for; without any the stage's own time, once.
+pub(super) fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
+    let Some(text) = &options.frames else { return Ok(vec![None]) };
+    let frames = frames::parse(text)?;
+    let mut files = options
+        .files
+        .output
+        .iter()
+        .map(|path| ("output", path))
+        .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
+    if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !file_name::has_frame(path))) {
+        return Err(Error::Setting {
+            name: name.into(),
+            problem: format!("{}: several frames need a place for the frame number, such as '####' or '$F4'", path.display()),
+        });
+    }
+    Ok(frames.into_iter().map(Some).collect())
+}
+
+/// What of the stage is read, from the command line.
+pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> {
+    let purpose = |token: &String| {
+        let problem = || Error::setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
+        Purpose::from_token(token).ok_or_else(problem)
+    };
+    let variant = |text: &String| {
+        let problem = || Error::setting("variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
+        VariantSelection::parse(text).ok_or_else(problem)
+    };
+    Ok(StageOptions {
+        purposes: match arguments.purposes.as_slice() {
+            [] => None,
+            tokens => Some(tokens.iter().map(purpose).collect::<Result<_>>()?),
+        },
+        complexity: match arguments.complexity {
+            ComplexityArgument::Low => Complexity::Low,
+            ComplexityArgument::Medium => Complexity::Medium,
+            ComplexityArgument::High => Complexity::High,
+            ComplexityArgument::Veryhigh => Complexity::VeryHigh,
+        },
+        population_mask: arguments.mask.clone(),
+        variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,
+        session_layer: arguments.session_layer.clone(),
+        render_settings: arguments.settings.clone(),
+        strict: arguments.strict,
+        ..StageOptions::default()
+    })
+}
+
+/// What the command line adds to a stage: daylight, view and settings.
+pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
+    daylight::add(&options.daylight, loaded, options.quiet)?;
+    Job::apply_settings(options, loaded)
+}
+
+/// What the header of EXR files says beside the passes.
+pub(super) fn attributes(options: &RenderOptions, scene: &Scene) -> [(String, String); 3] {
+    let camera = &scene.cameras[scene.settings.camera as usize];
+    [
+        ("gonio:camera".to_owned(), camera.origin.name.to_string()),
+        ("gonio:stage".to_owned(), options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned()),
+        ("gonio:seed".to_owned(), scene.settings.seed.to_string()),
+    ]
+}
+
+/// One picture to make.
+struct Job<'a> {
+    options: &'a RenderOptions,
+    writer: &'a Writer,
+    execution: Execution,
+    outputs: Vec<PathBuf>,
+    checkpoint: Option<PathBuf>,
+    loading: Duration,
+    /// Of the frame, seconds.
+    time: f64,
+    interrupted: &'static AtomicBool,
+}
+
+impl Job<'_> {
+    /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
+    fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
+        if !self.options.quiet {
+            list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        }
+        complete_scene(self.options, &mut loaded)?;
+        let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
+        let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
+        self.complain(&compiled)?;
+        self.tell_sizes(&compiled);
+        self.trace(&loaded.scene, &compiled, &hidden)?;
+        Ok(compiled)
+    }
+
+    /// Command line over render settings over defaults.
+    fn apply_settings(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
+        let view = ViewOptions {
+            camera: options.camera.clone(),
+            resolution: match (options.res.as_deref(), options.image_width) {
+                (Some([width, height]), _) => Resolution::Exact([*width, *height]),
+                (_, Some(width)) => Resolution::Width(width),
+                _ => Resolution::Stage,
+            },
+            scale: options.res_scale,
+            neutral_dome: !options.disable_camera_light,
+        };
+        for note in complete(loaded, &Python::attach(camera::primary_camera_name), &view)? {
+            if !options.quiet {
+                say(&note.to_string());
+            }
+        }
+        let light_groups = loaded.scene.light_groups();
+        let settings = &mut loaded.scene.settings;
+        settings.samples = options.spp.unwrap_or(settings.samples);
+        settings.set_antialiasing(options.antialiasing.unwrap_or_default());
+        settings.sample_range = options.checkpoint.samples.as_deref().map(sample_range).transpose()?;
+        settings.noise_threshold = options.noise_threshold;
+        settings.min_samples = options.min_spp;
+        settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
+        settings.integrator = options.integrator.into();
+        settings.light_samples = options.light_samples;
+        settings.filter = match options.filter {
+            FilterArgument::Box => Filter::Box,
+            FilterArgument::Tent => Filter::Tent,
+            FilterArgument::Gaussian => Filter::Gaussian,
+            FilterArgument::BlackmanHarris => Filter::BlackmanHarris,
+        };
+        settings.filter_width = options.filter_width;
+        options.work.apply(settings);
+        settings.clamp_direct = options.clamp_direct;
+        settings.clamp_indirect = options.clamp_indirect;
+        settings.time_limit_s = options.time_limit;
+        if !options.aov.is_empty() {
+            settings.aovs = aovs(&options.aov)?;
+        }
+        if !settings.aovs.contains(&Aov::Color) {
+            // Pictures for looking at are made of it, and it costs nothing.
+            settings.aovs.insert(0, Aov::Color);
+        }
+        if options.light_groups {
+            settings.add_light_groups(light_groups);
+        }
+        if let Some(crop) = &options.crop {
+            settings.crop = Some(crop_of(crop, settings.resolution)?);
+        }
+        if let Some(part) = &options.checkpoint.part {
+            take_part(part, settings)?;
+        }
+        Ok(())
+    }
+
+    /// Diagnostics of the compile step; errors with `--strict`.
+    fn complain(&self, compiled: &CompiledScene) -> Result<()> {
+        if !self.options.quiet {
+            list(&compiled.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        }
+        match compiled.diagnostics.first() {
+            Some(first) if self.options.stage.strict => Err(Error::scene(&first.origin, first.message.clone())),
+            _ => Ok(()),
+        }
+    }
+
+    fn tell_sizes(&self, compiled: &CompiledScene) {
+        if self.options.stage.verbose {
+            let s = &compiled.statistics;
+            let megabytes = |bytes: u64| bytes as f64 / 1e6;
+            say(&format!(
+                "{} triangles in {} instances, {} lights, SIMD level {}",
+                s.triangles,
+                s.instances,
+                s.lights,
+                self.execution.name()
+            ));
+            say(&format!("{:.1} MB of geometry, {:.1} MB of textures", megabytes(s.geometry_bytes), megabytes(s.texture_bytes)));
+            say(&format!("read in {}, trees built in {:.2} s, compiled in {:.2} s", clock(self.loading), s.build_s, s.total_s));
+        }
+    }
+
+    /// Renders and writes but for the passes `hidden`; an interrupted render leaves the picture so far.
+    fn trace(&self, scene: &Scene, compiled: &Arc<CompiledScene>, hidden: &[Aov]) -> Result<()> {
+        let start = Instant::now();
+        let mut keeper = self.keeper(scene)?;
+        let film = keeper.as_ref().map_or(Ok(None), Keeper::film)?;
+        let mut render = match film {
+            Some(film) => Render::resume(compiled.clone(), &scene.settings, self.execution, film)?,
+            None => Render::start(compiled.clone(), &scene.settings, self.execution)?,
+        };
+        let keep = |film: &Film| keeper.iter_mut().for_each(|keeper| keeper.keep_if_due(film));
+        drive(&mut render, self.options.quiet, self.interrupted, keep)?;
+        let result = render.finish();
+        if let Err(error) = &result
+            && !matches!(error, Error::Cancelled)
+        {
+            return result;
+        }
+        if let Some(keeper) = &mut keeper {
+            keeper.keep(render.film())?;
+        }
+        let mut image = render.film().develop();
+        if result.is_ok() {
+            self.writer.finish(&mut image)?;
+        }
+        image.layers.retain(|layer| !hidden.contains(&layer.aov));
+        if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
+            self.write(scene, &image, result.is_err())?;
+        }
+        if !self.options.quiet && result.is_ok() {
+            let rays = render.progress().rays as f64 * 1e-6;
+            let seconds = start.elapsed().as_secs_f64();
+            let samples = samples_of(&scene.settings, &render, &image);
+            say(&format!("{samples} in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
+        }
+        if result.is_err() {
+            // The process ends next, which gives everything back at once; somebody waits.
+            std::mem::forget((render, image));
+        }
+        result
+    }
+
+    /// Writes all files at once: the wait is that for the slowest.
+    fn write(&self, scene: &Scene, image: &Image, interrupted: bool) -> Result<()> {
+        let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
+        let notes = Notes { exposure, time: self.time, interrupted, attributes: &attributes(self.options, scene) };
+        self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
+    }
+
+    /// What keeps the render's checkpoint, if there is to be one.
+    fn keeper(&self, scene: &Scene) -> Result<Option<Keeper>> {
+        let Some(path) = &self.checkpoint else { return Ok(None) };
+        let identity = Identity::new(scene, self.execution, attributes(self.options, scene).to_vec());
+        Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
+    }
+}
+
+/// Waits until a render has ended or was interrupted, shows how far it is, and has `look` see its film now and then; what came of it is for [`Render::finish`] to say.
+pub(super) fn drive(render: &mut Render, quiet: bool, interrupted: &AtomicBool, mut look: impl FnMut(&Film)) -> Result<()> {
+    let mut reporter = Reporter::new(quiet);
+    while !render.is_finished() {
+        if interrupted.load(Ordering::Relaxed) {
+            render.cancel();
+        }
+        // Waiting for tiles keeps the loop quiet; which tile it was does not matter to a file.
+        let _ = render.next_tile(Duration::from_millis(20));
+        while render.next_tile(Duration::ZERO).is_some() {}
+        reporter.show(&render.progress());
+        look(render.film());
+        Python::attach(|py| py.check_signals()).map_err(|_| Error::Cancelled)?;
+    }
+    reporter.clear();
+    Ok(())
+}
+
+/// How many samples a pixel has, in words.
+fn samples_of(settings: &Settings, render: &Render, image: &Image) -> String {
+    if settings.antialiasing.is_adaptive() {
+        let [width, height] = image.size();
+        return format!("{:.2} rays a pixel", render.statistics().camera_rays as f64 / (width * height).max(1) as f64);
+    }
+    let more = || format!("{} and more, {:.1} in the mean", image.samples, image.mean_samples);
+    let samples = if image.mean_samples > f64::from(image.samples) { more() } else { image.samples.to_string() };
+    format!("{samples} samples a pixel")
+}
+
+fn aovs(names: &[String]) -> Result<Vec<Aov>> {
+    let known = Aov::NAMES.map(|(_, name)| name).join(", ");
+    let one = |name: &String| {
+        let problem = || Error::Setting { name: "aov".into(), problem: format!("'{name}' was found, expected one of {known}") };
+        aov_by_name(name.trim()).ok_or_else(problem)
+    };
+    names.iter().map(one).collect()
+}
+
+/// Pixels, or parts of the picture where a number has a decimal point.
+fn crop_of(texts: &[String], resolution: [u32; 2]) -> Result<Crop> {
+    let parts = texts.iter().any(|text| text.contains('.'));
+    let mut bounds = [0; 4];
+    for (i, text) in texts.iter().enumerate() {
+        let number: f64 = text
+            .parse()
+            .ok()
+            .filter(|x: &f64| x.is_finite())
+            .ok_or_else(|| Error::Setting { name: "crop".into(), problem: format!("'{text}' was found, expected a number") })?;
+        let scale = if parts { f64::from(resolution[i % 2]) } else { 1.0 };
+        bounds[i] = (number * scale).round().max(0.0) as u32;
+    }
+    Ok(Crop { min: [bounds[0], bounds[1]], max: [bounds[2], bounds[3]] })
+}

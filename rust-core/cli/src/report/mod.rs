@@ -1,0 +1,126 @@
+//! `gonio report`.
+
+mod base64;
+mod grids;
+mod html;
+mod pictures;
+mod schedule;
+
+use super::{
+    arguments::{ReportOptions, ScaleArguments},
+    daylight, falsecolor,
+    file::{check_ending, make_folder},
+    list,
+    measure::{author_grids, evaluated},
+    print,
+    progress::Reporter,
+    render::{MOST_WARNINGS, stage_options},
+};
+use gonio::{
+    Diagnostic, Result, Severity,
+    compile::CompiledScene,
+    measure::{MOST_BOUNCES, Measurements},
+    output::{FalseColourScale, write_atomically},
+    scene::{Integrator, Measurand},
+};
+use gonio_usd::{Loaded, SampleTime, Stage, camera::choose};
+use html::Page;
+use pyo3::prelude::*;
+use schedule::Schedule;
+use std::{io::Write, sync::atomic::AtomicBool};
+
+/// Writes the page.
+pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    check_ending("output", &options.output, &["html", "htm"])?;
+    // Said before anything is rendered.
+    FalseColourScale::new(options.max_illuminance.unwrap_or(1.0), options.steps, None)?;
+    FalseColourScale::new(options.max_luminance.unwrap_or(1.0), options.steps, None)?;
+    make_folder(&options.output)?;
+    let mut stage_options = stage_options(&options.stage)?;
+    stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    author_grids(py, &stage, &options.grids, Measurand::Illuminance)?;
+    let loaded = stage.load(py, &stage_options, interrupted)?;
+    py.detach(|| run(options, loaded, interrupted))
+}
+
+fn run(options: &ReportOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
+    daylight::add(&options.daylight, &mut loaded, options.quiet)?;
+    let cameras = cameras(options, &loaded)?;
+    let mut diagnostics = loaded.diagnostics.clone();
+    let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, interrupted, &mut diagnostics)?;
+    let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
+    if !options.quiet {
+        list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+    }
+    let schedule = Schedule::new(&loaded);
+    let mut page = Page::new(&title(options));
+    schedule.write(&mut page);
+    pictures::write(&pictures, &mut page);
+    grids::write_grids(options, &measured.grids, &schedule, &mut page)?;
+    grids::write_meters(&measured.meters, &mut page);
+    schedule.write_files(&mut page);
+    write_notes(&diagnostics, &mut page);
+    let text = page.finish();
+    write_atomically(&options.output, true, |file| file.write_all(text.as_bytes()))?;
+    if !options.quiet {
+        print(&options.output.display().to_string());
+    }
+    Ok(0)
+}
+
+fn title(options: &ReportOptions) -> String {
+    let name = || options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    options.title.clone().unwrap_or_else(name)
+}
+
+/// The paths of the cameras whose pictures are wanted; a nameless one sees everything of a stage without cameras.
+fn cameras(options: &ReportOptions, loaded: &Loaded) -> Result<Vec<Option<String>>> {
+    let known = &loaded.scene.cameras;
+    let path = |number: u32| known.get(number as usize).map(|camera| camera.origin.name.to_string());
+    if options.no_pictures {
+        return Ok(Vec::new());
+    }
+    if !options.camera.is_empty() {
+        return options.camera.iter().map(|name| Ok(choose(known, Some(name), None, "")?.and_then(path))).collect();
+    }
+    Ok(if known.is_empty() { vec![None] } else { (0..known.len() as u32).map(path).collect() })
+}
+
+/// What the stage's grids and meters show, and those of the command line.
+fn measured(
+    options: &ReportOptions,
+    loaded: &mut Loaded,
+    previous: Option<&CompiledScene>,
+    interrupted: &'static AtomicBool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Measurements> {
+    let scene = &mut loaded.scene;
+    if scene.meters.is_empty() && scene.grids.is_empty() {
+        return Ok(Measurements::default());
+    }
+    let settings = &mut scene.settings;
+    settings.samples = options.point_spp;
+    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
+    settings.integrator = Integrator::Path;
+    options.work.apply(settings);
+    let found = evaluated(scene, previous, Reporter::new(options.quiet), interrupted)?;
+    diagnostics.extend(found.diagnostics.iter().filter(|new| !diagnostics.contains(new)).cloned().collect::<Vec<_>>());
+    Ok(found)
+}
+
+/// What the stage asks for and is not as asked.
+fn write_notes(diagnostics: &[Diagnostic], page: &mut Page) {
+    let warnings: Vec<String> =
+        diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string).collect();
+    if !warnings.is_empty() {
+        page.section("What is not as the stage asks");
+        page.list(&warnings);
+    }
+    page.note(&format!("Made by gonio {}.", env!("CARGO_PKG_VERSION")));
+}
+
+/// Steps up to what was asked for, or to a round number that nearly all values stay below; even ones, or even in the logarithm over so many decades.
+fn scale(options: &ReportOptions, max: Option<f32>, log: Option<f32>, values: &[f32]) -> Result<FalseColourScale> {
+    falsecolor::scale(&ScaleArguments { max, steps: options.steps, log }, values)
+}

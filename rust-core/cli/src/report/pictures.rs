@@ -1,0 +1,137 @@
+//! What a stage's cameras see, as it looks and in false colour.
+
+use super::html::Page;
+use crate::{arguments::ReportOptions, falsecolor, glare, render::drive};
+use gonio::{
+    Diagnostic, Error, Result,
+    compile::{CompiledScene, compile},
+    film::Image,
+    measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions},
+    output::{FalseColour, Look, display, encode_jpeg},
+    render::Render,
+    scene::{Aov, Integrator, Projection},
+};
+use gonio_formats::short_number;
+use gonio_simd::Execution;
+use gonio_usd::{
+    Loaded,
+    view::{Resolution, ViewOptions, complete},
+};
+use std::sync::{Arc, atomic::AtomicBool};
+
+/// Decades of luminance that the steps cover: lamps are thousands of times as bright as what they light.
+const DECADES: f32 = 3.0;
+
+/// What a camera sees.
+#[derive(Debug)]
+pub(super) struct Picture {
+    camera: String,
+    /// JPEG.
+    colour: Vec<u8>,
+    /// PNG.
+    luminance: Vec<u8>,
+    /// Mean and greatest, cd/m².
+    figures: [f64; 2],
+    samples: u32,
+    /// What an eye in the camera's place would say, if it sees enough.
+    glare: Vec<String>,
+}
+
+/// Pictures of cameras by path, one after the other, and the scene as it was compiled last; what compiling finds goes to `diagnostics`.
+pub(super) fn pictures(
+    options: &ReportOptions,
+    loaded: &mut Loaded,
+    cameras: &[Option<String>],
+    interrupted: &'static AtomicBool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(Vec<Picture>, Option<Arc<CompiledScene>>)> {
+    let mut previous: Option<Arc<CompiledScene>> = None;
+    let mut found = Vec::new();
+    for camera in cameras {
+        // Each picture has a shape of its own, which the stage's cameras are made to fit.
+        let (known, settings) = (loaded.scene.cameras.clone(), loaded.scene.settings.clone());
+        let (resolution, camera) = (Resolution::Width(options.image_width), camera.clone());
+        complete(loaded, "", &ViewOptions { camera, resolution, neutral_dome: false, ..ViewOptions::default() })?;
+        apply_settings(options, loaded);
+        let compiled = Arc::new(compile(&loaded.scene, previous.as_deref(), interrupted)?);
+        if previous.is_none() {
+            diagnostics.extend(compiled.diagnostics.iter().cloned());
+        }
+        found.push(picture(options, loaded, &compiled, interrupted)?);
+        previous = Some(compiled);
+        (loaded.scene.cameras, loaded.scene.settings) = (known, settings);
+    }
+    Ok((found, previous))
+}
+
+fn apply_settings(options: &ReportOptions, loaded: &mut Loaded) {
+    let settings = &mut loaded.scene.settings;
+    settings.samples = options.spp;
+    settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
+    settings.integrator = Integrator::Path;
+    options.work.apply(settings);
+    (settings.crop, settings.time_limit_s) = (None, 0.0);
+    settings.aovs = vec![Aov::Color, Aov::Luminance];
+}
+
+fn picture(options: &ReportOptions, loaded: &Loaded, compiled: &Arc<CompiledScene>, interrupted: &'static AtomicBool) -> Result<Picture> {
+    let execution = Execution::detect();
+    let scene = &loaded.scene;
+    let mut render = Render::start(compiled.clone(), &scene.settings, execution)?;
+    drive(&mut render, options.quiet, interrupted, |_| ())?;
+    render.finish()?;
+    let image = render.film().develop();
+    let camera = &scene.cameras[scene.settings.camera as usize];
+    let values = image.layer(Aov::Luminance).map_or(&[][..], |layer| &layer.values);
+    let style = FalseColour {
+        scale: super::scale(options, options.max_luminance, Some(DECADES), values)?,
+        unit: "cd/m²".into(),
+        contours: false,
+        smoothing: 0,
+        legend: true,
+    };
+    let sum: f64 = values.iter().map(|value| f64::from(*value)).sum();
+    let greatest = values.iter().copied().fold(0.0, f32::max);
+    Ok(Picture {
+        camera: camera.origin.name.to_string(),
+        colour: as_jpeg(&image, options, execution)?,
+        luminance: falsecolor::encoded(&options.output, &style.draw(values, image.size()))?,
+        figures: [sum / values.len().max(1) as f64, f64::from(greatest)],
+        samples: image.samples,
+        glare: rating(camera.projection, values, image.size())?,
+    })
+}
+
+/// The picture as the eye would see it, over black.
+fn as_jpeg(image: &Image, options: &ReportOptions, execution: Execution) -> Result<Vec<u8>> {
+    let rgba = display(image, &Look { stops: options.exposure, ..Look::default() }, execution);
+    let [width, height] = image.size().map(|side| side as u32);
+    encode_jpeg(&rgba, width, height).map_err(|error| Error::io(&options.output, error))
+}
+
+/// UGR and DGP of what a fisheye camera sees, if that is half a world at least.
+fn rating(projection: Projection, luminances: &[f32], size: [usize; 2]) -> Result<Vec<String>> {
+    let Projection::FisheyeEquidistant { fov_deg } = projection else { return Ok(Vec::new()) };
+    let view = FisheyeView::new(FisheyeProjection::Equidistant, fov_deg, size)?;
+    if !view.covers_hemisphere() {
+        return Ok(Vec::new());
+    }
+    Ok(glare::as_text(&Glare::new(luminances, &view, &GlareOptions::default())?))
+}
+
+/// The pictures with their captions.
+pub(super) fn write(pictures: &[Picture], page: &mut Page) {
+    if pictures.is_empty() {
+        return;
+    }
+    page.section("Pictures");
+    for picture in pictures {
+        page.part(&picture.camera);
+        page.picture("jpeg", &picture.colour, &format!("{}, {} samples a pixel", picture.camera, picture.samples));
+        let [mean, greatest] = picture.figures.map(short_number);
+        page.picture("png", &picture.luminance, &format!("luminance: mean {mean} cd/m², greatest {greatest} cd/m²"));
+        if !picture.glare.is_empty() {
+            page.list(&picture.glare);
+        }
+    }
+}

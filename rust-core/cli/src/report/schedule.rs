@@ -1,0 +1,160 @@
+//! The luminaire schedule: a scene's lights by type, with flux and power.
+
+use super::html::Page;
+use crate::{light_words::describe, photometry};
+use gonio::{compile::luminous_fluxes, scene::Light};
+use gonio_formats::{
+    photometry::{PolarUnit, polar_diagram},
+    short_number,
+};
+use gonio_usd::{Loaded, LuminaireFile, view::shines};
+
+/// Lights that differ in nothing but their place.
+#[derive(Debug)]
+struct Kind {
+    /// What tells it from others.
+    key: String,
+    name: String,
+    maker: String,
+    file: String,
+    count: usize,
+    /// Of one, lm, dimming included; none where it is not known.
+    flux: Option<f64>,
+    /// Of one, W by its file, at full power.
+    watts: Option<f64>,
+    dimming: f32,
+}
+
+/// A scene's lights.
+#[derive(Debug)]
+pub(super) struct Schedule<'a> {
+    /// Those with a place.
+    kinds: Vec<Kind>,
+    /// Sun, sky and other light from infinity, in words.
+    far: Vec<String>,
+    /// Materials that shine by themselves.
+    shining: usize,
+    files: Vec<&'a LuminaireFile>,
+}
+
+impl<'a> Schedule<'a> {
+    pub(super) fn new(loaded: &'a Loaded) -> Self {
+        let scene = &loaded.scene;
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut far = Vec::new();
+        for (light, flux) in scene.lights.iter().zip(luminous_fluxes(scene)).filter(|(light, _)| !light.portal) {
+            if light.shape.is_at_infinity() {
+                far.push(format!("{}: {}", light.origin.name, describe(light)));
+                continue;
+            }
+            let file = loaded.luminaires.iter().find(|file| file.is_of(light));
+            let key = format!("{:?} {} {} {flux:.2?}", file.map(|file| &file.path), describe(light), light.dimming);
+            match kinds.iter_mut().find(|kind| kind.key == key) {
+                Some(known) => known.count += 1,
+                None => kinds.push(kind(key, light, file, flux)),
+            }
+        }
+        let is_lit = |file: &&LuminaireFile| scene.lights.iter().any(|light| file.is_of(light));
+        let files = loaded.luminaires.iter().filter(is_lit).collect();
+        Self { kinds, far, shining: scene.materials.iter().filter(|material| shines(material)).count(), files }
+    }
+
+    /// Power in W of all luminaires whose files state it, and how many lights have none stated.
+    pub(super) fn installed_power(&self) -> (f64, usize) {
+        let watts = self.kinds.iter().filter_map(|kind| Some(kind.watts? * kind.count as f64)).sum();
+        let unknown = self.kinds.iter().filter(|kind| kind.watts.is_none()).map(|kind| kind.count).sum();
+        (watts, unknown)
+    }
+
+    /// The table with its totals, and what does not stand in it.
+    pub(super) fn write(&self, page: &mut Page) {
+        page.section("Luminaires");
+        if self.kinds.is_empty() {
+            page.paragraph("The stage has no lights with a place.");
+        } else {
+            let rows: Vec<Vec<String>> = self.kinds.iter().map(Kind::row).collect();
+            let names =
+                ["type", "file", "maker", "count", "flux, lm", "power, W", "lm/W", "dimmed to", "flux in all, lm", "power in all, W"];
+            page.table(&names, &rows, &self.totals());
+            page.note("Flux is as lit: dimming and maintenance factors are counted. Power is what the file states, at full power.");
+        }
+        if !self.far.is_empty() {
+            page.part("Light from afar");
+            page.list(&self.far);
+        }
+        if self.shining > 0 {
+            page.note(&format!("{} materials shine by themselves; their flux is not in the table.", self.shining));
+        }
+    }
+
+    fn totals(&self) -> Vec<String> {
+        let sum = |of: fn(&Kind) -> Option<f64>| {
+            let (known, unknown): (Vec<&Kind>, Vec<&Kind>) = self.kinds.iter().partition(|kind| of(kind).is_some());
+            let sum: f64 = known.iter().filter_map(|kind| Some(of(kind)? * kind.count as f64)).sum();
+            let unknown: usize = unknown.iter().map(|kind| kind.count).sum();
+            match (known.is_empty(), unknown) {
+                (true, _) => "–".to_owned(),
+                (_, 0) => short_number(sum),
+                (_, unknown) => format!("{} without {unknown} unknown", short_number(sum)),
+            }
+        };
+        let blank = String::new;
+        let count = self.kinds.iter().map(|kind| kind.count).sum::<usize>().to_string();
+        let (flux, watts) = (sum(|kind| kind.flux), sum(|kind| kind.watts));
+        vec!["in all".into(), blank(), blank(), count, blank(), blank(), blank(), blank(), flux, watts]
+    }
+
+    /// Each file with its polar diagram and what it says.
+    pub(super) fn write_files(&self, page: &mut Page) {
+        if self.files.is_empty() {
+            return;
+        }
+        page.section("Light distributions");
+        let mut shown: Vec<&str> = Vec::new();
+        for file in &self.files {
+            // One file may be read for several purposes.
+            if !shown.contains(&file.path.as_str()) {
+                shown.push(&file.path);
+                page.part(&file.path);
+                page.drawing(&polar_diagram(&file.photometry, PolarUnit::CandelaPerKilolumen), &file.path);
+                page.list(&photometry::as_text(&file.photometry, &file.photometry.figures()));
+            }
+        }
+    }
+}
+
+fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f64>) -> Kind {
+    let text = |keyword: &str| file.and_then(|file| file.photometry.text(keyword)).map(str::to_owned);
+    Kind {
+        key,
+        name: text("LUMINAIRE").or_else(|| text("LUMCAT")).unwrap_or_else(|| describe(light)),
+        maker: text("MANUFAC").unwrap_or_else(|| "–".into()),
+        file: file.map_or("–".into(), |file| file.path.clone()),
+        count: 1,
+        flux,
+        watts: file.and_then(|file| file.photometry.figures().watts),
+        dimming: light.dimming,
+    }
+}
+
+impl Kind {
+    fn row(&self) -> Vec<String> {
+        let shown = |value: Option<f64>| value.map_or("–".to_owned(), short_number);
+        let of_all = |value: Option<f64>| shown(value.map(|value| value * self.count as f64));
+        // The lamp's own efficacy: what a dimmer leaves of its power no file tells.
+        let full = self.flux.filter(|_| self.dimming > 0.0).map(|flux| flux / f64::from(self.dimming));
+        let efficacy = full.zip(self.watts).map(|(flux, watts)| flux / watts);
+        vec![
+            self.name.clone(),
+            self.file.clone(),
+            self.maker.clone(),
+            self.count.to_string(),
+            shown(self.flux),
+            shown(self.watts),
+            shown(efficacy),
+            format!("{:.0} %", 100.0 * self.dimming),
+            of_all(self.flux),
+            of_all(self.watts),
+        ]
+    }
+}

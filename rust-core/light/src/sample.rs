@@ -1,0 +1,120 @@
+//! Drawing a direction towards the lights.
+
+use super::emitter::Aim;
+use super::facing_disk;
+use super::record::LightKind;
+use super::row::{Reader, flag};
+use super::table::LightTable;
+use super::tree::KnownLights;
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// Light that may arrive at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample<L: Lanes> {
+    /// Unit direction to the light.
+    pub wi: Vec3<L>,
+    /// Way to the light's point in metres, `f32::MAX` for infinite lights.
+    pub distance: F<L>,
+    /// Radiance towards the point with shaping and texture, zero where `pdf` is; for delta lights the illuminance on a facing surface.
+    pub radiance: Rgb<L>,
+    /// Density per solid angle times the probability of the choice; for delta lights that probability alone. Zero where nothing arrives.
+    pub pdf: F<L>,
+    /// Lights that no ray from here can hit: the sample stands for all of their light.
+    pub delta: M<L>,
+    /// Index of the light.
+    pub light: U<L>,
+    /// Whether things block the light.
+    pub casts_shadow: M<L>,
+}
+
+/// Share of the power heuristic for the first of two densities, safe for any magnitude.
+#[inline(always)]
+pub fn power_heuristic<L: Lanes>(own: F<L>, other: F<L>) -> F<L> {
+    let ratio = other / own.max(f32::MIN_POSITIVE);
+    (ratio * ratio + 1.0).recip()
+}
+
+impl LightTable {
+    /// Draws a light, among those `known` to arrive there if that was learned, and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_choice` and `u` in
+    /// `[0, 1)`.
+    #[inline(always)]
+    pub fn sample<L: Lanes>(
+        &self,
+        l: L,
+        known: Option<&KnownLights>,
+        p: &Vec3<L>,
+        n: &Vec3<L>,
+        u_choice: F<L>,
+        u: &[F<L>; 2],
+    ) -> LightSample<L> {
+        if self.count == 0 {
+            return LightSample::nothing(l);
+        }
+        let chosen = self.choose(l, known, p, n, u_choice);
+        self.sample_chosen(l, chosen, p, n, u)
+    }
+
+    /// Draws a direction to a light that has been chosen with some probability.
+    #[inline(always)]
+    pub fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: &Vec3<L>, n: &Vec3<L>, u: &[F<L>; 2]) -> LightSample<L> {
+        let light = self.reader(l, chosen.0);
+        // What all lanes share is known to be so all the way down: no gathers, no kind of light but one.
+        match light.common() {
+            Some(common) => self.sample_row(l, &common, chosen, p, n, u),
+            None => self.sample_row(l, &light, chosen, p, n, u),
+        }
+    }
+
+    #[inline(always)]
+    fn sample_row<L: Lanes>(
+        &self,
+        l: L,
+        light: &Reader<'_, L>,
+        (index, probability): (U<L>, F<L>),
+        p: &Vec3<L>,
+        n: &Vec3<L>,
+        u: &[F<L>; 2],
+    ) -> LightSample<L> {
+        let infinite = light.flag(flag::INFINITE);
+        let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
+        self.aim_near(l, light, p, u, &mut aim);
+        self.aim_far(l, light, index, [p, n], u, infinite, &mut aim);
+        let sent = self.emitted(l, light, aim.wi, aim.uv);
+        let point = light.is_kind(LightKind::Point);
+        let radiance = if point.any() {
+            let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);
+            point.select(sent * squared.recip(), sent)
+        } else {
+            sent
+        };
+        let pdf = aim.pdf * probability;
+        let facing = light.is_kind(LightKind::FacingDisk);
+        let enclosed = if facing.any() { facing & facing_disk::encloses(light, *p) } else { facing };
+        let valid = pdf.gt(0.0) & pdf.is_finite() & aim.distance.gt(0.0) & self.faces(light, *p, aim.wi) & light.flag(flag::LIT);
+        LightSample {
+            wi: valid.select(aim.wi, Vec3::splat(l, [0.0, 0.0, 1.0])),
+            distance: valid.select(aim.distance, l.f(f32::MAX)),
+            radiance: radiance.keep_if(valid),
+            pdf: pdf.keep_if(valid),
+            delta: light.flag(flag::DELTA) | enclosed,
+            light: index,
+            casts_shadow: light.flag(flag::CASTS_SHADOW),
+        }
+    }
+}
+
+impl<L: Lanes> LightSample<L> {
+    /// No light.
+    #[inline(always)]
+    fn nothing(l: L) -> Self {
+        Self {
+            wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
+            distance: l.f(f32::MAX),
+            radiance: Rgb::zero(l),
+            pdf: l.f(0.0),
+            delta: l.m(false),
+            light: l.u(0),
+            casts_shadow: l.m(true),
+        }
+    }
+}

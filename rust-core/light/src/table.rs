@@ -1,0 +1,147 @@
+//! The light table: all lights in the form that kernels read.
+
+use super::build::fill_row;
+use super::choice::{Choice, WEIGHED};
+use super::dome::DomeDistribution;
+use super::goniogram::Goniogram;
+use super::record::{LightKind, LightRecord, LightTexture};
+use super::row::{ROW, Reader, field, flag};
+use super::texture::{Placed, TexturePool};
+use super::tree::LightTree;
+use gonio_simd::{F, Lanes, M, U};
+use std::{borrow::Borrow, sync::Arc};
+
+/// An infinite light, visited by every ray that leaves the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct InfiniteLight {
+    pub(crate) light: u32,
+    pub(crate) kind: LightKind,
+    /// Of a textured dome.
+    pub(crate) distribution: Option<DomeDistribution>,
+    pub(crate) visible: bool,
+    /// To scattered rays.
+    pub(crate) scattered: bool,
+}
+
+/// All lights of a scene, laid out for sampling.
+#[derive(Clone, Debug)]
+pub struct LightTable {
+    /// One row of [`ROW`] values a light.
+    pub(crate) rows: Vec<f32>,
+    pub(crate) count: usize,
+    /// Bit k: some light is of kind number k.
+    pub(crate) kinds: u32,
+    pub(crate) choice: Choice,
+    pub(crate) textures: TexturePool,
+    pub(crate) infinite: Vec<InfiniteLight>,
+    pub(crate) goniograms: Vec<Arc<Goniogram>>,
+    /// Rows of the rectangles that domes are looked for through.
+    pub(crate) portals: Vec<u32>,
+}
+
+impl LightTable {
+    /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
+    /// never chosen. A texture whose values do not fit its size counts as white.
+    pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>], goniograms: &[Arc<Goniogram>]) -> Self {
+        let mut pool = TexturePool::default();
+        let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image.borrow())).collect();
+        let mut rows = vec![0.0; records.len() * ROW];
+        let mut infinite = Vec::new();
+        let mut portals = Vec::new();
+        let mut kinds = 0;
+        for (light, (record, row)) in records.iter().zip(rows.chunks_exact_mut(ROW)).enumerate() {
+            let textured = matches!(record.kind, LightKind::Rectangle | LightKind::Dome);
+            let index = record.texture.filter(|_| textured).map(|index| index as usize);
+            let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, textures[i].borrow())));
+            let distribution = image.filter(|_| record.kind == LightKind::Dome).map(|(_, texture)| DomeDistribution::new(texture));
+            let mean = match (&distribution, image) {
+                (Some(distribution), _) => distribution.mean_luminance,
+                (None, Some((_, texture))) => mean_luminance(texture),
+                (None, None) => 1.0,
+            };
+            let goniogram = record.goniogram.filter(|_| !record.kind.is_infinite()).and_then(|number| goniograms.get(number as usize));
+            fill_row(record, mean * goniogram.map_or(1.0, |goniogram| f64::from(goniogram.peak())), row);
+            row[field::GONIOGRAM] = f32::from_bits(record.goniogram.filter(|_| goniogram.is_some()).map_or(0, |number| number + 1));
+            fill_texture(image.map(|(place, _)| place), row);
+            let flags = row[field::FLAGS].to_bits();
+            if flags & (flag::SHAPED | flag::OPENING) != 0 || goniogram.is_some() || image.is_some() {
+                row[field::FLAGS] = f32::from_bits(flags | flag::VARIED);
+            }
+            if record.portal {
+                if record.kind == LightKind::Rectangle && row[field::DENSITY].is_finite() {
+                    portals.push(light as u32);
+                }
+                continue;
+            }
+            kinds |= 1 << record.kind as u32;
+            if record.kind.is_infinite() && row[field::FLAGS].to_bits() & (flag::LIT | flag::DELTA) == flag::LIT {
+                let (visible, scattered) = (record.visible_to_camera, record.visible_to_scattered);
+                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered });
+            }
+        }
+        let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Tree(LightTree::new(&rows)) };
+        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, goniograms: goniograms.to_vec(), portals }
+    }
+    /// Lights in the table.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+    /// Whether there is no light at all.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+    /// The lights at infinity.
+    pub fn at_infinity(&self) -> impl Iterator<Item = u32> + '_ {
+        self.infinite.iter().map(|infinite| infinite.light)
+    }
+    /// The group of a light whose samples are taken together: its kind, or itself where groups may be as many as lights.
+    pub fn group(&self, light: u32, one_by_one: bool) -> usize {
+        if one_by_one { light as usize } else { (self.rows[light as usize * ROW + field::FLAGS].to_bits() & flag::KIND) as usize }
+    }
+    /// Whether a light shines from all around.
+    pub fn is_dome(&self, light: u32) -> bool {
+        self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)
+    }
+    /// Whether some light is of this kind.
+    pub fn has(&self, kind: LightKind) -> bool {
+        self.kinds >> kind as u32 & 1 != 0
+    }
+    /// Whether lights differ in how they are sampled.
+    pub fn has_several_kinds(&self) -> bool {
+        self.kinds.count_ones() > 1
+    }
+    /// Whether camera rays see each lane's light.
+    #[inline(always)]
+    pub fn visible_to_camera<L: Lanes>(&self, l: L, light: U<L>) -> M<L> {
+        if self.count == 0 {
+            return l.m(false);
+        }
+        self.reader(l, light).flag(flag::VISIBLE)
+    }
+    /// Factors on diffuse and on specular reflection of each lane's light.
+    #[inline(always)]
+    pub fn multipliers<L: Lanes>(&self, l: L, light: U<L>) -> [F<L>; 2] {
+        if self.count == 0 {
+            return [l.f(1.0); 2];
+        }
+        let light = self.reader(l, light);
+        [light.value(field::DIFFUSE), light.value(field::SPECULAR)]
+    }
+    #[inline(always)]
+    pub(crate) fn reader<L: Lanes>(&self, l: L, light: U<L>) -> Reader<'_, L> {
+        Reader::new(l, &self.rows, light)
+    }
+}
+
+/// Mean luminance over an image.
+fn mean_luminance(image: &LightTexture) -> f64 {
+    let sum: f64 = image.rgb.as_chunks::<3>().0.iter().map(|c| super::build::luminance(*c)).filter(|y| y.is_finite()).sum();
+    sum / (image.width * image.height) as f64
+}
+
+fn fill_texture(placed: Option<Placed>, row: &mut [f32]) {
+    let Placed { first, width, height } = placed.unwrap_or(Placed { first: 0, width: 0, height: 0 });
+    row[field::TEXTURE] = f32::from_bits(first);
+    row[field::TEXTURE_WIDTH] = f32::from_bits(width);
+    row[field::TEXTURE_HEIGHT] = f32::from_bits(height);
+}

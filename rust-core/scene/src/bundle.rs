@@ -1,0 +1,87 @@
+//! Scene bundles: a JSON description and the bytes of its arrays in one file, rendered again without the host it came from.
+//!
+//! Layout: the line `gonio2`, a line with the lengths of both parts in bytes, the JSON, the arrays (little-endian) one behind the other.
+//! Textures stay files by path; those given in memory travel along.
+
+use super::{Scene, TextureSource, blob};
+use crate::{
+    atomic::write_atomically,
+    digest::Digest,
+    {Error, Result},
+};
+use gonio_image::texture::is_udim;
+use serde_json::Value;
+use std::{fs, io::Write, path::Path};
+
+const MAGIC: &str = "gonio2\n";
+
+/// Saves a scene.
+pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
+    let (json, arrays) = blob::collect(|| serde_json::to_vec(scene));
+    let json = json.map_err(|error| Error::io(path, std::io::Error::other(error)))?;
+    write_atomically(path, true, |file| {
+        file.write_all(MAGIC.as_bytes())?;
+        writeln!(file, "{} {}", json.len(), arrays.len())?;
+        file.write_all(&json)?;
+        file.write_all(&arrays)
+    })
+}
+
+/// The scene with the bytes of its image files in memory; files that cannot be read stay names, as the picture is made without them.
+///
+/// Sets of UDIM tiles have no place in memory: they are an error.
+pub fn with_images(scene: &Scene) -> Result<Scene> {
+    let mut scene = scene.clone();
+    for texture in &mut scene.textures {
+        let TextureSource::File(path) = &texture.source else { continue };
+        let name = path.to_string_lossy().into_owned();
+        if is_udim(&name) {
+            return Err(Error::scene(&texture.origin, format!("{name} is a set of UDIM tiles, which cannot travel along")));
+        }
+        if let Ok(bytes) = fs::read(path) {
+            texture.source = TextureSource::Encoded { name, bytes: bytes.into() };
+        }
+    }
+    Ok(scene)
+}
+
+/// Loads a scene.
+pub fn load_bundle(path: &Path) -> Result<Scene> {
+    let bytes = fs::read(path).map_err(|error| Error::io(path, error))?;
+    let broken = |problem: &str| Error::Format { path: path.to_owned(), line: None, problem: problem.to_owned() };
+    let body = bytes.strip_prefix(MAGIC.as_bytes()).ok_or_else(|| broken("this is not a gonio bundle: its first line is not 'gonio2'"))?;
+    let end = body.iter().position(|byte| *byte == b'\n').ok_or_else(|| broken("the line of lengths is missing"))?;
+    let lengths = std::str::from_utf8(&body[..end]).ok().and_then(|line| line.split_once(' '));
+    let lengths = lengths.and_then(|(json, arrays)| Some((json.parse::<usize>().ok()?, arrays.parse::<usize>().ok()?)));
+    let (json, arrays) = lengths.ok_or_else(|| broken("the second line does not hold two lengths"))?;
+    let parts = &body[end + 1..];
+    if json.checked_add(arrays) != Some(parts.len()) {
+        return Err(broken(&format!("{} bytes were found, expected {json} of description and {arrays} of arrays", parts.len())));
+    }
+    let (json, arrays) = parts.split_at(json);
+    blob::supply(arrays.to_vec(), || serde_json::from_slice(json)).map_err(|error| broken(&error.to_string()))
+}
+
+/// A digest of a scene without its settings; of files that it names only the names are in it.
+///
+/// Where elements come from is left out: USD numbers the prototypes of instances otherwise each time that a stage is opened.
+pub fn digest_scene(scene: &Scene) -> Digest {
+    let parts = (&scene.meshes, &scene.instances, &scene.materials, &scene.textures, &scene.measured, &scene.lights, &scene.cameras);
+    let (json, mut digest) = blob::digest(|| serde_json::to_value(parts));
+    // Descriptions that cannot be written differ from all others in their arrays.
+    let mut json = json.unwrap_or_default();
+    leave_out_origins(&mut json);
+    digest.add(json.to_string().as_bytes());
+    digest
+}
+
+fn leave_out_origins(json: &mut Value) {
+    match json {
+        Value::Object(fields) => {
+            fields.remove("origin");
+            fields.values_mut().for_each(leave_out_origins);
+        }
+        Value::Array(values) => values.iter_mut().for_each(leave_out_origins),
+        _ => {}
+    }
+}

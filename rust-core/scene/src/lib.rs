@@ -1,0 +1,150 @@
+//! The scene description: what is to be rendered, as plain data.
+//!
+//! Front ends fill a [`Scene`]; nothing here knows how it is computed. Lengths are metres, transforms f64, colours linear Rec.709,
+//! radiances scaled so that their luminance is in cd/m².
+
+mod antialiasing;
+mod aov;
+mod atomic;
+mod blob;
+mod bundle;
+mod camera;
+mod digest;
+pub mod error;
+mod goniogram;
+mod graph;
+mod instance;
+mod light;
+mod light_quantity;
+mod material;
+mod measured;
+mod mesh;
+mod meter;
+mod origin;
+mod settings;
+mod texture;
+mod transform;
+
+pub use antialiasing::Antialiasing;
+pub use aov::{Aov, LightPart, OTHER_LIGHTS, ScatteringKind, ShaderValue};
+pub use atomic::{write_atomically, write_through};
+pub use bundle::digest_scene;
+pub use bundle::{load_bundle, save_bundle, with_images};
+pub use camera::{Camera, CameraExposure, Projection};
+pub use digest::{Digest, Digesting};
+pub use error::{Diagnostic, Error, Result, Severity};
+pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
+pub use goniogram::Goniogram;
+pub use graph::{Channel, Graph, Input, Node, NodeId, Operation, OutputKind, Quantity, Space};
+pub use instance::{Instances, Visibility};
+pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
+pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
+pub use material::{Closure, Distribution, Material, Model, ShaderOutput, SubsurfaceMethod};
+pub use measured::MeasuredBsdf;
+pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
+pub use meter::{Grid, GridArea, Measurand, Meter};
+pub use origin::Origin;
+pub use settings::{Background, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
+pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
+pub use transform::Transform;
+
+use serde::{Deserialize, Serialize};
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        pub struct $name(pub u32);
+        impl $name {
+            /// The place in the scene's list.
+            #[inline]
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+id!(
+    /// A mesh of the scene.
+    MeshId
+);
+id!(
+    /// A material of the scene.
+    MaterialId
+);
+id!(
+    /// A texture of the scene.
+    TextureId
+);
+id!(
+    /// A measured BSDF of the scene.
+    MeasuredId
+);
+
+/// Everything that is rendered.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Scene {
+    /// Triangle meshes, shared by instances.
+    pub meshes: Vec<Mesh>,
+    /// Placed meshes.
+    pub instances: Vec<Instances>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Images.
+    pub textures: Vec<Texture>,
+    /// Measured BSDFs, shared by closures.
+    #[serde(default)]
+    pub measured: Vec<MeasuredBsdf>,
+    /// Light sources other than emissive materials.
+    pub lights: Vec<Light>,
+    /// Cameras; [`Settings::camera`] chooses one.
+    pub cameras: Vec<Camera>,
+    /// Points at which light is measured.
+    #[serde(default)]
+    pub meters: Vec<Meter>,
+    /// Calculation grids.
+    #[serde(default)]
+    pub grids: Vec<Grid>,
+    /// How it is rendered.
+    pub settings: Settings,
+}
+
+impl Scene {
+    /// Names of the light groups, that of all lights that are in none the last one.
+    pub fn light_groups(&self) -> Vec<String> {
+        let named = self.lights.iter().map(|light| &light.group).chain(self.instances.iter().map(|set| &set.light_group));
+        let mut names: Vec<String> = Vec::new();
+        for name in named.filter(|name| !name.is_empty() && *name != OTHER_LIGHTS) {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        names.push(OTHER_LIGHTS.to_owned());
+        names
+    }
+
+    /// Adds a mesh.
+    pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.meshes.push(mesh);
+        MeshId(id_of(self.meshes.len()))
+    }
+    /// Adds a material.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(id_of(self.materials.len()))
+    }
+    /// Adds a texture.
+    pub fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(id_of(self.textures.len()))
+    }
+    /// Adds a measured BSDF.
+    pub fn add_measured(&mut self, measured: MeasuredBsdf) -> MeasuredId {
+        self.measured.push(measured);
+        MeasuredId(id_of(self.measured.len()))
+    }
+}
+
+fn id_of(len: usize) -> u32 {
+    u32::try_from(len - 1).expect("a scene has fewer than 2^32 elements of a kind")
+}

@@ -1,0 +1,93 @@
+//! What tells denoisers noise from detail: albedo and normal of the first surface that is not a mirror or smooth glass, seen in mirrors
+//! and through glass, and the light that the camera sees as sharply. Camera rays of their own find it, more than samples where these are
+//! few: they end where light would have to be sampled, and are followed on all sharp ways, so that they cost little and agree.
+//!
+//! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
+
+use super::{
+    flag,
+    path::Tracer,
+    scatter::add_rgb,
+    shade::{Point, Stage},
+    transport::{FirstPasses, Sight, Transport},
+    workspace::Workspace,
+};
+use gonio_bsdf::Lobes;
+use gonio_camera::sampler::{BATCH, Runs};
+use gonio_simd::{Lanes, M, Rgb, U};
+use std::ops::Range;
+
+/// What makes the random numbers of sharp rays others than those of samples.
+const SEED: u32 = 0x5f35_6495;
+
+/// Adds what the paths of a pixel meet first that scatters more than sharply; colours of what is on the way count.
+#[inline(always)]
+pub(super) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &Lobes<'_, L>, present: M<L>, ws: &mut Workspace) {
+    if !stage.transport.passes.guides || stage.transport.sight == Sight::Blurred {
+        return;
+    }
+    let seen = present.and_not(point.only_delta) & is_sharp(point.flags, point.slot);
+    if !seen.any() {
+        return;
+    }
+    let [albedo, normal] = &mut ws.first_hit.guides;
+    add_rgb(albedo, point.slot, lobes.albedo() * point.throughput, seen);
+    add_rgb(normal, point.slot, (point.frame.z * point.throughput.max_component()).into(), seen);
+}
+
+/// Keeps what is seen sharply of the light that paths have met, and gives where it counts.
+#[inline(always)]
+pub(super) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, value: Rgb<L>, arrives: M<L>, ws: &mut Workspace) -> M<L> {
+    if !transport.passes.guides {
+        return arrives;
+    }
+    let sharp = arrives & is_sharp(flags, slot);
+    // Of what samples find by themselves, trees of rays alone have no noise.
+    if transport.draws.is_some() {
+        add_rgb(&mut ws.first_hit.sharp, slot, value, sharp);
+    }
+    match transport.sight {
+        Sight::Whole => arrives,
+        Sight::Sharp => sharp,
+        Sight::Blurred => arrives.and_not(sharp),
+    }
+}
+
+/// Whether a pixel's path has met nothing yet but mirrors and smooth glass.
+#[inline(always)]
+pub(super) fn is_sharp<L: Lanes>(flags: U<L>, slot: U<L>) -> M<L> {
+    (flags & flag::MEASURED).eq(0) & slot.lt(BATCH as u32)
+}
+
+impl Tracer<'_> {
+    /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples
+    /// themselves must have been traced with [`Sight::Blurred`].
+    pub fn trace_sharp(
+        &self,
+        [min, max]: [[u32; 2]; 2],
+        zones: u64,
+        samples: Range<u32>,
+        rays: u32,
+        ws: &mut Workspace,
+        cancelled: &dyn Fn() -> bool,
+    ) {
+        let own = &self.transport;
+        let transport = Transport {
+            passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
+            measure: false,
+            sight: Sight::Sharp,
+            draws: Some([].into()),
+            // Paths see what emits beyond the last bounce.
+            max_bounces: own.max_bounces.saturating_add(1),
+            seed: own.seed ^ SEED,
+            samples: own.samples.saturating_mul(rays),
+            ..own.clone()
+        };
+        let tracer = Tracer { tables: self.tables, start: self.start, transport };
+        ws.start_sharp(&tracer.transport);
+        for runs in Runs::batches(zones, samples.start * rays..samples.end * rays).take_while(|_| !cancelled()) {
+            tracer.trace(min, max, &runs, ws, cancelled);
+        }
+        ws.end_sharp(rays);
+    }
+}

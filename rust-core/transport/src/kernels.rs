@@ -1,0 +1,186 @@
+//! The large kernels as functions of their own.
+//!
+//! Inlined at every call they would make stages of a hundred thousand instructions, which compile for minutes and run no faster: a call costs
+//! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
+//!
+//! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
+//! Points that many branches read go by reference down to them: as values they would be stored once more for all branches together.
+
+use super::{
+    light_draws::draw_chunk,
+    material::Tables,
+    shade::Stage,
+    surface::{ChunkSource, HitSource, surface_chunk},
+    workspace::Workspace,
+};
+use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
+use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
+use gonio_light::{Draw, KnownLights, LightSample};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// [`Surface::transmittance`].
+#[inline(never)]
+pub(super) fn transmittance<L: Lanes>(
+    l: L,
+    surface: &Surface,
+    values: &ParameterValues<'_>,
+    at: usize,
+    wo: Vec3<L>,
+    entering: M<L>,
+) -> Rgb<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.transmittance(l, values, at, wo, entering),
+    )
+}
+
+/// [`Lobes::eval_diffuse`].
+#[inline(never)]
+pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.eval_diffuse(l, wo, wi),
+    )
+}
+
+/// [`Lobes::sample`].
+#[inline(never)]
+pub fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sample(l, wo, u),
+    )
+}
+
+/// [`Lobes::sharp`].
+#[inline(never)]
+pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sharp(l, wo),
+    )
+}
+
+/// [`gonio_light::LightTable::take`].
+#[inline(never)]
+pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.take(l, draw, p, n),
+    )
+}
+
+/// [`gonio_light::LightTable::sample`].
+#[inline(never)]
+pub fn sample_light<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    known: Option<&KnownLights>,
+    p: &Vec3<L>,
+    n: &Vec3<L>,
+    u: &[F<L>; 3],
+) -> LightSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.sample(l, known, p, n, u[0], &[u[1], u[2]]),
+    )
+}
+
+/// [`super::light_draws::draw_chunk`].
+#[inline(never)]
+pub(super) fn draw_lights<L: Lanes>(l: L, stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
+    l.vectorize(
+        #[inline(always)]
+        || draw_chunk(stage, first, ws),
+    );
+}
+
+/// A point on a light that a ray met.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightHit<L: Lanes> {
+    pub(super) light: U<L>,
+    pub(super) from: Vec3<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) point: Vec3<L>,
+}
+
+/// [`gonio_light::LightTable::eval_hit`].
+#[inline(never)]
+pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.eval_hit(l, known, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+    )
+}
+
+/// [`gonio_light::LightTable::escaped`].
+#[inline(never)]
+#[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
+pub(super) fn surroundings<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    known: Option<&KnownLights>,
+    vertex: [Vec3<L>; 2],
+    direction: Vec3<L>,
+    pdf: F<L>,
+    first_and_delta: [M<L>; 2],
+    only: Option<u32>,
+) -> Rgb<L> {
+    l.vectorize(
+        #[inline(always)]
+        || tables.lights.escaped(l, known, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
+    )
+}
+
+/// [`super::surface::surface_chunk`].
+#[inline(never)]
+pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    out: &mut SurfaceColumns,
+) {
+    l.vectorize(
+        #[inline(always)]
+        || surface_chunk(l, tables, program, hits, source, out),
+    );
+}
+
+/// [`graph::evaluate`].
+#[inline(never)]
+pub(super) fn evaluate<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    points: &mut SurfaceColumns,
+    count: usize,
+    scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
+) {
+    l.vectorize(
+        #[inline(always)]
+        || graph::evaluate(l, program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
+    );
+}
+
+/// Surface points of a chunk of hits, and what a program computes there.
+#[expect(clippy::too_many_arguments, reason = "hits, scratch and results")]
+#[inline(always)]
+pub(super) fn run_program<L: Lanes, H: HitSource + ?Sized>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    surface: &mut SurfaceColumns,
+    scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
+) {
+    surface_points(l, tables, program, hits, source, surface);
+    if !program.is_empty() {
+        evaluate(l, tables, program, surface, source.count, scratch, outputs);
+    }
+}

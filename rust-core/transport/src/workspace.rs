@@ -1,0 +1,92 @@
+//! The state of a batch of paths, in columns.
+
+use super::{
+    first_hit::FirstHit, light_draws::LightDraws, light_sums::code, material::Tables, measure_points::MeasurePoints, paths::Paths,
+    retraced::RetracedRays, shadow_order::ShadowOrder, shadow_rays::ShadowRays, statistics::Statistics, subsurface::Walks,
+    transport::Transport, whitted::Branches,
+};
+use crate::graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns};
+use gonio_accel::{Hits, PassedHit};
+use gonio_light::Arrival;
+
+/// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    pub(super) paths: Paths,
+    pub(super) next: Paths,
+    pub(super) branches: Branches,
+    pub(super) hits: Hits,
+    pub(super) retraced: Hits,
+    pub(super) retraced_rays: RetracedRays,
+    pub(super) light_draws: LightDraws,
+    pub(super) shadows: ShadowRays,
+    pub(super) shadow_order: ShadowOrder,
+    /// Light that arrived, where it is to be learned from.
+    pub arrivals: Option<Vec<Arrival>>,
+    pub(super) blocked: Vec<u8>,
+    pub(super) passed: Vec<PassedHit>,
+    pub(super) measure: MeasurePoints,
+    pub(super) walks: Walks,
+    pub(super) walk_hits: Hits,
+    /// Walks that reached the surface.
+    pub(super) out: Vec<u32>,
+    /// Path numbers in the order of their materials, and where each material's begin and end.
+    pub(super) order: Vec<u32>,
+    pub(super) material_start: Vec<u32>,
+    pub(super) material_end: Vec<u32>,
+    pub(super) material_of: Vec<u32>,
+    /// Mixes and the paths at them.
+    pub(super) mixed: Vec<(u32, u32)>,
+    /// Weights of a mix over a chunk, three channels a closure.
+    pub(super) weights: Vec<f32>,
+    pub(super) escaped: Vec<u32>,
+    pub(super) at_lights: Vec<u32>,
+    pub(super) surface: SurfaceColumns,
+    pub(super) scratch: GraphScratch,
+    pub(super) outputs: OutputColumns,
+    /// What programs of shader passes computed.
+    pub(super) shader_outputs: OutputColumns,
+    /// The block under way.
+    pub first_hit: FirstHit,
+    /// The same of rays that see sharply alone.
+    pub(super) sharp_hit: FirstHit,
+    /// Rays traced and lanes alive, for benchmarks.
+    pub statistics: Statistics,
+}
+
+impl Workspace {
+    /// Slots of the rays at hand, and what they have hit.
+    pub fn hits_by_slot(&self) -> (impl Iterator<Item = u32>, &Hits) {
+        ((0..self.paths.count).map(|path| self.paths.slot(path)), &self.hits)
+    }
+
+    /// Lets rays that see sharply alone have sums of their own.
+    pub(super) fn start_sharp(&mut self, transport: &Transport) {
+        self.branches.prepare(transport);
+        self.sharp_hit.clear();
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+    }
+
+    /// Adds what they saw to the block, so many of them counting as one sample.
+    pub(super) fn end_sharp(&mut self, rays: u32) {
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+        self.first_hit.add_sharp(&self.sharp_hit, 1.0 / rays as f32);
+    }
+
+    /// Empties the block's sums, and makes room for those that passes want.
+    pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
+        self.branches.prepare(transport);
+        for sums in [&mut self.first_hit, &mut self.sharp_hit] {
+            sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
+            sums.groups.prepare(transport.passes.groups.count);
+            sums.prepare_passes(&transport.passes);
+        }
+        self.first_hit.shader.prepare(&transport.passes.shader);
+        if !tables.geometry.set_catcher.is_empty() {
+            self.first_hit.prepare_catchers();
+        }
+        self.first_hit.clear();
+    }
+}
+
+const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));
