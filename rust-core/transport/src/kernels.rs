@@ -6,21 +6,18 @@
 //! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
 //! Points that many branches read go by reference down to them: as values they would be stored once more for all branches together.
 
-use super::{
-    light_draws::draw_chunk,
-    material::Tables,
-    shade::Stage,
-    surface::{ChunkSource, HitSource, surface_chunk},
-    workspace::Workspace,
-};
 use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
+use crate::stage::surface::ChunkSource;
+use crate::stage::surface::HitSource;
+use crate::stage::surface::surface_chunk;
+use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
 use gonio_light::{Draw, KnownLights, LightSample};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// [`Surface::transmittance`].
 #[inline(never)]
-pub(super) fn transmittance<L: Lanes>(
+pub(crate) fn transmittance<L: Lanes>(
     l: L,
     surface: &Surface,
     values: &ParameterValues<'_>,
@@ -36,7 +33,7 @@ pub(super) fn transmittance<L: Lanes>(
 
 /// [`Lobes::eval_diffuse`].
 #[inline(never)]
-pub(super) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+pub(crate) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.eval_diffuse(l, wo, wi),
@@ -54,7 +51,7 @@ pub fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -
 
 /// [`Lobes::sharp`].
 #[inline(never)]
-pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
+pub(crate) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
     l.vectorize(
         #[inline(always)]
         || lobes.sharp(l, wo),
@@ -63,7 +60,7 @@ pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [Sharp
 
 /// [`gonio_light::LightTable::take`].
 #[inline(never)]
-pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+pub(crate) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
         || tables.lights.take(l, draw, p, n),
@@ -86,28 +83,19 @@ pub fn sample_light<L: Lanes>(
     )
 }
 
-/// [`super::light_draws::draw_chunk`].
-#[inline(never)]
-pub(super) fn draw_lights<L: Lanes>(l: L, stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
-    l.vectorize(
-        #[inline(always)]
-        || draw_chunk(stage, first, ws),
-    );
-}
-
 /// A point on a light that a ray met.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LightHit<L: Lanes> {
-    pub(super) light: U<L>,
-    pub(super) from: Vec3<L>,
-    pub(super) normal: Vec3<L>,
-    pub(super) direction: Vec3<L>,
-    pub(super) point: Vec3<L>,
+pub(crate) struct LightHit<L: Lanes> {
+    pub(crate) light: U<L>,
+    pub(crate) from: Vec3<L>,
+    pub(crate) normal: Vec3<L>,
+    pub(crate) direction: Vec3<L>,
+    pub(crate) point: Vec3<L>,
 }
 
 /// [`gonio_light::LightTable::eval_hit`].
 #[inline(never)]
-pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+pub(crate) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || tables.lights.eval_hit(l, known, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
@@ -117,7 +105,7 @@ pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLi
 /// [`gonio_light::LightTable::escaped`].
 #[inline(never)]
 #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-pub(super) fn surroundings<L: Lanes>(
+pub(crate) fn surroundings<L: Lanes>(
     l: L,
     tables: &Tables,
     known: Option<&KnownLights>,
@@ -135,7 +123,7 @@ pub(super) fn surroundings<L: Lanes>(
 
 /// [`super::surface::surface_chunk`].
 #[inline(never)]
-pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
+pub(crate) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
     l: L,
     tables: &Tables,
     program: &Program,
@@ -151,7 +139,7 @@ pub(super) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
 
 /// [`graph::evaluate`].
 #[inline(never)]
-pub(super) fn evaluate<L: Lanes>(
+pub(crate) fn evaluate<L: Lanes>(
     l: L,
     tables: &Tables,
     program: &Program,
@@ -169,7 +157,7 @@ pub(super) fn evaluate<L: Lanes>(
 /// Surface points of a chunk of hits, and what a program computes there.
 #[expect(clippy::too_many_arguments, reason = "hits, scratch and results")]
 #[inline(always)]
-pub(super) fn run_program<L: Lanes, H: HitSource + ?Sized>(
+pub(crate) fn run_program<L: Lanes, H: HitSource + ?Sized>(
     l: L,
     tables: &Tables,
     program: &Program,

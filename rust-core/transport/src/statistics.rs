@@ -36,13 +36,13 @@ pub struct Statistics {
 
 impl Statistics {
     /// Adds the time since `start` to a stage and gives the time now.
-    pub(super) fn spent(&mut self, stage: usize, start: Instant) -> Instant {
+    pub(crate) fn spent(&mut self, stage: usize, start: Instant) -> Instant {
         let now = Instant::now();
         self.time_ns[stage] += (now - start).as_nanos() as u64;
         now
     }
     /// Counts `alive` lanes of use among `run` at a depth.
-    pub(super) fn count_lanes(&mut self, depth: u32, stage: usize, run: usize, alive: usize) {
+    pub(crate) fn count_lanes(&mut self, depth: u32, stage: usize, run: usize, alive: usize) {
         let count = &mut self.lanes[(depth as usize).min(LANE_BOUNCES - 1)][stage];
         count.run += run as u64;
         count.alive += alive as u64;

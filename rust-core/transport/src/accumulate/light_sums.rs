@@ -1,0 +1,66 @@
+//! Radiance by where it comes from, for the passes of light.
+
+use crate::state::columns::add_scaled;
+use crate::state::columns::columns3;
+use gonio_camera::sampler::BATCH;
+use gonio_simd::{Column, Lanes, M, Rgb, U};
+
+/// What a contribution counts as. 0 to 2 are direct light by the kind of the first scattering.
+pub mod code {
+    /// From here on: indirect light by the kind of the first scattering.
+    pub const INDIRECT: u32 = 3;
+    /// Emission that the camera sees.
+    pub const EMISSION: u32 = 6;
+    /// Lights at infinity that the camera sees.
+    pub const ENVIRONMENT: u32 = 7;
+    /// From here on: albedos by kind.
+    pub const COLOUR: u32 = 8;
+    /// Number of codes that have sums.
+    pub const COUNT: usize = 11;
+    /// Direct light at the first surface, shared among the kinds by what each of them scatters.
+    pub const SHARED: u32 = 11;
+}
+
+/// Sums by pixel slot, one triple a code; empty where no pass asks for them.
+#[derive(Debug, Default)]
+pub struct LightSums {
+    parts: Vec<[Column; 3]>,
+}
+
+impl LightSums {
+    /// Makes room for so many sums, as many as a render's passes want.
+    pub fn prepare(&mut self, count: usize) {
+        self.parts.resize_with(count, || columns3(BATCH));
+    }
+    /// Whether anything is to be summed.
+    #[inline(always)]
+    pub fn wanted(&self) -> bool {
+        !self.parts.is_empty()
+    }
+    /// The sums of a code.
+    pub fn part(&self, code: u32) -> &[Column; 3] {
+        &self.parts[code as usize]
+    }
+    /// Adds other sums of the same codes, times a factor.
+    pub(crate) fn add_scaled(&mut self, other: &Self, factor: f32) {
+        self.parts.iter_mut().zip(&other.parts).for_each(|(to, from)| add_scaled(to, from, factor));
+    }
+    pub(crate) fn clear(&mut self) {
+        self.parts.iter_mut().flatten().for_each(|column| column.fill(0.0));
+    }
+    /// Adds to the sums of each chosen lane's code; slots of measured paths have none.
+    #[inline(always)]
+    pub(crate) fn add<L: Lanes>(&mut self, codes: U<L>, slot: U<L>, value: Rgb<L>, chosen: M<L>) {
+        let mut bits = (chosen & slot.lt(BATCH as u32)).bits();
+        let (codes, slots) = (codes.to_array(), slot.to_array());
+        let value = [value.r.to_array(), value.g.to_array(), value.b.to_array()];
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize;
+            let part = &mut self.parts[codes[lane] as usize];
+            for (column, value) in part.iter_mut().zip(&value) {
+                column[slots[lane] as usize] += value[lane];
+            }
+            bits &= bits - 1;
+        }
+    }
+}

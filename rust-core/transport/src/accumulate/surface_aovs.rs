@@ -1,0 +1,95 @@
+//! What is kept of the first surface a camera ray meets, and limits on contributions.
+
+use crate::accumulate::add::add;
+use crate::accumulate::add::add_rgb;
+use crate::accumulate::light_sums::code;
+use crate::accumulate::tile_sums::FirstHit;
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
+
+/// A contribution held to the user's limit for fireflies; zero means no limit.
+#[inline(always)]
+pub(crate) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
+    if limit > 0.0 {
+        let largest = value.max_component();
+        let over = largest.gt(limit);
+        let factor = over.select(largest.recip() * limit, largest.lanes().f(1.0));
+        value * factor
+    } else {
+        value
+    }
+}
+
+/// A first surface, by lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FirstSurface<L: Lanes> {
+    pub(crate) slot: U<L>,
+    /// How much of the camera ray's sample it is.
+    pub(crate) share: F<L>,
+    /// Whether it hides what is behind it.
+    pub(crate) covers: M<L>,
+    pub(crate) look: Option<SurfaceLook<L>>,
+    /// Instance set, and the pass indices of the instance and of the material.
+    pub(crate) numbers: Option<[U<L>; 3]>,
+    pub(crate) clearness: Option<F<L>>,
+    pub(crate) uv: Option<[F<L>; 2]>,
+    /// Albedos of the kinds of scattering.
+    pub(crate) kinds: Option<[Rgb<L>; 3]>,
+}
+
+/// Where a first surface is, and what it is like.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceLook<L: Lanes> {
+    pub(crate) depth: F<L>,
+    pub(crate) normal: Vec3<L>,
+    pub(crate) position: Vec3<L>,
+    pub(crate) albedo: Rgb<L>,
+}
+
+impl FirstHit {
+    /// Adds what the chosen lanes' camera rays met.
+    #[inline(always)]
+    pub(crate) fn record<L: Lanes>(&mut self, l: L, surface: &FirstSurface<L>, chosen: M<L>) {
+        if !chosen.any() {
+            return;
+        }
+        let (slot, share) = (surface.slot, surface.share);
+        add(&mut self.alpha, slot, share, chosen & surface.covers);
+        if let Some(look) = &surface.look {
+            add(&mut self.depth, slot, look.depth * share, chosen);
+            add_rgb(&mut self.normal, slot, (look.normal * share).into(), chosen);
+            add_rgb(&mut self.position, slot, (look.position * share).into(), chosen);
+            add_rgb(&mut self.albedo, slot, look.albedo * share, chosen);
+        }
+        if let Some(clearness) = surface.clearness {
+            add(&mut self.clearness, slot, clearness * share, chosen);
+        }
+        if let Some([u, v]) = surface.uv {
+            add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)) * share, chosen);
+        }
+        if let Some(kinds) = surface.kinds {
+            for (kind, colour) in kinds.into_iter().enumerate() {
+                self.lights.add(l.u(code::COLOUR + kind as u32), slot, colour * share, chosen);
+            }
+        }
+        if let Some([set, object, material]) = surface.numbers {
+            keep_first(&mut self.prim_id, slot, set, chosen);
+            keep_first(&mut self.object_index, slot, object, chosen);
+            keep_first(&mut self.material_index, slot, material, chosen);
+        }
+    }
+}
+
+/// Keeps a number, one higher, in slots that have none yet.
+#[inline(always)]
+fn keep_first<L: Lanes>(column: &mut Column<u32>, slot: U<L>, number: U<L>, chosen: M<L>) {
+    let (slots, numbers) = (slot.to_array(), number.to_array());
+    let mut bits = chosen.bits();
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize;
+        let known = &mut column[slots[lane] as usize];
+        if *known == 0 {
+            *known = numbers[lane] + 1;
+        }
+        bits &= bits - 1;
+    }
+}

@@ -1,0 +1,145 @@
+//! Sums of what the camera sees first.
+
+use crate::accumulate::catcher_sums::CatcherSums;
+use crate::accumulate::light_sums::LightSums;
+use crate::accumulate::shader_sums::ShaderSums;
+use crate::state::columns::Columns3;
+use crate::state::columns::add_scaled;
+use crate::state::columns::columns3;
+use crate::tables::transport::FirstPasses;
+use gonio_camera::sampler::BATCH;
+use gonio_simd::Column;
+
+/// What the camera sees first, by pixel slot; sums over the samples of a block. Columns that no pass wants are empty.
+#[derive(Debug)]
+pub struct FirstHit {
+    /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second, then that of shadow catchers.
+    pub radiance: Columns3,
+    /// Coverage.
+    pub alpha: Column,
+    /// Distance along the camera's axis, metres.
+    pub depth: Column,
+    /// Shading normals, world space.
+    pub normal: Columns3,
+    /// Positions, world space, not rebased.
+    pub position: Columns3,
+    /// Albedos.
+    pub albedo: Columns3,
+    /// Albedo and normal for denoisers.
+    pub guides: [Columns3; 2],
+    /// Instance sets; of the block's first sample that met one, plus one, zero for none.
+    pub prim_id: Column<u32>,
+    /// Pass indices of instances and of materials, kept like `prim_id`.
+    pub object_index: Column<u32>,
+    /// See `object_index`.
+    pub material_index: Column<u32>,
+    /// Texture coordinates.
+    pub uv: Columns3,
+    /// What the mist leaves.
+    pub clearness: Column,
+    /// Camera rays, of pixels that have a number of their own.
+    pub rays: Column,
+    /// What of the radiance the camera sees sharply: straight, in mirrors and through smooth glass.
+    pub sharp: Columns3,
+    /// Light by where it comes from.
+    pub lights: LightSums,
+    /// Light by its group.
+    pub groups: LightSums,
+    /// What materials show in passes of their own.
+    pub shader: ShaderSums,
+    /// What shadow catchers hide; empty where there are none.
+    pub catchers: CatcherSums,
+}
+
+impl Default for FirstHit {
+    fn default() -> Self {
+        Self {
+            radiance: columns3(2 * BATCH),
+            alpha: Column::new(BATCH),
+            depth: Column::new(BATCH),
+            normal: Columns3::default(),
+            position: Columns3::default(),
+            albedo: Columns3::default(),
+            guides: Default::default(),
+            prim_id: Column::new(BATCH),
+            object_index: Column::new(BATCH),
+            material_index: Column::new(BATCH),
+            uv: Columns3::default(),
+            clearness: Column::new(BATCH),
+            rays: Column::new(BATCH),
+            sharp: Columns3::default(),
+            lights: LightSums::default(),
+            groups: LightSums::default(),
+            shader: ShaderSums::default(),
+            catchers: CatcherSums::default(),
+        }
+    }
+}
+
+impl FirstHit {
+    /// Makes room for what passes want, and for nothing else.
+    pub(crate) fn prepare_passes(&mut self, passes: &FirstPasses) {
+        let [albedo, normal] = &mut self.guides;
+        for (columns, wanted) in [
+            (&mut self.normal, passes.surface),
+            (&mut self.position, passes.surface),
+            (&mut self.albedo, passes.surface),
+            (&mut self.uv, passes.uv),
+            (&mut self.sharp, passes.guides),
+            (albedo, passes.guides),
+            (normal, passes.guides),
+        ] {
+            let room = if wanted { BATCH } else { 0 };
+            if columns[0].len() != room {
+                *columns = columns3(room);
+            }
+        }
+    }
+
+    /// Makes room for the sums of shadow catchers.
+    pub fn prepare_catchers(&mut self) {
+        if self.catchers.is_empty() {
+            self.radiance = columns3(4 * BATCH);
+            self.catchers.prepare();
+        }
+    }
+
+    /// Sets radiance and coverage of a slot, and of how many camera rays they are made.
+    pub fn set_pixel(&mut self, slot: usize, [red, green, blue, coverage]: [f32; 4], rays: u32) {
+        for (column, value) in self.radiance.iter_mut().zip([red, green, blue]) {
+            column[slot] = value;
+        }
+        (self.alpha[slot], self.rays[slot]) = (coverage, rays as f32);
+    }
+
+    /// Takes what other camera rays saw sharply, of which each counts as `factor` of one.
+    pub(crate) fn add_sharp(&mut self, rays: &Self, factor: f32) {
+        add_scaled(&mut self.radiance, &rays.radiance, factor);
+        add_scaled(&mut self.sharp, &rays.sharp, factor);
+        self.guides.iter_mut().zip(&rays.guides).for_each(|(to, from)| add_scaled(to, from, factor));
+        self.lights.add_scaled(&rays.lights, factor);
+        self.groups.add_scaled(&rays.groups, factor);
+    }
+
+    /// Empties the sums of radiance and coverage, for those who look at nothing else.
+    pub fn clear_colour(&mut self) {
+        self.radiance.iter_mut().chain([&mut self.alpha]).for_each(|column| column.fill(0.0));
+    }
+
+    /// Empties all sums.
+    pub fn clear(&mut self) {
+        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.sharp];
+        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays];
+        threes
+            .into_iter()
+            .chain(&mut self.guides)
+            .flatten()
+            .chain(ones)
+            .chain(&mut self.shader.columns)
+            .chain(self.catchers.columns())
+            .for_each(|column| column.fill(0.0));
+        [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
+        self.lights.clear();
+        self.groups.clear();
+    }
+}

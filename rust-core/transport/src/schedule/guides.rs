@@ -1,0 +1,45 @@
+//! Camera rays of their own that find what mirrors and smooth glass show, for denoisers.
+
+use crate::schedule::path::Tracer;
+use crate::state::workspace::Workspace;
+use crate::tables::transport::FirstPasses;
+use crate::tables::transport::Sight;
+use crate::tables::transport::Transport;
+use gonio_camera::sampler::Runs;
+use std::ops::Range;
+
+/// What makes the random numbers of sharp rays others than those of samples.
+const SEED: u32 = 0x5f35_6495;
+
+impl Tracer<'_> {
+    /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples
+    /// themselves must have been traced with [`Sight::Blurred`].
+    pub fn trace_sharp(
+        &self,
+        [min, max]: [[u32; 2]; 2],
+        zones: u64,
+        samples: Range<u32>,
+        rays: u32,
+        ws: &mut Workspace,
+        cancelled: &dyn Fn() -> bool,
+    ) {
+        let own = &self.transport;
+        let transport = Transport {
+            passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
+            measure: false,
+            sight: Sight::Sharp,
+            draws: Some([].into()),
+            // Paths see what emits beyond the last bounce.
+            max_bounces: own.max_bounces.saturating_add(1),
+            seed: own.seed ^ SEED,
+            samples: own.samples.saturating_mul(rays),
+            ..own.clone()
+        };
+        let tracer = Tracer { tables: self.tables, start: self.start, transport };
+        ws.start_sharp(&tracer.transport);
+        for runs in Runs::batches(zones, samples.start * rays..samples.end * rays).take_while(|_| !cancelled()) {
+            tracer.trace(min, max, &runs, ws, cancelled);
+        }
+        ws.end_sharp(rays);
+    }
+}

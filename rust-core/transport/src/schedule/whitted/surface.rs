@@ -1,0 +1,180 @@
+//! Shading the points of a tree: lit by all draws, and left on all sharp ways.
+
+use crate::geometry::spawn;
+use crate::kernels;
+use crate::stage::nee::send;
+use crate::stage::scatter::straight_left;
+use crate::stage::scatter::within;
+use crate::stage::shade::meet;
+use crate::stage::shade::show;
+use crate::state::event;
+use crate::state::flag;
+use crate::state::paths::PathLanes;
+use crate::state::vertex::Point;
+use crate::state::vertex::Stage;
+use crate::state::workspace::Workspace;
+use crate::tables::material::SurfaceMaterial;
+use crate::tables::material::threshold;
+use crate::tables::transport::Sight;
+use gonio_bsdf::{Lobes, Way};
+use gonio_camera::sampler::dimension;
+use gonio_light::Draw;
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// Rays that would bring less than this share of what they find end: half an 8-bit step of white at most.
+const LEAST_THROUGHPUT: f32 = 1.0 / 512.0;
+/// The same where rays that bring less end by chance and others stand for them.
+const LEAST_SHARP: f32 = 1.0 / 16.0;
+
+/// A ray that leaves a point.
+struct Branch<L: Lanes> {
+    way: Way,
+    wi: Vec3<L>,
+    throughput: Rgb<L>,
+    /// How much of a camera ray's sample it stands for, where the camera still sees what it meets.
+    share: F<L>,
+}
+
+/// Lights a register of points and sends their sharp rays.
+#[expect(clippy::too_many_arguments, reason = "a surface and what lights it")]
+#[inline(always)]
+pub(crate) fn shade_lanes<L: Lanes>(
+    stage: &Stage<'_, L>,
+    material: &SurfaceMaterial,
+    point: &mut Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<'_, L>,
+    draws: &[Draw],
+    at: usize,
+    ws: &mut Workspace,
+) {
+    let Stage { l, transport, .. } = *stage;
+    let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Rgb::zero(l), share: l.f(0.0) };
+    let mut present = point.alive;
+    if material.surface.lobes.cut_out {
+        present &= part_from_open(material, point, lobes, &mut straight);
+    }
+    let present = show(stage, material, point, lobes, present, at, ws);
+    let [smooth, lit] = meet(stage, point, lobes, present, ws);
+    if (smooth & lit).any() {
+        light(stage, point, wo, lobes, draws, lit & smooth, ws);
+    }
+    let present = if transport.sight == Sight::Sharp { present & point.only_delta } else { present };
+    for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, wo)) {
+        let throughput = (point.throughput * ray.weight).keep_if(present);
+        if way == Way::Straight {
+            straight.throughput += throughput;
+            // A pane has been seen itself.
+            straight.share += if material.surface.lobes.straight { point.share.keep_if(present) } else { l.f(0.0) };
+        } else {
+            let going_on = point.bounces.lt(transport.max_bounces) & within(point.counts, transport.kind_bounces);
+            let wi = point.frame.to_world(ray.wi).normalize();
+            branch(stage, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, ws);
+        }
+    }
+    branch(stage, point, &straight, straight_left(point.counts, transport), ws);
+}
+
+/// Parts what opacity leaves open from what is there, and tells where something is.
+#[inline(always)]
+fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Point<L>, lobes: &Lobes<'_, L>, open: &mut Branch<L>) -> M<L> {
+    let opacity = threshold(lobes.opacity(), material.opacity_threshold).saturate();
+    open.throughput = (point.throughput * (1.0 - opacity)).keep_if(point.alive);
+    open.share = point.share * (1.0 - opacity);
+    point.throughput = point.throughput * opacity;
+    point.share *= opacity;
+    opacity.gt(0.0)
+}
+
+/// Takes every draw at each point.
+#[inline(always)]
+fn light<L: Lanes>(
+    stage: &Stage<'_, L>,
+    point: &Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<'_, L>,
+    draws: &[Draw],
+    lit: M<L>,
+    ws: &mut Workspace,
+) {
+    let Stage { l, tables, .. } = *stage;
+    let (mut reached, mut before) = (lit, None);
+    for draw in draws {
+        if !draw.follows(before) {
+            reached = lit & tables.lights.reaches(l, draw, point.position, point.frame.z);
+        }
+        before = Some(draw);
+        if reached.any() {
+            let sample = kernels::take_draw(l, tables, draw, &point.position, &point.frame.z);
+            send(stage, point, wo, lobes, &sample, Some(draw.share), reached, ws);
+        }
+    }
+}
+
+/// Appends the rays of a way that are worth following.
+#[inline(always)]
+fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goes: M<L>, ws: &mut Workspace) {
+    let Branch { way, wi, throughput, share } = *ray;
+    let (throughput, worth) = worth(stage, point, way, throughput);
+    // A direction on the other side of the triangle than of the shading normal would leak light.
+    let across = point.geometric.dot(wi).lt(0.0);
+    let consistent = if matches!(way, Way::Mirrored | Way::Coat) { !across } else { across };
+    let alive = goes & consistent & worth;
+    if !alive.any() {
+        return;
+    }
+    let l = stage.l;
+    let counted = match way {
+        Way::Mirrored | Way::Coat => 1 << 8,
+        Way::Refracted => 1 << 16,
+        Way::Straight => 1 << 24,
+    };
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, wi),
+        direction: wi,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex: point.position,
+        normal: point.frame.z,
+        throughput,
+        pdf: share,
+        width: point.width,
+        spread: point.spread,
+        slot: point.slot,
+        flags: flags(l, stage.transport.sight, point, way),
+        counts: point.counts + counted,
+        medium: if way == Way::Refracted { point.behind } else { point.medium },
+    };
+    ws.branches.ways[way as usize].append(&state, alive);
+}
+
+/// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of
+/// it stand for others like them by chance.
+#[inline(always)]
+fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
+    let Stage { l, transport, context, .. } = *stage;
+    let brightest = throughput.max_component();
+    let usable = brightest.gt(0.0) & brightest.is_finite();
+    if transport.sight != Sight::Sharp {
+        return (throughput, usable & brightest.ge(LEAST_THROUGHPUT));
+    }
+    let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + way as u32;
+    let [chance, _] = context.sampler.pair(l, context.index(l, point.slot), dimension);
+    let survival = (brightest * LEAST_SHARP.recip()).min(1.0);
+    (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
+}
+
+/// What a ray has met once it has gone this way.
+#[inline(always)]
+fn flags<L: Lanes>(l: L, sight: Sight, point: &Point<L>, way: Way) -> U<L> {
+    let all_sharp = if sight == Sight::Sharp { l.m(true) } else { point.only_delta };
+    let measured = all_sharp.select(l.u(0), l.u(flag::MEASURED));
+    let kind = match way {
+        Way::Mirrored | Way::Coat => event::GLOSSY,
+        Way::Refracted => event::TRANSMISSION,
+        Way::Straight => return point.flags | measured,
+    };
+    let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.flags & (3 << flag::FIRST_SHIFT));
+    let before = (point.flags & flag::MEASURED) | measured | first;
+    before | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
+}

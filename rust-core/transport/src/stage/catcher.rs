@@ -1,0 +1,136 @@
+//! Shadow catchers. A path whose camera ray meets one splits: one half goes through the scene as it is, the other through a scene of catchers
+//! alone. The film compares what both bring. Both draw the same numbers, so that they differ by what the objects do and by little else.
+//!
+//! Slots tell the halves apart from there on: behind those of pixels and of measured points lie those of either half.
+
+use crate::accumulate::add::add;
+use crate::accumulate::add::add_rgb;
+use crate::accumulate::surface_aovs::clamped;
+use crate::kernels;
+use crate::state::flag;
+use crate::state::paths::Paths;
+use crate::state::shadow_rays::ShadowRays;
+use crate::state::vertex::Point;
+use crate::state::vertex::Stage;
+use crate::state::workspace::Workspace;
+use crate::tables::Tables;
+use crate::tables::ray_mask;
+use gonio_accel::NONE;
+use gonio_camera::sampler::{BATCH, pixel};
+use gonio_simd::{Lanes, M, Rgb, U};
+
+/// First slot of the halves that see all of the scene.
+const WHOLE: u32 = 2 * BATCH as u32;
+/// First slot of the halves that see catchers alone.
+const ALONE: u32 = 3 * BATCH as u32;
+
+/// Splits the paths whose camera rays met a catcher.
+pub(crate) fn split(tables: &Tables, ws: &mut Workspace) {
+    let geometry = &tables.geometry;
+    if geometry.set_catcher.is_empty() {
+        return;
+    }
+    for path in 0..ws.paths.count {
+        let instance = ws.hits.instance[path];
+        if instance == NONE || ws.paths.flags(path) & flag::CAMERA == 0 {
+            continue;
+        }
+        if geometry.set_catcher[geometry.instances[instance as usize].set as usize] != 0 {
+            let twin = ws.paths.count;
+            ws.paths.copy(path, twin);
+            ws.hits.repeat(path);
+            *ws.paths.slot_mut(path) += WHOLE;
+            *ws.paths.slot_mut(twin) += ALONE;
+            ws.paths.count += 1;
+        }
+    }
+}
+
+/// Makes one of the halves that went straight through a catcher which is not there.
+pub(crate) fn rejoin(tables: &Tables, paths: &mut Paths) {
+    if tables.geometry.set_catcher.is_empty() {
+        return;
+    }
+    let mut kept = 0;
+    for path in 0..paths.count {
+        let halved = paths.flags(path) & flag::CAMERA != 0 && paths.slot(path) >= WHOLE;
+        if halved && paths.slot(path) >= ALONE {
+            continue;
+        }
+        paths.copy(path, kept);
+        if halved {
+            *paths.slot_mut(kept) -= WHOLE;
+        }
+        kept += 1;
+    }
+    paths.count = kept;
+}
+
+/// Lets rays of paths among catchers alone see those alone.
+pub(crate) fn narrow(tables: &Tables, paths: &mut Paths) {
+    if !tables.geometry.set_catcher.is_empty() {
+        for path in 0..paths.count {
+            if paths.slot(path) >= ALONE {
+                paths.mask[path] = ray_mask::CATCHER_SCATTERED;
+            }
+        }
+    }
+}
+
+/// The same for rays to lights.
+pub(crate) fn narrow_shadows(tables: &Tables, shadows: &mut ShadowRays) {
+    if !tables.geometry.set_catcher.is_empty() {
+        let mask = |slot: u32| if slot >= ALONE { ray_mask::CATCHER_SHADOW } else { ray_mask::SHADOW };
+        shadows.mask.iter_mut().zip(&shadows.slot[..shadows.count]).for_each(|(place, slot)| *place = mask(*slot));
+    }
+}
+
+/// Whether points know a light: among catchers alone there are no objects that shine.
+#[inline(always)]
+pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) -> M<L> {
+    if tables.object_lights.is_empty() {
+        return l.m(true);
+    }
+    slot.lt(ALONE) | l.gather_integers(&tables.object_lights, light).eq(0)
+}
+
+/// Keeps what is behind catchers that the camera sees: the surroundings alone, as if no object were there. From here on their paths are as if
+/// they had come from anywhere.
+#[inline(always)]
+pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, present: M<L>, ws: &mut Workspace) {
+    let Stage { l, tables, transport, context, .. } = *stage;
+    let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WHOLE);
+    let caught = present & halved & point.slot.lt(ALONE);
+    point.flags = halved.select(point.flags & !flag::CAMERA, point.flags);
+    if !caught.any() {
+        return;
+    }
+    let pixel = pixel(point.slot);
+    if transport.surroundings_cover {
+        add(&mut ws.first_hit.alpha, pixel, point.share, caught);
+    }
+    let direction = -point.wo;
+    let from = ws.paths.vertex(l, point.path);
+    let Some((coverage, behind)) = &mut ws.first_hit.catchers.sums else { return };
+    if !transport.surroundings_cover {
+        add(coverage, pixel, point.share, caught);
+    }
+    if transport.shows_surroundings {
+        let radiance: Rgb<L> =
+            kernels::surroundings(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
+        let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
+        add_rgb(behind, pixel, value, caught & value.is_lit());
+    }
+}
+
+/// Of hits that the camera sees, those that passes show: halves among catchers alone are there for comparison only.
+#[inline(always)]
+pub(crate) fn shown<L: Lanes>(slot: U<L>) -> M<L> {
+    slot.lt(ALONE)
+}
+
+/// Of hits that the camera sees, those that cover what is behind them.
+#[inline(always)]
+pub(crate) fn covers<L: Lanes>(slot: U<L>) -> M<L> {
+    slot.lt(WHOLE)
+}

@@ -1,0 +1,109 @@
+//! The stage before shading: materials that are sums of closures take one of them at each hit, by its weight.
+//!
+//! The throughput becomes the weight over the probability, so every sum comes out right on average while a hit runs one graph and one set of
+//! lobes. Closures that are transparent or emit are chosen like all others.
+
+use crate::graph::{CHUNK, OutputColumns};
+use crate::kernels;
+use crate::stage::surface::ChunkRays;
+use crate::stage::surface::ChunkSource;
+use crate::state::sample::SampleContext;
+use crate::state::workspace::Workspace;
+use crate::tables::Tables;
+use crate::tables::material::Mix;
+use crate::tables::material::Shading;
+use crate::tables::transport::Transport;
+use gonio_accel::NONE;
+use gonio_camera::sampler::dimension;
+use gonio_simd::{F, Lanes, PADDING, Rgb, dispatch};
+
+/// Chooses closures for all hits on mixes: material numbers become surface numbers.
+pub(crate) fn choose_closures(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
+    if tables.materials.mixes.is_empty() {
+        return;
+    }
+    for_mixes(tables, ws, |mix, order, count, ws| {
+        dispatch!(transport.execution, l => choose_chunk(l, tables, context, mix, order, count, ws));
+    });
+}
+
+/// Does something with the hits on each mix, a chunk at a time: the mix, the paths, and how many they are.
+pub(crate) fn for_mixes(tables: &Tables, ws: &mut Workspace, mut each: impl FnMut(&Mix, &[u32; CHUNK + PADDING], usize, &mut Workspace)) {
+    let mut mixed = std::mem::take(&mut ws.mixed);
+    mixed.clear();
+    for (path, material) in ws.material_of.iter().enumerate() {
+        if *material != NONE
+            && let Shading::Mix(mix) = tables.materials.shading(*material)
+        {
+            mixed.push((mix, path as u32));
+        }
+    }
+    mixed.sort_unstable();
+    for paths in mixed.chunk_by(|a, b| a.0 == b.0) {
+        let mix = &tables.materials.mixes[paths[0].0 as usize];
+        for chunk in paths.chunks(CHUNK) {
+            let mut order = [chunk[0].1; CHUNK + PADDING];
+            order.iter_mut().zip(chunk).for_each(|(place, (_, path))| *place = *path);
+            each(mix, &order, chunk.len(), ws);
+        }
+    }
+    ws.mixed = mixed;
+}
+
+#[inline(always)]
+fn choose_chunk<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    context: &SampleContext<'_>,
+    mix: &Mix,
+    order: &[u32; CHUNK + PADDING],
+    count: usize,
+    ws: &mut Workspace,
+) {
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(&ws.paths) };
+    kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+    let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
+    for at in (0..count).step_by(L::COUNT) {
+        let path = l.load_integers(order, at);
+        let index = context.index(l, ws.paths.track(l, path).slot);
+        let [u, _] = context.sampler.pair(l, index, dimension);
+        let mut total = l.f(0.0);
+        for closure in 0..mix.count {
+            total += share(weight(l, &ws.outputs, closure, at));
+        }
+        let mut point = u * total;
+        let (mut chosen, mut factor) = (l.u(0), Rgb::zero(l));
+        let mut found = l.m(false);
+        for closure in 0..mix.count {
+            let weight = weight(l, &ws.outputs, closure, at);
+            let own = share(weight);
+            let here = point.lt(own).and_not(found) & own.gt(0.0);
+            chosen = here.select(l.u(closure as u32), chosen);
+            factor = here.select(weight * (total / own.max(1e-20)), factor);
+            found |= here;
+            point -= own;
+        }
+        let (chosen, paths) = (chosen.to_array(), path.to_array());
+        let factor = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
+        for lane in 0..L::COUNT.min(count - at) {
+            let path = paths[lane] as usize;
+            ws.material_of[path] = mix.first + chosen[lane];
+            for (channel, factor) in ws.paths.carried_mut(path).iter_mut().zip(&factor) {
+                *channel *= factor[lane];
+            }
+        }
+    }
+}
+
+/// The weight of a closure, not negative.
+#[inline(always)]
+pub(crate) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Rgb<L> {
+    let channel = |c: usize| l.load(outputs.column(closure * 3 + c), at).max(0.0);
+    Rgb::new(channel(0), channel(1), channel(2))
+}
+
+/// How likely a closure is taken, up to a factor.
+#[inline(always)]
+pub(crate) fn share<L: Lanes>(weight: Rgb<L>) -> F<L> {
+    weight.r + weight.g + weight.b
+}

@@ -1,0 +1,26 @@
+//! Where walks under surfaces come out: lit and scattered as by a white Lambertian surface.
+
+use crate::stage::nee::light;
+use crate::stage::scatter::scatter;
+use crate::state::vertex::Point;
+use crate::state::vertex::Stage;
+use crate::state::workspace::Workspace;
+use gonio_bsdf::subsurface;
+use gonio_camera::sampler::dimension;
+use gonio_simd::{Lanes, Vec3};
+
+/// Lights and scatters what comes out from under a surface, as a white Lambertian surface does; `base` is the first dimension of its numbers.
+#[inline(always)]
+pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, base: u32, ws: &mut Workspace) {
+    let Stage { l, tables, context, .. } = *stage;
+    let lobes = subsurface::exit(l);
+    let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);
+    let index = context.index(l, point.slot);
+    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    if !tables.lights.is_empty() {
+        let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+        light(stage, point, wo, &lobes, [u_choice, u, v], point.alive, ws);
+    }
+    let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
+    scatter(stage, point, wo, &lobes, [l.f(0.5), u, v, u_roulette], [point.alive, l.m(false)], ws);
+}

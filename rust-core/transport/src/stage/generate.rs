@@ -1,0 +1,113 @@
+//! The first stage: a camera ray for every pixel of a tile.
+
+use crate::state::flag;
+use crate::state::paths::PathLanes;
+use crate::state::paths::Paths;
+use gonio_camera::sampler::Runs;
+use gonio_camera::sampler::morton_even;
+use gonio_camera::sampler::{Sampler, dimension};
+use gonio_camera::{CameraRay, CameraTable};
+use gonio_camera::{FilterTable, Placement};
+use gonio_simd::{F, Lanes, PADDING, Rgb, U, Vec3};
+
+/// The rectangle of pixels that one batch covers.
+#[derive(Clone, Copy, Debug)]
+pub struct TileArea {
+    /// First column and row in the image.
+    pub min: [u32; 2],
+    /// Behind the last column and row, at most [`gonio_camera::sampler::TILE`] further.
+    pub max: [u32; 2],
+}
+
+/// Starts a path through every pixel of a tile that a batch holds; four by four pixels follow one another, so that sixteen rays make a packet.
+#[inline(always)]
+pub fn generate<L: Lanes>(
+    l: L,
+    camera: &CameraTable,
+    placement: &Placement,
+    sampler: &Sampler,
+    area: TileArea,
+    runs: &Runs,
+    paths: &mut Paths,
+) {
+    paths.count = 0;
+    for [slot, code, sample] in runs.registers(L::COUNT) {
+        let pixel = l.iota() + code;
+        let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
+        let inside = (x + area.min[0]).lt(area.max[0]) & (y + area.min[1]).lt(area.max[1]);
+        if !inside.any() {
+            continue;
+        }
+        let index = sampler.index(pixel, l.u(sample));
+        let lens = if camera.lens_radius > 0.0 { sampler.pair(l, index, dimension::LENS) } else { [l.f(0.5); 2] };
+        let [u, v] = match placement {
+            Placement::Filter(filter) => {
+                let u = sampler.pair(l, index, dimension::PIXEL);
+                [filter_offset(l, filter, u[0]), filter_offset(l, filter, u[1])]
+            }
+            Placement::Grid(side) => {
+                let step = |i: u32| l.f((i as f32 + 0.5) / *side as f32 - 0.5);
+                [step(sample % side), step(sample / side)]
+            }
+        };
+        let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
+        let ray = camera.ray(l, raster, lens);
+        paths.append(&started(l, &ray, l.iota() + slot), inside & ray.mapped);
+    }
+    paths.set_masks();
+}
+
+/// Starts a path through the middle of the lens from each of some places of the raster; their slots are given.
+#[inline(always)]
+pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
+    paths.count = 0;
+    let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
+    for first in (0..slots.len()).step_by(L::COUNT) {
+        let end = (first + L::COUNT).min(slots.len());
+        x[..end - first].copy_from_slice(&places[0][first..end]);
+        y[..end - first].copy_from_slice(&places[1][first..end]);
+        slot[..end - first].copy_from_slice(&slots[first..end]);
+        let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
+        paths.append(&started(l, &ray, l.load_integers(&slot, 0)), l.first(end - first) & ray.mapped);
+    }
+    paths.set_masks();
+}
+
+/// The path of a camera ray.
+#[inline(always)]
+fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
+    PathLanes {
+        origin: ray.origin,
+        direction: ray.direction,
+        t_min: ray.t_min,
+        t_max: ray.t_max,
+        vertex: ray.origin,
+        normal: ray.direction,
+        throughput: Rgb::grey(l.f(1.0)),
+        pdf: l.f(1.0),
+        width: ray.width,
+        spread: ray.spread,
+        slot,
+        flags: l.u(flag::CAMERA | flag::DELTA),
+        counts: l.u(0),
+        medium: Rgb::zero(l),
+    }
+}
+
+/// Where in the pixel a sample lies: the filter's tabulated inverse.
+#[inline(always)]
+fn filter_offset<L: Lanes>(l: L, filter: &FilterTable, u: F<L>) -> F<L> {
+    let knots = (filter.inverse.len() - 1) as f32;
+    let place = u * knots;
+    let floor = place.floor();
+    let [low, high] = l.gather_pairs(&filter.inverse, floor.to_i32());
+    low.lerp(high, place - floor)
+}
+
+/// A direction of the cosine distribution about +z (Malley's method).
+#[inline(always)]
+pub(crate) fn cosine_hemisphere<L: Lanes>(u: [F<L>; 2]) -> Vec3<L> {
+    let [x, y] = gonio_camera::concentric_disk(u);
+    let z = (x.lanes().f(1.0) - x * x - y * y).safe_sqrt();
+    Vec3::new(x, y, z)
+}

@@ -1,0 +1,191 @@
+//! The second stage: tracing, and sorting what was hit into light, surface and nothing.
+
+use crate::accumulate::add::add;
+use crate::accumulate::add::add_light;
+use crate::accumulate::add::code_of;
+use crate::accumulate::guides;
+use crate::accumulate::light_groups::add_of_lights;
+use crate::accumulate::light_sums::code;
+use crate::accumulate::surface_aovs::clamped;
+use crate::kernels;
+use crate::kernels::LightHit;
+use crate::stage::catcher;
+use crate::stage::sort::list_materials;
+use crate::state::columns::gather3;
+use crate::state::flag;
+use crate::state::paths::CarriedLanes;
+use crate::state::paths::Paths;
+use crate::state::paths::TrackLanes;
+use crate::state::paths::VertexLanes;
+use crate::state::workspace::Workspace;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use gonio_accel::{Hits, NONE, RayBatch, SceneBvh};
+use gonio_light::power_heuristic;
+use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch};
+
+/// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
+pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    find_first(tables, transport, depth == 0, ws);
+    dispatch!(transport.execution, l => classify(l, tables, ws));
+    while !ws.at_lights.is_empty() {
+        dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, ws));
+        pass_through_lights(tables, transport, ws);
+    }
+    let count = ws.escaped.len();
+    dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
+    let lanes = transport.execution.lanes();
+    ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
+    catcher::split(tables, ws);
+    dispatch!(transport.execution, l => list_materials(l, tables, ws));
+}
+
+/// Finds what every path hits; `coherent` ones in packets.
+pub(crate) fn find_first(tables: &Tables, transport: &Transport, coherent: bool, ws: &mut Workspace) {
+    ws.statistics.rays += ws.paths.count as u64;
+    first_hits(transport.execution, &tables.bvh, &rays_of(&ws.paths), coherent, &mut ws.hits);
+}
+
+fn rays_of(paths: &Paths) -> RayBatch<'_> {
+    let n = paths.count;
+    RayBatch {
+        origin: [&paths.origin[0][..n], &paths.origin[1][..n], &paths.origin[2][..n]],
+        direction: [&paths.direction[0][..n], &paths.direction[1][..n], &paths.direction[2][..n]],
+        t_min: &paths.t_min[..n],
+        t_max: &paths.t_max[..n],
+        mask: &paths.mask[..n],
+    }
+}
+
+fn first_hits(execution: Execution, bvh: &SceneBvh, rays: &RayBatch<'_>, coherent: bool, hits: &mut Hits) {
+    match execution {
+        Execution::Scalar => bvh.first_hit_scalar(rays, hits),
+        Execution::Vector(level) if coherent => bvh.first_hit_packets(level, rays, hits),
+        Execution::Vector(level) => bvh.first_hit(level, rays, hits),
+    }
+}
+
+/// Appends the numbers of some lanes.
+#[inline(always)]
+fn push<L: Lanes>(numbers: U<L>, chosen: M<L>, list: &mut Vec<u32>) {
+    let mut first = [0; PADDING];
+    numbers.append(chosen, &mut first, 0);
+    list.extend_from_slice(&first[..chosen.count()]);
+}
+
+/// Lists the paths that escaped and those that stand before a light's shape.
+#[inline(always)]
+fn classify<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
+    ws.escaped.clear();
+    ws.at_lights.clear();
+    let instances = &ws.hits.instance;
+    for at in (0..instances.len()).step_by(L::COUNT) {
+        let instance = l.load_integers_to_end(instances, at);
+        let others = !instance.lt(tables.first_light_instance) & l.first(instances.len() - at);
+        if others.any() {
+            let (path, escaped) = (l.iota() + at as u32, instance.eq(NONE));
+            push(path, others & escaped, &mut ws.escaped);
+            push(path, others.and_not(escaped), &mut ws.at_lights);
+        }
+    }
+}
+
+/// Adds what the shapes of lights send to the paths that met them.
+#[inline(always)]
+fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    let count = ws.at_lights.len();
+    ws.at_lights.resize(gonio_simd::padded(count), 0);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        let path = l.load_integers(&ws.at_lights, at);
+        let instance = l.gather_integers(&ws.hits.instance, path);
+        let light = l.gather_integers(&tables.instance_light, instance - tables.first_light_instance);
+        let direction = ws.paths.cone(l, path).direction;
+        let from = ws.paths.vertex(l, path);
+        let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
+        let hit = LightHit { light, from: from.position, normal: from.normal, direction, point };
+        let (radiance, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, alive);
+        let (carried, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
+        let sampled = (flags & flag::DELTA).eq(0);
+        let weight = sampled.select(power_heuristic(carried.pdf, pdf), l.f(1.0));
+        let value = clamped(radiance * carried.throughput * weight, transport.clamp(depth));
+        let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
+        add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, arrives);
+        add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.first_hit.groups);
+    }
+    ws.at_lights.truncate(count);
+}
+
+/// Goes on behind the shapes of lights, which shine and block nothing: to what is known to be there, or what tracing finds.
+fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
+    for path in &ws.at_lights {
+        let i = *path as usize;
+        // Far enough that the same shape is not met again, near enough that nothing behind it is lost.
+        ws.paths.t_min[i] = (ws.hits.t[i] * (1.0 + 1e-6)).next_up();
+    }
+    let mut waiting = std::mem::take(&mut ws.at_lights);
+    ws.retraced_rays.select(&ws.paths, &waiting);
+    let chosen = &ws.retraced_rays;
+    let rays = RayBatch {
+        origin: [&chosen.origin[0], &chosen.origin[1], &chosen.origin[2]],
+        direction: [&chosen.direction[0], &chosen.direction[1], &chosen.direction[2]],
+        t_min: &chosen.t_min,
+        t_max: &chosen.t_max,
+        mask: &chosen.mask,
+    };
+    if tables.bvh.has_shapes_apart() {
+        tables.bvh.first_hit_before(transport.execution, &rays, &ws.hits.covered, &mut ws.retraced);
+    } else {
+        first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
+    }
+    std::mem::swap(&mut ws.hits.covered, &mut ws.retraced.covered);
+    for (from, to) in waiting.iter().enumerate() {
+        let to = *to as usize;
+        ws.hits.t[to] = ws.retraced.t[from];
+        ws.hits.u[to] = ws.retraced.u[from];
+        ws.hits.v[to] = ws.retraced.v[from];
+        ws.hits.primitive[to] = ws.retraced.primitive[from];
+        ws.hits.instance[to] = ws.retraced.instance[from];
+    }
+    let hits = &ws.hits;
+    ws.escaped.extend(waiting.iter().filter(|i| hits.instance[**i as usize] == NONE));
+    waiting.retain(|i| {
+        let instance = hits.instance[*i as usize];
+        instance != NONE && instance >= tables.first_light_instance
+    });
+    ws.at_lights = waiting;
+}
+
+/// Adds what lights at infinity send to the paths that escaped.
+#[inline(always)]
+fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+    let count = ws.escaped.len();
+    ws.escaped.resize(gonio_simd::padded(count), 0);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        let path = l.load_integers(&ws.escaped, at);
+        let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
+        let camera = (flags & flag::CAMERA).ne(0);
+        if transport.surroundings_cover {
+            add(&mut ws.first_hit.alpha, slot, pdf, alive & camera);
+        }
+        let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
+        let delta = (flags & flag::DELTA).ne(0);
+        let VertexLanes { position, normal } = ws.paths.vertex(l, path);
+        let from = [position, normal];
+        let direction = ws.paths.cone(l, path).direction;
+        let (known, first) = (transport.known.as_deref(), [camera, delta]);
+        let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
+        let value = clamped(unclamped, transport.clamp(depth));
+        let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
+        add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
+        if transport.passes.groups.wanted() && arrives.any() {
+            // A limit holds for all of them together.
+            let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
+            for light in tables.lights.at_infinity() {
+                let part = kernels::surroundings(l, tables, known, from, direction, pdf, first, Some(light)) * throughput * share;
+                add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.first_hit.groups);
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Where paths go from a surface: on, straight through, or under it.
+
+use crate::geometry::spawn;
+use crate::kernels;
+use crate::state::event;
+use crate::state::flag;
+use crate::state::paths::PathLanes;
+use crate::state::vertex::CONE_PER_ROUGHNESS;
+use crate::state::vertex::Point;
+use crate::state::vertex::Stage;
+use crate::state::walks::WalkLanes;
+use crate::state::workspace::Workspace;
+use crate::tables::transport::Transport;
+use gonio_bsdf::{Lobes, subsurface::Medium};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+
+/// Surfaces after which Russian roulette may end a path that leaves diffusely, and any path: highlights and glass show more of what comes later.
+const ROULETTE_FROM: [u32; 2] = [1, 5];
+/// A path survives with this times the root of its throughput: measured on the scenes of `tests/peers/render`, the least variance times seconds.
+const ROULETTE_SHARE: f32 = 1.25;
+
+/// Whether all counts of scatterings are within their limits.
+#[inline(always)]
+pub(crate) fn within<L: Lanes>(counts: U<L>, limits: [u32; 4]) -> M<L> {
+    let at = |kind: u32| (counts >> (kind * 8)) & 255;
+    at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
+}
+
+/// Whether a path may go straight through one more surface.
+#[inline(always)]
+pub(crate) fn straight_left<L: Lanes>(counts: U<L>, transport: &Transport) -> M<L> {
+    (counts >> 24).lt(transport.kind_bounces[3])
+}
+
+/// Sends paths on that go through a surface which is not there: nothing about them changes but where they start.
+#[inline(always)]
+pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: &mut Workspace) {
+    if !chosen.any() {
+        return;
+    }
+    let direction = -point.wo;
+    let from = ws.paths.vertex(l, point.path);
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, direction),
+        direction,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex: from.position,
+        normal: from.normal,
+        throughput: point.throughput,
+        pdf: point.pdf,
+        width: point.width,
+        spread: point.spread,
+        slot: point.slot,
+        flags: point.flags,
+        counts: point.counts + (1 << 24),
+        medium: point.medium,
+    };
+    ws.next.append(&state, chosen);
+}
+
+/// Starts walks under the surface.
+#[inline(always)]
+fn enter<L: Lanes>(point: &Point<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
+    if !chosen.any() {
+        return;
+    }
+    let walk = WalkLanes {
+        origin: point.position,
+        direction: wi,
+        t_min: point.error / point.geometric.dot(wi).abs().max(0.05),
+        throughput,
+        medium: *medium,
+        instance: point.instance,
+        slot: point.slot,
+        flags: point.flags,
+        counts: point.counts,
+        width: point.width,
+    };
+    ws.walks.append(&walk, chosen);
+}
+
+/// The probability with which a path goes on: Russian roulette.
+#[inline(always)]
+fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -> F<L> {
+    let l = stage.l;
+    let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| stage.context.depth >= from);
+    if !from_diffuse {
+        return l.f(1.0);
+    }
+    let survival = (throughput.max_component().sqrt() * ROULETTE_SHARE).clamp(0.05, 1.0);
+    if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
+}
+
+/// Samples the next direction and appends the paths that go on; of those that do not scatter any more what goes straight through, as the light
+/// that was sampled before does.
+#[inline(always)]
+pub(crate) fn scatter<L: Lanes>(
+    stage: &Stage<'_, L>,
+    point: &Point<L>,
+    wo: Vec3<L>,
+    lobes: &Lobes<'_, L>,
+    u: [F<L>; 4],
+    [going_on, ending]: [M<L>; 2],
+    ws: &mut Workspace,
+) {
+    if !(going_on | ending).any() {
+        return;
+    }
+    let l = stage.l;
+    let sample = kernels::sample(l, lobes, wo, [u[0], u[1], u[2]]);
+    let wi = point.frame.to_world(sample.wi).normalize();
+    // A direction on the other side of the triangle than of the shading normal would leak light.
+    let across = point.geometric.dot(wi).lt(0.0);
+    let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
+    let throughput = point.throughput * sample.value * sample.pdf.recip();
+    let passes = sample.straight & straight_left(point.counts, stage.transport);
+    let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
+        & sample.pdf.gt(0.0)
+        & throughput.is_lit()
+        & throughput.max_component().is_finite();
+    if let Some(medium) = lobes.medium() {
+        let entered = alive & sample.entered;
+        alive = alive.and_not(sample.entered);
+        enter(point, wi, throughput, medium, entered, ws);
+    }
+    let survival = survival(stage, throughput, sample.diffuse);
+    alive &= u[3].lt(survival);
+    let throughput = throughput * survival.recip();
+    if !alive.any() {
+        return;
+    }
+    let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
+    let measured = (point.flags & flag::MEASURED) | point.only_delta.select(l.u(0), l.u(flag::MEASURED));
+    let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
+    let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
+    let scattered = delta | measured | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
+    // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
+    let straight = sample.straight;
+    let (mut vertex, mut normal, mut pdf) = (point.position, point.frame.z, sample.pdf);
+    if straight.any() {
+        let from = ws.paths.vertex(l, point.path);
+        vertex = straight.select(from.position, vertex);
+        normal = straight.select(from.normal, normal);
+        pdf = straight.select(point.pdf, pdf);
+    }
+    let state = PathLanes {
+        origin: spawn(point.position, point.geometric, point.error, wi),
+        direction: wi,
+        t_min: l.f(0.0),
+        t_max: l.f(f32::MAX),
+        vertex,
+        normal,
+        throughput,
+        pdf,
+        width: point.width,
+        spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
+        slot: point.slot,
+        flags: straight.select(point.flags | measured, scattered),
+        counts: point.counts + straight.select(l.u(1 << 24), counted),
+        medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
+    };
+    ws.next.append(&state, alive);
+}

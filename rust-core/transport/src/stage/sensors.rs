@@ -1,0 +1,145 @@
+//! The first stage of measuring without a camera: sensors at points, many places of a tile for each.
+//!
+//! A sensor owns a square block of pixels. Pixels of a block follow one another along the Morton curve, so that their samples together are one
+//! net of the sampler's sequence and the lanes of a register lie side by side.
+
+use crate::stage::generate::TileArea;
+use crate::state::columns::append3;
+use crate::state::columns::gather3;
+use crate::state::flag;
+use crate::state::paths::PathLanes;
+use crate::state::workspace::Workspace;
+use gonio_camera::sampler::{Runs, TILE, morton_even};
+use gonio_camera::sampler::{Sampler, dimension};
+use gonio_simd::{Column, Lanes, Rgb};
+
+/// A sensor, rebased world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensor {
+    /// Metres.
+    pub position: [f32; 3],
+    /// How far the true point may lie from `position`, metres.
+    pub error: f32,
+    /// Unit normal of the surface that is measured, or the direction that is looked along.
+    pub normal: [f32; 3],
+    /// Unit vector towards which the normal turns.
+    pub side: [f32; 3],
+    /// Radians that the normal turns to either side: 0 is a plane, π/2 half a cylinder, π a whole one, whose curved surface gets the mean.
+    pub turn: f32,
+    /// Measures luminance along the normal instead of illuminance.
+    pub looks: bool,
+}
+
+/// The sensors of a measurement as columns, and how pixels belong to them.
+#[derive(Debug)]
+pub struct SensorTable {
+    count: u32,
+    /// Logarithm of the pixels along a block's side.
+    side_log2: u32,
+    /// Logarithm of the blocks in a row.
+    across_log2: u32,
+    position: [Column; 3],
+    error: Column,
+    normal: [Column; 3],
+    side: [Column; 3],
+    turn: Column,
+    looks: Column<u32>,
+}
+
+/// Logarithm of a tile's side.
+const TILE_LOG2: u32 = TILE.trailing_zeros();
+/// Logarithm of the smallest block's side: the spread of 16 pixels tells how far their mean may be off.
+const LEAST_SIDE_LOG2: u32 = 2;
+
+impl SensorTable {
+    /// Blocks are as large as lets all sensors fit into one tile, and no smaller than 4 × 4 pixels.
+    pub fn new(sensors: &[Sensor]) -> Self {
+        let fits = |side_log2: &u32| sensors.len() <= 1 << (2 * (TILE_LOG2 - side_log2));
+        let side_log2 = (LEAST_SIDE_LOG2..=TILE_LOG2).rev().find(fits).unwrap_or(LEAST_SIDE_LOG2);
+        let room = gonio_simd::padded(sensors.len()) + gonio_simd::PADDING;
+        let column = |value: &dyn Fn(&Sensor) -> f32| {
+            let mut column = Column::new(room);
+            column.iter_mut().zip(sensors).for_each(|(place, sensor)| *place = value(sensor));
+            column
+        };
+        let mut looks = Column::new(room);
+        looks.iter_mut().zip(sensors).for_each(|(place, sensor)| *place = u32::from(sensor.looks));
+        Self {
+            count: sensors.len() as u32,
+            side_log2,
+            across_log2: TILE_LOG2 - side_log2,
+            position: std::array::from_fn(|axis| column(&|sensor| sensor.position[axis])),
+            error: column(&|sensor| sensor.error),
+            normal: std::array::from_fn(|axis| column(&|sensor| sensor.normal[axis])),
+            side: std::array::from_fn(|axis| column(&|sensor| sensor.side[axis])),
+            turn: column(&|sensor| sensor.turn),
+            looks,
+        }
+    }
+
+    /// Pixels along a block's side.
+    pub fn side(&self) -> usize {
+        1 << self.side_log2
+    }
+
+    /// Width and height of the picture that holds all blocks; the width is a tile's.
+    pub fn resolution(&self) -> [u32; 2] {
+        let rows = self.count.div_ceil(1 << self.across_log2).max(1);
+        [TILE as u32, rows << self.side_log2]
+    }
+
+    /// First column and row of a sensor's block.
+    pub fn block(&self, sensor: usize) -> [usize; 2] {
+        let across = 1 << self.across_log2;
+        [sensor % across, sensor / across].map(|place| place << self.side_log2)
+    }
+}
+
+/// Lists the points that the tile's sensors measure this time, and starts the paths of those that look.
+#[inline(always)]
+pub(crate) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, runs: &Runs, ws: &mut Workspace) {
+    (ws.paths.count, ws.next.count, ws.measure.count) = (0, 0, 0);
+    for [slot, code, sample] in runs.registers(L::COUNT) {
+        let (slot, pixel) = (l.iota() + slot, l.iota() + code);
+        let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
+        let sensor = ((y >> sensors.side_log2) << sensors.across_log2) + (x >> sensors.side_log2);
+        let inside = x.lt(area.max[0]) & y.lt(area.max[1]) & sensor.lt(sensors.count);
+        if !inside.any() {
+            continue;
+        }
+        let sensor = sensor.keep_if(inside);
+        let [u, _] = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
+        let (sin, cos) = ((u * 2.0 - 1.0) * l.gather(&sensors.turn, sensor)).sin_cos();
+        let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
+        let position = gather3(l, &sensors.position, sensor);
+        let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
+        let chosen = inside.and_not(looks);
+        let points = &mut ws.measure;
+        let count = points.count;
+        append3(position, chosen, &mut points.position, count);
+        l.gather(&sensors.error, sensor).append(chosen, &mut points.error, count);
+        append3(normal, chosen, &mut points.geometric_normal, count);
+        append3(normal, chosen, &mut points.shading_normal, count);
+        append3(Rgb::grey(l.f(1.0)).into(), chosen, &mut points.throughput, count);
+        l.f(0.0).append(chosen, &mut points.width, count);
+        slot.append(chosen, &mut points.slot, count);
+        points.count += chosen.count();
+        let state = PathLanes {
+            origin: position,
+            direction: normal,
+            t_min: l.f(0.0),
+            t_max: l.f(f32::MAX),
+            vertex: position,
+            normal,
+            throughput: Rgb::grey(l.f(1.0)),
+            pdf: l.f(1.0),
+            width: l.f(0.0),
+            spread: l.f(0.0),
+            slot,
+            flags: l.u(flag::CAMERA | flag::DELTA),
+            counts: l.u(0),
+            medium: Rgb::zero(l),
+        };
+        ws.next.append(&state, inside & looks);
+    }
+}

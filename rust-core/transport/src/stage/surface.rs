@@ -1,0 +1,149 @@
+//! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
+
+use crate::graph::{Program, SurfaceColumns};
+use crate::state::columns::Columns3;
+use crate::state::columns::gather3;
+use crate::state::paths::ConeLanes;
+use crate::state::paths::Paths;
+use crate::tables::Tables;
+use gonio_accel::{Hits, PassedHit};
+use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
+
+/// The rays of a chunk.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ChunkRays<'a> {
+    /// Those of paths, with cones around them.
+    Paths(&'a Paths),
+    /// Directions alone.
+    Directions(&'a Columns3),
+}
+
+/// What a chunk of hits is looked up from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChunkSource<'a> {
+    /// Ray numbers, padded to whole registers.
+    pub(crate) order: &'a [u32],
+    /// Rays of the chunk.
+    pub(crate) count: usize,
+    pub(crate) rays: ChunkRays<'a>,
+}
+
+/// A register of hits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FoundHits<L: Lanes> {
+    ray: U<L>,
+    instance: U<L>,
+    primitive: U<L>,
+    barycentric: [F<L>; 2],
+    distance: F<L>,
+}
+
+/// Where hits are found: by ray in [`Hits`], or in a list.
+pub(crate) trait HitSource {
+    /// The hits of some entries.
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L>;
+}
+
+impl HitSource for Hits {
+    #[inline(always)]
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
+        FoundHits {
+            ray: entries,
+            instance: l.gather_integers(&self.instance, entries),
+            primitive: l.gather_integers(&self.primitive, entries),
+            barycentric: [l.gather(&self.u, entries), l.gather(&self.v, entries)],
+            distance: l.gather(&self.t, entries),
+        }
+    }
+}
+
+impl HitSource for [PassedHit] {
+    #[inline(always)]
+    fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
+        let (mut whole, mut parts) = ([[0; PADDING]; 3], [[0.0; PADDING]; 3]);
+        for (lane, entry) in entries.to_array().into_iter().take(L::COUNT).enumerate() {
+            let hit = &self[entry as usize];
+            [whole[0][lane], whole[1][lane], whole[2][lane]] = [hit.ray, hit.instance, hit.primitive];
+            [parts[0][lane], parts[1][lane], parts[2][lane]] = [hit.u, hit.v, hit.t];
+        }
+        let [ray, instance, primitive] = [l.load_integers(&whole[0], 0), l.load_integers(&whole[1], 0), l.load_integers(&whole[2], 0)];
+        let [u, v, distance] = [l.load(&parts[0], 0), l.load(&parts[1], 0), l.load(&parts[2], 0)];
+        FoundHits { ray, instance, primitive, barycentric: [u, v], distance }
+    }
+}
+
+/// Fills the surface columns for a chunk.
+#[inline(always)]
+pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    hits: &H,
+    source: &ChunkSource<'_>,
+    out: &mut SurfaceColumns,
+) {
+    out.origin = tables.origin.map(|x| x as f32);
+    for at in (0..source.count).step_by(L::COUNT) {
+        let hits = hits.load(l, l.load_integers(source.order, at));
+        let (direction, width) = match source.rays {
+            ChunkRays::Paths(paths) => {
+                let ConeLanes { direction, width } = paths.cone(l, hits.ray);
+                (direction, hits.distance.mul_add(paths.track(l, hits.ray).spread, width))
+            }
+            ChunkRays::Directions(columns) => (gather3(l, columns, hits.ray), l.f(0.0)),
+        };
+        surface_lanes(l, tables, program, &hits, direction, width, out, at);
+    }
+}
+
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a hit, its ray and where the point goes")]
+fn surface_lanes<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    program: &Program,
+    found: &FoundHits<L>,
+    direction: Vec3<L>,
+    width: F<L>,
+    out: &mut SurfaceColumns,
+    at: usize,
+) {
+    let FoundHits { instance, primitive, barycentric, .. } = *found;
+    instance.store(&mut out.instance, at);
+    primitive.store(&mut out.primitive, at);
+    barycentric[0].store(&mut out.barycentric[0], at);
+    barycentric[1].store(&mut out.barycentric[1], at);
+    let geometry = &tables.geometry;
+    let hit = geometry.hit_lanes(l, instance, primitive, barycentric[0], barycentric[1]);
+    let point = geometry.surface_point(l, &hit);
+    let wo = -direction;
+    let front = point.geometric_normal.dot(wo).ge(0.0);
+    let side = front.select(l.f(1.0), l.f(-1.0));
+    store3(point.position, &mut out.position, at);
+    point.error.store(&mut out.error, at);
+    store3(point.geometric_normal * side, &mut out.geometric_normal, at);
+    store3(point.shading_normal * side, &mut out.shading_normal, at);
+    side.store(&mut out.side, at);
+    store3(wo, &mut out.wo, at);
+    let (tangent, density) = match program.uv {
+        Some(column) => {
+            let uv = geometry.uv_derivatives(l, &hit, column, point.edges);
+            // Units of the coordinates a metre.
+            (uv.tangent, (uv.determinant.abs() / point.double_area.max(1e-30)).sqrt())
+        }
+        None => (Vec3::splat(l, [0.0; 3]), l.f(0.0)),
+    };
+    store3(tangent, &mut out.tangent, at);
+    // A pixel's cone meets an inclined surface in a longer ellipse; its shorter axis would blur less, its longer one more.
+    let cosine = point.geometric_normal.dot(wo).abs().max(0.05);
+    width.store(&mut out.cone, at);
+    let width = width / cosine.sqrt();
+    width.store(&mut out.width, at);
+    (width * density).store(&mut out.uv_width, at);
+}
+
+#[inline(always)]
+pub(crate) fn store3<L: Lanes>(v: Vec3<L>, columns: &mut [Column; 3], at: usize) {
+    let [x, y, z] = columns;
+    v.store([x, y, z], at);
+}

@@ -1,0 +1,51 @@
+//! Trees of rays: what a generation sends on, and batches that wait.
+
+use crate::state::paths::Paths;
+use crate::tables::transport::Transport;
+use gonio_bsdf::Way;
+use gonio_simd::Column;
+
+/// What a generation sends on, and batches that wait for their turn.
+#[derive(Debug, Default)]
+pub(crate) struct Branches {
+    /// By way, in the order of [`Way::ALL`].
+    pub(crate) ways: Vec<Paths>,
+    /// Depth and paths; the last is the next.
+    pub(crate) waiting: Vec<(u32, Paths)>,
+    /// Columns for later batches.
+    pub(crate) spare: Vec<Paths>,
+    pub(crate) undivided: Undivided,
+}
+
+impl Branches {
+    /// Makes room where trees are asked for.
+    pub(crate) fn prepare(&mut self, transport: &Transport) {
+        if transport.draws.is_some() {
+            self.ways.resize_with(Way::ALL.len(), Paths::default);
+        }
+    }
+
+    /// Puts what was sent on into the queue.
+    pub(crate) fn queue(&mut self, depth: u32) {
+        for way in self.ways.iter_mut().rev().filter(|way| way.count > 0) {
+            let empty = self.spare.pop().unwrap_or_default();
+            self.waiting.push((depth, std::mem::replace(way, empty)));
+        }
+    }
+
+    /// Exchanges paths that are done for those that come next, and gives their depth.
+    pub(crate) fn next(&mut self, paths: &mut Paths) -> Option<u32> {
+        let (depth, next) = self.waiting.pop()?;
+        let mut done = std::mem::replace(paths, next);
+        done.count = 0;
+        self.spare.push(done);
+        Some(depth)
+    }
+}
+
+/// A batch before its closures are told apart; empty where there are no mixes.
+#[derive(Debug, Default)]
+pub(crate) struct Undivided {
+    pub(crate) material_of: Vec<u32>,
+    pub(crate) carried: Column,
+}

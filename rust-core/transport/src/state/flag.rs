@@ -1,0 +1,14 @@
+//! What a path has met so far, as bits.
+
+/// Nothing yet but what it saw through: hits are what the camera sees.
+pub(crate) const CAMERA: u32 = 1;
+/// The last scattering was a mirror's or a smooth boundary's: lights cannot be sampled for it.
+pub(crate) const DELTA: u32 = 2;
+/// A surface that is not a mirror has been met.
+pub(crate) const MEASURED: u32 = 4;
+/// Above this bit, two bits: what the last scattering was, see [`super::event`].
+pub(crate) const LAST_SHIFT: u32 = 3;
+/// Above this bit, two bits: what the first scattering was; of use only once there was one.
+pub(crate) const FIRST_SHIFT: u32 = 5;
+/// Above this bit: the number of scatterings.
+pub(crate) const BOUNCE_SHIFT: u32 = 8;

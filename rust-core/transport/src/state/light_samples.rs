@@ -1,0 +1,115 @@
+//! The light samples of a chunk of hits, sorted by light.
+
+use crate::graph::CHUNK;
+use gonio_light::{LightSample, LightTable};
+use gonio_simd::{Column, Lanes, PADDING, Rgb, Vec3};
+use std::ops::Range;
+
+/// With more lights than this, groups are the kinds.
+const MOST_GROUPS: usize = 16;
+/// Room for all hits of a chunk, and for the runs of all groups of lights to begin with a register of their own.
+const ROOM: usize = CHUNK + MOST_GROUPS * PADDING;
+
+/// Properties of a sampled light, as bits.
+mod bit {
+    pub(crate) const DELTA: u32 = 1;
+    pub(crate) const CASTS_SHADOW: u32 = 2;
+}
+
+/// A light drawn for each hit of a chunk, and the place on it.
+#[derive(Debug)]
+pub(crate) struct LightDraws {
+    /// Whether the draws of the chunk have been made: mirrors and glass want none.
+    pub(crate) made: bool,
+    /// By hit: the light.
+    pub(crate) light: Column<u32>,
+    /// By hit, items of four: the light once more, its probability and numbers for the place on it; the hit's position and its normal.
+    pub(crate) draw: Column,
+    pub(crate) position: Column,
+    pub(crate) normal: Column,
+    /// Where each hit's sample is.
+    pub(crate) place: Column<u32>,
+    /// The hits, group of lights by group; what fills a group's last register repeats a hit.
+    pub(crate) order: Column<u32>,
+    /// The samples in that order, items of four: directions and distances, radiances and densities.
+    pub(crate) way: Column,
+    pub(crate) arriving: Column,
+    pub(crate) bits: Column<u32>,
+}
+
+impl Default for LightDraws {
+    fn default() -> Self {
+        Self {
+            made: false,
+            light: Column::new(CHUNK),
+            draw: Column::new(4 * CHUNK),
+            position: Column::new(4 * CHUNK),
+            normal: Column::new(4 * CHUNK),
+            place: Column::new(CHUNK),
+            order: Column::new(ROOM),
+            way: Column::new(4 * ROOM),
+            arriving: Column::new(4 * ROOM),
+            bits: Column::new(ROOM),
+        }
+    }
+}
+
+impl LightDraws {
+    /// Whether hits are worth sorting: lanes would draw lights of several kinds.
+    #[inline(always)]
+    pub(crate) fn pays<L: Lanes>(lights: &LightTable, hits: usize) -> bool {
+        L::COUNT > 1 && lights.has_several_kinds() && hits > 2 * PADDING
+    }
+
+    /// The samples of a register of hits.
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
+        let place = l.load_integers(&self.place, at);
+        let bits = l.gather_integers(&self.bits, place);
+        let ([x, y, z, distance], [r, g, b, pdf]) = (l.gather_quads(&self.way, place << 2), l.gather_quads(&self.arriving, place << 2));
+        LightSample {
+            wi: Vec3::new(x, y, z),
+            distance,
+            radiance: Rgb::new(r, g, b),
+            pdf,
+            delta: (bits & bit::DELTA).ne(0),
+            light: l.load_integers(&self.light, at),
+            casts_shadow: (bits & bit::CASTS_SHADOW).ne(0),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn store<L: Lanes>(&mut self, l: L, sample: &LightSample<L>, at: usize) {
+        let (wi, radiance) = (sample.wi, sample.radiance);
+        l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.way, at);
+        l.store_quads([radiance.r, radiance.g, radiance.b, sample.pdf], &mut self.arriving, at);
+        let bits = l.u(bit::DELTA).keep_if(sample.delta) | l.u(bit::CASTS_SHADOW).keep_if(sample.casts_shadow);
+        bits.store(&mut self.bits, at);
+    }
+
+    /// Counts and places some hits, each group's first at a register's beginning; gives the places taken.
+    pub(crate) fn sort(&mut self, lights: &LightTable, hits: Range<usize>, lanes: usize) -> usize {
+        // A group should fill half a register.
+        let one_by_one = lights.len() <= MOST_GROUPS.min(2 * hits.len() / lanes);
+        let mut places = [0u32; MOST_GROUPS];
+        for light in &self.light[hits.clone()] {
+            places[lights.group(*light, one_by_one)] += 1;
+        }
+        let mut total = 0;
+        for place in &mut places {
+            let count = *place as usize;
+            *place = total as u32;
+            total += count.next_multiple_of(lanes);
+        }
+        for hit in hits {
+            let place = &mut places[lights.group(self.light[hit], one_by_one)];
+            (self.place[hit], self.order[*place as usize]) = (*place, hit as u32);
+            *place += 1;
+        }
+        for next in places.map(|place| place as usize).into_iter().filter(|next| next % lanes != 0) {
+            let last = self.order[next - 1];
+            self.order[next..next.next_multiple_of(lanes)].fill(last);
+        }
+        total
+    }
+}

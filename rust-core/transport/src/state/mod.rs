@@ -1,0 +1,17 @@
+//! What waits between stages: paths, rays, vertices, walks and light samples, in columns.
+
+pub(crate) mod branches;
+pub(crate) mod columns;
+pub(crate) mod event;
+pub(crate) mod flag;
+pub(crate) mod light_samples;
+pub(crate) mod measure_points;
+pub(crate) mod paths;
+pub(crate) mod retraced;
+pub(crate) mod sample;
+pub(crate) mod shadow_order;
+pub(crate) mod shadow_rays;
+pub(crate) mod vertex;
+pub(crate) mod walks;
+pub(crate) mod workspace;
+pub(crate) mod workspaces;

@@ -1,0 +1,198 @@
+//! Paths under way: the ray of each in columns, as the tracer wants it, and in items of four what the stages read of chosen paths.
+
+use crate::state::columns::Columns3;
+use crate::state::columns::append3;
+use crate::state::columns::columns3;
+use crate::state::flag;
+use crate::tables::ray_mask;
+use gonio_camera::sampler::CAPACITY;
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+
+/// Paths with a ray each.
+#[derive(Debug)]
+pub struct Paths {
+    /// Paths in the columns.
+    pub count: usize,
+    /// Where rays start.
+    pub origin: Columns3,
+    /// Unit directions of rays.
+    pub direction: Columns3,
+    pub(crate) t_min: Column,
+    pub(crate) t_max: Column,
+    /// Absorption a metre of what the ray goes through.
+    pub(crate) medium: Columns3,
+    /// Items of throughput and density, see [`CarriedLanes`].
+    pub(crate) carried: Column,
+    /// Items of directions and widths, see [`ConeLanes`].
+    cone: Column,
+    /// Items of points and of normals, the fourth of no meaning, see [`VertexLanes`].
+    vertex: Column,
+    normal: Column,
+    /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
+    track: Column<u32>,
+    /// Visibility bits of the ray.
+    pub(crate) mask: Vec<u8>,
+}
+
+/// One register of paths, to be appended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathLanes<L: Lanes> {
+    pub(crate) origin: Vec3<L>,
+    pub(crate) direction: Vec3<L>,
+    pub(crate) t_min: F<L>,
+    pub(crate) t_max: F<L>,
+    pub(crate) vertex: Vec3<L>,
+    pub(crate) normal: Vec3<L>,
+    pub(crate) throughput: Rgb<L>,
+    pub(crate) pdf: F<L>,
+    pub(crate) width: F<L>,
+    pub(crate) spread: F<L>,
+    pub(crate) slot: U<L>,
+    pub(crate) flags: U<L>,
+    pub(crate) counts: U<L>,
+    pub(crate) medium: Rgb<L>,
+}
+
+/// What light along paths counts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CarriedLanes<L: Lanes> {
+    pub(crate) throughput: Rgb<L>,
+    /// Density of the direction per solid angle; of a camera ray, how much of its sample it stands for.
+    pub(crate) pdf: F<L>,
+}
+
+/// The cones around paths' rays.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ConeLanes<L: Lanes> {
+    pub(crate) direction: Vec3<L>,
+    /// Width at the ray's start.
+    pub(crate) width: F<L>,
+}
+
+/// The points that scattered paths' rays: what lights are sampled from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VertexLanes<L: Lanes> {
+    pub(crate) position: Vec3<L>,
+    pub(crate) normal: Vec3<L>,
+}
+
+/// Whose paths are, and how they came.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TrackLanes<L: Lanes> {
+    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance; see [`super::catcher`] for more.
+    pub(crate) slot: U<L>,
+    pub(crate) flags: U<L>,
+    /// Scatterings so far, a byte each: diffuse, glossy, transmitted, straight through.
+    pub(crate) counts: U<L>,
+    /// Growth of the cone a metre.
+    pub(crate) spread: F<L>,
+}
+
+/// Places in an item of [`TrackLanes`].
+const SLOT: usize = 0;
+const FLAGS: usize = 1;
+
+impl Default for Paths {
+    fn default() -> Self {
+        // A register's room behind the last path: appending writes whole registers.
+        let room = padded(CAPACITY) + gonio_simd::PADDING;
+        Self {
+            count: 0,
+            origin: columns3(room),
+            direction: columns3(room),
+            t_min: Column::new(room),
+            t_max: Column::new(room),
+            medium: columns3(room),
+            carried: Column::new(4 * room),
+            cone: Column::new(4 * room),
+            vertex: Column::new(4 * room),
+            normal: Column::new(4 * room),
+            track: Column::new(4 * room),
+            mask: vec![0; room],
+        }
+    }
+}
+
+impl Paths {
+    /// Appends the chosen lanes; `camera` bits of the flags decide the rays' visibility mask.
+    #[inline(always)]
+    pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
+        let (l, n) = (p.pdf.lanes(), self.count);
+        append3(p.origin, chosen, &mut self.origin, n);
+        append3(p.direction, chosen, &mut self.direction, n);
+        p.t_min.append(chosen, &mut self.t_min, n);
+        p.t_max.append(chosen, &mut self.t_max, n);
+        append3(p.medium.into(), chosen, &mut self.medium, n);
+        l.append_quads([p.throughput.r, p.throughput.g, p.throughput.b, p.pdf], chosen, &mut self.carried, n);
+        l.append_quads([p.direction.x, p.direction.y, p.direction.z, p.width], chosen, &mut self.cone, n);
+        l.append_quads([p.vertex.x, p.vertex.y, p.vertex.z, l.f(0.0)], chosen, &mut self.vertex, n);
+        l.append_quads([p.normal.x, p.normal.y, p.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
+        let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
+        l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
+        self.count += chosen.count();
+    }
+
+    /// What light along some paths counts.
+    #[inline(always)]
+    pub(crate) fn carried<L: Lanes>(&self, l: L, path: U<L>) -> CarriedLanes<L> {
+        let [r, g, b, pdf] = l.gather_quads(&self.carried, path << 2);
+        CarriedLanes { throughput: Rgb::new(r, g, b), pdf }
+    }
+
+    /// The cones around some paths' rays.
+    #[inline(always)]
+    pub(crate) fn cone<L: Lanes>(&self, l: L, path: U<L>) -> ConeLanes<L> {
+        let [x, y, z, width] = l.gather_quads(&self.cone, path << 2);
+        ConeLanes { direction: Vec3::new(x, y, z), width }
+    }
+
+    /// The points that scattered some paths' rays.
+    #[inline(always)]
+    pub(crate) fn vertex<L: Lanes>(&self, l: L, path: U<L>) -> VertexLanes<L> {
+        VertexLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
+    }
+
+    /// Whose some paths are, and how they came.
+    #[inline(always)]
+    pub(crate) fn track<L: Lanes>(&self, l: L, path: U<L>) -> TrackLanes<L> {
+        let [slot, flags, counts, spread] = l.gather_integer_quads(&self.track, path << 2);
+        TrackLanes { slot, flags, counts, spread: F::from_bits(spread) }
+    }
+
+    /// The slot of a path.
+    pub(crate) fn slot(&self, path: usize) -> u32 {
+        self.track[4 * path + SLOT]
+    }
+
+    /// See [`Self::slot`].
+    pub(crate) fn slot_mut(&mut self, path: usize) -> &mut u32 {
+        &mut self.track[4 * path + SLOT]
+    }
+
+    /// The flags of a path.
+    pub(crate) fn flags(&self, path: usize) -> u32 {
+        self.track[4 * path + FLAGS]
+    }
+
+    /// Throughput and density of a path.
+    pub(crate) fn carried_mut(&mut self, path: usize) -> &mut [f32] {
+        &mut self.carried[4 * path..][..4]
+    }
+
+    /// Moves a path to another place of the columns, over what is there.
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+        let threes = [&mut self.origin, &mut self.direction, &mut self.medium];
+        threes.into_iter().flatten().chain([&mut self.t_min, &mut self.t_max]).for_each(|column| column[to] = column[from]);
+        let items = [&mut self.carried, &mut self.cone, &mut self.vertex, &mut self.normal];
+        items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
+        self.track.copy_within(4 * from..4 * from + 4, 4 * to);
+    }
+
+    /// Sets the visibility bits of all rays by their flags.
+    pub(crate) fn set_masks(&mut self) {
+        for (mask, track) in self.mask[..self.count].iter_mut().zip(self.track.chunks_exact(4)) {
+            let flags = track[FLAGS];
+            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3) };
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Which samples are under way.
+
+use gonio_camera::sampler::{Runs, Sampler};
+use gonio_simd::{Lanes, U};
+
+/// Which samples are under way, and how deep their paths are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SampleContext<'a> {
+    pub(crate) sampler: Sampler,
+    pub(crate) runs: &'a Runs,
+    pub(crate) depth: u32,
+}
+
+impl SampleContext<'_> {
+    /// The number in the sampler's sequence for the path of a slot.
+    #[inline(always)]
+    pub(crate) fn index<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
+        self.runs.index(l, &self.sampler, slot)
+    }
+}

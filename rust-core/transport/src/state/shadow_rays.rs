@@ -1,0 +1,81 @@
+//! Rays to lights that wait to be traced.
+
+use crate::geometry::ShadowSegment;
+use crate::state::columns::Columns3;
+use crate::state::columns::append3;
+use crate::state::columns::columns3;
+use crate::tables::ray_mask;
+use gonio_camera::sampler::CAPACITY;
+use gonio_simd::{Column, Lanes, M, Rgb, U, padded};
+
+/// Room for shadow rays: walks under surfaces come out and are lit beside the surfaces themselves.
+pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + gonio_simd::PADDING;
+
+/// One register of shadow rays, to be appended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadowLanes<L: Lanes> {
+    pub(crate) segment: ShadowSegment<L>,
+    pub(crate) contribution: Rgb<L>,
+    pub(crate) slot: U<L>,
+    pub(crate) code: U<L>,
+    pub(crate) light: U<L>,
+    pub(crate) shares: Option<[Rgb<L>; 2]>,
+}
+
+/// Shadow rays with what they bring if nothing is in the way.
+#[derive(Debug)]
+pub(crate) struct ShadowRays {
+    pub(crate) count: usize,
+    pub(crate) origin: Columns3,
+    pub(crate) direction: Columns3,
+    pub(crate) t_max: Column,
+    pub(crate) contribution: Columns3,
+    pub(crate) slot: Column<u32>,
+    /// What the contribution counts as, see [`super::light_sums::code`].
+    pub(crate) code: Column<u32>,
+    /// The light that each ray leads to.
+    pub(crate) light: Column<u32>,
+    /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
+    pub(crate) shares: [Columns3; 2],
+    /// Constant columns that the traversal wants.
+    pub(crate) t_min: Vec<f32>,
+    pub(crate) mask: Vec<u8>,
+}
+
+impl Default for ShadowRays {
+    fn default() -> Self {
+        let room = SHADOW_ROOM;
+        Self {
+            count: 0,
+            origin: columns3(room),
+            direction: columns3(room),
+            t_max: Column::new(room),
+            contribution: columns3(room),
+            slot: Column::new(room),
+            code: Column::new(room),
+            light: Column::new(room),
+            shares: [columns3(room), columns3(room)],
+            t_min: vec![0.0; room],
+            mask: vec![ray_mask::SHADOW; room],
+        }
+    }
+}
+
+impl ShadowRays {
+    #[inline(always)]
+    pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
+        let n = self.count;
+        append3(ray.segment.origin, chosen, &mut self.origin, n);
+        append3(ray.segment.direction, chosen, &mut self.direction, n);
+        ray.segment.t_max.append(chosen, &mut self.t_max, n);
+        append3(ray.contribution.into(), chosen, &mut self.contribution, n);
+        ray.slot.append(chosen, &mut self.slot, n);
+        ray.code.append(chosen, &mut self.code, n);
+        ray.light.append(chosen, &mut self.light, n);
+        if let Some(shares) = ray.shares {
+            append3(shares[0].into(), chosen, &mut self.shares[0], n);
+            append3(shares[1].into(), chosen, &mut self.shares[1], n);
+        }
+        self.count += chosen.count();
+    }
+}

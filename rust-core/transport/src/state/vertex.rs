@@ -1,0 +1,53 @@
+//! A register of path vertices on surfaces, and what all hits of a chunk share.
+
+use crate::graph::Program;
+use crate::state::sample::SampleContext;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+use std::ops::Range;
+
+/// Roughness widens a path's cone by this much, radians: blurred reflections need no sharp textures.
+pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
+
+/// One register of shading points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point<L: Lanes> {
+    pub(crate) alive: M<L>,
+    pub(crate) path: U<L>,
+    pub(crate) position: Vec3<L>,
+    pub(crate) error: F<L>,
+    pub(crate) geometric: Vec3<L>,
+    pub(crate) frame: Frame<L>,
+    pub(crate) wo: Vec3<L>,
+    pub(crate) throughput: Rgb<L>,
+    pub(crate) flags: U<L>,
+    pub(crate) counts: U<L>,
+    pub(crate) slot: U<L>,
+    pub(crate) instance: U<L>,
+    pub(crate) width: F<L>,
+    pub(crate) spread: F<L>,
+    pub(crate) bounces: U<L>,
+    /// Absorption a metre of what the path is in, and of what is behind the surface.
+    pub(crate) medium: Rgb<L>,
+    pub(crate) behind: Rgb<L>,
+    /// Where all lobes are mirrors or clear glass.
+    pub(crate) only_delta: M<L>,
+    /// Density of the path's direction per solid angle, but for camera rays.
+    pub(crate) pdf: F<L>,
+    /// How much of a camera ray's sample is here; of other rays, nothing of meaning.
+    pub(crate) share: F<L>,
+}
+
+/// What all hits of a chunk share.
+#[derive(Clone, Debug)]
+pub(crate) struct Stage<'a, L> {
+    pub(crate) l: L,
+    pub(crate) tables: &'a Tables,
+    pub(crate) transport: &'a Transport,
+    pub(crate) context: &'a SampleContext<'a>,
+    /// What computed the chunk's shader passes, where any are wanted.
+    pub(crate) shader: Option<&'a Program>,
+    /// Where the chunk is in the order of the paths.
+    pub(crate) hits: Range<usize>,
+}

@@ -1,0 +1,122 @@
+//! Random walks under surfaces that are under way.
+
+use crate::state::columns::Columns3;
+use crate::state::columns::append3;
+use crate::state::columns::columns3;
+use crate::state::columns::load3;
+use gonio_accel::RayBatch;
+use gonio_bsdf::subsurface::Medium;
+use gonio_camera::sampler::CAPACITY;
+use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, Vec3, padded};
+
+/// Walks under way, a column entry each.
+#[derive(Debug)]
+pub(crate) struct Walks {
+    pub(crate) count: usize,
+    pub(crate) origin: Columns3,
+    pub(crate) direction: Columns3,
+    /// Distance within which the surface that was entered is not met again: walks start on it, for an offset would count as depth.
+    pub(crate) t_min: Column,
+    pub(crate) throughput: Columns3,
+    pub(crate) albedo: Columns3,
+    pub(crate) extinction: Columns3,
+    pub(crate) anisotropy: Column,
+    /// Length of the flight, and the probabilities of the channels it was drawn by.
+    pub(crate) distance: Column,
+    pub(crate) channels: Columns3,
+    pub(crate) instance: Column<u32>,
+    pub(crate) slot: Column<u32>,
+    pub(crate) flags: Column<u32>,
+    pub(crate) counts: Column<u32>,
+    pub(crate) width: Column,
+}
+
+impl Default for Walks {
+    fn default() -> Self {
+        let room = padded(CAPACITY) + PADDING;
+        let three = || columns3(room);
+        Self {
+            count: 0,
+            origin: three(),
+            direction: three(),
+            t_min: Column::new(room),
+            throughput: three(),
+            albedo: three(),
+            extinction: three(),
+            anisotropy: Column::new(room),
+            distance: Column::new(room),
+            channels: three(),
+            instance: Column::new(room),
+            slot: Column::new(room),
+            flags: Column::new(room),
+            counts: Column::new(room),
+            width: Column::new(room),
+        }
+    }
+}
+
+/// One register of walks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WalkLanes<L: Lanes> {
+    pub(crate) origin: Vec3<L>,
+    pub(crate) direction: Vec3<L>,
+    pub(crate) t_min: F<L>,
+    pub(crate) throughput: Rgb<L>,
+    pub(crate) medium: Medium<L>,
+    pub(crate) instance: U<L>,
+    pub(crate) slot: U<L>,
+    pub(crate) flags: U<L>,
+    pub(crate) counts: U<L>,
+    pub(crate) width: F<L>,
+}
+
+impl Walks {
+    #[inline(always)]
+    pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
+        let n = self.count;
+        append3(w.origin, chosen, &mut self.origin, n);
+        append3(w.direction, chosen, &mut self.direction, n);
+        w.t_min.append(chosen, &mut self.t_min, n);
+        append3(w.throughput.into(), chosen, &mut self.throughput, n);
+        append3(w.medium.albedo.into(), chosen, &mut self.albedo, n);
+        append3(w.medium.extinction.into(), chosen, &mut self.extinction, n);
+        w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
+        w.instance.append(chosen, &mut self.instance, n);
+        w.slot.append(chosen, &mut self.slot, n);
+        w.flags.append(chosen, &mut self.flags, n);
+        w.counts.append(chosen, &mut self.counts, n);
+        w.width.append(chosen, &mut self.width, n);
+        self.count += chosen.count();
+    }
+
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
+        WalkLanes {
+            origin: load3(l, &self.origin, at),
+            direction: load3(l, &self.direction, at),
+            t_min: l.load(&self.t_min, at),
+            throughput: load3(l, &self.throughput, at).into(),
+            medium: Medium {
+                albedo: load3(l, &self.albedo, at).into(),
+                extinction: load3(l, &self.extinction, at).into(),
+                anisotropy: l.load(&self.anisotropy, at),
+            },
+            instance: l.load_integers(&self.instance, at),
+            slot: l.load_integers(&self.slot, at),
+            flags: l.load_integers(&self.flags, at),
+            counts: l.load_integers(&self.counts, at),
+            width: l.load(&self.width, at),
+        }
+    }
+
+    pub(crate) fn rays<'a>(&'a self, mask: &'a [u8]) -> RayBatch<'a> {
+        let n = self.count;
+        RayBatch {
+            origin: [&self.origin[0][..n], &self.origin[1][..n], &self.origin[2][..n]],
+            direction: [&self.direction[0][..n], &self.direction[1][..n], &self.direction[2][..n]],
+            t_min: &self.t_min[..n],
+            t_max: &self.distance[..n],
+            mask: &mask[..n],
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The state of a batch of paths, in columns.
+
+use crate::accumulate::light_sums::code;
+use crate::accumulate::tile_sums::FirstHit;
+use crate::graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns};
+use crate::state::branches::Branches;
+use crate::state::light_samples::LightDraws;
+use crate::state::measure_points::MeasurePoints;
+use crate::state::paths::Paths;
+use crate::state::retraced::RetracedRays;
+use crate::state::shadow_order::ShadowOrder;
+use crate::state::shadow_rays::ShadowRays;
+use crate::state::walks::Walks;
+use crate::statistics::Statistics;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use gonio_accel::{Hits, PassedHit};
+use gonio_light::Arrival;
+
+/// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    pub(crate) paths: Paths,
+    pub(crate) next: Paths,
+    pub(crate) branches: Branches,
+    pub(crate) hits: Hits,
+    pub(crate) retraced: Hits,
+    pub(crate) retraced_rays: RetracedRays,
+    pub(crate) light_draws: LightDraws,
+    pub(crate) shadows: ShadowRays,
+    pub(crate) shadow_order: ShadowOrder,
+    /// Light that arrived, where it is to be learned from.
+    pub arrivals: Option<Vec<Arrival>>,
+    pub(crate) blocked: Vec<u8>,
+    pub(crate) passed: Vec<PassedHit>,
+    pub(crate) measure: MeasurePoints,
+    pub(crate) walks: Walks,
+    pub(crate) walk_hits: Hits,
+    /// Walks that reached the surface.
+    pub(crate) out: Vec<u32>,
+    /// Path numbers in the order of their materials, and where each material's begin and end.
+    pub(crate) order: Vec<u32>,
+    pub(crate) material_start: Vec<u32>,
+    pub(crate) material_end: Vec<u32>,
+    pub(crate) material_of: Vec<u32>,
+    /// Mixes and the paths at them.
+    pub(crate) mixed: Vec<(u32, u32)>,
+    /// Weights of a mix over a chunk, three channels a closure.
+    pub(crate) weights: Vec<f32>,
+    pub(crate) escaped: Vec<u32>,
+    pub(crate) at_lights: Vec<u32>,
+    pub(crate) surface: SurfaceColumns,
+    pub(crate) scratch: GraphScratch,
+    pub(crate) outputs: OutputColumns,
+    /// What programs of shader passes computed.
+    pub(crate) shader_outputs: OutputColumns,
+    /// The block under way.
+    pub first_hit: FirstHit,
+    /// The same of rays that see sharply alone.
+    pub(crate) sharp_hit: FirstHit,
+    /// Rays traced and lanes alive, for benchmarks.
+    pub statistics: Statistics,
+}
+
+impl Workspace {
+    /// Slots of the rays at hand, and what they have hit.
+    pub fn hits_by_slot(&self) -> (impl Iterator<Item = u32>, &Hits) {
+        ((0..self.paths.count).map(|path| self.paths.slot(path)), &self.hits)
+    }
+
+    /// Lets rays that see sharply alone have sums of their own.
+    pub(crate) fn start_sharp(&mut self, transport: &Transport) {
+        self.branches.prepare(transport);
+        self.sharp_hit.clear();
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+    }
+
+    /// Adds what they saw to the block, so many of them counting as one sample.
+    pub(crate) fn end_sharp(&mut self, rays: u32) {
+        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+        self.first_hit.add_sharp(&self.sharp_hit, 1.0 / rays as f32);
+    }
+
+    /// Empties the block's sums, and makes room for those that passes want.
+    pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
+        self.branches.prepare(transport);
+        for sums in [&mut self.first_hit, &mut self.sharp_hit] {
+            sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
+            sums.groups.prepare(transport.passes.groups.count);
+            sums.prepare_passes(&transport.passes);
+        }
+        self.first_hit.shader.prepare(&transport.passes.shader);
+        if !tables.geometry.set_catcher.is_empty() {
+            self.first_hit.prepare_catchers();
+        }
+        self.first_hit.clear();
+    }
+}
+
+const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

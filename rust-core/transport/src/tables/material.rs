@@ -1,0 +1,136 @@
+//! Compiled materials.
+
+use crate::graph::OutputColumns;
+use crate::graph::Program;
+use crate::tables::shader_passes::ShaderOutputs;
+use gonio_bsdf::{ParameterValues, parameter::COUNT};
+use gonio_bsdf::{Surface, parameter};
+use gonio_simd::{F, Lanes};
+
+/// One compiled closure: what a path meets at a hit.
+#[derive(Clone, Debug)]
+pub struct SurfaceMaterial {
+    /// Constants, model and lobes.
+    pub surface: Surface,
+    /// What computes the parameters that are not constant.
+    pub program: Program,
+    /// Opacity below this is 0, else 1; 0 leaves it as it is.
+    pub opacity_threshold: f32,
+    /// Whether it may let straight light pass.
+    pub transparent: bool,
+    /// Whether it may emit.
+    pub emissive: bool,
+    /// Whether the shading frame's tangent matters.
+    pub anisotropic: bool,
+    /// Whether it cuts a hole into the coverage.
+    pub holdout: bool,
+    /// What the material index pass shows.
+    pub pass_index: u32,
+}
+
+impl SurfaceMaterial {
+    /// Whether it emits the same everywhere, nothing included.
+    pub fn emits_evenly(&self) -> bool {
+        !self.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR)
+    }
+}
+
+/// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight.
+#[derive(Clone, Debug)]
+pub struct Mix {
+    /// Number of the first closure among the surfaces.
+    pub first: u32,
+    /// Closures.
+    pub count: usize,
+    /// What computes the weights: output `i` is the colour of closure `i`.
+    pub program: Program,
+    /// Whether any closure may let straight light pass.
+    pub transparent: bool,
+    /// Whether any closure may emit.
+    pub emissive: bool,
+    /// What all closures emit together where that is the same everywhere.
+    pub even_emission: Option<[f32; 3]>,
+}
+
+/// What a material number of the geometry stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// A surface by its number.
+    Surface(u32),
+    /// A mix by its number.
+    Mix(u32),
+}
+
+/// All materials.
+#[derive(Clone, Debug, Default)]
+pub struct MaterialTable {
+    /// Closures of all materials.
+    pub surfaces: Vec<SurfaceMaterial>,
+    /// Sums of closures.
+    pub mixes: Vec<Mix>,
+    /// The scene's materials in their order, then the default one.
+    pub numbers: Vec<Shading>,
+    /// Of the materials that have any, what they show in passes of their own.
+    pub shader_outputs: Vec<ShaderOutputs>,
+}
+
+impl MaterialTable {
+    /// The number that the geometry keeps for a material: mixes stand behind the surfaces.
+    pub fn number(&self, material: usize) -> u32 {
+        match self.numbers[material] {
+            Shading::Surface(surface) => surface,
+            Shading::Mix(mix) => self.surfaces.len() as u32 + mix,
+        }
+    }
+    /// What a number of the geometry stands for.
+    #[inline]
+    pub fn shading(&self, number: u32) -> Shading {
+        match number.checked_sub(self.surfaces.len() as u32) {
+            None => Shading::Surface(number),
+            Some(mix) => Shading::Mix(mix),
+        }
+    }
+    /// Whether a material of the geometry may let straight light pass.
+    pub fn transparent(&self, number: u32) -> bool {
+        match self.shading(number) {
+            Shading::Surface(surface) => self.surfaces[surface as usize].transparent,
+            Shading::Mix(mix) => self.mixes[mix as usize].transparent,
+        }
+    }
+    /// What a material of the geometry emits everywhere alike, if it does so at all.
+    pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
+        let emission = match self.shading(number) {
+            Shading::Surface(surface) => {
+                let material = &self.surfaces[surface as usize];
+                let glow = &material.surface.constants[parameter::EMISSION_COLOR..parameter::EMISSION_COLOR + 3];
+                (material.emissive && material.emits_evenly()).then(|| [glow[0], glow[1], glow[2]])
+            }
+            Shading::Mix(mix) => self.mixes[mix as usize].even_emission,
+        };
+        emission.filter(|glow| glow.iter().any(|x| *x > 0.0))
+    }
+}
+
+/// The parameters of a chunk: constants, and the columns a program computed.
+pub(crate) fn parameter_values<'a>(material: &'a SurfaceMaterial, outputs: &'a OutputColumns) -> ParameterValues<'a> {
+    let mut values = ParameterValues::constant(&material.surface.constants);
+    fill_columns(&material.program, outputs, &mut values.columns);
+    values
+}
+
+fn fill_columns<'a>(program: &Program, outputs: &'a OutputColumns, columns: &mut [Option<&'a [f32]>; COUNT]) {
+    let mut place = 0;
+    for output in &program.outputs {
+        for i in 0..output.width {
+            columns[output.offset + i] = Some(outputs.column(place));
+            place += 1;
+        }
+    }
+}
+
+/// Opacity after the cut-out threshold.
+#[inline(always)]
+pub(crate) fn threshold<L: Lanes>(opacity: F<L>, threshold: f32) -> F<L> {
+    let l = opacity.lanes();
+    if threshold > 0.0 { opacity.ge(threshold).select(l.f(1.0), l.f(0.0)) } else { opacity }
+}

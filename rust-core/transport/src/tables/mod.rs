@@ -1,0 +1,46 @@
+//! What kernels see of a compiled scene and of a view: tables, which no stage changes.
+
+pub(crate) mod light_groups;
+pub(crate) mod material;
+pub mod ray_mask;
+pub(crate) mod shader_passes;
+pub(crate) mod transport;
+
+use crate::geometry::GeometryTable;
+use crate::tables::light_groups::LightGroups;
+use gonio_accel::SceneBvh;
+use gonio_image::texture::TextureTable;
+use gonio_light::LightTable;
+use material::MaterialTable;
+use std::sync::Arc;
+
+/// The tables of a compiled scene.
+#[derive(Debug)]
+pub struct Tables {
+    /// Two-level tree; instances of light shapes follow those of meshes.
+    pub bvh: SceneBvh,
+    /// Meshes and instances.
+    pub geometry: GeometryTable,
+    /// Materials.
+    pub materials: MaterialTable,
+    /// Images.
+    pub textures: TextureTable,
+    /// Lights.
+    pub lights: Arc<LightTable>,
+    /// First instance that is a light's shape.
+    pub first_light_instance: u32,
+    /// Light of each such instance.
+    pub instance_light: Vec<u32>,
+    /// First light of each mesh instance whose triangles are lights, or [`crate::geometry::NONE`]; empty if there is none.
+    pub triangle_lights: Vec<u32>,
+    /// 1 for lights that paths among catchers alone do not know; empty if there is none.
+    pub object_lights: Vec<u32>,
+    /// Lights by group.
+    pub groups: LightGroups,
+    /// Whether any material lets straight light pass.
+    pub any_transparent: bool,
+    /// Whether any material absorbs light inside.
+    pub any_absorbing: bool,
+    /// World position of the rebased origin, metres.
+    pub origin: [f64; 3],
+}

@@ -1,0 +1,35 @@
+//! Shader AOVs: what materials compute for passes of their own.
+
+use crate::graph::{Program, Source};
+use std::{ops::Range, sync::Arc};
+
+/// What a material shows in the passes of a name.
+#[derive(Clone, Debug)]
+pub struct ShaderOutput {
+    /// Name of the passes.
+    pub name: String,
+    /// What a pass of colours shows.
+    pub color: Source,
+    /// What a pass of numbers shows.
+    pub value: Source,
+}
+
+/// The outputs of one material.
+#[derive(Clone, Debug)]
+pub struct ShaderOutputs {
+    /// The material's surfaces.
+    pub surfaces: Range<usize>,
+    /// The steps of the material's graph.
+    pub program: Program,
+    /// The outputs.
+    pub outputs: Vec<ShaderOutput>,
+}
+
+/// The shader passes of a view.
+#[derive(Clone, Debug, Default)]
+pub struct ShaderPasses {
+    /// By surface, what computes the passes there; outputs of three places are colours. Empty where no pass is wanted.
+    pub programs: Arc<[Option<Program>]>,
+    /// Columns of the sums.
+    pub columns: usize,
+}

@@ -1,0 +1,104 @@
+//! What does not change during a render.
+
+use crate::graph::CHUNK;
+use crate::state::shadow_rays::SHADOW_ROOM;
+use crate::tables::light_groups::GroupPasses;
+use crate::tables::shader_passes::ShaderPasses;
+use gonio_light::{Draw, KnownLights};
+use gonio_simd::{Execution, PADDING};
+use std::sync::Arc;
+
+/// What does not change during a render.
+#[derive(Clone, Debug)]
+pub struct Transport {
+    /// How kernels run.
+    pub execution: Execution,
+    /// Scatterings after the first surface.
+    pub max_bounces: u32,
+    /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
+    pub kind_bounces: [u32; 4],
+    /// Whether the camera sees lights at infinity.
+    pub shows_surroundings: bool,
+    /// Whether they cover the background.
+    pub surroundings_cover: bool,
+    /// What passes want to know of first surfaces.
+    pub passes: FirstPasses,
+    /// Whether illuminance is measured.
+    pub measure: bool,
+    /// Limits of direct and indirect contributions; 0 is off.
+    pub clamps: [f32; 2],
+    /// The camera's position and viewing direction, rebased world space.
+    pub eye: [f32; 3],
+    /// See `eye`.
+    pub forward: [f32; 3],
+    /// Seed of the random numbers.
+    pub seed: u32,
+    /// Samples a pixel in the whole render.
+    pub samples: u32,
+    /// Which lights arrive where, if that was learned.
+    pub known: Option<Arc<KnownLights>>,
+    /// Which light counts of what paths meet.
+    pub sight: Sight,
+    /// How every point is lit, where paths are trees of sharp rays instead.
+    pub draws: Option<Arc<[Draw]>>,
+}
+
+/// Which light counts of what paths meet: a camera sees it sharply where there are mirrors and smooth glass alone between.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sight {
+    /// All of it.
+    #[default]
+    Whole,
+    /// What is seen sharply; paths end at other surfaces.
+    Sharp,
+    /// What is not.
+    Blurred,
+}
+
+/// What passes want to know of first surfaces beyond the usual.
+#[derive(Clone, Debug, Default)]
+pub struct FirstPasses {
+    /// Depth, normal, position and albedo.
+    pub surface: bool,
+    /// Texture coordinates.
+    pub uv: bool,
+    /// Start, depth and falloff of the mist.
+    pub mist: Option<Mist>,
+    /// Albedo and normal for denoisers.
+    pub guides: bool,
+    /// Numbers and pass indices of instances and materials.
+    pub numbers: bool,
+    /// What materials compute for passes of their own.
+    pub shader: ShaderPasses,
+    /// Which groups of lights are summed apart.
+    pub groups: GroupPasses,
+}
+
+/// The mist pass: metres at which it starts, metres until it is full, exponent.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mist {
+    /// Metres.
+    pub start: f32,
+    /// Metres.
+    pub depth: f32,
+    /// Exponent.
+    pub falloff: f32,
+}
+
+impl Transport {
+    /// The limit of contributions at a depth.
+    #[inline(always)]
+    pub(crate) fn clamp(&self, depth: u32) -> f32 {
+        self.clamps[usize::from(depth > 1)]
+    }
+
+    /// Shadow rays that a hit may send.
+    pub(crate) fn rays_per_hit(&self) -> usize {
+        self.draws.as_ref().map_or(1, |draws| draws.len().max(1))
+    }
+
+    /// Hits that are lit together, whole registers: no more than a chunk, and no more than there is room for their shadow rays.
+    pub(crate) fn hits_together(&self) -> usize {
+        ((SHADOW_ROOM - PADDING) / self.rays_per_hit() / PADDING * PADDING).clamp(PADDING, CHUNK)
+    }
+}
