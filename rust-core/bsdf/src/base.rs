@@ -3,12 +3,13 @@
 use super::energy;
 use super::film::Film;
 use super::fresnel::{self, Curve};
-use super::lobes::{Normal, Shape, Side, turned};
+use super::lobes::{Normal, Shape, Side};
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Anisotropy, Fresnel, Metal, Tint};
+use super::turn::turned;
 use gonio_simd::{F, Lanes, Rgb};
 
 /// The dielectric base at a hit.

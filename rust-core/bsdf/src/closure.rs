@@ -3,13 +3,14 @@
 use super::fresnel::Curve;
 use super::fuzz::FuzzLobe;
 use super::glass::Interface;
-use super::lobes::{Normal, Shape, Side, turned};
+use super::lobes::{Normal, Shape, Side};
 use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Closure, Fuzz};
+use super::turn::turned;
 use gonio_simd::{Lanes, Rgb};
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {

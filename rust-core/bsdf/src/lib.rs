@@ -28,6 +28,7 @@ mod switches;
 #[cfg(test)]
 mod tests;
 mod transmission;
+mod turn;
 
 pub use lobes::{BsdfSample, Lobes, MAXIMUM, SharpRay, Way};
 pub use measured::MeasuredBsdf;

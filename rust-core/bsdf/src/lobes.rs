@@ -12,7 +12,7 @@ mod slot;
 pub(crate) use coat_tint::CoatTint;
 pub use sample::BsdfSample;
 pub use sharp::{SharpRay, Way};
-pub(crate) use slot::{Shape, Side, Slot, turned};
+pub(crate) use slot::{Shape, Side, Slot};
 
 use super::diffuse::DiffuseLobe;
 pub(crate) use super::normals::Normal;

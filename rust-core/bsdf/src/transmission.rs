@@ -4,12 +4,13 @@ use super::base::Base;
 use super::energy;
 use super::fresnel::{self, Curve};
 use super::glass::{GlassLobe, Interface};
-use super::lobes::{Normal, Shape, Side, turned};
+use super::lobes::{Normal, Shape, Side};
 use super::microfacet::Widths;
 use super::parameter as p;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Fresnel, Tint};
+use super::turn::turned;
 use gonio_simd::{F, Lanes, Rgb};
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {

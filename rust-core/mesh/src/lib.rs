@@ -5,6 +5,7 @@
 //! bad input: what cannot be used is skipped and counted or comes back as a [`MeshProblem`].
 
 mod ear_clip;
+mod interpolation;
 mod normals;
 mod polygon;
 mod primvar;
@@ -13,15 +14,18 @@ pub mod quadrics;
 pub mod refine;
 mod tangents;
 mod triangulate;
+mod triangulation;
 mod validate;
 mod vector;
 
 #[cfg(test)]
 mod tests;
 
+pub use interpolation::Interpolation;
 pub use normals::{corner_normals, facet_normals, smooth_normals};
 pub use polygon::PolygonMesh;
-pub use primvar::{FacePrimvar, Interpolation};
+pub use primvar::FacePrimvar;
 pub use problem::{MeshProblem, Severity};
 pub use tangents::corner_tangents;
-pub use triangulate::{Triangulation, triangulate};
+pub use triangulate::triangulate;
+pub use triangulation::Triangulation;

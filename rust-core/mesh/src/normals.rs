@@ -1,29 +1,11 @@
 //! Normals for meshes that have none: per face, per point, and per corner with sharp angles kept.
 
-use super::vector::{Vec3, add, angle_between, dot, normalized, scale, sub};
+use super::vector::{Vec3, add, angle_between, dot, newell, normalized, scale, sub};
 use super::{FacePrimvar, Interpolation, PolygonMesh};
 use std::ops::Range;
 
 /// What a face without area gets.
 const FALLBACK: Vec3 = [0.0, 0.0, 1.0];
-
-/// Newell's normal of a polygon, twice its area long, in f64 because large polygons far away lose f32's digits.
-pub(super) fn newell(points: &[Vec3], vertices: &[u32]) -> [f64; 3] {
-    let origin = vertices.first().map_or([0.0; 3], |&vertex| points[vertex as usize]);
-    let relative = |vertex: u32| {
-        let point = points[vertex as usize];
-        [0, 1, 2].map(|axis| f64::from(point[axis]) - f64::from(origin[axis]))
-    };
-    let mut normal = [0.0; 3];
-    for (i, &vertex) in vertices.iter().enumerate() {
-        let (a, b) = (relative(vertex), relative(vertices[(i + 1) % vertices.len()]));
-        for (axis, component) in normal.iter_mut().enumerate() {
-            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            *component += (a[u] - b[u]) * (a[v] + b[v]);
-        }
-    }
-    normal
-}
 
 /// Unit normal of each face, outward also for left-handed meshes; +Z for faces without area.
 #[must_use]

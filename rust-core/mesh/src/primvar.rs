@@ -1,21 +1,7 @@
 //! Primvars of polygon meshes: named values with a rule how they spread over the surface.
 
-use super::triangulate::Triangulation;
-
-/// How the elements of a primvar map to a mesh (the USD names).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Interpolation {
-    /// One element for the mesh.
-    Constant,
-    /// One element per face.
-    Uniform,
-    /// One element per point, interpolated linearly under subdivision.
-    Varying,
-    /// One element per point, interpolated like the points under subdivision.
-    Vertex,
-    /// One element per face corner.
-    FaceVarying,
-}
+use super::interpolation::Interpolation;
+use super::triangulation::Triangulation;
 
 /// A primvar: `values` holds elements of `components` floats each; `indices`, when present, picks an element per
 /// constant, face, point or face corner, as `interpolation` says.

@@ -1,7 +1,10 @@
 //! What can be wrong with a polygon mesh, and how bad it is.
 
-use super::Interpolation;
+use super::interpolation::Interpolation;
 use std::fmt;
+
+/// Most points, faces or corners of one mesh: an index and the number of half-edges both fit 32 bits.
+pub(crate) const MAX_ELEMENTS: usize = (1 << 31) - 1;
 
 /// What a [`MeshProblem`] costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,7 +168,7 @@ impl fmt::Display for MeshProblem {
                 write!(out, "face corner {corner} has vertex {vertex}, but there are {points} points ({count} such corners)")
             }
             Self::NonFinitePoints { first, count } => write!(out, "{count} points are not finite, the first is point {first}"),
-            Self::TooLarge { what, count } => write!(out, "{count} {what}, expected at most {}", super::validate::MAX_ELEMENTS),
+            Self::TooLarge { what, count } => write!(out, "{count} {what}, expected at most {}", MAX_ELEMENTS),
             Self::ShortFaces { first, count } => {
                 write!(out, "{count} faces have fewer than 3 corners and are skipped, the first is face {first}")
             }

@@ -2,21 +2,8 @@
 
 use super::PolygonMesh;
 use super::ear_clip::{ear_clip, is_convex, turn};
-use super::normals::newell;
-use super::vector::Vec3;
-
-/// The triangles of a polygon mesh, counter-clockwise seen from the front, with the way back to the polygons.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Triangulation {
-    /// Points of each triangle.
-    pub triangles: Vec<[u32; 3]>,
-    /// Face corner (index into [`PolygonMesh::corners`]) of each triangle corner.
-    pub corner_of: Vec<[u32; 3]>,
-    /// Face of each triangle.
-    pub face_of: Vec<u32>,
-    /// Faces that are no holes and gave no triangle: too few corners, or corners out of range.
-    pub skipped_faces: usize,
-}
+use super::triangulation::Triangulation;
+use super::vector::{Vec3, newell};
 
 /// Cuts all faces of `mesh` but its holes into triangles. A quad is cut from its corner 0 to 2, unless it is concave at 1
 /// or 3; convex polygons become a fan about corner 0, others are ear-clipped in the plane of their Newell normal.

@@ -1,9 +1,7 @@
 //! Checks of untrusted polygon meshes.
 
+use super::problem::MAX_ELEMENTS;
 use super::{FacePrimvar, MeshProblem, PolygonMesh, Severity};
-
-/// Most points, faces or corners of one mesh: an index and the number of half-edges both fit 32 bits.
-pub(crate) const MAX_ELEMENTS: usize = (1 << 31) - 1;
 
 impl PolygonMesh {
     /// Everything that is wrong with the mesh, topology first. Allocates nothing that depends on a count in the data.

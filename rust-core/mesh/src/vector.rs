@@ -50,3 +50,21 @@ pub(crate) fn angle_between(a: Vec3, b: Vec3) -> f32 {
     let sine = dot(cross(a, b), cross(a, b)).sqrt();
     sine.atan2(dot(a, b))
 }
+
+/// Newell's normal of a polygon, twice its area long, in f64 because large polygons far away lose f32's digits.
+pub(super) fn newell(points: &[Vec3], vertices: &[u32]) -> [f64; 3] {
+    let origin = vertices.first().map_or([0.0; 3], |&vertex| points[vertex as usize]);
+    let relative = |vertex: u32| {
+        let point = points[vertex as usize];
+        [0, 1, 2].map(|axis| f64::from(point[axis]) - f64::from(origin[axis]))
+    };
+    let mut normal = [0.0; 3];
+    for (i, &vertex) in vertices.iter().enumerate() {
+        let (a, b) = (relative(vertex), relative(vertices[(i + 1) % vertices.len()]));
+        for (axis, component) in normal.iter_mut().enumerate() {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            *component += (a[u] - b[u]) * (a[v] + b[v]);
+        }
+    }
+    normal
+}

@@ -7,6 +7,7 @@ use super::super::measured::MeasuredLobe;
 use super::super::normals::{Normal, Tilts};
 use super::super::reflect::ReflectLobe;
 use super::super::subsurface::EntryLobe;
+use crate::turn::turned;
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// The shape of a lobe.
@@ -53,15 +54,6 @@ pub(crate) struct Slot<'s, L: Lanes> {
     pub(crate) normal: Normal,
     /// Whether the light's way through the coat tints the lobe.
     pub(crate) coated: bool,
-}
-
-/// A direction in a frame whose tangent is turned by an angle of this cosine and sine.
-#[inline(always)]
-pub(crate) fn turned<L: Lanes>(v: Vec3<L>, turn: Option<[F<L>; 2]>) -> Vec3<L> {
-    match turn {
-        Some([cos, sin]) => Vec3::new(cos.mul_add(v.x, sin * v.y), cos.mul_add(v.y, -(sin * v.x)), v.z),
-        None => v,
-    }
 }
 
 /// A direction, usable where it is over the surface.

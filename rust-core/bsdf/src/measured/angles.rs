@@ -1,6 +1,6 @@
 //! Angles of directions on lanes.
 
-use crate::lobes::turned as in_turned_frame;
+use crate::turn::turned as in_turned_frame;
 use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use gonio_simd::{F, Lanes, Vec3};
 

@@ -3,8 +3,10 @@
 use super::{
     Film, block_at,
     noise::Halves,
+    raw::{array, number},
     sums::Sums,
-    tile::{TileFilm, ZONES},
+    tile::TileFilm,
+    zones::ZONES,
 };
 use crate::camera::sampler::BATCH;
 use std::io::{Error, ErrorKind, Read, Result, Write};
@@ -60,20 +62,6 @@ impl TileFilm {
         }
         Ok(())
     }
-}
-
-/// A whole number of 32 bits.
-pub(super) fn number(input: &mut impl Read) -> Result<u32> {
-    let mut bytes = [0; 4];
-    input.read_exact(&mut bytes)?;
-    Ok(u32::from_le_bytes(bytes))
-}
-
-/// So many floats.
-pub(super) fn array<T: bytemuck::Pod>(input: &mut impl Read, count: usize) -> Result<Vec<T>> {
-    let mut values = vec![T::zeroed(); count];
-    input.read_exact(bytemuck::cast_slice_mut(&mut values))?;
-    Ok(values)
 }
 
 fn damaged(what: &str) -> Error {

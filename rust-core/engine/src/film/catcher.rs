@@ -3,9 +3,6 @@
 use super::develop::{Developing, Part};
 use crate::{camera::sampler::BATCH, colour::luminance, scene::Aov, transport::FirstHit};
 
-/// Radiance of catchers with all objects, and without them; what is behind; coverage.
-pub(super) const CHANNELS: usize = 10;
-
 /// Copies what a worker gathered to a block's channels.
 pub(super) fn fill(channels: &mut [f32], gathered: &FirstHit) {
     let Some((coverage, behind)) = gathered.catchers.sums() else { return };

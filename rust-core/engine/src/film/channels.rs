@@ -1,7 +1,9 @@
 //! Which passes a film keeps, and where their channels lie.
 
-use super::catcher;
 use crate::scene::{Aov, LightPart, ShaderValue};
+
+/// Radiance of catchers with all objects, and without them; what is behind; coverage.
+const CATCHER_CHANNELS: usize = 10;
 
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -38,7 +40,7 @@ impl ChannelLayout {
 
     /// Makes room for what shadow catchers hide.
     pub fn with_catchers(self, wanted: bool) -> Self {
-        let room = if wanted { catcher::CHANNELS } else { 0 };
+        let room = if wanted { CATCHER_CHANNELS } else { 0 };
         Self { catchers: wanted.then_some(self.channels), channels: self.channels + room, ..self }
     }
 

@@ -8,8 +8,10 @@ mod develop;
 mod edge_aware;
 mod filter;
 mod noise;
+mod raw;
 mod sums;
 mod tile;
+mod zones;
 
 pub(crate) use blocks::{GROUP, MOST_BLOCK, block, block_at};
 pub(crate) use bytes::LEAST_TILE;
@@ -19,7 +21,8 @@ pub use edge_aware::edge_aware;
 pub use filter::tabulate;
 pub use gonio_camera::{FilterTable, Placement};
 pub(crate) use noise::decides;
-pub use tile::{Block, TileFilm, TileState, ZONE, ZONES, zone_of};
+pub use tile::{Block, TileFilm, TileState};
+pub use zones::{ZONE, ZONES, zone_of};
 
 use crate::{
     camera::sampler::TILE,

@@ -8,7 +8,7 @@
 //! samples are bright they do: a zone that has missed them looks quiet and stays dark. Taking 64 pixels together and a least number of samples
 //! makes that small; neither alone does.
 
-use super::{ZONES, bytes, zone_of};
+use super::{ZONES, raw, zone_of};
 use crate::camera::sampler::BATCH;
 use std::io::{Read, Result, Write};
 
@@ -81,10 +81,10 @@ impl Halves {
     }
 
     pub(super) fn read(input: &mut impl Read) -> Result<Self> {
-        let sums = [bytes::array(input, BATCH)?, bytes::array(input, BATCH)?];
+        let sums = [raw::array(input, BATCH)?, raw::array(input, BATCH)?];
         let mut samples = [[0; ZONES]; 2];
         for samples in samples.as_flattened_mut() {
-            *samples = bytes::number(input)?;
+            *samples = raw::number(input)?;
         }
         Ok(Self { sums, samples })
     }

@@ -6,25 +6,15 @@ use super::{
     catcher, is_index,
     noise::{Halves, decides},
     sums::{Place, Rules, Sums},
+    zones::{ZONE, ZONES, zone_of},
 };
 use crate::{
-    camera::sampler::{BATCH, TILE, tile_code, unpack},
+    camera::sampler::{BATCH, tile_code, unpack},
     colour::luminance_of_pixel,
     scene::{Aov, LightPart, Settings},
     transport::{FirstHit, code},
 };
 use std::{borrow::Cow, collections::BTreeMap, ops::Range};
-
-/// Pixels along the side of a zone: what adaptive sampling goes on with or leaves.
-pub const ZONE: usize = 8;
-/// Zones of a tile, and pixels of a zone: those whose Morton numbers differ in the last six bits.
-pub const ZONES: usize = (TILE / ZONE) * (TILE / ZONE);
-
-/// The zone of a pixel by its Morton number.
-#[inline]
-pub fn zone_of(code: usize) -> usize {
-    code / (ZONE * ZONE)
-}
 
 /// Sums over a block of samples, `BATCH` values a channel, by the pixels' Morton numbers.
 #[derive(Clone, Debug)]
