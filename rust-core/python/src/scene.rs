@@ -380,9 +380,7 @@ impl Scene {
 
     /// The scene as nested dictionaries and lists.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text = py.detach(|| serde_json::to_string(&self.scene));
-        let text = text.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        py.import("json")?.call_method1("loads", (text,))
+        description::to_python(py, &self.scene)
     }
 
     /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with
