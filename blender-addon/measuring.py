@@ -55,7 +55,8 @@ class Meter:
 
     def at(self, position, normal, eye, towards, samples: int):
         """Illuminance at `position` on the plane across `normal`, and the luminance that is seen from `eye` towards `towards`."""
-        self.scene.truncate(meters=0, grids=0)
+        self.scene.truncate("meters", 0)
+        self.scene.truncate("grids", 0)
         self.scene.add_meter(tuple(position), normal=tuple(normal))
         self.scene.add_meter(tuple(eye), facing=tuple(towards), quantity="luminance")
         illuminance, luminance = gonio.measure(self.scene, samples=samples, previous=self._render()).meters
@@ -63,7 +64,8 @@ class Meter:
 
     def put_grids(self, depsgraph, objects) -> None:
         """Puts the grids on these objects into the scene."""
-        self.scene.truncate(meters=0, grids=0)
+        self.scene.truncate("meters", 0)
+        self.scene.truncate("grids", 0)
         for thing in objects:
             self._add_grid(thing, thing.evaluated_get(depsgraph))
 

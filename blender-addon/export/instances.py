@@ -71,7 +71,7 @@ class Instances:
             number += 1
         if number < len(self._written):
             self.any_written = True
-            self._scene.truncate(instances=number)
+            self._scene.truncate("instances", number)
             del self._written[number:]
 
     def move(self, moved):

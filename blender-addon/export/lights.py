@@ -161,5 +161,5 @@ class Lights:
                 self._scene.put_light(description, index=number if known else None)
                 self.any_written = True
         if len(wanted) < len(self._written):
-            self._scene.truncate(lights=len(wanted))
+            self._scene.truncate("lights", len(wanted))
         self._written = wanted

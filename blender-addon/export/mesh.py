@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender mesh as the arrays of `gonio.Scene.add_mesh`; raw attributes, so that little happens a vertex in Python."""
+"""A Blender mesh as the arrays of `gonio.Scene.put_mesh`; raw attributes, so that little happens a vertex in Python."""
 
 import ctypes
 
@@ -61,7 +61,7 @@ def _active_uv(mesh):
 
 
 def mesh_arguments(mesh, primvars):
-    """The arguments of `add_mesh` with the named values that materials want; None for a mesh without faces."""
+    """The arguments of `put_mesh` with the named values that materials want; None for a mesh without faces."""
     mesh.calc_loop_triangles()
     count = len(mesh.loop_triangles)
     if count == 0:

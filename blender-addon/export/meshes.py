@@ -70,11 +70,11 @@ class Meshes:
     def _add(self, number, name, arguments):
         self.any_written = True
         points, triangles = arguments.pop("points"), arguments.pop("triangles")
-        self._slots.place(lambda index: self._scene.add_mesh(points, triangles, name=name, index=index, **arguments), number)
+        self._slots.place(lambda index: self._scene.put_mesh(points, triangles, name=name, index=index, **arguments), number)
 
     def sweep(self):
         """Frees the memory of meshes that nothing shows any more."""
         self._known = {place: known for place, known in self._known.items() if place in self._seen}
         for number in self._slots.sweep():
             nothing = np.zeros((0, 3), dtype=np.float32), np.zeros((0, 3), dtype=np.int32)
-            self._slots.place(lambda index, nothing=nothing: self._scene.add_mesh(*nothing, name="nothing", index=index), number)
+            self._slots.place(lambda index, nothing=nothing: self._scene.put_mesh(*nothing, name="nothing", index=index), number)

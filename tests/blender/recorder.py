@@ -25,7 +25,7 @@ class Recorder:
         things[index] = thing
         return index
 
-    def add_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
+    def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
         arrays = {"points": points, "triangles": triangles, "corners": corners, "faces": faces, "normals": normals, "slots": slots}
         for key, array in {**arrays, **(primvars or {})}.items():
             assert array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key
@@ -52,9 +52,8 @@ class Recorder:
     def put_camera(self, description, index=None):
         return self._put("cameras", description, index)
 
-    def truncate(self, **lengths):
-        for what, length in lengths.items():
-            del getattr(self, what)[length:]
+    def truncate(self, kind, n):
+        del getattr(self, kind)[n:]
 
     def set(self, **settings):
         self.settings.update(settings)

@@ -148,7 +148,7 @@ def test_elements_are_replaced_and_truncated():
     close(mean(scene)[:3], [0.6] * 3)
     with pytest.raises(gonio.SettingError, match="number 7"):
         scene.put_material({"origin": "none"}, index=7)
-    scene.truncate(instances=0)
+    scene.truncate("instances", 0)
     assert scene.to_dict()["instances"] == []
 
 

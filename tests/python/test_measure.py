@@ -20,7 +20,7 @@ def test_meters(floor):
     assert float(illuminance) == pytest.approx(UNDER_LAMP, rel=2e-3)
     assert abs(illuminance.value - UNDER_LAMP) < 5 * illuminance.standard_error + 1e-3
     assert luminance.value == pytest.approx(0.5 * UNDER_LAMP / math.pi, rel=5e-3)
-    scene.truncate(meters=0)
+    scene.truncate("meters", 0)
     assert gonio.measure(scene).meters == []
 
 
@@ -106,7 +106,7 @@ def test_what_cannot_be_measured(floor):
     scene.add_meter((0, 0, 0), normal=(0, 0, 0))
     with pytest.raises(gonio.SceneError, match="normal"):
         gonio.measure(scene)
-    scene.truncate(meters=0)
+    scene.truncate("meters", 0)
     scene.add_grid(mesh=99)
     with pytest.raises(gonio.SceneError, match="99"):
         gonio.measure(scene)

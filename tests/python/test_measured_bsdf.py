@@ -176,5 +176,5 @@ def test_a_scene_shares_it(tmp_path):
     assert len(description["measured"]) == 1 and description["materials"][0]["closures"][0]["measured"] == 0
     scene.save(tmp_path / "scene.gonio")
     assert len(gonio.Scene.load(tmp_path / "scene.gonio").to_dict()["measured"]) == 1
-    scene.truncate(measured=0)
+    scene.truncate("measured", 0)
     assert scene.to_dict()["measured"] == []

@@ -237,7 +237,7 @@ def test_a_film_outlives_its_render_and_a_partial_film_can_be_taken(floor):
 def test_a_glowing_mesh_lights_a_large_floor_as_a_lamp_of_its_shape_does(floor, render):
     def lux(add):
         scene = floor(samples=256, passes=["illuminance"], max_bounces=0)
-        scene.truncate(lights=0)
+        scene.truncate("lights", 0)
         add(scene)
         values = np.asarray(render(scene)["illuminance"])[..., 0].copy()
         # What the panel hides, and its edges.

@@ -196,10 +196,16 @@ def test_values_that_are_no_numbers(floor, render):
     points = POINTS.copy()
     points[0] = np.nan
     scene = floor()
+    for add in (
+        lambda: scene.add_light("rectangle", (math.nan, 1.0, math.inf)),
+        lambda: scene.add_light("sphere", radius=math.nan),
+        lambda: scene.add_material(base_color=math.inf),
+        lambda: scene.add_camera(fov=math.nan),
+    ):
+        with pytest.raises(gonio.SettingError, match="expected a finite number"):
+            add()
     try:
         scene.add_instance(scene.add_mesh(points, TRIANGLES))
-        scene.add_light("rectangle", (math.nan, 1.0, math.inf))
-        scene.add_light("sphere", radius=math.nan)
         scene.add_instance(0, transform=np.full((4, 4), np.nan))
         film = render(scene)
     except (gonio.Error, ValueError):

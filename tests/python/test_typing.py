@@ -18,11 +18,21 @@ def test_stubs_match_the_module(tmp_path, pytestconfig):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.timeout(240)
+def test_the_package_is_typed(tmp_path, pytestconfig):
+    pytest.importorskip("mypy")
+    environment = {**os.environ, "MYPY_CACHE_DIR": str(pytestconfig.cache.mkdir("mypy"))}
+    line = [sys.executable, "-m", "mypy", "--strict", "-m", "gonio.scene"]
+    done = subprocess.run(line, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=230)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_everything_public_has_words():
     things = {name: getattr(gonio, name) for name in gonio.__all__ if not isinstance(getattr(gonio, name), str)}
     silent = [name for name, thing in things.items() if not thing.__doc__]
     for name, thing in things.items():
-        members = [member for member in vars(thing) if not member.startswith("_")] if isinstance(thing, type) else []
+        classes = [base for base in thing.__mro__ if base.__module__.startswith("gonio")] if isinstance(thing, type) else []
+        members = [member for base in classes for member in vars(base) if not member.startswith("_")]
         silent += [f"{name}.{member}" for member in members if not getattr(thing, member).__doc__]
     assert not silent
 

@@ -1,7 +1,11 @@
 //! The one match from the engine's errors to Python's exceptions.
 
 use gonio::Error as EngineError;
-use pyo3::{PyErr, create_exception, exceptions::PyException, prelude::*};
+use pyo3::{
+    PyErr, create_exception,
+    exceptions::{PyBaseException, PyException},
+    prelude::*,
+};
 use std::io::ErrorKind;
 
 create_exception!(gonio, Error, PyException, "What gonio raises; `.origin`, `.path`, `.line` and `.hint` tell where.");
@@ -14,6 +18,12 @@ create_exception!(gonio, Cancelled, Error, "The caller asked to stop.");
 /// The exception for a setting's problem.
 pub(crate) fn setting(name: &str, problem: impl Into<String>) -> PyErr {
     exception(EngineError::setting(name, problem))
+}
+
+/// The exception for a setting's problem, for Python to raise.
+#[pyfunction]
+pub(crate) fn _setting_error(py: Python<'_>, name: &str, problem: String) -> Py<PyBaseException> {
+    setting(name, problem).into_value(py)
 }
 
 /// The exception for an engine's error.

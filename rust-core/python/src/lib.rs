@@ -36,11 +36,13 @@ mod _gonio {
     #[pymodule_export]
     use crate::daylight::{Daylight, daylight, read_weather};
     #[pymodule_export]
-    use crate::error::{Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
+    use crate::error::{_setting_error, Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]
     use crate::film::Film;
     #[pymodule_export]
     use crate::glare::{Glare, GlareSource, glare};
+    #[pymodule_export]
+    use crate::light::blackbody_rgb;
     #[pymodule_export]
     use crate::measure::{GridReading, Measurements, Reading, measure_scene};
     #[pymodule_export]
@@ -58,10 +60,16 @@ mod _gonio {
     #[pymodule_export]
     use crate::usd::{_files_of_stage, _main, _scene, load_usd};
 
-    use pyo3::prelude::*;
+    use pyo3::{prelude::*, types::PyDict};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        // Numbers that each parameter of surfaces takes.
+        let parameters = PyDict::new(module.py());
+        for parameter in gonio::bsdf::parameter::NAMES {
+            parameters.set_item(parameter.name, parameter.width())?;
+        }
+        module.add("surface_parameters", parameters)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("simd_level", gonio_simd::Execution::detect().name())
     }

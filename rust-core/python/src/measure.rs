@@ -2,24 +2,18 @@
 
 use crate::{
     array::Array,
-    error::{exception, setting},
+    error::exception,
     picture::{self, Picture},
     render::Render,
     scene::Scene,
 };
 use gonio::{
     measure::{self, Summary, Watch},
-    scene::{Measurand, Scene as Description},
+    scene::Scene as Description,
 };
 use gonio_simd::Execution;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The quantity of a name.
-pub(crate) fn measurand(name: &str) -> PyResult<Measurand> {
-    let expected = || Measurand::NAMES.map(|(_, name)| name).join(", ");
-    Measurand::by_name(name).ok_or_else(|| setting("quantity", format!("'{name}' was found, expected one of {}", expected())))
-}
 
 /// A value with its standard error, in the quantity's unit.
 #[pyclass(frozen, get_all, module = "gonio")]

@@ -3,8 +3,7 @@
 use crate::{description::to_python, error::exception};
 use gonio::scene::Goniogram;
 use gonio_formats::photometry;
-use pyo3::prelude::*;
-use serde_json::json;
+use pyo3::{prelude::*, types::PyDict};
 use std::path::Path;
 
 /// A file's luminaire with the lamp set of a number, from 1, and tilted by so many degrees.
@@ -43,25 +42,23 @@ pub(crate) fn goniogram_figures<'py>(
     name: &str,
     lamp_set: Option<usize>,
     tilt: f64,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<Bound<'py, PyDict>> {
     let found = read(data, name, lamp_set, tilt)?;
-    let figures = found.figures();
-    let lamps = found.lamps();
-    let description = json!({
-        "luminaire": found.text("LUMINAIRE").unwrap_or_default(),
-        "lamps": lamps.map(|lamps| lamps.name.as_str()).unwrap_or_default(),
-        "colour": lamps.map(|lamps| lamps.colour.as_str()).unwrap_or_default(),
-        "lamp_flux_lm": lamps.and_then(|lamps| lamps.flux),
-        "flux_lm": figures.flux,
-        "downward_fraction": figures.downward_fraction,
-        "lamp_sets": found.lamp_sets.len(),
-        "has_tilt": found.tilt.is_some(),
-        "watts": figures.watts,
-        "efficacy_lm_per_w": figures.efficacy,
-        "peak_cd": figures.peak,
-        "beam_angle_deg": figures.beam.map(|spread| spread.angle()),
-        "field_angle_deg": figures.field.map(|spread| spread.angle()),
-        "cuts": [found.cut(0.0), found.cut(90.0)],
-    });
-    to_python(py, &description)
+    let (figures, lamps) = (found.figures(), found.lamps());
+    let described = PyDict::new(py);
+    described.set_item("luminaire", found.text("LUMINAIRE").unwrap_or_default())?;
+    described.set_item("lamps", lamps.map(|lamps| lamps.name.as_str()).unwrap_or_default())?;
+    described.set_item("colour", lamps.map(|lamps| lamps.colour.as_str()).unwrap_or_default())?;
+    described.set_item("lamp_flux_lm", lamps.and_then(|lamps| lamps.flux))?;
+    described.set_item("flux_lm", figures.flux)?;
+    described.set_item("downward_fraction", figures.downward_fraction)?;
+    described.set_item("lamp_sets", found.lamp_sets.len())?;
+    described.set_item("has_tilt", found.tilt.is_some())?;
+    described.set_item("watts", figures.watts)?;
+    described.set_item("efficacy_lm_per_w", figures.efficacy)?;
+    described.set_item("peak_cd", figures.peak)?;
+    described.set_item("beam_angle_deg", figures.beam.map(|spread| spread.angle()))?;
+    described.set_item("field_angle_deg", figures.field.map(|spread| spread.angle()))?;
+    described.set_item("cuts", [found.cut(0.0), found.cut(90.0)])?;
+    Ok(described)
 }

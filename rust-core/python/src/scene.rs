@@ -5,8 +5,6 @@ use crate::{
     daylight::{self, Daylight},
     description,
     error::{exception, setting},
-    light,
-    measure::measurand,
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
     settings,
@@ -14,16 +12,18 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{
-        self, Camera, Closure, DomeFormat, Emission, Grid, GridArea, Input, Instances, Light, LightShape, Material, MaterialId, MeshId,
-        Meter, Origin, Primvar, PrimvarInterpolation, Transform, Visibility,
-    },
+    scene::{self, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform},
 };
-use pyo3::{exceptions::PyValueError, prelude::*, pybacked::PyBackedBytes, types::PyDict};
+use pyo3::{
+    prelude::*,
+    pybacked::PyBackedBytes,
+    sync::PyOnceLock,
+    types::{PyDict, PyType},
+};
 use std::{collections::HashMap, path::PathBuf};
 
 /// What is to be rendered: meshes, instances, materials, lights, cameras, settings; lengths in metres, radiances in cd/m².
-#[pyclass(module = "gonio")]
+#[pyclass(module = "gonio._gonio", subclass)]
 #[derive(Default)]
 pub(crate) struct Scene {
     pub(crate) scene: scene::Scene,
@@ -32,14 +32,14 @@ pub(crate) struct Scene {
     pub(crate) cameras_have_shape: bool,
 }
 
-/// A 4×4 matrix for column vectors (translation in the last column), or None for the identity.
-fn transform(matrix: Option<&Bound<'_, PyAny>>) -> PyResult<Transform> {
-    let Some(matrix) = matrix else { return Ok(Transform::IDENTITY) };
-    let rows: Vec<Vec<f64>> = matrix.extract()?;
-    if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
-        return Err(PyValueError::new_err("transform: expected a 4 by 4 matrix"));
+impl Scene {
+    /// The same as a `gonio.Scene`, which is the class of this one with what Python adds.
+    pub(crate) fn public(self, py: Python<'_>) -> PyResult<Bound<'_, Self>> {
+        static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        let scene = CLASS.import(py, "gonio.scene", "Scene")?.call0()?.cast_into::<Self>()?;
+        *scene.borrow_mut() = self;
+        Ok(scene)
     }
-    Ok(Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| rows[row][column])) })
 }
 
 #[pymethods]
@@ -58,7 +58,7 @@ impl Scene {
     /// face or mesh; slots: integer buffer of material slots, one a triangle or face.
     #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, name = "mesh", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn add_mesh(
+    fn put_mesh(
         &mut self,
         points: &Bound<'_, PyAny>,
         triangles: &Bound<'_, PyAny>,
@@ -94,6 +94,12 @@ impl Scene {
         light_group: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
+        if mesh as usize >= self.scene.meshes.len() {
+            return Err(setting("mesh", format!("{mesh} was found, the scene has {} meshes", self.scene.meshes.len())));
+        }
+        if let Some(material) = materials.iter().find(|material| **material as usize >= self.scene.materials.len()) {
+            return Err(setting("materials", format!("{material} was found, the scene has {} materials", self.scene.materials.len())));
+        }
         let place = |m: [[f64; 4]; 4]| Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| m[row][column])) };
         let transforms: Vec<Transform> = matrices(transforms, "transforms")?.into_iter().map(place).collect();
         let mut own = Vec::new();
@@ -131,11 +137,25 @@ impl Scene {
         description::put(&mut self.scene.lights, "light", description::read(description, "light")?, index)
     }
 
-    /// Adds a camera described as in `to_dict`, or replaces camera `index`; gives its number.
+    /// Adds a camera described as in `to_dict`, or replaces camera `index`; gives its number. The apertures' widths follow the shape of the
+    /// picture until a camera is put with `fixed_aperture`.
+    #[pyo3(signature = (description, index = None, *, fixed_aperture = true))]
+    fn put_camera(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>, fixed_aperture: bool) -> PyResult<u32> {
+        let number = description::put(&mut self.scene.cameras, "camera", description::read(description, "camera")?, index)?;
+        self.cameras_have_shape |= fixed_aperture;
+        Ok(number)
+    }
+
+    /// Adds a meter described as in `to_dict`, or replaces meter `index`; gives its number.
     #[pyo3(signature = (description, index = None))]
-    fn put_camera(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
-        self.cameras_have_shape = true;
-        description::put(&mut self.scene.cameras, "camera", description::read(description, "camera")?, index)
+    fn put_meter(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
+        description::put(&mut self.scene.meters, "meter", description::read(description, "meter")?, index)
+    }
+
+    /// Adds a calculation grid described as in `to_dict`, or replaces grid `index`; gives its number.
+    #[pyo3(signature = (description, index = None))]
+    fn put_grid(&mut self, description: &Bound<'_, PyDict>, index: Option<u32>) -> PyResult<u32> {
+        description::put(&mut self.scene.grids, "grid", description::read(description, "grid")?, index)
     }
 
     /// Adds a texture described as in `to_dict`, or replaces texture `index`; gives its number.
@@ -161,125 +181,25 @@ impl Scene {
         description::put(&mut self.scene.measured, "measured", element, index)
     }
 
-    /// Keeps the first so many elements of each kind named.
-    #[pyo3(signature = (*, meshes = None, instances = None, materials = None, textures = None, measured = None, lights = None, cameras = None, meters = None, grids = None))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn truncate(
-        &mut self,
-        meshes: Option<usize>,
-        instances: Option<usize>,
-        materials: Option<usize>,
-        textures: Option<usize>,
-        measured: Option<usize>,
-        lights: Option<usize>,
-        cameras: Option<usize>,
-        meters: Option<usize>,
-        grids: Option<usize>,
-    ) {
+    /// Keeps the first `n` elements of a kind: meshes, instances, materials, textures, measured, lights, cameras, meters or grids.
+    fn truncate(&mut self, kind: &str, n: usize) -> PyResult<()> {
         let scene = &mut self.scene;
-        scene.meshes.truncate(meshes.unwrap_or(usize::MAX));
-        scene.instances.truncate(instances.unwrap_or(usize::MAX));
-        scene.materials.truncate(materials.unwrap_or(usize::MAX));
-        scene.textures.truncate(textures.unwrap_or(usize::MAX));
-        scene.measured.truncate(measured.unwrap_or(usize::MAX));
-        scene.lights.truncate(lights.unwrap_or(usize::MAX));
-        scene.cameras.truncate(cameras.unwrap_or(usize::MAX));
-        scene.meters.truncate(meters.unwrap_or(usize::MAX));
-        scene.grids.truncate(grids.unwrap_or(usize::MAX));
-    }
-
-    /// Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers or triples; gives its number.
-    #[pyo3(signature = (name = "material", **parameters))]
-    fn add_material(&mut self, name: &str, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<u32> {
-        let mut material = Closure::default();
-        for (key, value) in parameters.into_iter().flatten() {
-            let key: String = key.extract()?;
-            if key == "thin_walled" {
-                material.thin_walled = value.extract()?;
-                continue;
-            }
-            let known = gonio::bsdf::parameter::find(&key);
-            let parameter = known.ok_or_else(|| setting(&key, "the surface has no parameter of this name"))?;
-            let numbers: Vec<f32> =
-                if let Ok(number) = value.extract::<f32>() { vec![number; parameter.width()] } else { value.extract()? };
-            if numbers.len() != parameter.width() {
-                return Err(setting(&key, format!("{} numbers were found, expected {}", numbers.len(), parameter.width())));
-            }
-            let mut constant = [1.0; 4];
-            constant[..numbers.len()].copy_from_slice(&numbers);
-            material.set_input(&key, Input::Constant(constant));
-        }
-        Ok(self.scene.add_material(Material::of(Origin::new(name), material)).0)
-    }
-
-    /// Places a mesh; transform is a 4×4 matrix for column vectors.
-    #[pyo3(signature = (mesh, materials = Vec::new(), *, transform = None, name = "instance"))]
-    fn add_instance(&mut self, mesh: u32, materials: Vec<u32>, transform: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<()> {
-        if mesh as usize >= self.scene.meshes.len() {
-            return Err(setting("mesh", format!("{mesh} was found, the scene has {} meshes", self.scene.meshes.len())));
-        }
-        if let Some(material) = materials.iter().find(|material| **material as usize >= self.scene.materials.len()) {
-            return Err(setting("materials", format!("{material} was found, the scene has {} materials", self.scene.materials.len())));
-        }
-        self.scene.instances.push(Instances {
-            origin: Origin::new(name),
-            mesh: MeshId(mesh),
-            materials: materials.into_iter().map(MaterialId).collect(),
-            transforms: vec![self::transform(transform)?],
-            primvars: Vec::new(),
-            visibility: Visibility::default(),
-            holdout: false,
-            shadow_catcher: false,
-            pass_index: 0,
-            light_group: String::new(),
-        });
-        Ok(())
-    }
-
-    /// Adds a light of a shape: "rectangle" (width, height), "disk" (radius), "sphere" (radius), "cylinder" (radius, length), "point",
-    /// "luminaire" (its goniogram's opening, or another), "distant" (angle in degrees), "dome". Radiance in cd/m² (point and luminaire: cd; a
-    /// distant light: lux on a facing surface); flat ones shine along local −z.
-    ///
-    /// One of lumens, lamp_lumens, candela, lux (at metres: a pair), nits or watts in place of it lets the radiance tell the colour alone; so does a
-    /// goniogram of a point or a luminaire, whose factors then are cd. The temperature in K multiplies the colour.
-    #[pyo3(signature = (shape, radiance = [1.0; 3], *, transform = None, width = 1.0, height = 1.0, radius = 0.5, length = 1.0, angle = 0.53, visible = true, name = "light", **photometry))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn add_light(
-        &mut self,
-        shape: &str,
-        radiance: [f32; 3],
-        transform: Option<&Bound<'_, PyAny>>,
-        width: f64,
-        height: f64,
-        radius: f64,
-        length: f64,
-        angle: f64,
-        visible: bool,
-        name: &str,
-        photometry: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<u32> {
-        let photometry = light::Photometry::new(photometry)?;
-        let (shape, normalized) = match shape {
-            "rectangle" => (LightShape::Rectangle { width, height }, false),
-            "disk" => (LightShape::Disk { radius }, false),
-            "sphere" => (LightShape::Sphere { radius }, false),
-            "cylinder" => (LightShape::Cylinder { radius, length }, false),
-            "point" => (LightShape::Point, false),
-            "luminaire" => (LightShape::Opening(photometry.opening()), false),
-            "distant" => (LightShape::Distant { angle_deg: angle }, true),
-            "dome" => (LightShape::Dome { format: DomeFormat::Automatic }, false),
+        match kind {
+            "meshes" => scene.meshes.truncate(n),
+            "instances" => scene.instances.truncate(n),
+            "materials" => scene.materials.truncate(n),
+            "textures" => scene.textures.truncate(n),
+            "measured" => scene.measured.truncate(n),
+            "lights" => scene.lights.truncate(n),
+            "cameras" => scene.cameras.truncate(n),
+            "meters" => scene.meters.truncate(n),
+            "grids" => scene.grids.truncate(n),
             other => {
-                let problem = format!("'{other}' was found, expected rectangle, disk, sphere, cylinder, point, luminaire, distant or dome");
-                return Err(setting("shape", problem));
+                let expected = "meshes, instances, materials, textures, measured, lights, cameras, meters or grids";
+                return Err(setting("kind", format!("'{other}' was found, expected {expected}")));
             }
-        };
-        let plain = Light {
-            emission: Emission { radiance, normalized, ..Emission::default() },
-            visibility: Visibility { camera: visible, ..Visibility::default() },
-            ..Light::new(Origin::new(name), shape, self::transform(transform)?)
-        };
-        self.scene.lights.push(photometry.applied(plain));
-        Ok((self.scene.lights.len() - 1) as u32)
+        }
+        Ok(())
     }
 
     /// Adds sun and sky: a dome of `rows` rows, and a distant light where the sun's disc shines. `up` is the scene's vertical axis, Z (north is +Y) or
@@ -288,51 +208,6 @@ impl Scene {
     fn add_daylight(&mut self, py: Python<'_>, daylight: &Daylight, up: &str, north: f64, rows: u32) -> PyResult<()> {
         let (frame, daylight) = (daylight::frame(up, north)?, daylight.daylight);
         py.detach(|| daylight.add_to(&mut self.scene, &frame, rows)).map_err(exception)?;
-        Ok(())
-    }
-
-    /// Adds a meter at a point in metres; gives its number. quantity: illuminance (of the plane across `normal`), cylindrical or semicylindrical (`normal`
-    /// is the axis), daylight-factor, luminance (towards `facing`), or ugr (of the luminaires, along `facing`, upright along `normal`).
-    #[pyo3(signature = (position, *, normal = [0.0, 0.0, 1.0], facing = [0.0, 1.0, 0.0], quantity = "illuminance", name = "meter"))]
-    fn add_meter(&mut self, position: [f64; 3], normal: [f64; 3], facing: [f64; 3], quantity: &str, name: &str) -> PyResult<u32> {
-        let meter = Meter { origin: Origin::new(name), position, normal, facing, measurand: measurand(quantity)? };
-        description::put(&mut self.scene.meters, "meter", meter, None)
-    }
-
-    /// Adds a calculation grid over a parallelogram (`corner` and two `edges`, metres) or over mesh number `mesh` placed by `transform`, shown or not;
-    /// gives its number. spacing: metres from point to point, 0 as EN 12464-1 has it; margin: metres left out along the edges; height: metres above
-    /// the area; the rest as a meter's.
-    #[pyo3(signature = (*, corner = [0.0; 3], edges = None, mesh = None, transform = None, spacing = 0.0, margin = 0.0, height = 0.0, facing = [0.0, 1.0, 0.0], quantity = "illuminance", name = "grid"))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn add_grid(
-        &mut self,
-        corner: [f64; 3],
-        edges: Option<[[f64; 3]; 2]>,
-        mesh: Option<u32>,
-        transform: Option<&Bound<'_, PyAny>>,
-        spacing: f64,
-        margin: f64,
-        height: f64,
-        facing: [f64; 3],
-        quantity: &str,
-        name: &str,
-    ) -> PyResult<u32> {
-        let area = match (edges, mesh) {
-            (Some(edges), None) => GridArea::Rectangle { corner, edges },
-            (None, Some(mesh)) => GridArea::Mesh { mesh: MeshId(mesh), transform: self::transform(transform)? },
-            _ => return Err(PyValueError::new_err("a grid wants either edges or a mesh")),
-        };
-        let grid = Grid { origin: Origin::new(name), area, spacing, margin, height, facing, measurand: measurand(quantity)? };
-        description::put(&mut self.scene.grids, "grid", grid, None)
-    }
-
-    /// Adds a camera looking along −z of its transform, y up; makes it the one that renders.
-    #[pyo3(signature = (transform = None, *, fov = 40.0, name = "camera"))]
-    fn add_camera(&mut self, transform: Option<&Bound<'_, PyAny>>, fov: f64, name: &str) -> PyResult<()> {
-        let [width, height] = self.scene.settings.resolution.map(f64::from);
-        let camera = Camera::perspective(Origin::new(name), self::transform(transform)?, fov, width / height.max(1.0));
-        self.scene.cameras.push(camera);
-        self.scene.settings.camera = (self.scene.cameras.len() - 1) as u32;
         Ok(())
     }
 
@@ -366,6 +241,12 @@ impl Scene {
         Ok(())
     }
 
+    /// Width and height of the picture in pixels.
+    #[getter]
+    fn resolution(&self) -> (u32, u32) {
+        self.scene.settings.resolution.into()
+    }
+
     /// Names of the light groups; "other" is that of all lights that are in none. Their passes are called `lightgroup:` and the name.
     #[getter]
     fn light_groups(&self) -> Vec<String> {
@@ -380,9 +261,7 @@ impl Scene {
 
     /// The scene as nested dictionaries and lists.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text = py.detach(|| serde_json::to_string(&self.scene));
-        let text = text.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        py.import("json")?.call_method1("loads", (text,))
+        description::to_python(py, &self.scene)
     }
 
     /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with
@@ -398,9 +277,9 @@ impl Scene {
 
     /// Loads a bundle.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, Self>> {
         let scene = py.detach(|| scene::load_bundle(&path)).map_err(exception)?;
-        Ok(Self { scene, ..Self::default() })
+        Self { scene, ..Self::default() }.public(py)
     }
 
     /// Counts, for a look.

@@ -23,6 +23,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         return Ok(());
     }
     match key {
+        "camera" => s.camera = value.extract()?,
         "width" => s.resolution[0] = value.extract()?,
         "height" => s.resolution[1] = value.extract()?,
         "pixel_aspect" => s.pixel_aspect = within(key, value, 1e-3, 1e3)?,

@@ -18,8 +18,8 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 #[pyfunction]
 #[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", neutral_dome = true, strict = false))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-pub(crate) fn load_usd(
-    py: Python<'_>,
+pub(crate) fn load_usd<'py>(
+    py: Python<'py>,
     path: PathBuf,
     frame: Option<f64>,
     camera: Option<String>,
@@ -28,7 +28,7 @@ pub(crate) fn load_usd(
     complexity: &str,
     neutral_dome: bool,
     strict: bool,
-) -> PyResult<Scene> {
+) -> PyResult<Bound<'py, Scene>> {
     let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
@@ -44,14 +44,14 @@ pub(crate) fn load_usd(
     let view = ViewOptions { camera, neutral_dome, ..ViewOptions::default() };
     let notes = complete(&mut loaded, &primary_camera_name(py), &view).map_err(exception)?;
     loaded.diagnostics.extend(notes);
-    Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false })
+    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
 }
 
 /// The scene that `gonio render` with these arguments, the program's name first, would trace at a frame; relative paths start at `folder`.
 #[pyfunction]
-pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, frame: Option<f64>) -> PyResult<Scene> {
+pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, frame: Option<f64>) -> PyResult<Bound<'_, Scene>> {
     let loaded = gonio_cli::farm_scene(py, &arguments, &folder, frame).map_err(exception)?;
-    Ok(Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false })
+    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
 }
 
 /// Paths of all files that the stage in a file is made of.

@@ -17,7 +17,6 @@ from ._gonio import (
     Progress,
     Reading,
     Render,
-    Scene,
     SceneError,
     SettingError,
     Tile,
@@ -36,6 +35,7 @@ from ._gonio import (
     simd_level,
 )
 from .oidn import denoise
+from .scene import Scene
 
 __all__ = [
     "Array",

@@ -3,9 +3,11 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from types import TracebackType
-from typing import Any, final
+from typing import Any, Self, final
 
-from typing_extensions import Buffer
+from typing_extensions import Buffer, disjoint_base
+
+from .scene import Scene as PublicScene
 
 __all__ = [
     "Daylight",
@@ -36,17 +38,22 @@ __all__ = [
     "Render",
     "Tile",
     "Scene",
+    "_setting_error",
     "_main",
     "_files_of_stage",
     "_scene",
     "load_usd",
+    "blackbody_rgb",
     "goniogram_figures",
     "read_goniogram",
     "__version__",
     "simd_level",
+    "surface_parameters",
 ]
 __version__: str
 simd_level: str
+# Numbers that each parameter of surfaces takes.
+surface_parameters: dict[str, int]
 
 class Error(Exception):
     origin: str | None
@@ -313,10 +320,10 @@ class Render:
     def film(self) -> Film: ...
     def checkpoint(self, path: str | PathLike[str]) -> None: ...
 
-@final
+@disjoint_base
 class Scene:
-    def __new__(cls) -> Scene: ...
-    def add_mesh(
+    def __new__(cls) -> Self: ...
+    def put_mesh(
         self,
         points: Buffer,
         triangles: Buffer,
@@ -345,7 +352,7 @@ class Scene:
     ) -> int: ...
     def put_material(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
     def put_light(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
-    def put_camera(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def put_camera(self, description: Mapping[str, Any], index: int | None = None, *, fixed_aperture: bool = True) -> int: ...
     def put_texture(
         self,
         description: Mapping[str, Any],
@@ -355,78 +362,14 @@ class Scene:
         pixels: Buffer | None = None,
     ) -> int: ...
     def put_measured(self, measured: MeasuredBsdf, *, name: str = "measured", index: int | None = None) -> int: ...
-    def truncate(
-        self,
-        *,
-        meshes: int | None = None,
-        instances: int | None = None,
-        materials: int | None = None,
-        textures: int | None = None,
-        measured: int | None = None,
-        lights: int | None = None,
-        cameras: int | None = None,
-        meters: int | None = None,
-        grids: int | None = None,
-    ) -> None: ...
-    def add_meter(
-        self,
-        position: Sequence[float],
-        *,
-        normal: Sequence[float] = ...,
-        facing: Sequence[float] = ...,
-        quantity: str = "illuminance",
-        name: str = "meter",
-    ) -> int: ...
-    def add_grid(
-        self,
-        *,
-        corner: Sequence[float] = ...,
-        edges: Sequence[Sequence[float]] | None = None,
-        mesh: int | None = None,
-        transform: Sequence[Sequence[float]] | None = None,
-        spacing: float = 0.0,
-        margin: float = 0.0,
-        height: float = 0.0,
-        facing: Sequence[float] = ...,
-        quantity: str = "illuminance",
-        name: str = "grid",
-    ) -> int: ...
-    def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int: ...
-    def add_instance(
-        self, mesh: int, materials: Sequence[int] = ..., *, transform: Sequence[Sequence[float]] | None = None, name: str = "instance"
-    ) -> None: ...
-    def add_light(
-        self,
-        shape: str,
-        radiance: Sequence[float] = ...,
-        *,
-        transform: Sequence[Sequence[float]] | None = None,
-        width: float = 1.0,
-        height: float = 1.0,
-        radius: float = 0.5,
-        length: float = 1.0,
-        angle: float = 0.53,
-        visible: bool = True,
-        name: str = "light",
-        lumens: float | None = None,
-        lamp_lumens: float | None = None,
-        candela: float | None = None,
-        lux: float | tuple[float, float] | None = None,
-        nits: float | None = None,
-        watts: float | None = None,
-        temperature: float | None = None,
-        dimming: float = 1.0,
-        goniogram: Mapping[str, Any] | None = None,
-        opening: Mapping[str, Any] | None = None,
-        cosine_power: float = 0.0,
-        spot: tuple[float, float] | None = None,
-        group: str = "",
-    ) -> int: ...
+    def put_meter(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def put_grid(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
+    def truncate(self, kind: str, n: int) -> None: ...
     def add_daylight(self, daylight: Daylight, *, up: str = "Z", north: float = 0.0, rows: int = 512) -> None: ...
-    def add_camera(self, transform: Sequence[Sequence[float]] | None = None, *, fov: float = 40.0, name: str = "camera") -> None: ...
     def set(
         self,
         *,
+        camera: int | None = ...,
         width: int | None = ...,
         height: int | None = ...,
         pixel_aspect: float | None = ...,
@@ -458,13 +401,15 @@ class Scene:
     ) -> None: ...
     def parts(self, count: int) -> list[dict[str, tuple[int, int]]]: ...
     @property
+    def resolution(self) -> tuple[int, int]: ...
+    @property
     def light_groups(self) -> list[str]: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def to_dict(self) -> dict[str, Any]: ...
     def save(self, path: str | PathLike[str], *, images: bool = False) -> None: ...
     @staticmethod
-    def load(path: str | PathLike[str]) -> Scene: ...
+    def load(path: str | PathLike[str]) -> PublicScene: ...
 
 @final
 class Daylight:
@@ -527,6 +472,7 @@ def artist_sky(
     rows: int = 512,
 ) -> tuple[Pass, list[float]]: ...
 def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
+def blackbody_rgb(kelvin: float) -> list[float]: ...
 def goniogram_figures(data: bytes, name: str, *, lamp_set: int | None = None, tilt: float = 0.0) -> dict[str, Any]: ...
 def read_goniogram(
     data: bytes, name: str, *, lamp_set: int | None = None, tilt: float = 0.0
@@ -542,7 +488,8 @@ def load_usd(
     complexity: str = "high",
     neutral_dome: bool = True,
     strict: bool = False,
-) -> Scene: ...
+) -> PublicScene: ...
 def _files_of_stage(path: str | PathLike[str]) -> list[str]: ...
-def _scene(arguments: Sequence[str], folder: str | PathLike[str], frame: float | None) -> Scene: ...
+def _scene(arguments: Sequence[str], folder: str | PathLike[str], frame: float | None) -> PublicScene: ...
+def _setting_error(name: str, problem: str) -> SettingError: ...
 def _main(arguments: Sequence[str]) -> int: ...

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 
-from .._gonio import Film, Scene, merge
+from .._gonio import Film, merge
+from ..scene import Scene
 from .cluster import Cluster
 from .source import Bundle
 

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .._gonio import Error, Scene, _files_of_stage, _scene
+from .._gonio import Error, _files_of_stage, _scene
+from ..scene import Scene
 
 # What to do where a machine does not see a file.
 REMEDY = "put the stage and its files where all machines see them under one path, or send them (--dask-send)"

@@ -9,7 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from .._gonio import Cancelled, Error, Render, Scene, __version__, simd_level
+from .._gonio import Cancelled, Error, Render, __version__, simd_level
+from ..scene import Scene
 from .extra import require
 from .source import Bundle, Stage
 

@@ -1,25 +1,31 @@
 //! Elements of a scene described by dictionaries: the form that `Scene.to_dict` gives.
+//!
+//! It is JSON's: structures are dictionaries, sequences lists, a variant with content a dictionary of one entry.
 
-use crate::{buffer::floats, error::exception};
+mod reader;
+mod writer;
+
+use crate::{buffer::floats, error::setting};
 use gonio::scene::{Texture, TextureSource, Visibility};
 use pyo3::{prelude::*, pybacked::PyBackedBytes, types::PyDict};
-use serde::de::DeserializeOwned;
-use std::{collections::HashMap, sync::Arc};
-
-fn wrong(kind: &str, problem: String) -> PyErr {
-    exception(gonio::Error::Setting { name: kind.into(), problem })
-}
+use reader::Reader;
+use serde::{Serialize, de, de::DeserializeOwned, ser};
+use std::{
+    collections::HashMap,
+    fmt::{self, Display},
+    sync::Arc,
+};
+use writer::Writer;
 
 /// A dictionary as an element.
 pub(crate) fn read<T: DeserializeOwned>(description: &Bound<'_, PyDict>, kind: &str) -> PyResult<T> {
-    let text: String = description.py().import("json")?.call_method1("dumps", (description,))?.extract()?;
-    serde_json::from_str(&text).map_err(|error| wrong(kind, format!("the description is not understood: {error}")))
+    let element = T::deserialize(Reader::new(description));
+    element.map_err(|problem| setting(kind, format!("the description is not understood: {problem}")))
 }
 
 /// An element as a dictionary.
-pub(crate) fn to_python<'py>(py: Python<'py>, element: &impl serde::Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let text = serde_json::to_string(element).map_err(|error| wrong("description", error.to_string()))?;
-    py.import("json")?.call_method1("loads", (text,))
+pub(crate) fn to_python<'py>(py: Python<'py>, element: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    element.serialize(Writer { py }).map_err(|problem| setting("description", problem.to_string()))
 }
 
 /// Appends an element, or replaces one; gives its number.
@@ -34,7 +40,7 @@ pub(crate) fn put<T>(list: &mut Vec<T>, kind: &str, element: T, index: Option<u3
                 *place = element;
                 Ok(index)
             }
-            None => Err(wrong(kind, format!("number {index} was asked for, the scene has {}", list.len()))),
+            None => Err(setting(kind, format!("number {index} was asked for, the scene has {}", list.len()))),
         },
     }
 }
@@ -54,7 +60,7 @@ pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, 
             "shadow_catcher" => &mut shadow_catcher,
             other => {
                 let expected = "camera, diffuse, glossy, transmission, shadow, holdout or shadow_catcher";
-                return Err(wrong("visibility", format!("'{other}' was found, expected {expected}")));
+                return Err(setting("visibility", format!("'{other}' was found, expected {expected}")));
             }
         };
         *place = seen;
@@ -83,4 +89,49 @@ pub(crate) fn texture(
     description.set_item("source", [("File", "")].into_iter().collect::<HashMap<_, _>>())?;
     let texture: Texture = read(&description, "texture")?;
     Ok(Texture { source, ..texture })
+}
+
+/// What is wrong with a value, and where in it.
+#[derive(Debug)]
+struct Problem {
+    text: String,
+    /// Steps to the place, the last one first.
+    path: Vec<String>,
+}
+
+impl Problem {
+    fn within(mut self, step: String) -> Self {
+        self.path.push(step);
+        self
+    }
+}
+
+impl Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let path: String = self.path.iter().rev().map(String::as_str).collect();
+        match path.trim_start_matches('.') {
+            "" => f.write_str(&self.text),
+            path => write!(f, "{path}: {}", self.text),
+        }
+    }
+}
+
+impl std::error::Error for Problem {}
+
+impl From<PyErr> for Problem {
+    fn from(error: PyErr) -> Self {
+        de::Error::custom(error)
+    }
+}
+
+impl de::Error for Problem {
+    fn custom<T: Display>(text: T) -> Self {
+        Self { text: text.to_string(), path: Vec::new() }
+    }
+}
+
+impl ser::Error for Problem {
+    fn custom<T: Display>(text: T) -> Self {
+        de::Error::custom(text)
+    }
 }

@@ -1,0 +1,82 @@
+"""Elements of a scene by keywords, as the descriptions that `put_material`, `put_camera` and the like take."""
+
+from __future__ import annotations
+
+import math
+import sys
+from array import array
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ._gonio import _setting_error, surface_parameters
+
+# Names of what meters measure, and their names in descriptions.
+MEASURANDS = {
+    "illuminance": "Illuminance",
+    "cylindrical": "Cylindrical",
+    "semicylindrical": "Semicylindrical",
+    "daylight-factor": "DaylightFactor",
+    "luminance": "Luminance",
+    "ugr": "Ugr",
+}
+
+
+def numbers(name: str, values: Sequence[float], count: int) -> list[float]:
+    """So many floats."""
+    found = array("d", [*values]).tolist()
+    if len(found) != count:
+        raise ValueError(f"{name}: {len(found)} numbers were found, expected {count}")
+    return found
+
+
+def columns(matrix: Sequence[Sequence[float]] | None) -> dict[str, Any]:
+    """A 4×4 matrix for column vectors (translation in the last column), or None for the identity, as descriptions have it."""
+    if matrix is None:
+        matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+    rows = [array("d", [*row]) for row in matrix]
+    if len(rows) != 4 or any(len(row) != 4 for row in rows):
+        raise ValueError("transform: expected a 4 by 4 matrix")
+    return {"columns": [[row[column] for row in rows[:3]] for column in range(4)]}
+
+
+def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """A material of one OpenPBR surface; its parameters are numbers or triples."""
+    given = dict(parameters)
+    thin_walled = given.pop("thin_walled", False)
+    constants = [(key, {"Constant": _constant(key, value)}) for key, value in given.items()]
+    return {"origin": name, "closures": [{"parameters": constants, "thin_walled": thin_walled}]}
+
+
+def _constant(name: str, value: Any) -> list[float]:
+    """A parameter's value in four components."""
+    width = surface_parameters.get(name)
+    if width is None:
+        raise _setting_error(name, "the surface has no parameter of this name")
+    found = array("d", [*value] if hasattr(value, "__len__") else [value] * width)
+    if len(found) != width:
+        raise _setting_error(name, f"{len(found)} numbers were found, expected {width}")
+    return [*found, 1.0, 1.0, 1.0][:4]
+
+
+def camera(name: str, transform: Sequence[Sequence[float]] | None, fov: float, resolution: tuple[int, int]) -> dict[str, Any]:
+    """A pinhole with a vertical field of view in degrees, for a picture of this width and height."""
+    width, height = resolution
+    opening = 2.0 * math.tan(math.radians(fov) * 0.5)
+    return {
+        "origin": name,
+        "projection": {"Perspective": {"focal_length": 1.0}},
+        "aperture": [opening * (width / max(height, 1)), opening],
+        "aperture_offset": [0.0, 0.0],
+        "lens_radius": 0.0,
+        "focus_distance": 1.0,
+        "clipping": [0.0, sys.float_info.max],
+        "transform": columns(transform),
+        "exposure": 1.0,
+    }
+
+
+def measurand(quantity: str) -> str:
+    """What a quantity is called in descriptions."""
+    if quantity not in MEASURANDS:
+        raise _setting_error("quantity", f"'{quantity}' was found, expected one of {', '.join(MEASURANDS)}")
+    return MEASURANDS[quantity]
