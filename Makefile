@@ -1,5 +1,5 @@
-# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make bench`,
-# `make bench-peers`.
+# What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make same-bits`,
+# `make bench`, `make bench-peers`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -12,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt goniogram weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate bench bench-peers clean
+.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -104,6 +104,11 @@ validate: test-blender compare-cycles validation fuzz
 	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
 	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/blender/test_lamps_lux.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
+
+# Two builds, each by the Python that has it, show twelve scenes with the same bits at every SIMD level.
+same-bits: AFTER ?= $(BIN)/python
+same-bits:
+	$(BEFORE) tests/validate/same_bits/compare.py --before $(BEFORE) --after $(AFTER)
 
 # Every stage at every SIMD level against one lane; docs/performance.md tells what the rows mean.
 bench:
