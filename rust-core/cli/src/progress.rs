@@ -23,7 +23,8 @@ impl Reporter {
     pub(super) fn new(quiet: bool) -> Self {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new(1000);
-            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}");
+            // The wide message is cut to the terminal, so that the bar stays one line.
+            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {wide_msg}");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
