@@ -201,6 +201,4 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
     row[field::FLAGS] = f32::from_bits(bits);
     row[field::STRENGTH] = if lit && record.visible_to_scattered { strength as f32 } else { 0.0 };
     row[field::RADIANCE..field::RADIANCE + 3].copy_from_slice(&if lit { radiance } else { [0.0; 3] });
-    row[field::DIFFUSE] = record.diffuse;
-    row[field::SPECULAR] = record.specular;
 }

@@ -132,10 +132,6 @@ pub struct LightRecord {
     pub visible_to_scattered: bool,
     /// Whether things block it.
     pub casts_shadow: bool,
-    /// Factor on diffuse reflection of this light (not physical; 1 leaves it alone).
-    pub diffuse: f32,
-    /// Factor on specular reflection of this light (not physical; 1 leaves it alone).
-    pub specular: f32,
 }
 
 impl LightRecord {
@@ -158,8 +154,6 @@ impl LightRecord {
             visible_to_camera: true,
             visible_to_scattered: true,
             casts_shadow: true,
-            diffuse: 1.0,
-            specular: 1.0,
         }
     }
 }

@@ -8,7 +8,7 @@ use super::record::{LightKind, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use super::tree::LightTree;
-use gonio_simd::{F, Lanes, M, U};
+use gonio_simd::{Lanes, M, U};
 use std::{borrow::Borrow, sync::Arc};
 
 /// An infinite light, visited by every ray that leaves the scene.
@@ -117,15 +117,6 @@ impl LightTable {
             return l.m(false);
         }
         self.reader(l, light).flag(flag::VISIBLE)
-    }
-    /// Factors on diffuse and on specular reflection of each lane's light.
-    #[inline(always)]
-    pub fn multipliers<L: Lanes>(&self, l: L, light: U<L>) -> [F<L>; 2] {
-        if self.count == 0 {
-            return [l.f(1.0); 2];
-        }
-        let light = self.reader(l, light);
-        [light.value(field::DIFFUSE), light.value(field::SPECULAR)]
     }
     #[inline(always)]
     pub(crate) fn reader<L: Lanes>(&self, l: L, light: U<L>) -> Reader<'_, L> {
