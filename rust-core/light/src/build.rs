@@ -1,8 +1,9 @@
 //! From records to rows.
 
 use super::beam::{fill_shaping, fill_spot, fill_spread};
+use super::light_kind::LightKind;
 use super::projected_area::{Outline, ProjectedArea};
-use super::record::{LightKind, LightRecord};
+use super::record::LightRecord;
 use super::row::{ROW, field, flag};
 use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, narrow, scale, unit_or, widen};
 use std::f64::consts::TAU;

@@ -1,6 +1,6 @@
 //! The table's rows: what is known of one light, read lane by lane.
 
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Values in a row: six cache lines, some of them spare.

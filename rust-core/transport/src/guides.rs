@@ -43,7 +43,7 @@ pub(super) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, valu
     }
     let sharp = arrives & is_sharp(flags, slot);
     // Of what samples find by themselves, trees of rays alone have no noise.
-    if transport.draws.is_some() {
+    if transport.fixed_samples.is_some() {
         add_rgb(&mut ws.first_hit.sharp, slot, value, sharp);
     }
     match transport.sight {
@@ -76,7 +76,7 @@ impl Tracer<'_> {
             passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
             measure: false,
             sight: Sight::Sharp,
-            draws: Some([].into()),
+            fixed_samples: Some([].into()),
             // Paths see what emits beyond the last bounce.
             max_bounces: own.max_bounces.saturating_add(1),
             seed: own.seed ^ SEED,

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
-use gonio_light::{Draw, KnownLights, LightSample};
+use gonio_light::{FixedLightSample, LightCache, LightSample};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// [`Surface::transmittance`].
@@ -61,28 +61,28 @@ pub(super) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [Sharp
     )
 }
 
-/// [`gonio_light::LightTable::take`].
+/// [`gonio_light::LightTable::sample_fixed`].
 #[inline(never)]
-pub(super) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+pub(super) fn sample_fixed<L: Lanes>(l: L, tables: &Tables, fixed: &FixedLightSample, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.take(l, draw, p, n),
+        || tables.lights.sample_fixed(l, fixed, p, n),
     )
 }
 
-/// [`gonio_light::LightTable::sample`].
+/// [`gonio_light::LightTable::sample_li`].
 #[inline(never)]
-pub fn sample_light<L: Lanes>(
+pub fn sample_li<L: Lanes>(
     l: L,
     tables: &Tables,
-    known: Option<&KnownLights>,
+    light_cache: Option<&LightCache>,
     p: &Vec3<L>,
     n: &Vec3<L>,
     u: &[F<L>; 3],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample(l, known, p, n, u[0], &[u[1], u[2]]),
+        || tables.lights.sample_li(l, light_cache, p, n, u[0], &[u[1], u[2]]),
     )
 }
 
@@ -107,20 +107,26 @@ pub(super) struct LightHit<L: Lanes> {
 
 /// [`gonio_light::LightTable::eval_hit`].
 #[inline(never)]
-pub(super) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+pub(super) fn eval_light<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    light_cache: Option<&LightCache>,
+    hit: &LightHit<L>,
+    mask: M<L>,
+) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_hit(l, known, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+        || tables.lights.eval_hit(l, light_cache, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
     )
 }
 
-/// [`gonio_light::LightTable::escaped`].
+/// [`gonio_light::LightTable::eval_escaped`].
 #[inline(never)]
 #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-pub(super) fn surroundings<L: Lanes>(
+pub(super) fn eval_escaped<L: Lanes>(
     l: L,
     tables: &Tables,
-    known: Option<&KnownLights>,
+    light_cache: Option<&LightCache>,
     vertex: [Vec3<L>; 2],
     direction: Vec3<L>,
     pdf: F<L>,
@@ -129,7 +135,7 @@ pub(super) fn surroundings<L: Lanes>(
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.escaped(l, known, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
+        || tables.lights.eval_escaped(l, light_cache, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
     )
 }
 

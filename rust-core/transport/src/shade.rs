@@ -110,10 +110,10 @@ pub(super) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
-        let walks = transport.draws.is_none();
+        let walks = transport.fixed_samples.is_none();
         material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks }, &mut lobes);
-        match &transport.draws {
-            Some(draws) => whitted::shade_lanes(stage, material, &mut point, wo, &lobes, draws, at, ws),
+        match &transport.fixed_samples {
+            Some(samples) => whitted::shade_lanes(stage, material, &mut point, wo, &lobes, samples, at, ws),
             None => shade_lanes(stage, material, &mut point, wo, &lobes, at, ws),
         }
     }
@@ -288,7 +288,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
             let light = (first + l.load_integers(&ws.surface.primitive, at)).keep_if(sampled);
             let from = ws.paths.vertex(l, point.path);
             let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.position };
-            let (_, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, sampled);
+            let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
             let weight = sampled.select(power_heuristic(point.pdf, pdf), l.f(1.0));
             value = value * weight;
         }

@@ -43,7 +43,7 @@ pub(super) struct Branches {
 impl Branches {
     /// Makes room where trees are asked for.
     pub(super) fn prepare(&mut self, transport: &Transport) {
-        if transport.draws.is_some() {
+        if transport.fixed_samples.is_some() {
             self.ways.resize_with(Way::ALL.len(), Paths::default);
         }
     }
