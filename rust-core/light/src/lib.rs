@@ -1,8 +1,9 @@
 //! Lights, as next event estimation (NEE) needs them: what they emit, how a direction to one is sampled, and with which density.
 //!
-//! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample_li`] selects a light, by importance or by the
-//! light tree (light BVH), and samples a direction, by solid angle where the shape allows it.
-//! [`LightTable::eval_hit`] and [`LightTable::eval_escaped`] weigh rays that found a light by the BSDF. Formulas are UsdLux's, in cd/m².
+//! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample_li`] selects a light by importance, among
+//! many by the light tree (light BVH) and the learned light cache. Then it samples a direction: solid angle sampling where the shape allows it.
+//! [`LightTable::eval_hit`] and [`LightTable::eval_escaped`] give the light that a BSDF's ray found, and its density or weight for MIS (multiple
+//! importance sampling). Formulas are UsdLux's, in cd/m².
 
 mod beam;
 mod blackbody;

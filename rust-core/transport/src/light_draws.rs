@@ -148,10 +148,10 @@ fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let path = l.load_integers(&ws.order, hits.start + at);
     let index = context.index(l, ws.paths.track(l, path).slot);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
-    let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let (p, n) = (load3(l, &ws.surface.position, at), load3(l, &ws.surface.shading_normal, at));
-    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_choice);
+    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_light);
     let draws = &mut ws.light_draws;
     light.store(&mut draws.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut draws.draw, at);

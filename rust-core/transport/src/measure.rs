@@ -65,11 +65,11 @@ fn sample<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &Samp
         let point = load_point(l, at, l.first(chunk.end - at), ws);
         let index = context.index(l, point.slot);
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
-        let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+        let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
             let light_cache = transport.light_cache.as_deref();
-            let sample = kernels::sample_li(l, tables, light_cache, &point.position, &point.frame.z, &[u_choice, u, v]);
+            let sample = kernels::sample_li(l, tables, light_cache, &point.position, &point.frame.z, &[u_light, u, v]);
             light(l, &point, &sample, None, ws);
         }
         start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);

@@ -202,14 +202,14 @@ fn shade_lanes<L: Lanes>(
     };
     let present = show(stage, material, point, lobes, present, at, ws);
     let [smooth, going_on] = meet(stage, point, lobes, present, ws);
-    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if (smooth & going_on).any() && !tables.lights.is_empty() {
         if LightDraws::pays::<L>(&tables.lights, stage.hits.len()) {
             let sample = light_draws::sample(stage, at, ws);
             send(stage, point, wo, lobes, &sample, None, going_on, ws);
         } else {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-            light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
+            light(stage, point, wo, lobes, [u_light, u, v], going_on, ws);
         }
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);

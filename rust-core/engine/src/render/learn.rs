@@ -1,4 +1,5 @@
-//! The learned light cache (light guiding), which lights arrive where: from a small picture of the view, which nobody sees, or from a few paths of all sensors.
+//! The learned light cache (light guiding), which lights arrive where. It is learned from a small picture of the view, which nobody sees, or from a few
+//! paths of all sensors.
 
 use super::source::Source;
 use crate::{

@@ -74,7 +74,7 @@ fn kernel<L: Lanes>(
     }
 }
 
-/// Samples at one point, no cache.
+/// Samples at one point without a light cache.
 pub(super) fn draw(execution: Execution, table: &LightTable, p: [f32; 3], n: [f32; 3], u: &[Column; 3]) -> Drawn {
     draw_with_cache(execution, table, None, p, n, u)
 }

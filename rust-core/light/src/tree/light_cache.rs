@@ -1,5 +1,5 @@
-//! The learned light cache (light guiding): lights that are known to arrive in a part of space. Importance alone does not see the walls that stand
-//! between the others and it.
+//! The learned light cache (light guiding): lights that are known to arrive in a part of space. Importance alone does not see the walls
+//! that keep the others out.
 //!
 //! Space is divided into cells, and a few paths before the render tell which lights arrive in each. There most draws are among those, and
 //! the others among all lights by the tree, which lose what is in the cache already: each light is drawn in one way, and its probability is simple.
