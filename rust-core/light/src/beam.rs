@@ -1,6 +1,7 @@
 //! What narrows a light's beam, as rows keep it.
 
-use super::record::{LightKind, LightRecord, Shaping};
+use super::light_kind::LightKind;
+use super::record::{LightRecord, Shaping};
 use super::row::field;
 use super::vector::{Vector, cross, length, narrow, principal_axes, scale, unit_or};
 use std::f32::consts::PI;

@@ -1,8 +1,9 @@
 //! From records to rows.
 
 use super::beam::{fill_shaping, fill_spot, fill_spread};
+use super::light_kind::LightKind;
 use super::projected_area::{Outline, ProjectedArea};
-use super::record::{LightKind, LightRecord};
+use super::record::LightRecord;
 use super::row::{ROW, field, flag};
 use super::vector::{Vector, add, cross, determinant, dot, inverse_rows, length, narrow, scale, unit_or, widen};
 use std::f64::consts::TAU;
@@ -201,6 +202,4 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
     row[field::FLAGS] = f32::from_bits(bits);
     row[field::STRENGTH] = if lit && record.visible_to_scattered { strength as f32 } else { 0.0 };
     row[field::RADIANCE..field::RADIANCE + 3].copy_from_slice(&if lit { radiance } else { [0.0; 3] });
-    row[field::DIFFUSE] = record.diffuse;
-    row[field::SPECULAR] = record.specular;
 }

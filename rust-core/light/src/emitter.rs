@@ -1,4 +1,4 @@
-//! What every emitter with a place can do: aim at a point of itself, and say how likely it would have been to aim there.
+//! What every finite emitter can do: sample a point of itself, and say with which density it would have been sampled.
 
 use super::row::Reader;
 use gonio_simd::{F, Lanes, Vec3};

@@ -3,8 +3,9 @@
 use super::beam::SMALLEST_SPREAD;
 use super::build::Geometry;
 use super::goniogram::{AngularType, Goniogram};
+use super::light_kind::LightKind;
 use super::projected_area::ProjectedArea;
-use super::record::{LightKind, LightRecord, LightTexture};
+use super::record::{LightRecord, LightTexture};
 use super::row::field;
 use super::table::LightTable;
 use super::vector::{dot, widen};
@@ -61,7 +62,7 @@ impl FarField {
             if shown > 0.0 {
                 let l = One;
                 let light = self.table.reader(l, l.u(part as u32));
-                let sent = self.table.emitted(l, &light, Vec3::splat(l, world.map(|x| -x as f32)), [l.f(0.0); 2]);
+                let sent = self.table.le(l, &light, Vec3::splat(l, world.map(|x| -x as f32)), [l.f(0.0); 2]);
                 let luminance = f64::from(sent.luminance().to_array()[0]);
                 total[0] += luminance * shown;
                 total[1] = f64::max(total[1], if area.is_some() { luminance } else { 0.0 });

@@ -1,7 +1,5 @@
 //! Goniograms: measured factors on a light's emission, by direction.
 
-use super::row::{Reader, field};
-use super::table::LightTable;
 use gonio_simd::{F, Lanes, M, Vec3};
 use gonio_table::{Axis, Table};
 use std::f32::consts::TAU;
@@ -106,32 +104,4 @@ fn within<L: Lanes>(axis: &Axis, angle: F<L>) -> M<L> {
 #[inline(always)]
 fn beside<L: Lanes>(x: F<L>, y: F<L>) -> F<L> {
     (x * x + y * y).sqrt()
-}
-
-impl LightTable {
-    /// Factor of each light's goniogram towards unit `direction`; 1 for lights without one.
-    #[inline(always)]
-    pub(super) fn measured<L: Lanes>(&self, l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> F<L> {
-        let mut factor = l.f(1.0);
-        if self.goniograms.is_empty() {
-            return factor;
-        }
-        let number = light.integer(field::GONIOGRAM);
-        let mut left = number.ne(0);
-        if !left.any() {
-            return factor;
-        }
-        let (x, y) = (light.vector(field::LEVEL_X), light.vector(field::LEVEL_Y));
-        let local = Vec3::new(x.dot(direction), y.dot(direction), -light.vector(field::AXIS).dot(direction));
-        // Each goniogram that some lane has, for all lanes that have it: its axes are the same for them all.
-        while left.any() {
-            let one = number.to_array()[left.bits().trailing_zeros() as usize];
-            let same = left & number.eq(one);
-            if let Some(goniogram) = self.goniograms.get(one as usize - 1) {
-                factor = same.select(goniogram.factor(l, local), factor);
-            }
-            left = left.and_not(same);
-        }
-        factor
-    }
 }

@@ -1,32 +1,36 @@
-//! Lights: what they send, where to look for them, and how likely each direction is drawn.
+//! Lights, as next event estimation (NEE) needs them: what they emit, how a direction to one is sampled, and with which density.
 //!
-//! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample`] chooses a light and a direction;
-//! [`LightTable::eval_hit`] and [`LightTable::escaped`] weigh rays that found a light by the BSDF. Formulas are UsdLux's, in cd/m².
+//! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample_li`] selects a light by importance, among
+//! many by the light tree (light BVH) and the learned light cache. Then it samples a direction: solid angle sampling where the shape allows it.
+//! [`LightTable::eval_hit`] and [`LightTable::eval_escaped`] give the light that a BSDF's ray found, and its density or weight for MIS (multiple
+//! importance sampling). Formulas are UsdLux's, in cd/m².
 
-mod aim_far;
-mod aim_near;
 mod beam;
 mod blackbody;
 mod build;
-mod choice;
 mod cylinder;
 mod disk;
 mod distant;
 mod dome;
-mod draws;
-mod emitted;
+mod emission;
 mod emitter;
-mod escaped;
+mod eval_escaped;
+mod eval_hit;
 mod facing_disk;
 mod far_field;
+mod fixed_samples;
 mod goniogram;
-mod met;
+mod light_bounds;
+mod light_kind;
+mod light_sampler;
 mod portal;
 mod projected_area;
 mod record;
 mod rectangle;
 mod row;
 mod sample;
+mod sample_finite;
+mod sample_infinite;
 mod shaping;
 mod size;
 mod solid_angle;
@@ -41,12 +45,13 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
-pub use draws::Draw;
 pub use far_field::FarField;
+pub use fixed_samples::FixedLightSample;
 pub use goniogram::{AngularType, Goniogram};
+pub use light_kind::LightKind;
 pub use projected_area::{Outline, ProjectedArea};
-pub use record::{LightKind, LightRecord, LightTexture, OpeningPart, Shaping, Spot};
+pub use record::{LightRecord, LightTexture, OpeningPart, Shaping, Spot};
 pub use sample::{LightSample, power_heuristic};
 pub use size::size_factor;
 pub use table::LightTable;
-pub use tree::{Arrival, KnownLights};
+pub use tree::{Arrival, LightCache};

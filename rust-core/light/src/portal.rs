@@ -1,4 +1,4 @@
-//! Portals: rectangles that a dome shines through. Half of a dome's directions are drawn through those that look at the point, evenly among them and by
+//! Portals: rectangles that a dome emits through. Half of a dome's directions are drawn through those that look at the point, evenly among them and by
 //! solid angle in each; the other half by the dome's own brightness, so that what passes no portal is found as well.
 
 use super::emitter::Emitter;
@@ -48,7 +48,7 @@ impl LightTable {
 
     /// A direction through one of the portals.
     #[inline(always)]
-    pub(crate) fn aim_through_portal<L: Lanes>(&self, l: L, portals: &Portals<L>, p: Vec3<L>, u: [F<L>; 2]) -> Vec3<L> {
+    pub(crate) fn sample_portal<L: Lanes>(&self, l: L, portals: &Portals<L>, p: Vec3<L>, u: [F<L>; 2]) -> Vec3<L> {
         let place = u[0] * portals.count;
         let wanted = place.floor().min(portals.count - 1.0);
         let mut chosen: U<L> = l.u(self.portals[0]);

@@ -1,6 +1,6 @@
 //! The area that a body shows to a direction: what a luminaire's intensity in that direction is spread over.
 
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::row::{Reader, field, flag};
 use super::vector::{Vector, add, cross, dot, narrow, scale, widen};
 use gonio_simd::{F, Lanes, Vec3};

@@ -1,55 +1,7 @@
 //! What the compile step says about each light: plain data, one record per light.
 
+use super::light_kind::LightKind;
 use super::projected_area::ProjectedArea;
-
-/// The emitter's geometry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum LightKind {
-    /// A parallelogram: origin ± axis x ± axis y, emitting towards −axis z.
-    Rectangle,
-    /// An ellipse: origin + a x + b y with a² + b² ≤ 1, emitting towards −axis z.
-    Disk,
-    /// An ellipsoid: the unit sphere under the axes, emitting outward.
-    Sphere,
-    /// The lateral surface of an elliptic cylinder: origin + a x + cos φ y + sin φ z with |a| ≤ 1, emitting outward, without caps.
-    Cylinder,
-    /// Infinitely far, seen towards +axis z under [`LightRecord::angle`].
-    Distant,
-    /// All around, +axis y up.
-    Dome,
-    /// A point; its radiance is a luminous intensity in cd.
-    Point,
-    /// Corners origin, origin + x, origin + y; emits to the side that x × y points to; −axis z is its shaping axis.
-    Triangle,
-    /// A disk about the origin, as large as axis x is long, that turns its face to whatever looks at it.
-    FacingDisk,
-}
-
-impl LightKind {
-    /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
-        Self::Rectangle,
-        Self::Disk,
-        Self::Sphere,
-        Self::Cylinder,
-        Self::Distant,
-        Self::Dome,
-        Self::Point,
-        Self::Triangle,
-        Self::FacingDisk,
-    ];
-
-    /// Whether the light has no place.
-    pub fn is_infinite(self) -> bool {
-        matches!(self, Self::Distant | Self::Dome)
-    }
-
-    /// Whether the light is a part of a plane with a side that emits.
-    pub fn is_flat(self) -> bool {
-        matches!(self, Self::Rectangle | Self::Disk | Self::Triangle)
-    }
-}
 
 /// What narrows the beam (UsdLux ShapingAPI): the emission towards a direction at angle θ from −axis z is multiplied by
 /// `lerp(focus_tint, 1, |cos θ|^focus) · (1 − smoothstep(θ; cone_angle (1 − softness), cone_angle))`.
@@ -88,7 +40,7 @@ pub struct Spot {
 pub struct OpeningPart {
     /// What the whole opening shows.
     pub area: ProjectedArea,
-    /// The part's share of the opening's surface, for choosing among lights.
+    /// The part's share of the opening's surface, for light selection.
     pub share: f32,
     /// Axes x, y and z of the luminaire, which shaping, spot and goniogram refer to.
     pub axes: [[f32; 3]; 3],
@@ -116,13 +68,13 @@ pub struct LightRecord {
     /// Full angle in radians of the beam of flat lights, as slats before them would cut it: the radiance at angle θ from the normal is multiplied by
     /// `max(tan h − tan θ, 0) / (tan h − h)`, h being half of it, which keeps the flux. π and more is Lambert's law.
     pub spread: f32,
-    /// Rectangles: not a light but an opening that domes shine through, towards −axis z; domes are looked for there too.
+    /// Rectangles: not a light but an opening that domes emit through, towards −axis z; domes are looked for there too.
     pub portal: bool,
     /// Multiplies the radiance over a rectangle or a dome: an index into the textures given to [`super::LightTable::build`].
     pub texture: Option<u32>,
     /// Full angle of a distant light in radians.
     pub angle: f32,
-    /// Emitting area in m² for choosing among lights; 0 lets the table find it.
+    /// Emitting area in m² for light selection; 0 lets the table find it.
     pub area: f32,
     /// Rectangles, disks and triangles: emits from both sides alike.
     pub two_sided: bool,
@@ -132,10 +84,6 @@ pub struct LightRecord {
     pub visible_to_scattered: bool,
     /// Whether things block it.
     pub casts_shadow: bool,
-    /// Factor on diffuse reflection of this light (not physical; 1 leaves it alone).
-    pub diffuse: f32,
-    /// Factor on specular reflection of this light (not physical; 1 leaves it alone).
-    pub specular: f32,
 }
 
 impl LightRecord {
@@ -158,8 +106,6 @@ impl LightRecord {
             visible_to_camera: true,
             visible_to_scattered: true,
             casts_shadow: true,
-            diffuse: 1.0,
-            specular: 1.0,
         }
     }
 }

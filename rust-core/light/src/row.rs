@@ -1,9 +1,9 @@
 //! The table's rows: what is known of one light, read lane by lane.
 
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// Values in a row: six cache lines.
+/// Values in a row: six cache lines, some of them spare.
 pub(crate) const ROW: usize = 96;
 
 /// Where a row keeps what.
@@ -52,10 +52,6 @@ pub(crate) mod field {
     pub(crate) const ONE_MINUS_COSINE: usize = 49;
     /// Sine of a distant light's half angle, 1 beyond a right angle.
     pub(crate) const SINE: usize = 50;
-    /// Factor on diffuse reflection.
-    pub(crate) const DIFFUSE: usize = 51;
-    /// Factor on specular reflection.
-    pub(crate) const SPECULAR: usize = 52;
     /// Axis x over the spot's stretch, 3.
     pub(crate) const SPOT_X: usize = 53;
     /// Axis y over the spot's stretch, 3.

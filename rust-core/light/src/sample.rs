@@ -1,11 +1,11 @@
-//! Drawing a direction towards the lights.
+//! Next event estimation (NEE): sampling a light and a direction towards it.
 
 use super::emitter::Aim;
 use super::facing_disk;
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::row::{Reader, flag};
 use super::table::LightTable;
-use super::tree::KnownLights;
+use super::tree::LightCache;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Light that may arrive at a point.
@@ -17,7 +17,7 @@ pub struct LightSample<L: Lanes> {
     pub distance: F<L>,
     /// Radiance towards the point with shaping and texture, zero where `pdf` is; for delta lights the illuminance on a facing surface.
     pub radiance: Rgb<L>,
-    /// Density per solid angle times the probability of the choice; for delta lights that probability alone. Zero where nothing arrives.
+    /// Density per solid angle times the probability of the light; for delta lights that probability alone. Zero where nothing arrives.
     pub pdf: F<L>,
     /// Lights that no ray from here can hit: the sample stands for all of their light.
     pub delta: M<L>,
@@ -27,7 +27,7 @@ pub struct LightSample<L: Lanes> {
     pub casts_shadow: M<L>,
 }
 
-/// Share of the power heuristic for the first of two densities, safe for any magnitude.
+/// MIS weight by the power heuristic for the first of two densities, safe for any magnitude.
 #[inline(always)]
 pub fn power_heuristic<L: Lanes>(own: F<L>, other: F<L>) -> F<L> {
     let ratio = other / own.max(f32::MIN_POSITIVE);
@@ -35,30 +35,30 @@ pub fn power_heuristic<L: Lanes>(own: F<L>, other: F<L>) -> F<L> {
 }
 
 impl LightTable {
-    /// Draws a light, among those `known` to arrive there if that was learned, and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_choice` and `u` in
-    /// `[0, 1)`.
+    /// Samples a light and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_light`
+    /// and `u` in `[0, 1)`. Most lights are those that the `light_cache` has learned to arrive there, where there is one.
     #[inline(always)]
-    pub fn sample<L: Lanes>(
+    pub fn sample_li<L: Lanes>(
         &self,
         l: L,
-        known: Option<&KnownLights>,
+        light_cache: Option<&LightCache>,
         p: &Vec3<L>,
         n: &Vec3<L>,
-        u_choice: F<L>,
+        u_light: F<L>,
         u: &[F<L>; 2],
     ) -> LightSample<L> {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let chosen = self.choose(l, known, p, n, u_choice);
-        self.sample_chosen(l, chosen, p, n, u)
+        let chosen = self.sample_light(l, light_cache, p, n, u_light);
+        self.sample_li_of(l, chosen, p, n, u)
     }
 
-    /// Draws a direction to a light that has been chosen with some probability.
+    /// Samples a direction to a light that has been selected with some probability.
     #[inline(always)]
-    pub fn sample_chosen<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: &Vec3<L>, n: &Vec3<L>, u: &[F<L>; 2]) -> LightSample<L> {
+    pub fn sample_li_of<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: &Vec3<L>, n: &Vec3<L>, u: &[F<L>; 2]) -> LightSample<L> {
         let light = self.reader(l, chosen.0);
-        // What all lanes share is known to be so all the way down: no gathers, no kind of light but one.
+        // What all lanes share stays so all the way down: no gathers, no kind of light but one.
         match light.common() {
             Some(common) => self.sample_row(l, &common, chosen, p, n, u),
             None => self.sample_row(l, &light, chosen, p, n, u),
@@ -77,9 +77,9 @@ impl LightTable {
     ) -> LightSample<L> {
         let infinite = light.flag(flag::INFINITE);
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
-        self.aim_near(l, light, p, u, &mut aim);
-        self.aim_far(l, light, index, [p, n], u, infinite, &mut aim);
-        let sent = self.emitted(l, light, aim.wi, aim.uv);
+        self.sample_finite(l, light, p, u, &mut aim);
+        self.sample_infinite(l, light, index, [p, n], u, infinite, &mut aim);
+        let sent = self.le(l, light, aim.wi, aim.uv);
         let point = light.is_kind(LightKind::Point);
         let radiance = if point.any() {
             let squared = (aim.distance * aim.distance).max(f32::MIN_POSITIVE);

@@ -1,6 +1,6 @@
 //! UsdLux's size factors: what `normalize` divides by.
 
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::vector::{Vector, add, cross, dot, length, principal_axes, scale, unit_or};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,4 +1,4 @@
-//! Solid angles of triangles, and when not to sample by them.
+//! Solid angles of triangles, for solid angle sampling, and when not to sample by them.
 
 use gonio_simd::{F, Lanes, Vec3};
 

@@ -1,15 +1,27 @@
 //! The light table: all lights in the form that kernels read.
 
 use super::build::fill_row;
-use super::choice::{Choice, WEIGHED};
 use super::dome::DomeDistribution;
 use super::goniogram::Goniogram;
-use super::record::{LightKind, LightRecord, LightTexture};
+use super::light_kind::LightKind;
+use super::record::{LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use super::tree::LightTree;
-use gonio_simd::{F, Lanes, M, U};
+use gonio_simd::{Lanes, M, U};
 use std::{borrow::Borrow, sync::Arc};
+
+/// Up to this many lights each point weighs all of them.
+pub(crate) const MOST_EXHAUSTIVE: usize = 64;
+
+/// How one light of many is selected.
+#[derive(Clone, Debug)]
+pub(crate) enum LightSampler {
+    /// All of them weighed at each point.
+    Exhaustive,
+    /// Sets of them weighed at each point, then the parts of one.
+    Tree(LightTree),
+}
 
 /// An infinite light, visited by every ray that leaves the scene.
 #[derive(Clone, Debug)]
@@ -31,7 +43,7 @@ pub struct LightTable {
     pub(crate) count: usize,
     /// Bit k: some light is of kind number k.
     pub(crate) kinds: u32,
-    pub(crate) choice: Choice,
+    pub(crate) sampler: LightSampler,
     pub(crate) textures: TexturePool,
     pub(crate) infinite: Vec<InfiniteLight>,
     pub(crate) goniograms: Vec<Arc<Goniogram>>,
@@ -41,7 +53,7 @@ pub struct LightTable {
 
 impl LightTable {
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
-    /// never chosen. A texture whose values do not fit its size counts as white.
+    /// never selected. A texture whose values do not fit its size counts as white.
     pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>], goniograms: &[Arc<Goniogram>]) -> Self {
         let mut pool = TexturePool::default();
         let placed: Vec<Option<Placed>> = textures.iter().map(|image| pool.insert(image.borrow())).collect();
@@ -79,8 +91,8 @@ impl LightTable {
                 infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered });
             }
         }
-        let choice = if records.len() <= WEIGHED { Choice::Weighed } else { Choice::Tree(LightTree::new(&rows)) };
-        Self { rows, count: records.len(), kinds, choice, textures: pool, infinite, goniograms: goniograms.to_vec(), portals }
+        let sampler = if records.len() <= MOST_EXHAUSTIVE { LightSampler::Exhaustive } else { LightSampler::Tree(LightTree::new(&rows)) };
+        Self { rows, count: records.len(), kinds, sampler, textures: pool, infinite, goniograms: goniograms.to_vec(), portals }
     }
     /// Lights in the table.
     pub fn len(&self) -> usize {
@@ -90,15 +102,15 @@ impl LightTable {
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
-    /// The lights at infinity.
-    pub fn at_infinity(&self) -> impl Iterator<Item = u32> + '_ {
+    /// Indices of the infinite lights.
+    pub fn infinite_lights(&self) -> impl Iterator<Item = u32> + '_ {
         self.infinite.iter().map(|infinite| infinite.light)
     }
     /// The group of a light whose samples are taken together: its kind, or itself where groups may be as many as lights.
     pub fn group(&self, light: u32, one_by_one: bool) -> usize {
         if one_by_one { light as usize } else { (self.rows[light as usize * ROW + field::FLAGS].to_bits() & flag::KIND) as usize }
     }
-    /// Whether a light shines from all around.
+    /// Whether a light emits from all around.
     pub fn is_dome(&self, light: u32) -> bool {
         self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)
     }
@@ -117,15 +129,6 @@ impl LightTable {
             return l.m(false);
         }
         self.reader(l, light).flag(flag::VISIBLE)
-    }
-    /// Factors on diffuse and on specular reflection of each lane's light.
-    #[inline(always)]
-    pub fn multipliers<L: Lanes>(&self, l: L, light: U<L>) -> [F<L>; 2] {
-        if self.count == 0 {
-            return [l.f(1.0); 2];
-        }
-        let light = self.reader(l, light);
-        [light.value(field::DIFFUSE), light.value(field::SPECULAR)]
     }
     #[inline(always)]
     pub(crate) fn reader<L: Lanes>(&self, l: L, light: U<L>) -> Reader<'_, L> {

@@ -12,7 +12,7 @@ use crate::stage::surface::HitSource;
 use crate::stage::surface::surface_chunk;
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
-use gonio_light::{Draw, KnownLights, LightSample};
+use gonio_light::{FixedLightSample, LightCache, LightSample};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// [`Surface::transmittance`].
@@ -58,28 +58,28 @@ pub(crate) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [Sharp
     )
 }
 
-/// [`gonio_light::LightTable::take`].
+/// [`gonio_light::LightTable::sample_fixed`].
 #[inline(never)]
-pub(crate) fn take_draw<L: Lanes>(l: L, tables: &Tables, draw: &Draw, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+pub(crate) fn sample_fixed<L: Lanes>(l: L, tables: &Tables, fixed: &FixedLightSample, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.take(l, draw, p, n),
+        || tables.lights.sample_fixed(l, fixed, p, n),
     )
 }
 
-/// [`gonio_light::LightTable::sample`].
+/// [`gonio_light::LightTable::sample_li`].
 #[inline(never)]
-pub fn sample_light<L: Lanes>(
+pub fn sample_li<L: Lanes>(
     l: L,
     tables: &Tables,
-    known: Option<&KnownLights>,
+    light_cache: Option<&LightCache>,
     p: &Vec3<L>,
     n: &Vec3<L>,
     u: &[F<L>; 3],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample(l, known, p, n, u[0], &[u[1], u[2]]),
+        || tables.lights.sample_li(l, light_cache, p, n, u[0], &[u[1], u[2]]),
     )
 }
 
@@ -95,20 +95,26 @@ pub(crate) struct LightHit<L: Lanes> {
 
 /// [`gonio_light::LightTable::eval_hit`].
 #[inline(never)]
-pub(crate) fn eval_light<L: Lanes>(l: L, tables: &Tables, known: Option<&KnownLights>, hit: &LightHit<L>, mask: M<L>) -> (Rgb<L>, F<L>) {
+pub(crate) fn eval_light<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    light_cache: Option<&LightCache>,
+    hit: &LightHit<L>,
+    mask: M<L>,
+) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_hit(l, known, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+        || tables.lights.eval_hit(l, light_cache, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
     )
 }
 
-/// [`gonio_light::LightTable::escaped`].
+/// [`gonio_light::LightTable::eval_escaped`].
 #[inline(never)]
 #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-pub(crate) fn surroundings<L: Lanes>(
+pub(crate) fn eval_escaped<L: Lanes>(
     l: L,
     tables: &Tables,
-    known: Option<&KnownLights>,
+    light_cache: Option<&LightCache>,
     vertex: [Vec3<L>; 2],
     direction: Vec3<L>,
     pdf: F<L>,
@@ -117,7 +123,7 @@ pub(crate) fn surroundings<L: Lanes>(
 ) -> Rgb<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.escaped(l, known, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
+        || tables.lights.eval_escaped(l, light_cache, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
     )
 }
 

@@ -115,7 +115,7 @@ fn sample<L: Lanes>(l: L, tables: &Tables, job: [&[Column; 3]; 2], out: [&mut [C
     let up = Vec3::splat(l, [0.0, 1.0, 0.0]);
     for at in (0..BATCH).step_by(L::COUNT) {
         let point = Vec3::load(l, [x, y, z], at);
-        let sample = kernels::sample_light(l, tables, None, &point, &up, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
+        let sample = kernels::sample_li(l, tables, None, &point, &up, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
         sample.wi.store([dx, dy, dz], at);
         sample.radiance.store([r, g, b], at);
         sample.pdf.store(pdf, at);

@@ -62,8 +62,8 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         execution,
         max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
         kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
-        shows_surroundings: settings.background != Background::Transparent,
-        surroundings_cover: settings.background == Background::Covering,
+        shows_environment: settings.background != Background::Transparent,
+        environment_covers: settings.background == Background::Covering,
         passes: FirstPasses {
             shader: shader_passes::programs(&scene.tables.materials, settings),
             groups: light_groups::passes(&scene.tables.groups, settings),
@@ -83,9 +83,10 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         forward,
         seed: settings.seed,
         samples: settings.samples,
-        known: None,
+        light_cache: None,
         sight: Sight::Whole,
-        draws: (settings.integrator == Integrator::Whitted).then(|| scene.tables.lights.draws(settings.light_samples).into()),
+        fixed_samples: (settings.integrator == Integrator::Whitted)
+            .then(|| scene.tables.lights.fixed_samples(settings.light_samples).into()),
     }
 }
 

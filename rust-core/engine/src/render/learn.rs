@@ -1,10 +1,11 @@
-//! Which lights arrive where: learned from a small picture of the view, which nobody sees, or from a few paths of all sensors.
+//! The learned light cache (light guiding), which lights arrive where. It is learned from a small picture of the view, which nobody sees, or from a few
+//! paths of all sensors.
 
 use super::source::Source;
 use crate::{
     camera::sampler::{Runs, TILE},
     compile::{CompiledScene, View},
-    light::KnownLights,
+    light::LightCache,
     scene::{Antialiasing, Aov, Crop, Integrator, Settings},
     transport::{Start, Tracer, Transport},
 };
@@ -21,7 +22,7 @@ const LEAST_SAMPLES: u32 = 16;
 const OTHER_SEED: u32 = 0x5bd1_e995;
 
 /// None where lights are few, samples too few, or nothing could be learned.
-pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source, cancelled: &dyn Fn() -> bool) -> Option<Arc<KnownLights>> {
+pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source, cancelled: &dyn Fn() -> bool) -> Option<Arc<LightCache>> {
     if settings.samples < LEAST_SAMPLES || settings.integrator == Integrator::Whitted || !scene.tables.lights.has_tree() {
         return None;
     }
@@ -47,7 +48,7 @@ fn from_paths(
     window: Crop,
     samples: u32,
     cancelled: &dyn Fn() -> bool,
-) -> Option<Arc<KnownLights>> {
+) -> Option<Arc<LightCache>> {
     let mut workspace = scene.workspaces.take();
     workspace.prepare(&scene.tables, &tracer.transport, false);
     workspace.arrivals = Some(Vec::new());

@@ -14,7 +14,7 @@ use crate::{
     compile::{CompiledScene, View, transport},
     error::{Error, Result},
     film::Film,
-    light::KnownLights,
+    light::LightCache,
     scene::{Crop, Settings},
     threads::available_threads,
     transport::{SensorTable, Statistics, Transport},
@@ -58,8 +58,8 @@ pub(crate) struct Shared {
 /// What small pictures of the view have told, which nobody sees.
 #[derive(Clone, Debug)]
 pub(crate) struct Learned {
-    /// Which lights arrive where.
-    pub(crate) known: Option<Arc<KnownLights>>,
+    /// The learned light cache: which lights arrive where.
+    pub(crate) light_cache: Option<Arc<LightCache>>,
     /// The value of the colour pass that is shown as white.
     pub(crate) white: f32,
 }

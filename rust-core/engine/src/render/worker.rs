@@ -46,10 +46,10 @@ pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
 fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usize>) {
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let Learned { known, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
+    let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let sharp_rays = sharp_rays(shared);
     let sight = if sharp_rays.is_some() { Sight::Blurred } else { Sight::Whole };
-    let transport = Transport { known, sight, ..shared.source.transport().clone() };
+    let transport = Transport { light_cache, sight, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -98,14 +98,14 @@ fn sharp_rays(shared: &Shared) -> Option<u32> {
 
 /// What is to be known before the first block.
 fn learned(shared: &Shared, cancelled: &dyn Fn() -> bool) -> Learned {
-    let known = learn(&shared.scene, &shared.settings, &shared.source, cancelled);
+    let light_cache = learn(&shared.scene, &shared.settings, &shared.source, cancelled);
     let white = match &shared.source {
         Source::View(view) if shared.film.looks_at_noise() || view.rule.is_some() => {
             meter(&shared.scene, &shared.settings, view.transport.execution, cancelled)
         }
         _ => 1.0,
     };
-    Learned { known, white }
+    Learned { light_cache, white }
 }
 
 /// Traces a tile where it needs samples.

@@ -1,6 +1,6 @@
 //! Batches of samples through the kernels at any level.
 
-use crate::{KnownLights, LightKind, LightRecord, LightTable};
+use crate::{LightCache, LightKind, LightRecord, LightTable};
 use gonio_simd::{Column, Execution, F, Lanes, Rgb, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
@@ -45,11 +45,19 @@ pub(super) fn numbers(seed: u64, count: usize) -> [Column; 3] {
 }
 
 #[inline(always)]
-fn kernel<L: Lanes>(l: L, table: &LightTable, known: Option<&KnownLights>, p: [f32; 3], n: [f32; 3], u: &[Column; 3], drawn: &mut Drawn) {
+fn kernel<L: Lanes>(
+    l: L,
+    table: &LightTable,
+    light_cache: Option<&LightCache>,
+    p: [f32; 3],
+    n: [f32; 3],
+    u: &[Column; 3],
+    drawn: &mut Drawn,
+) {
     let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, n));
     for at in (0..u[0].len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample(l, known, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = table.sample_li(l, light_cache, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let [x, y, z] = &mut drawn.wi;
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
@@ -59,23 +67,23 @@ fn kernel<L: Lanes>(l: L, table: &LightTable, known: Option<&KnownLights>, p: [f
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
         let hit = s.wi.mul_add(s.distance, p);
-        let (radiance, pdf): (Rgb<L>, F<L>) = table.eval_hit(l, known, s.light, p, n, s.wi, hit, placed);
+        let (radiance, pdf): (Rgb<L>, F<L>) = table.eval_hit(l, light_cache, s.light, p, n, s.wi, hit, placed);
         let [r, g, b] = &mut drawn.eval_radiance;
         radiance.store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);
     }
 }
 
-/// Samples at one point, nothing being known.
+/// Samples at one point without a light cache.
 pub(super) fn draw(execution: Execution, table: &LightTable, p: [f32; 3], n: [f32; 3], u: &[Column; 3]) -> Drawn {
-    draw_known(execution, table, None, p, n, u)
+    draw_with_cache(execution, table, None, p, n, u)
 }
 
 /// Samples at one point.
-pub(super) fn draw_known(
+pub(super) fn draw_with_cache(
     execution: Execution,
     table: &LightTable,
-    known: Option<&KnownLights>,
+    light_cache: Option<&LightCache>,
     p: [f32; 3],
     n: [f32; 3],
     u: &[Column; 3],
@@ -92,7 +100,7 @@ pub(super) fn draw_known(
         eval_radiance: three(),
         eval_pdf: column(),
     };
-    dispatch!(execution, l => kernel(l, table, known, p, n, u, &mut drawn));
+    dispatch!(execution, l => kernel(l, table, light_cache, p, n, u, &mut drawn));
     drawn
 }
 

@@ -1,4 +1,4 @@
-//! What is known of a light, or of several together, before any point is looked at: where, how strong, which way.
+//! Bounds of a light, or of several together, from which the light tree is built: where, how strong, which way.
 //!
 //! Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 4.
 
@@ -115,7 +115,7 @@ impl Bound {
         }
     }
 
-    /// What a set costs: its strength, times the square of its extent, times the solid angle it may shine into.
+    /// What a set costs: its strength, times the square of its extent, times the solid angle it may emit into.
     pub(super) fn cost(&self) -> f64 {
         let extent = add(self.high, scale(self.low, -1.0));
         let Cone { spread, .. } = self.normals;

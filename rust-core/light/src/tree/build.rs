@@ -1,4 +1,4 @@
-//! Building the tree: sets of lights split where that brings the least cost, up to eight children a node.
+//! Building the light tree: sets of lights split where that brings the least cost, up to eight children a node.
 
 use super::bound::Bound;
 use super::node;

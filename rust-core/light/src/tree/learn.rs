@@ -1,6 +1,6 @@
-//! Which lights arrive where, from light that did.
+//! Fills the learned light cache: which lights arrive where, from light that did.
 
-use super::known::{KnownLights, MOST, WORDS, place};
+use super::light_cache::{LightCache, MOST, WORDS, place};
 use super::{LightTree, NONE};
 
 /// Light that arrived at a surface, or did not.
@@ -36,7 +36,7 @@ const DOUBTS: f32 = 2.0;
 /// cells an eighth of a room's surface was.
 const SPARSE: usize = 8;
 
-/// In the place of a leaf: a light outside the tree, at infinity, and behind it [`NONE`] for none at all.
+/// In the place of a leaf: an infinite light, which is outside the tree, and behind it [`NONE`] for none at all.
 const FAR: u32 = NONE - 1;
 
 /// An arrival in its cell.
@@ -48,7 +48,7 @@ struct Entry {
     value: f32,
 }
 
-impl KnownLights {
+impl LightCache {
     /// What arrivals tell, and draws in vain; none if no light of the tree arrived anywhere.
     pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
         let of_light = |light: u32| tree.leaves.get(light as usize).map_or(FAR, |leaf| (*leaf).min(FAR));
@@ -73,17 +73,17 @@ impl KnownLights {
     fn of_entries(entries: &[Entry], per_metre: f32) -> Self {
         let in_cells = || entries.chunk_by(|a, b| (a.place, a.key) == (b.place, b.key));
         let count = (SPARSE * in_cells().count()).next_power_of_two();
-        let mut known = Self { cells: vec![0.0; count * WORDS], mask: count as u32 - 1, per_metre };
+        let mut cache = Self { cells: vec![0.0; count * WORDS], mask: count as u32 - 1, per_metre };
         // Of cells that share a place, the one that more arrived in stays.
         let mut arrived = vec![0; count];
         for cell in in_cells() {
-            let number = (cell[0].place & known.mask) as usize;
+            let number = (cell[0].place & cache.mask) as usize;
             if cell.len() > arrived[number] {
                 arrived[number] = cell.len();
-                fill(cell, &mut known.cells[number * WORDS..(number + 1) * WORDS]);
+                fill(cell, &mut cache.cells[number * WORDS..(number + 1) * WORDS]);
             }
         }
-        known
+        cache
     }
 }
 

@@ -1,22 +1,23 @@
-//! Choosing one of many lights: sets of lights weighed by what they may bring to a point, and one of the chosen set's parts again, down to a light.
+//! The light tree (light BVH), which selects one of many lights. Sets of lights are weighed by their importance at a point, then the parts of the
+//! selected set, down to a light.
 //!
-//! Dozens of sets at the top are weighed for all lanes alike, without gathers; below, nodes have up to eight children. Lights at infinity have no
-//! place in the tree: their estimates stand beside the top's.
+//! Dozens of sets at the top are weighed for all lanes alike, without gathers; below, nodes have up to eight children. Infinite lights have no
+//! place in the tree: their importances stand beside the top's.
 
 mod bound;
 mod build;
-mod known;
 mod learn;
+mod light_cache;
 mod node;
 mod single;
 
-use super::choice::Estimate;
+use super::light_bounds::LightBounds;
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
-pub use known::KnownLights;
 pub use learn::Arrival;
+pub use light_cache::LightCache;
 use node::{Below, Node, WORDS};
 
 /// A light tree.
@@ -25,9 +26,9 @@ pub(crate) struct LightTree {
     nodes: Nodes,
     /// The nodes at the top, unpacked.
     top: Vec<Node<One>>,
-    /// The leaf of each light, none for lights at infinity and dark ones.
+    /// The leaf of each light, none for infinite lights and dark ones.
     leaves: Vec<u32>,
-    /// Lights at infinity.
+    /// Infinite lights.
     infinite: Vec<u32>,
 }
 
@@ -90,15 +91,15 @@ impl LightTree {
         Self { nodes, top, leaves, infinite: of(true).map(|(light, _)| light as u32).collect() }
     }
 
-    /// Draws a light for each point and gives its probability: 0 where no light can arrive.
+    /// Selects a light for each point and gives its probability: 0 where no light can arrive.
     #[inline(always)]
-    pub(crate) fn choose<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+    pub(crate) fn sample_light<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
         let receiver = Receiver { l, p, n };
         let mut weights = [l.f(0.0); TOP + 1];
-        weights[0] = self.infinity(rows, receiver);
+        weights[0] = self.infinite_importance(rows, receiver);
         let mut total = weights[0];
         for (node, weight) in self.top.iter().zip(&mut weights[1..]) {
-            *weight = Node::splat(l, node).illuminance(l, p, n);
+            *weight = Node::splat(l, node).importance(l, p, n);
             total += *weight;
         }
         let drawn = draw(l, &weights[..=self.top.len()], total, u);
@@ -107,27 +108,27 @@ impl LightTree {
         if !far.any() {
             return (near, probability);
         }
-        let (light, share) = self.draw_far(rows, receiver, drawn.rest);
+        let (light, share) = self.sample_infinite(rows, receiver, drawn.rest);
         (far.select(light, near), far.select(drawn.probability * share, probability))
     }
 
-    /// Probability that [`Self::choose`] draws `light` at a point.
+    /// Probability that [`Self::sample_light`] draws `light` at a point.
     #[inline(always)]
     pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         let receiver = Receiver { l, p, n };
-        let mut total = self.infinity(rows, receiver);
+        let mut total = self.infinite_importance(rows, receiver);
         for node in &self.top {
-            total += Node::splat(l, node).illuminance(l, p, n);
+            total += Node::splat(l, node).importance(l, p, n);
         }
         let leaf = l.gather_integers(&self.leaves, light);
         let near = leaf.ne(NONE);
         let (node, share) = self.climb(receiver, leaf, near);
-        let weight = if near.any() { Node::gather(l, &self.nodes.words, node).illuminance(l, p, n) * share } else { l.f(0.0) };
-        let weight = near.select(weight, Estimate::gather(&Reader::new(l, rows, light)).illuminance(l, p, n));
+        let weight = if near.any() { Node::gather(l, &self.nodes.words, node).importance(l, p, n) * share } else { l.f(0.0) };
+        let weight = near.select(weight, LightBounds::gather(&Reader::new(l, rows, light)).importance(l, p, n));
         weight.share_of(total)
     }
 
-    /// Estimates of the children of each lane's node, zero beyond the last, and their sum.
+    /// Importances of the children of each lane's node, zero beyond the last, and their sum.
     #[inline(always)]
     fn children<L: Lanes>(&self, receiver: Receiver<L>, parent: Below<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
         let Receiver { l, p, n } = receiver;
@@ -138,7 +139,7 @@ impl LightTree {
             if !present.any() {
                 break;
             }
-            *weight = Node::gather(l, &self.nodes.words, first + child as u32).illuminance(l, p, n).keep_if(present);
+            *weight = Node::gather(l, &self.nodes.words, first + child as u32).importance(l, p, n).keep_if(present);
             total += *weight;
         }
         (weights, total)
@@ -180,7 +181,7 @@ impl LightTree {
                 break;
             }
             let (_, total) = self.children(receiver, Below::gather(l, &self.nodes.words, parent), below);
-            let own = Node::gather(l, &self.nodes.words, node).illuminance(l, p, n);
+            let own = Node::gather(l, &self.nodes.words, node).importance(l, p, n);
             let share = own.share_of(total);
             probability = below.select(probability * share, probability);
             node = below.select(parent, node);
@@ -188,25 +189,25 @@ impl LightTree {
         (node, probability)
     }
 
-    /// Estimates of the lights at infinity, added up.
+    /// Importances of the infinite lights, added up.
     #[inline(always)]
-    fn infinity<L: Lanes>(&self, rows: &[f32], Receiver { l, p, n }: Receiver<L>) -> F<L> {
+    fn infinite_importance<L: Lanes>(&self, rows: &[f32], Receiver { l, p, n }: Receiver<L>) -> F<L> {
         let mut total = l.f(0.0);
         for light in &self.infinite {
-            total += Estimate::splat(l, &rows[*light as usize * ROW..]).illuminance(l, p, n);
+            total += LightBounds::splat(l, &rows[*light as usize * ROW..]).importance(l, p, n);
         }
         total
     }
 
-    /// Draws one of the lights at infinity.
+    /// Selects one of the infinite lights.
     #[inline(always)]
-    fn draw_far<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
+    fn sample_infinite<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
         let Receiver { l, p, n } = receiver;
-        let total = self.infinity(rows, receiver);
+        let total = self.infinite_importance(rows, receiver);
         let target = u * total;
         let (mut light, mut own, mut sum) = (l.u(0), l.f(0.0), l.f(0.0));
         for candidate in &self.infinite {
-            let weight = Estimate::splat(l, &rows[*candidate as usize * ROW..]).illuminance(l, p, n);
+            let weight = LightBounds::splat(l, &rows[*candidate as usize * ROW..]).importance(l, p, n);
             let reached = sum.le(target) & weight.gt(0.0);
             light = reached.select(l.u(*candidate), light);
             own = reached.select(weight, own);

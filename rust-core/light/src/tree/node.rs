@@ -1,7 +1,7 @@
-//! A node in eight words, and the estimate of what its lights bring to a point, on lanes.
+//! A node of the light tree in eight words, and the importance of its lights at a point, on lanes.
 
 use super::bound::{Bound, Cone};
-use crate::choice::{EMITTER_FLOOR, lifted};
+use crate::light_bounds::{EMITTER_FLOOR, lifted};
 use crate::vector::narrow;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
@@ -155,11 +155,11 @@ impl<L: Lanes> Node<L> {
         let [centre, half, axis] = [centre, half, axis].map(vector);
         Self { centre, half, strength: l.f(strength.0), axis, spread: l.f(spread.0), edge: l.f(edge.0), below: Below(l.u(below.0.0)) }
     }
-    /// About the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
+    /// Importance: about the illuminance at `p` on a surface of normal `n` (zero: no surface), zero only where none of the light can arrive.
     ///
     /// Cosines are means over the box, which for lamps of one ceiling are those of all of them, seen from the box's nearest point: near ones count most.
     #[inline(always)]
-    pub(super) fn illuminance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
+    pub(super) fn importance(&self, l: L, p: Vec3<L>, n: Vec3<L>) -> F<L> {
         let towards = self.centre - p;
         let squared = towards.length_squared().max(f32::MIN_POSITIVE);
         let scatter = self.half.length_squared() * SCATTERED;

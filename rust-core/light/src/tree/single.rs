@@ -3,7 +3,7 @@
 use super::{Below, Drawn, LightTree, Node, Receiver, TOP, below_one};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
-/// Room for the estimates of the top and of the lights at infinity, written a register at a time.
+/// Room for the importances of the top and of the infinite lights, written a register at a time.
 const ROOM: usize = 1 + TOP + 16;
 
 /// Weights that are added up together: sums of several groups do not wait for one another.
@@ -41,9 +41,9 @@ fn reached(weights: &[f32], mut sum: f32, target: f32) -> (usize, f32) {
 }
 
 impl LightTree {
-    /// [`Self::choose`] for the points of a mask, one after the other; the other lanes are left at zero.
+    /// [`Self::sample_light`] for the points of a mask, one after the other; the other lanes are left at zero.
     #[inline(always)]
-    pub(super) fn choose_each<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>, mask: M<L>) -> (U<L>, F<L>) {
+    pub(super) fn sample_each<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>, mask: M<L>) -> (U<L>, F<L>) {
         let (mut lights, mut probabilities) = ([0; 16], [0.0; 16]);
         let [p, n] = [p, n].map(|v| [v.x, v.y, v.z].map(F::to_array));
         let u = u.to_array();
@@ -52,20 +52,20 @@ impl LightTree {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let at = |v: [[f32; 16]; 3]| Vec3::splat(l, v.map(|values| values[lane]));
-            (lights[lane], probabilities[lane]) = self.choose_one(rows, Receiver { l, p: at(p), n: at(n) }, u[lane]);
+            (lights[lane], probabilities[lane]) = self.sample_one(rows, Receiver { l, p: at(p), n: at(n) }, u[lane]);
         }
         (l.load_integers(&lights, 0), l.load(&probabilities, 0))
     }
 
     /// The same for the one point that fills all lanes.
     #[inline(always)]
-    fn choose_one<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: f32) -> (u32, f32) {
+    fn sample_one<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: f32) -> (u32, f32) {
         let mut weights = [0.0; ROOM];
-        weights[0] = self.infinity(rows, receiver).to_array()[0];
+        weights[0] = self.infinite_importance(rows, receiver).to_array()[0];
         self.weigh(receiver, 0, self.top.len(), &mut weights[1..]);
         let drawn = draw_one(&weights[..=self.top.len()], F(u));
         if drawn.index.0 == 0 {
-            let (light, share) = self.draw_far(rows, receiver, receiver.l.f(drawn.rest.0));
+            let (light, share) = self.sample_infinite(rows, receiver, receiver.l.f(drawn.rest.0));
             return (light.to_array()[0], share.to_array()[0] * drawn.probability.0);
         }
         let (mut probability, mut rest) = (drawn.probability, drawn.rest);
@@ -84,12 +84,12 @@ impl LightTree {
         }
     }
 
-    /// Estimates of neighbouring nodes; a register's worth more may be written behind them.
+    /// Importances of neighbouring nodes; a register's worth more may be written behind them.
     #[inline(always)]
     fn weigh<L: Lanes>(&self, Receiver { l, p, n }: Receiver<L>, first: usize, count: usize, weights: &mut [f32]) {
         for at in (0..count).step_by(L::COUNT) {
             let node = (l.iota() + at as u32).min(count as u32 - 1) + first as u32;
-            Node::gather(l, &self.nodes.words, node).illuminance(l, p, n).store(weights, at);
+            Node::gather(l, &self.nodes.words, node).importance(l, p, n).store(weights, at);
         }
     }
 }

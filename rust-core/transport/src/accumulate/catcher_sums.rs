@@ -21,7 +21,7 @@ impl CatcherSums {
     pub(crate) fn columns(&mut self) -> impl Iterator<Item = &mut Column> {
         self.sums.iter_mut().flat_map(|(coverage, behind)| [coverage].into_iter().chain(behind))
     }
-    /// Coverage by catchers where there is none behind them, and the radiance of the surroundings behind them.
+    /// Coverage by catchers where there is none behind them, and the radiance of the environment behind them.
     pub fn sums(&self) -> Option<(&Column, &Columns3)> {
         self.sums.as_ref().map(|(coverage, behind)| (coverage, behind))
     }

@@ -38,7 +38,7 @@ pub(crate) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, valu
     }
     let sharp = arrives & is_sharp(flags, slot);
     // Of what samples find by themselves, trees of rays alone have no noise.
-    if transport.draws.is_some() {
+    if transport.fixed_samples.is_some() {
         add_rgb(&mut ws.first_hit.sharp, slot, value, sharp);
     }
     match transport.sight {

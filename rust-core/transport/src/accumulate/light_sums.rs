@@ -11,7 +11,7 @@ pub mod code {
     pub const INDIRECT: u32 = 3;
     /// Emission that the camera sees.
     pub const EMISSION: u32 = 6;
-    /// Lights at infinity that the camera sees.
+    /// Infinite lights that the camera sees.
     pub const ENVIRONMENT: u32 = 7;
     /// From here on: albedos by kind.
     pub const COLOUR: u32 = 8;

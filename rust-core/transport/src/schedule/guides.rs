@@ -28,7 +28,7 @@ impl Tracer<'_> {
             passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
             measure: false,
             sight: Sight::Sharp,
-            draws: Some([].into()),
+            fixed_samples: Some([].into()),
             // Paths see what emits beyond the last bounce.
             max_bounces: own.max_bounces.saturating_add(1),
             seed: own.seed ^ SEED,

@@ -78,7 +78,7 @@ impl Tracer<'_> {
         };
         ws.statistics.spent(0, time);
         ws.statistics.camera_rays += ws.paths.count as u64;
-        if self.transport.draws.is_some() {
+        if self.transport.fixed_samples.is_some() {
             whitted::follow(self, sampler, runs, first, ws, cancelled);
         } else {
             self.follow(sampler, runs, first, ws, cancelled);

@@ -94,7 +94,7 @@ pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) ->
     slot.lt(ALONE) | l.gather_integers(&tables.object_lights, light).eq(0)
 }
 
-/// Keeps what is behind catchers that the camera sees: the surroundings alone, as if no object were there. From here on their paths are as if
+/// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on their paths are as if
 /// they had come from anywhere.
 #[inline(always)]
 pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, present: M<L>, ws: &mut Workspace) {
@@ -106,18 +106,18 @@ pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
         return;
     }
     let pixel = pixel(point.slot);
-    if transport.surroundings_cover {
+    if transport.environment_covers {
         add(&mut ws.first_hit.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
     let from = ws.paths.vertex(l, point.path);
     let Some((coverage, behind)) = &mut ws.first_hit.catchers.sums else { return };
-    if !transport.surroundings_cover {
+    if !transport.environment_covers {
         add(coverage, pixel, point.share, caught);
     }
-    if transport.shows_surroundings {
+    if transport.shows_environment {
         let radiance: Rgb<L> =
-            kernels::surroundings(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
+            kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
         let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }

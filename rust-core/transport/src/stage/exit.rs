@@ -16,10 +16,10 @@ pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, base: u32,
     let lobes = subsurface::exit(l);
     let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);
     let index = context.index(l, point.slot);
-    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if !tables.lights.is_empty() {
         let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-        light(stage, point, wo, &lobes, [u_choice, u, v], point.alive, ws);
+        light(stage, point, wo, &lobes, [u_light, u, v], point.alive, ws);
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
     scatter(stage, point, wo, &lobes, [l.f(0.5), u, v, u_roulette], [point.alive, l.m(false)], ws);

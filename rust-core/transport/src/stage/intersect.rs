@@ -24,7 +24,7 @@ use gonio_accel::{Hits, NONE, RayBatch, SceneBvh};
 use gonio_light::power_heuristic;
 use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch};
 
-/// Finds what every path hits, adds the light that shapes and the surroundings send, and looks up the materials of the surface hits.
+/// Finds what every path hits, adds the light that shapes and the environment send, and looks up the materials of the surface hits.
 pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     find_first(tables, transport, depth == 0, ws);
     dispatch!(transport.execution, l => classify(l, tables, ws));
@@ -33,7 +33,7 @@ pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
         pass_through_lights(tables, transport, ws);
     }
     let count = ws.escaped.len();
-    dispatch!(transport.execution, l => add_surroundings(l, tables, transport, depth, ws));
+    dispatch!(transport.execution, l => add_environment(l, tables, transport, depth, ws));
     let lanes = transport.execution.lanes();
     ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
     catcher::split(tables, ws);
@@ -104,7 +104,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let from = ws.paths.vertex(l, path);
         let point = direction.mul_add(l.gather(&ws.hits.t, path), gather3(l, &ws.paths.origin, path));
         let hit = LightHit { light, from: from.position, normal: from.normal, direction, point };
-        let (radiance, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, alive);
+        let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
         let (carried, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let sampled = (flags & flag::DELTA).eq(0);
         let weight = sampled.select(power_heuristic(carried.pdf, pdf), l.f(1.0));
@@ -156,9 +156,9 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
     ws.at_lights = waiting;
 }
 
-/// Adds what lights at infinity send to the paths that escaped.
+/// Adds what infinite lights send to the paths that escaped.
 #[inline(always)]
-fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
+fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     let count = ws.escaped.len();
     ws.escaped.resize(gonio_simd::padded(count), 0);
     for at in (0..count).step_by(L::COUNT) {
@@ -166,24 +166,24 @@ fn add_surroundings<L: Lanes>(l: L, tables: &Tables, transport: &Transport, dept
         let path = l.load_integers(&ws.escaped, at);
         let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
-        if transport.surroundings_cover {
+        if transport.environment_covers {
             add(&mut ws.first_hit.alpha, slot, pdf, alive & camera);
         }
-        let alive = if transport.shows_surroundings { alive } else { alive.and_not(camera) };
+        let alive = if transport.shows_environment { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
         let VertexLanes { position, normal } = ws.paths.vertex(l, path);
         let from = [position, normal];
         let direction = ws.paths.cone(l, path).direction;
-        let (known, first) = (transport.known.as_deref(), [camera, delta]);
-        let unclamped = kernels::surroundings(l, tables, known, from, direction, pdf, first, None) * throughput;
+        let (light_cache, first) = (transport.light_cache.as_deref(), [camera, delta]);
+        let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, None) * throughput;
         let value = clamped(unclamped, transport.clamp(depth));
         let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
         add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
         if transport.passes.groups.wanted() && arrives.any() {
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
-            for light in tables.lights.at_infinity() {
-                let part = kernels::surroundings(l, tables, known, from, direction, pdf, first, Some(light)) * throughput * share;
+            for light in tables.lights.infinite_lights() {
+                let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, Some(light)) * throughput * share;
                 add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.first_hit.groups);
             }
         }

@@ -39,10 +39,10 @@ fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let path = l.load_integers(&ws.order, hits.start + at);
     let index = context.index(l, ws.paths.track(l, path).slot);
     let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
-    let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let (p, n) = (load3(l, &ws.surface.position, at), load3(l, &ws.surface.shading_normal, at));
-    let (light, probability) = tables.lights.choose(l, transport.known.as_deref(), &p, &n, u_choice);
+    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_light);
     let draws = &mut ws.light_draws;
     light.store(&mut draws.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut draws.draw, at);
@@ -58,7 +58,7 @@ fn aim<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let hit = l.load_integers(&draws.order, at);
     let [light, probability, u, v] = l.gather_quads(&draws.draw, hit << 2);
     let (p, n) = (Vec3::gather(l, &draws.position, hit << 2), Vec3::gather(l, &draws.normal, hit << 2));
-    let sample = tables.lights.sample_chosen(l, (light.to_bits(), probability), &p, &n, &[u, v]);
+    let sample = tables.lights.sample_li_of(l, (light.to_bits(), probability), &p, &n, &[u, v]);
     ws.light_draws.store(l, &sample, at);
 }
 

@@ -17,7 +17,7 @@ use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_camera::sampler::BATCH;
 use gonio_camera::sampler::dimension;
-use gonio_light::{Draw, LightSample, power_heuristic};
+use gonio_light::{FixedLightSample, LightSample, power_heuristic};
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3, dispatch};
 use std::{
     f32::consts::{FRAC_1_PI, PI},
@@ -43,24 +43,24 @@ pub(crate) fn measure(tables: &Tables, transport: &Transport, context: &SampleCo
     for first in (0..count).step_by(together) {
         let chunk = first..(first + together).min(count);
         make_room(tables, transport, context.depth == 0, chunk.len(), ws);
-        match &transport.draws {
-            Some(draws) => dispatch!(transport.execution, l => take_draws(l, tables, draws, chunk, ws)),
+        match &transport.fixed_samples {
+            Some(samples) => dispatch!(transport.execution, l => light_by_fixed_samples(l, tables, samples, chunk, ws)),
             None => dispatch!(transport.execution, l => sample(l, tables, transport, context, chunk, ws)),
         }
     }
     ws.measure.count = 0;
 }
 
-/// Lights some points by the same draws each.
+/// Lights some points by the same fixed samples each.
 #[inline(always)]
-fn take_draws<L: Lanes>(l: L, tables: &Tables, draws: &[Draw], chunk: Range<usize>, ws: &mut Workspace) {
+fn light_by_fixed_samples<L: Lanes>(l: L, tables: &Tables, samples: &[FixedLightSample], chunk: Range<usize>, ws: &mut Workspace) {
     for at in chunk.clone().step_by(L::COUNT) {
         let point = load_point(l, at, l.first(chunk.end - at), ws);
-        for draw in draws {
-            let reached = tables.lights.reaches(l, draw, point.position, point.frame.z) & point.alive;
+        for fixed in samples {
+            let reached = tables.lights.reaches(l, fixed, point.position, point.frame.z) & point.alive;
             if reached.any() {
-                let sample = kernels::take_draw(l, tables, draw, &point.position, &point.frame.z);
-                light(l, &point, &sample, Some(draw.share), ws);
+                let sample = kernels::sample_fixed(l, tables, fixed, &point.position, &point.frame.z);
+                light(l, &point, &sample, Some(fixed.share), ws);
             }
         }
     }
@@ -73,11 +73,11 @@ fn sample<L: Lanes>(l: L, tables: &Tables, transport: &Transport, context: &Samp
         let point = load_point(l, at, l.first(chunk.end - at), ws);
         let index = context.index(l, point.slot);
         let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
-        let [u_choice, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+        let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-            let known = transport.known.as_deref();
-            let sample = kernels::sample_light(l, tables, known, &point.position, &point.frame.z, &[u_choice, u, v]);
+            let light_cache = transport.light_cache.as_deref();
+            let sample = kernels::sample_li(l, tables, light_cache, &point.position, &point.frame.z, &[u_light, u, v]);
             light(l, &point, &sample, None, ws);
         }
         start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), ws);

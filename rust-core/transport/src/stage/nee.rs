@@ -28,7 +28,7 @@ pub(crate) fn light<L: Lanes>(
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, transport, .. } = *stage;
-    let sample = kernels::sample_light(l, tables, transport.known.as_deref(), &point.position, &point.frame.z, &u);
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.position, &point.frame.z, &u);
     send(stage, point, wo, lobes, &sample, None, present, ws);
 }
 

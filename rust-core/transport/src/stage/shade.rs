@@ -55,10 +55,10 @@ pub(crate) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
         let wo = point.frame.to_local(point.wo);
         let entering = l.load(&ws.surface.side, at).gt(0.0);
         let normals = normals(l, material, &point, at, ws);
-        let walks = transport.draws.is_none();
+        let walks = transport.fixed_samples.is_none();
         material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks }, &mut lobes);
-        match &transport.draws {
-            Some(draws) => whitted::shade_lanes(stage, material, &mut point, wo, &lobes, draws, at, ws),
+        match &transport.fixed_samples {
+            Some(samples) => whitted::shade_lanes(stage, material, &mut point, wo, &lobes, samples, at, ws),
             None => shade_lanes(stage, material, &mut point, wo, &lobes, at, ws),
         }
     }
@@ -147,14 +147,14 @@ fn shade_lanes<L: Lanes>(
     };
     let present = show(stage, material, point, lobes, present, at, ws);
     let [smooth, going_on] = meet(stage, point, lobes, present, ws);
-    let [u_choice, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if (smooth & going_on).any() && !tables.lights.is_empty() {
         if LightDraws::pays::<L>(&tables.lights, stage.hits.len()) {
             let sample = light_queue::sample(stage, at, ws);
             send(stage, point, wo, lobes, &sample, None, going_on, ws);
         } else {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-            light(stage, point, wo, lobes, [u_choice, u, v], going_on, ws);
+            light(stage, point, wo, lobes, [u_light, u, v], going_on, ws);
         }
     }
     let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
@@ -226,7 +226,7 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
             let light = (first + l.load_integers(&ws.surface.primitive, at)).keep_if(sampled);
             let from = ws.paths.vertex(l, point.path);
             let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.position };
-            let (_, pdf) = kernels::eval_light(l, tables, transport.known.as_deref(), &hit, sampled);
+            let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
             let weight = sampled.select(power_heuristic(point.pdf, pdf), l.f(1.0));
             value = value * weight;
         }

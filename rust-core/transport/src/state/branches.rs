@@ -20,7 +20,7 @@ pub(crate) struct Branches {
 impl Branches {
     /// Makes room where trees are asked for.
     pub(crate) fn prepare(&mut self, transport: &Transport) {
-        if transport.draws.is_some() {
+        if transport.fixed_samples.is_some() {
             self.ways.resize_with(Way::ALL.len(), Paths::default);
         }
     }

@@ -4,7 +4,7 @@ use crate::graph::CHUNK;
 use crate::state::shadow_rays::SHADOW_ROOM;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::shader_passes::ShaderPasses;
-use gonio_light::{Draw, KnownLights};
+use gonio_light::{FixedLightSample, LightCache};
 use gonio_simd::{Execution, PADDING};
 use std::sync::Arc;
 
@@ -17,10 +17,10 @@ pub struct Transport {
     pub max_bounces: u32,
     /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
     pub kind_bounces: [u32; 4],
-    /// Whether the camera sees lights at infinity.
-    pub shows_surroundings: bool,
+    /// Whether the camera sees infinite lights.
+    pub shows_environment: bool,
     /// Whether they cover the background.
-    pub surroundings_cover: bool,
+    pub environment_covers: bool,
     /// What passes want to know of first surfaces.
     pub passes: FirstPasses,
     /// Whether illuminance is measured.
@@ -35,12 +35,12 @@ pub struct Transport {
     pub seed: u32,
     /// Samples a pixel in the whole render.
     pub samples: u32,
-    /// Which lights arrive where, if that was learned.
-    pub known: Option<Arc<KnownLights>>,
+    /// The learned light cache, if there is one: which lights arrive where.
+    pub light_cache: Option<Arc<LightCache>>,
     /// Which light counts of what paths meet.
     pub sight: Sight,
     /// How every point is lit, where paths are trees of sharp rays instead.
-    pub draws: Option<Arc<[Draw]>>,
+    pub fixed_samples: Option<Arc<[FixedLightSample]>>,
 }
 
 /// Which light counts of what paths meet: a camera sees it sharply where there are mirrors and smooth glass alone between.
@@ -94,7 +94,7 @@ impl Transport {
 
     /// Shadow rays that a hit may send.
     pub(crate) fn rays_per_hit(&self) -> usize {
-        self.draws.as_ref().map_or(1, |draws| draws.len().max(1))
+        self.fixed_samples.as_ref().map_or(1, |samples| samples.len().max(1))
     }
 
     /// Hits that are lit together, whole registers: no more than a chunk, and no more than there is room for their shadow rays.

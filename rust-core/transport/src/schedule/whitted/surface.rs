@@ -1,4 +1,4 @@
-//! Shading the points of a tree: lit by all draws, and left on all sharp ways.
+//! Shading the points of a tree: lit by all fixed samples, and left on all sharp ways.
 
 use crate::geometry::spawn;
 use crate::kernels;
@@ -18,7 +18,7 @@ use crate::tables::material::threshold;
 use crate::tables::transport::Sight;
 use gonio_bsdf::{Lobes, Way};
 use gonio_camera::sampler::dimension;
-use gonio_light::Draw;
+use gonio_light::FixedLightSample;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Rays that would bring less than this share of what they find end: half an 8-bit step of white at most.
@@ -44,7 +44,7 @@ pub(crate) fn shade_lanes<L: Lanes>(
     point: &mut Point<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
-    draws: &[Draw],
+    samples: &[FixedLightSample],
     at: usize,
     ws: &mut Workspace,
 ) {
@@ -57,7 +57,7 @@ pub(crate) fn shade_lanes<L: Lanes>(
     let present = show(stage, material, point, lobes, present, at, ws);
     let [smooth, lit] = meet(stage, point, lobes, present, ws);
     if (smooth & lit).any() {
-        light(stage, point, wo, lobes, draws, lit & smooth, ws);
+        light(stage, point, wo, lobes, samples, lit & smooth, ws);
     }
     let present = if transport.sight == Sight::Sharp { present & point.only_delta } else { present };
     for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, wo)) {
@@ -86,27 +86,27 @@ fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Point<L>, lo
     opacity.gt(0.0)
 }
 
-/// Takes every draw at each point.
+/// Takes every fixed sample at each point.
 #[inline(always)]
 fn light<L: Lanes>(
     stage: &Stage<'_, L>,
     point: &Point<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
-    draws: &[Draw],
+    samples: &[FixedLightSample],
     lit: M<L>,
     ws: &mut Workspace,
 ) {
     let Stage { l, tables, .. } = *stage;
     let (mut reached, mut before) = (lit, None);
-    for draw in draws {
-        if !draw.follows(before) {
-            reached = lit & tables.lights.reaches(l, draw, point.position, point.frame.z);
+    for fixed in samples {
+        if !fixed.follows(before) {
+            reached = lit & tables.lights.reaches(l, fixed, point.position, point.frame.z);
         }
-        before = Some(draw);
+        before = Some(fixed);
         if reached.any() {
-            let sample = kernels::take_draw(l, tables, draw, &point.position, &point.frame.z);
-            send(stage, point, wo, lobes, &sample, Some(draw.share), reached, ws);
+            let sample = kernels::sample_fixed(l, tables, fixed, &point.position, &point.frame.z);
+            send(stage, point, wo, lobes, &sample, Some(fixed.share), reached, ws);
         }
     }
 }

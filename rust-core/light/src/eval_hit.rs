@@ -1,27 +1,27 @@
-//! Light of what a ray met that has a place.
+//! Light of a finite emitter that a ray hit, and its density of sampling for MIS (multiple importance sampling).
 
 use super::cylinder::Cylinder;
 use super::disk::Disk;
 use super::emitter::Emitter;
 use super::facing_disk::FacingDisk;
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::rectangle::Rectangle;
 use super::row::{Reader, flag};
 use super::sphere::Sphere;
 use super::table::LightTable;
-use super::tree::KnownLights;
+use super::tree::LightCache;
 use super::triangle::Triangle;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 impl LightTable {
-    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the density with which [`Self::sample`] at `from` with
+    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the density with which [`Self::sample_li`] at `from` with
     /// normal `n` would have drawn it. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
     pub fn eval_hit<L: Lanes>(
         &self,
         l: L,
-        known: Option<&KnownLights>,
+        light_cache: Option<&LightCache>,
         light: U<L>,
         from: Vec3<L>,
         n: Vec3<L>,
@@ -80,8 +80,8 @@ impl LightTable {
         );
         let (pdf, uv) = density;
         let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
-        let probability = self.choice_probability(l, known, from, n, index);
-        (self.emitted(l, &light, wi, uv).keep_if(valid), (pdf * probability).keep_if(valid))
+        let probability = self.light_pmf(l, light_cache, from, n, index);
+        (self.le(l, &light, wi, uv).keep_if(valid), (pdf * probability).keep_if(valid))
     }
 
     /// Runs one kind's density where some lane has it.

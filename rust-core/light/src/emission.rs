@@ -1,7 +1,7 @@
-//! What lights send, and to which side.
+//! Le, the emitted radiance: what lights send, and to which side.
 
+use super::light_kind::LightKind;
 use super::projected_area::per_area;
-use super::record::LightKind;
 use super::row::{Reader, field, flag};
 use super::shaping::shaping;
 use super::table::LightTable;
@@ -20,14 +20,14 @@ impl LightTable {
         !one_sided | in_front
     }
 
-    /// Radiance sent against `wi`, with shaping and texture.
+    /// Le: radiance sent against `wi`, with shaping, goniogram and texture.
     #[inline(always)]
-    pub(super) fn emitted<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
+    pub(super) fn le<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
         let plain = light.colour(field::RADIANCE);
         if !light.flag(flag::VARIED).any() {
             return plain;
         }
-        let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.measured(l, light, -wi) * per_area(l, light, -wi));
+        let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.goniogram_factor(l, light, -wi) * per_area(l, light, -wi));
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);
         if !textured.any() {
@@ -45,5 +45,31 @@ impl LightTable {
             image = dome.select(self.textures.lookup(l, first, size, uv, true), image);
         }
         shaped * image
+    }
+
+    /// Factor of each light's goniogram towards unit `direction`; 1 for lights without one.
+    #[inline(always)]
+    fn goniogram_factor<L: Lanes>(&self, l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> F<L> {
+        let mut factor = l.f(1.0);
+        if self.goniograms.is_empty() {
+            return factor;
+        }
+        let number = light.integer(field::GONIOGRAM);
+        let mut left = number.ne(0);
+        if !left.any() {
+            return factor;
+        }
+        let (x, y) = (light.vector(field::LEVEL_X), light.vector(field::LEVEL_Y));
+        let local = Vec3::new(x.dot(direction), y.dot(direction), -light.vector(field::AXIS).dot(direction));
+        // Each goniogram that some lane has, for all lanes that have it: its axes are the same for them all.
+        while left.any() {
+            let one = number.to_array()[left.bits().trailing_zeros() as usize];
+            let same = left & number.eq(one);
+            if let Some(goniogram) = self.goniograms.get(one as usize - 1) {
+                factor = same.select(goniogram.factor(l, local), factor);
+            }
+            left = left.and_not(same);
+        }
+        factor
     }
 }

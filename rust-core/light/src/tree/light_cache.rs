@@ -1,12 +1,13 @@
-//! Lights that are known to arrive in a part of space: no estimate tells the walls that stand between others and it.
+//! The learned light cache (light guiding): lights that are known to arrive in a part of space. Importance alone does not see the walls
+//! that keep the others out.
 //!
 //! Space is divided into cells, and a few paths before the render tell which lights arrive in each. There most draws are among those, and
-//! the others among all lights by the tree, which lose what is known already: each light is drawn in one way, and its probability is simple.
+//! the others among all lights by the tree, which lose what is in the cache already: each light is drawn in one way, and its probability is simple.
 
 use super::{Below, LightTree, NONE, Node, below_one, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
-/// Most lights known in a cell.
+/// Most lights of a cell.
 pub(super) const MOST: usize = 16;
 /// Words of a cell: key, share, count, and the leaves of its lights.
 pub(super) const WORDS: usize = 3 + MOST;
@@ -21,14 +22,14 @@ const FEW: usize = 4;
 
 /// Lights by cell.
 #[derive(Clone, Debug)]
-pub struct KnownLights {
+pub struct LightCache {
     pub(super) cells: Vec<f32>,
     /// Cells less one; a power of two.
     pub(super) mask: u32,
     pub(super) per_metre: f32,
 }
 
-/// What is known at each lane's place.
+/// The cell at each lane's place.
 #[derive(Clone, Copy, Debug)]
 struct Cell<L: Lanes> {
     leaves: [U<L>; MOST],
@@ -57,7 +58,7 @@ pub(super) fn place(position: [f32; 3], per_metre: f32) -> [u32; 2] {
     hashed(Vec3::splat(One, position), per_metre).map(|word| word.0)
 }
 
-impl KnownLights {
+impl LightCache {
     #[inline(always)]
     fn cell<L: Lanes>(&self, l: L, p: Vec3<L>) -> Cell<L> {
         let [place, key] = hashed(p, self.per_metre);
@@ -76,57 +77,57 @@ impl KnownLights {
         Cell { leaves, count, share }
     }
 
-    /// Draws a light for each point and gives its probability: 0 where no light can arrive, and where the draw is lost.
+    /// Selects a light for each point and gives its probability: 0 where no light can arrive, and where the draw is lost.
     #[inline(always)]
-    pub(crate) fn choose<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+    pub(crate) fn sample_light<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
         let cell = self.cell(l, p);
-        let among_known = u.lt(cell.share);
+        let in_cache = u.lt(cell.share);
         let rest = l.f(1.0) - cell.share;
         let (mut light, mut probability) = (l.u(0), l.f(0.0));
-        if among_known.any() {
+        if in_cache.any() {
             let (weights, total) = cell.weigh(l, tree, p, n);
             let drawn = draw(l, &weights, total, below_one(u / cell.share.max(f32::MIN_POSITIVE)));
             let mut leaf = cell.leaves[0];
             for (number, other) in cell.leaves.iter().enumerate().skip(1) {
                 leaf = drawn.index.eq(number as u32).select(*other, leaf);
             }
-            light = Below::gather(l, &tree.nodes.words, leaf.keep_if(among_known)).index();
+            light = Below::gather(l, &tree.nodes.words, leaf.keep_if(in_cache)).index();
             probability = drawn.probability * cell.share;
         }
-        if !(!among_known).any() {
+        if !(!in_cache).any() {
             return (light, probability);
         }
         let u = below_one((u - cell.share) / rest);
-        let unknown = !among_known;
+        let others = !in_cache;
         let (other, chance) =
-            if unknown.count() <= FEW { tree.choose_each(l, rows, p, n, u, unknown) } else { tree.choose(l, rows, p, n, u) };
+            if others.count() <= FEW { tree.sample_each(l, rows, p, n, u, others) } else { tree.sample_light(l, rows, p, n, u) };
         let lost = cell.holds(l.gather_integers(&tree.leaves, other));
         let chance = (chance * rest).keep_if(!lost);
-        (among_known.select(light, other), among_known.select(probability, chance))
+        (in_cache.select(light, other), in_cache.select(probability, chance))
     }
 
-    /// Probability that [`Self::choose`] draws `light` at a point.
+    /// Probability that [`Self::sample_light`] draws `light` at a point.
     #[inline(always)]
     pub(crate) fn probability<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         let cell = self.cell(l, p);
         let leaf = l.gather_integers(&tree.leaves, light);
-        let known = cell.holds(leaf);
+        let cached = cell.holds(leaf);
         let mut probability = l.f(0.0);
-        if known.any() {
+        if cached.any() {
             let (weights, total) = cell.weigh(l, tree, p, n);
             for (other, weight) in cell.leaves.iter().zip(&weights) {
                 probability = other.eq(leaf).select(weight.share_of(total) * cell.share, probability);
             }
         }
-        if !(!known).any() {
+        if !(!cached).any() {
             return probability;
         }
-        known.select(probability, tree.probability(l, rows, p, n, light) * (l.f(1.0) - cell.share))
+        cached.select(probability, tree.probability(l, rows, p, n, light) * (l.f(1.0) - cell.share))
     }
 }
 
 impl<L: Lanes> Cell<L> {
-    /// Estimates of the lights known, and their sum.
+    /// Importances of the cell's lights, and their sum.
     #[inline(always)]
     fn weigh(&self, l: L, tree: &LightTree, p: Vec3<L>, n: Vec3<L>) -> ([F<L>; MOST], F<L>) {
         let (mut weights, mut total) = ([l.f(0.0); MOST], l.f(0.0));
@@ -135,13 +136,13 @@ impl<L: Lanes> Cell<L> {
             if !present.any() {
                 break;
             }
-            *weight = Node::gather(l, &tree.nodes.words, leaf.keep_if(present)).illuminance(l, p, n).keep_if(present);
+            *weight = Node::gather(l, &tree.nodes.words, leaf.keep_if(present)).importance(l, p, n).keep_if(present);
             total += *weight;
         }
         (weights, total)
     }
 
-    /// Whether a leaf is among the known ones.
+    /// Whether a leaf is among the cell's.
     #[inline(always)]
     fn holds(&self, leaf: U<L>) -> M<L> {
         let mut found = self.leaves[0].eq(leaf);

@@ -1,18 +1,18 @@
-//! Aiming at infinite lights.
+//! Sampling directions to infinite lights: domes (environments) and distant lights.
 
 use super::emitter::Aim;
+use super::light_kind::LightKind;
 use super::portal::Portals;
-use super::record::LightKind;
 use super::row::Reader;
 use super::table::{InfiniteLight, LightTable};
 use super::{distant, dome};
 use gonio_simd::{F, Lanes, M, U, Vec3};
 
 impl LightTable {
-    /// Aims at infinite lights.
+    /// Samples a direction to infinite lights.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "one stage of sampling, with its whole state")]
-    pub(super) fn aim_far<L: Lanes>(
+    pub(super) fn sample_infinite<L: Lanes>(
         &self,
         l: L,
         light: &Reader<'_, L>,
@@ -38,8 +38,8 @@ impl LightTable {
                 continue;
             }
             let (wi, pdf, place) = match self.portals_at(l, p) {
-                Some(portals) => self.aim_at_dome_through(l, infinite, &portals, [p, n], u),
-                None => self.aim_at_dome(l, infinite, n, u),
+                Some(portals) => self.sample_dome_with_portals(l, infinite, &portals, [p, n], u),
+                None => self.sample_dome(l, infinite, n, u),
             };
             aim.wi = chosen.select(wi, aim.wi);
             aim.pdf = chosen.select(pdf, aim.pdf);
@@ -49,7 +49,7 @@ impl LightTable {
 
     /// A direction to a dome by its own brightness, its density and its place in the image.
     #[inline(always)]
-    fn aim_at_dome<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, u: [F<L>; 2]) -> (Vec3<L>, F<L>, [F<L>; 2]) {
+    fn sample_dome<L: Lanes>(&self, l: L, infinite: &InfiniteLight, n: Vec3<L>, u: [F<L>; 2]) -> (Vec3<L>, F<L>, [F<L>; 2]) {
         match &infinite.distribution {
             Some(distribution) => {
                 let (local, pdf, place) = distribution.sample(l, u);
@@ -64,7 +64,7 @@ impl LightTable {
 
     /// The same where some directions go through portals.
     #[inline(always)]
-    fn aim_at_dome_through<L: Lanes>(
+    fn sample_dome_with_portals<L: Lanes>(
         &self,
         l: L,
         infinite: &InfiniteLight,
@@ -73,8 +73,8 @@ impl LightTable {
         u: [F<L>; 2],
     ) -> (Vec3<L>, F<L>, [F<L>; 2]) {
         let (through, of_portal, of_dome) = self.split_by_portal(portals, u[0]);
-        let (wi, _, _) = self.aim_at_dome(l, infinite, n, [of_dome, u[1]]);
-        let wi = through.select(self.aim_through_portal(l, portals, p, [of_portal, u[1]]), wi);
+        let (wi, _, _) = self.sample_dome(l, infinite, n, [of_dome, u[1]]);
+        let wi = through.select(self.sample_portal(l, portals, p, [of_portal, u[1]]), wi);
         let (pdf, place) = self.dome_density(l, infinite, n, wi);
         (wi, self.portal_density(l, portals, p, wi, pdf), place)
     }

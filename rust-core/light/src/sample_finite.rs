@@ -1,10 +1,10 @@
-//! Aiming at lights that have a place.
+//! Sampling directions to finite lights, those that have a place.
 
 use super::cylinder::Cylinder;
 use super::disk::Disk;
 use super::emitter::{Aim, Emitter};
 use super::facing_disk::FacingDisk;
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::rectangle::Rectangle;
 use super::row::{Reader, field};
 use super::sphere::Sphere;
@@ -13,52 +13,52 @@ use super::triangle::Triangle;
 use gonio_simd::{F, Lanes, Vec3};
 
 impl LightTable {
-    /// Aims at lights that have a place.
+    /// Samples a direction to finite lights.
     #[inline(always)]
-    pub(super) fn aim_near<L: Lanes>(&self, l: L, light: &Reader<'_, L>, p: &Vec3<L>, u: &[F<L>; 2], aim: &mut Aim<L>) {
-        self.aim_kind(
+    pub(super) fn sample_finite<L: Lanes>(&self, l: L, light: &Reader<'_, L>, p: &Vec3<L>, u: &[F<L>; 2], aim: &mut Aim<L>) {
+        self.sample_kind(
             LightKind::Rectangle,
             light,
             aim,
             #[inline(always)]
             || Rectangle::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::Disk,
             light,
             aim,
             #[inline(always)]
             || Disk::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::Sphere,
             light,
             aim,
             #[inline(always)]
             || Sphere::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::Cylinder,
             light,
             aim,
             #[inline(always)]
             || Cylinder::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::Triangle,
             light,
             aim,
             #[inline(always)]
             || Triangle::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::FacingDisk,
             light,
             aim,
             #[inline(always)]
             || FacingDisk::sample(l, light, *p, *u),
         );
-        self.aim_kind(
+        self.sample_kind(
             LightKind::Point,
             light,
             aim,
@@ -69,7 +69,7 @@ impl LightTable {
 
     /// Runs one kind's sampling where some lane has it.
     #[inline(always)]
-    fn aim_kind<L: Lanes>(&self, kind: LightKind, light: &Reader<'_, L>, aim: &mut Aim<L>, sample: impl FnOnce() -> Aim<L>) {
+    fn sample_kind<L: Lanes>(&self, kind: LightKind, light: &Reader<'_, L>, aim: &mut Aim<L>, sample: impl FnOnce() -> Aim<L>) {
         // First of all: of nothing but such comparisons the compiler makes one jump.
         if let Some(common) = light.common_kind() {
             if common == kind as u32 {

@@ -1,11 +1,11 @@
-//! Light that rays meet on leaving the scene.
+//! Light of the environment that rays meet on leaving the scene, weighed by MIS (multiple importance sampling).
 
 use super::distant;
-use super::record::LightKind;
+use super::light_kind::LightKind;
 use super::row::field;
 use super::sample::power_heuristic;
 use super::table::{InfiniteLight, LightTable};
-use super::tree::KnownLights;
+use super::tree::LightCache;
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 impl LightTable {
@@ -14,10 +14,10 @@ impl LightTable {
     /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
-    pub fn escaped<L: Lanes>(
+    pub fn eval_escaped<L: Lanes>(
         &self,
         l: L,
-        known: Option<&KnownLights>,
+        light_cache: Option<&LightCache>,
         from: Vec3<L>,
         n: Vec3<L>,
         wi: Vec3<L>,
@@ -32,7 +32,7 @@ impl LightTable {
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);
             if weighed.any() {
-                let pdf = pdf * self.choice_probability(l, known, from, n, l.u(infinite.light));
+                let pdf = pdf * self.light_pmf(l, light_cache, from, n, l.u(infinite.light));
                 weight = weighed.select(power_heuristic(bsdf_pdf, pdf), weight);
             }
             let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
@@ -53,6 +53,6 @@ impl LightTable {
         if let Some(portals) = self.portals_at(l, from) {
             pdf = self.portal_density(l, &portals, from, wi, pdf);
         }
-        (self.emitted(l, &light, wi, place), pdf)
+        (self.le(l, &light, wi, place), pdf)
     }
 }
