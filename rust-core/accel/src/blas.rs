@@ -1,11 +1,11 @@
-//! The tree of one triangle mesh.
+//! The bottom-level acceleration structure (BLAS): the tree of one triangle mesh.
 
 use super::Cancelled;
 use super::build::{Effort, WideTree, build};
 use super::collapse::LeafMaker;
 use super::division::Source;
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
-use super::refit::looseness;
+use super::refit::sah_cost;
 use super::triangle_block::TriangleBlock;
 use glam::Vec3A;
 use gonio_simd::prefetch;
@@ -26,8 +26,8 @@ pub struct Blas {
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
     pub(super) outline: Vec<Bounds>,
     pub(super) triangles: usize,
-    /// What rays may expect to meet (`refit.rs`), as it was built.
-    pub(super) looseness: f32,
+    /// Surface area heuristic cost (`refit.rs`), as it was built.
+    pub(super) sah_cost: f32,
 }
 
 /// How much time goes into a [`Blas`].
@@ -93,9 +93,9 @@ impl Blas {
         assert!(triangles.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
         let mesh = Triangles { positions, triangles };
         let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
-        let looseness = looseness(&nodes, &bounds);
+        let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Ok(Blas { nodes, blocks, outline, triangles: primitives, looseness })
+        Ok(Blas { nodes, blocks, outline, triangles: primitives, sah_cost })
     }
 
     /// The bytes of the tree.

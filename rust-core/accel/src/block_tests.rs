@@ -1,4 +1,4 @@
-//! Triangle tests apart from any tree, for the benchmark: the inner operation of all walks.
+//! Triangle tests apart from any tree, for the benchmark: the inner operation of every traversal.
 
 use super::blas::Blas;
 use super::lanes8::Lanes8;

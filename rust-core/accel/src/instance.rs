@@ -1,6 +1,6 @@
 //! Placed geometry: what the caller says, and the record the traversal reads.
 
-use super::collector::{Collector, Hit};
+use super::hit_callback::{Hit, HitCallback};
 use super::prepared::Padded;
 use super::shape::Shape;
 use super::transform::Affine;
@@ -72,15 +72,22 @@ pub(super) struct InstanceRecord {
 }
 
 impl InstanceRecord {
-    /// Hands the hits of a ray of the world on the instance's shape to a collector; true when it ended the search.
+    /// Hands the hits of a ray of the world on the instance's shape to a callback; true when it ended the search.
     #[inline(always)]
-    pub(super) fn meet_shape<C: Collector>(&self, shape: Shape, origin: Padded, direction: Padded, t_min: f32, collector: &mut C) -> bool {
+    pub(super) fn intersect_shape<C: HitCallback>(
+        &self,
+        shape: Shape,
+        origin: Padded,
+        direction: Padded,
+        t_min: f32,
+        callback: &mut C,
+    ) -> bool {
         let (origin, direction) = (self.world_to_object.point(origin), self.world_to_object.direction(direction));
         shape
-            .crossings(origin, direction, t_min, collector.t_max())
+            .crossings(origin, direction, t_min, callback.t_max())
             .into_iter()
             .flatten()
-            .any(|hit| collector.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: self.id }, self.transparent))
+            .any(|hit| callback.add(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: 0, instance: self.id }, self.transparent))
     }
 
     #[inline(always)]

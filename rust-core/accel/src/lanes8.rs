@@ -1,4 +1,4 @@
-//! The inner operations of a walk with one ray, at the width of the data.
+//! The inner operations of traversal with one ray, at the width of the data.
 
 use super::node::{Node, WIDTH};
 use super::prepared::{Padded, PreparedRay};

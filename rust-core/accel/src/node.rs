@@ -13,7 +13,7 @@ pub(super) const MAX_DEPTH: usize = 72;
 /// Entries of a traversal stack, a power of two above `MAX_DEPTH * (WIDTH - 1) + 1`.
 pub(super) const STACK: usize = 512;
 
-/// What a child slot refers to, or what waits in a walk: three bits of kind and 29 bits of index.
+/// What a child slot refers to, or an entry of a traversal stack: three bits of kind and 29 bits of index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(super) struct ChildRef(pub(super) u32);
@@ -26,15 +26,15 @@ pub(super) enum Kind {
     Inner = 0,
     /// One instance of the scene.
     Instance = 1,
-    /// The end of a ray: nothing waits any more.
+    /// The end of a ray: the stack is empty.
     End = 2,
     /// A block of triangles of the scene, in world space.
     WorldTriangles = 3,
-    /// A node of a mesh, where nodes of the scene wait as well.
+    /// A node of a mesh, as in a stream, whose stacks hold nodes of the scene as well.
     MeshInner = 4,
     /// A block of triangles of a mesh.
     Triangles = 5,
-    /// Whatever waits next.
+    /// The next entry of the stack.
     Next = 6,
 }
 

@@ -1,25 +1,25 @@
 //! The queries over a batch whose consecutive groups of sixteen rays are coherent.
 
 use super::node::STACK;
-use super::packet::{PacketHits, PacketStacks, walk_scene_packet};
 use super::packet_ray::{PACKET, PacketRays};
-use super::packet_walk::EMPTY_PACKET_STACK;
+use super::packet_scene::{PacketHits, PacketStacks, traverse_scene_packet};
+use super::packet_traverse::EMPTY_PACKET_STACK;
 use super::ray::{Hits, RayBatch};
-use super::scene_bvh::SceneBvh;
+use super::tlas::Tlas;
 use fearless_simd::{Level, f32x16, prelude::*};
 use gonio_simd::Execution;
 use gonio_simd::dispatch_level;
 use std::cell::RefCell;
 
-impl SceneBvh {
+impl Tlas {
     /// The nearest hit of every ray, consecutive groups of sixteen together: for coherent rays. The hits are those of
-    /// [`SceneBvh::first_hit`].
+    /// [`Tlas::first_hit`].
     pub fn first_hit_packets(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
         STACKS.with_borrow_mut(|stacks| dispatch_level!(level, simd => first_hit_packets(simd, self, rays, stacks, hits)));
-        self.meet_apart(Execution::Vector(level), rays, hits);
+        self.intersect_loose_lights(Execution::Vector(level), rays, hits);
     }
 
-    /// [`SceneBvh::occluded`], consecutive groups of sixteen rays together: for coherent rays.
+    /// [`Tlas::occluded`], consecutive groups of sixteen rays together: for coherent rays.
     pub fn occluded_packets(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
         STACKS.with_borrow_mut(|stacks| dispatch_level!(level, simd => occluded_packets(simd, self, rays, stacks, out)));
     }
@@ -82,13 +82,13 @@ fn load<S: Simd>(simd: S, rays: &RayBatch, first: usize) -> Loaded<S> {
 }
 
 #[inline(always)]
-fn first_hit_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, stacks: &mut PacketStacks, hits: &mut Hits) {
+fn first_hit_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &mut PacketStacks, hits: &mut Hits) {
     let rays = rays.same_length();
     hits.resize(rays.len());
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        walk_scene_packet::<S, false>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
+        traverse_scene_packet::<S, false>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
         let range = first..first + packet.n;
         hits.t[range.clone()].copy_from_slice(&found.t[..packet.n]);
         hits.u[range.clone()].copy_from_slice(&found.u[..packet.n]);
@@ -99,12 +99,12 @@ fn first_hit_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, stacks
 }
 
 #[inline(always)]
-fn occluded_packets<S: Simd>(simd: S, scene: &SceneBvh, rays: &RayBatch, stacks: &mut PacketStacks, out: &mut [u8]) {
+fn occluded_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &mut PacketStacks, out: &mut [u8]) {
     let rays = rays.same_length();
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        walk_scene_packet::<S, true>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
+        traverse_scene_packet::<S, true>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
         for (lane, out) in out[first..first + packet.n].iter_mut().enumerate() {
             // Lanes that were of no use from the start have not been hit either.
             *out = u8::from(packet.rays.lanes & (1 << lane) != 0 && found.t[lane] == -f32::INFINITY);

@@ -1,6 +1,6 @@
 //! Batches of rays and of hits, one entry a ray.
 
-use super::collector::Hit;
+use super::hit_callback::Hit;
 use super::prepared::Padded;
 
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
@@ -75,11 +75,11 @@ pub struct Hits {
     pub primitive: Vec<u32>,
     /// The instance's number, [`NONE`] for a miss.
     pub instance: Vec<u32>,
-    /// What the rays that hit a shape apart from the tree would hit without all of those, in the order of the rays.
+    /// What the rays that hit a loose light would hit without all of those, in the order of the rays.
     pub covered: Vec<Covered>,
 }
 
-/// The hit of a ray, or its miss, behind shapes that stand apart from the tree; as in [`Hits`].
+/// The hit of a ray, or its miss, behind loose lights; as in [`Hits`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covered {
     /// The ray's number in its batch.
@@ -118,7 +118,7 @@ impl Hits {
 
 /// A hit on a transparent instance, on the way of a ray that no opaque surface blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PassedHit {
+pub struct TransparentHit {
     /// The ray's number in its batch.
     pub ray: u32,
     /// The instance's number.
@@ -133,7 +133,7 @@ pub struct PassedHit {
     pub t: f32,
 }
 
-impl PassedHit {
+impl TransparentHit {
     /// Whether the hit is on an edge of its triangle, where a neighbour is hit as well.
     pub(super) fn is_on_edge(&self) -> bool {
         self.u <= 0.0 || self.v <= 0.0 || self.u + self.v >= 1.0 - f32::EPSILON

@@ -7,7 +7,7 @@ use super::triangle_block::TriangleBlock;
 use rayon::prelude::*;
 
 /// A fitted tree whose boxes have grown by more than this over those of the built one is not worth having.
-const LOOSEST: f32 = 1.4;
+const MOST_GROWTH: f32 = 1.4;
 
 impl Blas {
     /// The tree for the same triangles over points that moved, in a tenth of the time of a build; `triangles` are those it was built from.
@@ -28,9 +28,9 @@ impl Blas {
         let (blocks, boxes): (Vec<TriangleBlock>, Vec<Option<Bounds>>) = self.blocks.par_iter().map(fitted).unzip();
         let boxes: Vec<Bounds> = boxes.into_iter().collect::<Option<_>>()?;
         let (nodes, bounds) = fit_nodes(&self.nodes, &boxes);
-        let fitting = looseness(&nodes, &bounds) <= self.looseness * LOOSEST;
+        let fitting = sah_cost(&nodes, &bounds) <= self.sah_cost * MOST_GROWTH;
         let outline = outline(&nodes, bounds);
-        fitting.then_some(Blas { nodes, blocks, outline, triangles: self.triangles, looseness: self.looseness })
+        fitting.then_some(Blas { nodes, blocks, outline, triangles: self.triangles, sah_cost: self.sah_cost })
     }
 }
 
@@ -66,8 +66,8 @@ fn fit_nodes(nodes: &[Node], leaves: &[Bounds]) -> (Vec<Node>, Bounds) {
     (nodes, boxes[0])
 }
 
-/// What a ray through the root's box may expect to meet: the areas of all boxes over that of the whole.
-pub(super) fn looseness(nodes: &[Node], bounds: &Bounds) -> f32 {
+/// Surface area heuristic: the boxes that a ray through the root's box meets on average, from the areas of all boxes over that of the whole.
+pub(super) fn sah_cost(nodes: &[Node], bounds: &Bounds) -> f32 {
     let areas: f32 =
         nodes.iter().flat_map(|node| (0..WIDTH).map(|slot| node.bounds_of(slot))).filter(|b| !b.is_empty()).map(|b| b.half_area()).sum();
     areas / bounds.half_area().max(f32::MIN_POSITIVE)

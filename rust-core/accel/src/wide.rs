@@ -29,7 +29,7 @@ impl<S: Simd> Lanes8 for Wide<S> {
 
     #[inline(always)]
     fn boxes(self, node: &Node, ray: &PreparedRay, t_max: f32, near: &mut [f32; WIDTH]) -> u32 {
-        let (enter, met) = meets(self.0, node, ray, t_max);
+        let (enter, met) = intersect_boxes(self.0, node, ray, t_max);
         enter.store_slice(near);
         met.to_bitmask() as u32
     }
@@ -59,7 +59,7 @@ impl<S: Simd> Lanes8 for Wide<S> {
 
 /// Distances to the boxes of a node, and those that the ray meets.
 #[inline(always)]
-pub(super) fn meets<S: Simd>(simd: S, node: &Node, ray: &PreparedRay, t_max: f32) -> (f32x8<S>, mask32x8<S>) {
+pub(super) fn intersect_boxes<S: Simd>(simd: S, node: &Node, ray: &PreparedRay, t_max: f32) -> (f32x8<S>, mask32x8<S>) {
     let numbers = node.numbers();
     let [x, y, z, _] = ray.near_rows;
     let [fx, fy, fz, _] = ray.far_rows;

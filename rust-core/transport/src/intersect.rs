@@ -15,7 +15,7 @@ use super::{
     transport::Transport,
     workspace::Workspace,
 };
-use gonio_accel::{Hits, NONE, RayBatch, SceneBvh};
+use gonio_accel::{Hits, NONE, RayBatch, Tlas};
 use gonio_light::power_heuristic;
 use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch};
 
@@ -52,7 +52,7 @@ fn rays_of(paths: &Paths) -> RayBatch<'_> {
     }
 }
 
-fn first_hits(execution: Execution, bvh: &SceneBvh, rays: &RayBatch<'_>, coherent: bool, hits: &mut Hits) {
+fn first_hits(execution: Execution, bvh: &Tlas, rays: &RayBatch<'_>, coherent: bool, hits: &mut Hits) {
     match execution {
         Execution::Scalar => bvh.first_hit_scalar(rays, hits),
         Execution::Vector(level) if coherent => bvh.first_hit_packets(level, rays, hits),
@@ -128,7 +128,7 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
         t_max: &chosen.t_max,
         mask: &chosen.mask,
     };
-    if tables.bvh.has_shapes_apart() {
+    if tables.bvh.has_loose_lights() {
         tables.bvh.first_hit_before(transport.execution, &rays, &ws.hits.covered, &mut ws.retraced);
     } else {
         first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);

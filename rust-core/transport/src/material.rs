@@ -2,7 +2,7 @@
 
 use super::{light_groups::LightGroups, shader_passes::ShaderOutputs};
 use crate::{geometry::GeometryTable, graph::Program};
-use gonio_accel::SceneBvh;
+use gonio_accel::Tlas;
 use gonio_bsdf::{Surface, parameter};
 use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
@@ -116,7 +116,7 @@ impl MaterialTable {
 #[derive(Debug)]
 pub struct Tables {
     /// Two-level tree; instances of light shapes follow those of meshes.
-    pub bvh: SceneBvh,
+    pub bvh: Tlas,
     /// Meshes and instances.
     pub geometry: GeometryTable,
     /// Materials.

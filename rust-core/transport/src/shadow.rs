@@ -16,7 +16,7 @@ use super::{
     workspace::Workspace,
 };
 use crate::graph::CHUNK;
-use gonio_accel::{PassedHit, RayBatch};
+use gonio_accel::{RayBatch, TransparentHit};
 use gonio_bsdf::parameter::OPACITY;
 use gonio_simd::{Execution, Frame, Lanes, PADDING, Rgb, dispatch};
 
@@ -41,9 +41,9 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     let rays = rays_of(&ws.shadows);
     let blocked = &mut ws.blocked[..n];
     match (transport.execution, tables.any_transparent) {
-        (Execution::Scalar, true) => tables.bvh.blocked_or_passed_scalar(&rays, blocked, &mut ws.passed),
+        (Execution::Scalar, true) => tables.bvh.any_hit_transparent_scalar(&rays, blocked, &mut ws.passed),
         (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
-        (Execution::Vector(level), true) => tables.bvh.blocked_or_passed(level, &rays, blocked, &mut ws.passed),
+        (Execution::Vector(level), true) => tables.bvh.any_hit_transparent(level, &rays, blocked, &mut ws.passed),
         (Execution::Vector(level), false) if !coherent || tables.bvh.has_streams(level) => tables.bvh.occluded(level, &rays, blocked),
         (Execution::Vector(level), false) if ShadowOrder::pays(&tables.lights) => {
             ws.shadow_order.occluded(&tables.bvh, &tables.lights, level, &ws.shadows, blocked);
@@ -93,9 +93,9 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
     let mut passed = std::mem::take(&mut ws.passed);
-    let material_of = |hit: &PassedHit| tables.geometry.material(hit.instance, hit.primitive);
+    let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.
-    let numbers = |hit: &PassedHit| (hit.instance, hit.primitive);
+    let numbers = |hit: &TransparentHit| (hit.instance, hit.primitive);
     passed.sort_unstable_by(|a, b| {
         let order = (material_of(a), a.ray).cmp(&(material_of(b), b.ray));
         order.then(a.t.total_cmp(&b.t)).then_with(|| numbers(a).cmp(&numbers(b)))
@@ -110,7 +110,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
 }
 
 #[inline(always)]
-fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit], ws: &mut Workspace) {
+fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHit], ws: &mut Workspace) {
     let mut order = [0; CHUNK];
     for (i, place) in order[..hits.len()].iter_mut().enumerate() {
         *place = i as u32;
@@ -146,7 +146,7 @@ fn add_transmittance<L: Lanes>(
     l: L,
     tables: &Tables,
     surface: usize,
-    hits: &[PassedHit],
+    hits: &[TransparentHit],
     order: &[u32],
     weights: Option<[&[f32]; 3]>,
     sums: &mut [[f32; CHUNK]; 3],

@@ -5,7 +5,7 @@ use super::{
     shadow_rays::{SHADOW_ROOM, ShadowRays},
 };
 use fearless_simd::Level;
-use gonio_accel::{RayBatch, SceneBvh};
+use gonio_accel::{RayBatch, Tlas};
 use gonio_light::LightTable;
 use gonio_simd::Column;
 
@@ -44,8 +44,8 @@ impl ShadowOrder {
         (2..=MOST_LIGHTS).contains(&lights.len())
     }
 
-    /// [`SceneBvh::occluded`] by way of the sorted rays.
-    pub(super) fn occluded(&mut self, bvh: &SceneBvh, lights: &LightTable, level: Level, shadows: &ShadowRays, blocked: &mut [u8]) {
+    /// [`Tlas::occluded`] by way of the sorted rays.
+    pub(super) fn occluded(&mut self, bvh: &Tlas, lights: &LightTable, level: Level, shadows: &ShadowRays, blocked: &mut [u8]) {
         let coherent = self.sort(lights, shadows);
         self.fill(shadows);
         let n = shadows.count;

@@ -6,7 +6,7 @@ use super::{
     paths::{ConeLanes, Paths},
 };
 use crate::graph::{Program, SurfaceColumns};
-use gonio_accel::{Hits, PassedHit};
+use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
 
 /// The rays of a chunk.
@@ -57,7 +57,7 @@ impl HitSource for Hits {
     }
 }
 
-impl HitSource for [PassedHit] {
+impl HitSource for [TransparentHit] {
     #[inline(always)]
     fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
         let (mut whole, mut parts) = ([[0; PADDING]; 3], [[0.0; PADDING]; 3]);

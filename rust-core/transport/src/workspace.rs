@@ -6,7 +6,7 @@ use super::{
     transport::Transport, whitted::Branches,
 };
 use crate::graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns};
-use gonio_accel::{Hits, PassedHit};
+use gonio_accel::{Hits, TransparentHit};
 use gonio_light::Arrival;
 
 /// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
@@ -24,7 +24,7 @@ pub struct Workspace {
     /// Light that arrived, where it is to be learned from.
     pub arrivals: Option<Vec<Arrival>>,
     pub(super) blocked: Vec<u8>,
-    pub(super) passed: Vec<PassedHit>,
+    pub(super) passed: Vec<TransparentHit>,
     pub(super) measure: MeasurePoints,
     pub(super) walks: Walks,
     pub(super) walk_hits: Hits,

@@ -2,7 +2,7 @@
 
 use super::oracle::crossing;
 use super::{Geometry, Instance, Mesh, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::{Blas, Cancelled, Care, Hits, NONE, SceneBvh, Shape, triangle_block::TriangleBlock};
+use crate::{Blas, Cancelled, Care, Hits, NONE, Shape, Tlas, triangle_block::TriangleBlock};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -174,7 +174,7 @@ fn instances_are_cheap_and_builds_can_be_cancelled() {
     let bytes = scene(Vec::new(), &instances).memory() / instances.len();
     assert!(bytes < 200, "{bytes} bytes an instance");
     let cancel = AtomicBool::new(true);
-    assert_eq!(SceneBvh::build(Vec::new(), &instances, &cancel).err(), Some(Cancelled));
+    assert_eq!(Tlas::build(Vec::new(), &instances, &cancel).err(), Some(Cancelled));
     let mesh = Mesh::soup(&mut random, 1000, 1.0, 0.1);
     assert_eq!(Blas::build(&mesh.positions, &mesh.triangles, Care::Quick, &cancel).err(), Some(Cancelled));
 }

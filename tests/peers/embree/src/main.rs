@@ -12,7 +12,7 @@ mod world;
 
 use embree::EmbreeScene;
 use fearless_simd::Level;
-use gonio::accel::{Blas, Care, Geometry, Hits, Instance, SceneBvh};
+use gonio::accel::{Blas, Care, Geometry, Hits, Instance, Tlas};
 use rays::{OwnedRays, Random};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -44,12 +44,12 @@ fn tree(mesh: &Mesh, care: Care) -> Blas {
     Blas::build(&mesh.positions, &mesh.triangles, care, &AtomicBool::new(false)).expect("nobody cancels")
 }
 
-fn scene(world: &World) -> SceneBvh {
+fn scene(world: &World) -> Tlas {
     let care = Care::of_scene(world.triangles());
     let trees = world.meshes.iter().map(|mesh| Arc::new(tree(mesh, care))).collect();
     let place = |p: &Placement| Instance { geometry: Geometry::Mesh(p.mesh), object_to_world: p.object_to_world, mask: 1, transparent: false };
     let instances: Vec<Instance> = world.placements.iter().map(place).collect();
-    SceneBvh::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
+    Tlas::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
 }
 
 /// Builds on one thread (processor seconds) and on two (seconds of the clock) beside Embree's.
@@ -85,7 +85,7 @@ fn builds(world: &World, runs: usize) {
 
 struct Bench {
     level: Level,
-    scene: SceneBvh,
+    scene: Tlas,
     robust: EmbreeScene,
     fast: EmbreeScene,
     runs: usize,

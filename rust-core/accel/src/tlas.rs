@@ -1,15 +1,15 @@
-//! The tree over the instances of a scene.
+//! The top-level acceleration structure (TLAS): the tree over the instances of a scene.
 
 use super::Cancelled;
-use super::apart::{Apart, MOST_APART};
 use super::blas::Blas;
 use super::build::{Effort, build};
 use super::collapse::LeafMaker;
 use super::instance::{Instance, InstanceRecord, Owner};
+use super::loose_lights::{LooseLight, MOST_LOOSE};
 use super::node::{ChildRef, Kind, MAX_INDEX, Node};
-use super::placement::Placement;
 use super::ray::NONE;
-use super::trial::Trials;
+use super::stream_tuner::StreamTuners;
+use super::tlas_input::TlasInput;
 use super::triangle_block::TriangleBlock;
 use gonio_simd::prefetch;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use std::sync::atomic::AtomicBool;
 
 /// Two-level tree of a scene: instances over shared meshes and analytic shapes.
 #[derive(Clone, Debug)]
-pub struct SceneBvh {
+pub struct Tlas {
     pub(super) nodes: Vec<Node>,
     pub(super) records: Vec<InstanceRecord>,
     /// Record of each instance by its number, [`NONE`] for those left out.
@@ -26,71 +26,71 @@ pub struct SceneBvh {
     pub(super) blocks: Vec<TriangleBlock>,
     pub(super) owners: Vec<Owner>,
     pub(super) meshes: Vec<Arc<Blas>>,
-    /// Shapes that are not in the tree.
-    pub(super) apart: Vec<Apart>,
-    /// So large that incoherent rays may gain from going together.
+    /// Shapes of lights that are not in the tree.
+    pub(super) loose_lights: Vec<LooseLight>,
+    /// So large that incoherent rays may gain from streams.
     pub(super) is_large: bool,
-    /// Whether they do.
-    pub(super) trials: Trials,
+    /// Whether streams of rays are faster.
+    pub(super) tuners: StreamTuners,
 }
 
-impl SceneBvh {
+impl Tlas {
     /// Builds the top level over `instances`, whose order gives the instance numbers in the hits.
     ///
     /// Instances of missing or empty meshes, with singular maps or beyond 1e12 metres are left out; no ray hits them.
-    pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<SceneBvh, Cancelled> {
-        SceneBvh::build_with_lights(meshes, instances, instances.len(), cancel)
+    pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<Tlas, Cancelled> {
+        Tlas::build_with_lights(meshes, instances, instances.len(), cancel)
     }
 
-    /// [`SceneBvh::build`] where the instances from `first_light` on are shapes that no shadow ray sees: queries for what is in a ray's way need
+    /// [`Tlas::build`] where the instances from `first_light` on are shapes that no shadow ray sees: queries for what is in a ray's way need
     /// not find them.
     pub fn build_with_lights(
         meshes: Vec<Arc<Blas>>,
         instances: &[Instance],
         first_light: usize,
         cancel: &AtomicBool,
-    ) -> Result<SceneBvh, Cancelled> {
-        let first_apart = if instances.len() - first_light <= MOST_APART { first_light } else { instances.len() };
-        let placement = Placement::new(&meshes, instances, first_apart, instances.len() <= MOST_OPENED);
-        assert!(placement.boxes.len() <= MAX_INDEX, "the top level holds at most {MAX_INDEX} boxes");
-        let effort = if placement.boxes.len() <= MANY_BOXES { Effort::THOROUGH } else { Effort::QUICK };
-        let tree = build(&placement.boxes, &Numbers, effort, cancel)?;
-        let mut scene = SceneBvh {
+    ) -> Result<Tlas, Cancelled> {
+        let first_loose = if instances.len() - first_light <= MOST_LOOSE { first_light } else { instances.len() };
+        let input = TlasInput::new(&meshes, instances, first_loose, instances.len() <= MOST_OPENED);
+        assert!(input.boxes.len() <= MAX_INDEX, "the top level holds at most {MAX_INDEX} boxes");
+        let effort = if input.boxes.len() <= MANY_BOXES { Effort::THOROUGH } else { Effort::QUICK };
+        let tree = build(&input.boxes, &Numbers, effort, cancel)?;
+        let mut scene = Tlas {
             nodes: tree.nodes,
-            records: Vec::with_capacity(placement.records.len()),
+            records: Vec::with_capacity(input.records.len()),
             record_of: vec![NONE; instances.len()],
-            blocks: Vec::with_capacity(placement.blocks.len()),
-            owners: Vec::with_capacity(placement.blocks.len()),
+            blocks: Vec::with_capacity(input.blocks.len()),
+            owners: Vec::with_capacity(input.blocks.len()),
             meshes,
-            apart: Vec::new(),
+            loose_lights: Vec::new(),
             is_large: false,
-            trials: Trials::default(),
+            tuners: StreamTuners::default(),
         };
-        scene.fill(&placement, &tree.leaves);
-        let in_place = (first_apart..).zip(&instances[first_apart..]).filter(|(number, _)| scene.record_of[*number] != NONE);
-        scene.apart = in_place.filter_map(|(number, instance)| Apart::new(instance, scene.record_of[number])).collect();
+        scene.fill(&input, &tree.leaves);
+        let in_place = (first_loose..).zip(&instances[first_loose..]).filter(|(number, _)| scene.record_of[*number] != NONE);
+        scene.loose_lights = in_place.filter_map(|(number, instance)| LooseLight::new(instance, scene.record_of[number])).collect();
         scene.is_large = scene.meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + scene.memory() > SMALL;
         Ok(scene)
     }
 
     /// Takes over what was placed in the order of the tree's leaves; instances that were taken apart stay known by their records.
-    fn fill(&mut self, placement: &Placement, leaves: &[u32]) {
+    fn fill(&mut self, input: &TlasInput, leaves: &[u32]) {
         let mut children = Vec::with_capacity(leaves.len());
         for &number in leaves {
-            let content = placement.contents[number as usize];
+            let content = input.contents[number as usize];
             children.push(if content.is(Kind::Instance) {
-                self.keep(placement.records[content.index()]);
+                self.keep(input.records[content.index()]);
                 ChildRef::new(Kind::Instance, self.records.len() - 1)
             } else {
-                self.blocks.push(placement.blocks[content.index()]);
-                self.owners.push(placement.owners[content.index()]);
+                self.blocks.push(input.blocks[content.index()]);
+                self.owners.push(input.owners[content.index()]);
                 ChildRef::new(Kind::WorldTriangles, self.blocks.len() - 1)
             });
         }
         for child in self.nodes.iter_mut().flat_map(|node| &mut node.children).filter(|child| !child.is_inner()) {
             *child = children[child.index()];
         }
-        for record in &placement.records {
+        for record in &input.records {
             if self.record_of[record.id as usize] == NONE {
                 self.keep(*record);
             }
@@ -104,8 +104,8 @@ impl SceneBvh {
 
     /// The same meshes with their instances placed anew, as for moved objects: the mesh trees are kept.
     pub fn rebuild(&mut self, instances: &[Instance], cancel: &AtomicBool) -> Result<(), Cancelled> {
-        let rebuilt = SceneBvh::build(self.meshes.clone(), instances, cancel)?;
-        *self = SceneBvh { trials: std::mem::take(&mut self.trials), ..rebuilt };
+        let rebuilt = Tlas::build(self.meshes.clone(), instances, cancel)?;
+        *self = Tlas { tuners: std::mem::take(&mut self.tuners), ..rebuilt };
         Ok(())
     }
 

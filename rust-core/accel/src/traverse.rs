@@ -1,22 +1,22 @@
-//! The walk of one ray through one tree.
+//! Traversal of one tree with one ray.
 
 use super::lanes8::Lanes8;
 use super::node::{ChildRef, Node, STACK, WIDTH};
 use super::prepared::PreparedRay;
 
-/// What happens at the leaves of a walk.
+/// What happens at the leaves of a traversal.
 pub(super) trait Visitor<K: Lanes8> {
     /// True when nearer children are to be visited first.
     const ORDERED: bool;
     /// Nothing beyond this distance is of interest.
     fn t_max(&self) -> f32;
-    /// Has memory fetch a child that waits for its turn.
+    /// Has memory fetch a child that is pushed.
     fn fetch(&self, child: ChildRef);
-    /// Visits a leaf; true ends the walk.
+    /// Visits a leaf; true ends the traversal.
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool;
 }
 
-/// Pending children: the bits of the distance above the reference, so that whole entries sort by distance.
+/// The traversal stack: the bits of the distance above the reference, so that whole entries sort by distance.
 pub(super) type Stack = [u64; STACK];
 
 /// An empty stack.
@@ -34,9 +34,9 @@ fn push<V: Visitor<K>, K: Lanes8>(stack: &mut Stack, top: &mut usize, entry: u64
     *top += 1;
 }
 
-/// Visits the leaves below `start` whose boxes the ray meets; true when the visitor ended the walk.
+/// Visits the leaves below `start` whose boxes the ray meets; true when the visitor ended the traversal.
 #[inline(always)]
-pub(super) fn walk<K: Lanes8, V: Visitor<K>>(
+pub(super) fn traverse<K: Lanes8, V: Visitor<K>>(
     lanes: K,
     nodes: &[Node],
     start: ChildRef,

@@ -1,6 +1,6 @@
-//! What a ray looks for: the collectors of its hits, and the queries that say where their finds go.
+//! What a ray looks for: the callbacks that take its hits, and the queries that say where the results go.
 
-use super::ray::{Hits, NONE, PassedHit};
+use super::ray::{Hits, NONE, TransparentHit};
 
 /// A hit as it is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ impl Hit {
 }
 
 /// Takes the hits of one ray as they are found.
-pub(super) trait Collector {
+pub(super) trait HitCallback {
     /// True when near hits shorten the search.
     const ORDERED: bool;
     /// Hits beyond this distance are not wanted.
@@ -31,21 +31,21 @@ pub(super) trait Collector {
 }
 
 /// What the rays of a batch look for.
-pub(super) trait Query {
+pub(super) trait RayQuery {
     /// Collects for one ray, and for the next one after that.
-    type Collector: Collector;
-    /// A collector without a ray.
-    fn collector(&self) -> Self::Collector;
-    /// Has a collector begin with ray `i`.
-    fn begin(&self, collector: &mut Self::Collector, i: usize, t_max: f32);
-    /// Takes what was found for ray `i`; `ended` when the collector ended the search.
-    fn end(&mut self, i: usize, collector: &Self::Collector, ended: bool);
+    type Callback: HitCallback;
+    /// A callback without a ray.
+    fn callback(&self) -> Self::Callback;
+    /// Has a callback begin with ray `i`.
+    fn begin(&self, callback: &mut Self::Callback, i: usize, t_max: f32);
+    /// Takes what was found for ray `i`; `ended` when the callback ended the search.
+    fn end(&mut self, i: usize, callback: &Self::Callback, ended: bool);
 }
 
 /// Keeps the nearest hit.
 pub(super) struct Nearest(pub(super) Hit);
 
-impl Collector for Nearest {
+impl HitCallback for Nearest {
     const ORDERED: bool = true;
 
     #[inline(always)]
@@ -55,7 +55,7 @@ impl Collector for Nearest {
 
     #[inline(always)]
     fn add(&mut self, hit: Hit, _transparent: bool) -> bool {
-        // Equal distances go to the lower numbers, so that the order of the walk does not show.
+        // Equal distances go to the lower numbers, so that the order of traversal does not show.
         if hit.t < self.0.t || (hit.t == self.0.t && (hit.instance, hit.primitive) < (self.0.instance, self.0.primitive)) {
             self.0 = hit;
         }
@@ -74,10 +74,10 @@ impl<'a> NearestHits<'a> {
     }
 }
 
-impl Query for NearestHits<'_> {
-    type Collector = Nearest;
+impl RayQuery for NearestHits<'_> {
+    type Callback = Nearest;
 
-    fn collector(&self) -> Nearest {
+    fn callback(&self) -> Nearest {
         Nearest(Hit::miss(0.0))
     }
 
@@ -97,7 +97,7 @@ pub(super) struct Any {
     pub(super) t_max: f32,
 }
 
-impl Collector for Any {
+impl HitCallback for Any {
     const ORDERED: bool = false;
 
     #[inline(always)]
@@ -114,10 +114,10 @@ impl Collector for Any {
 /// 1 for every ray that hits anything, else 0.
 pub(super) struct Occluded<'a>(pub(super) &'a mut [u8]);
 
-impl Query for Occluded<'_> {
-    type Collector = Any;
+impl RayQuery for Occluded<'_> {
+    type Callback = Any;
 
-    fn collector(&self) -> Any {
+    fn callback(&self) -> Any {
         Any { t_max: 0.0 }
     }
 
@@ -136,13 +136,13 @@ impl Query for Occluded<'_> {
 const SAME_DISTANCE: f32 = 1e-5;
 
 /// Ends at the first opaque hit and keeps the transparent ones.
-pub(super) struct Passed {
+pub(super) struct UntilOpaque {
     t_max: f32,
     ray: u32,
-    hits: Vec<PassedHit>,
+    hits: Vec<TransparentHit>,
 }
 
-impl Collector for Passed {
+impl HitCallback for UntilOpaque {
     const ORDERED: bool = false;
 
     #[inline(always)]
@@ -154,9 +154,9 @@ impl Collector for Passed {
     fn add(&mut self, hit: Hit, transparent: bool) -> bool {
         if transparent {
             let Hit { t, u, v, primitive, instance } = hit;
-            let hit = PassedHit { ray: self.ray, instance, primitive, u, v, t };
+            let hit = TransparentHit { ray: self.ray, instance, primitive, u, v, t };
             match hit.is_on_edge().then(|| self.twin(&hit)).flatten() {
-                // The lower number, so that the order of the walk does not show.
+                // The lower number, so that the order of traversal does not show.
                 Some(twin) if hit.primitive < self.hits[twin].primitive => self.hits[twin] = hit,
                 Some(_) => {}
                 None => self.hits.push(hit),
@@ -166,36 +166,37 @@ impl Collector for Passed {
     }
 }
 
-impl Passed {
+impl UntilOpaque {
     /// The place of a hit on the same edge, which two triangles share: the surface is passed once.
-    fn twin(&self, hit: &PassedHit) -> Option<usize> {
-        let is_twin =
-            |known: &PassedHit| known.instance == hit.instance && known.is_on_edge() && (known.t - hit.t).abs() <= SAME_DISTANCE * hit.t;
+    fn twin(&self, hit: &TransparentHit) -> Option<usize> {
+        let is_twin = |known: &TransparentHit| {
+            known.instance == hit.instance && known.is_on_edge() && (known.t - hit.t).abs() <= SAME_DISTANCE * hit.t
+        };
         self.hits.iter().position(is_twin)
     }
 }
 
 /// [`Occluded`] by opaque instances alone, and the hits of all other rays on transparent ones.
-pub(super) struct OccludedOrPassed<'a> {
+pub(super) struct AnyHitTransparent<'a> {
     pub(super) occluded: &'a mut [u8],
-    pub(super) passed: &'a mut Vec<PassedHit>,
+    pub(super) passed: &'a mut Vec<TransparentHit>,
 }
 
-impl Query for OccludedOrPassed<'_> {
-    type Collector = Passed;
+impl RayQuery for AnyHitTransparent<'_> {
+    type Callback = UntilOpaque;
 
-    fn collector(&self) -> Passed {
-        Passed { t_max: 0.0, ray: NONE, hits: Vec::new() }
+    fn callback(&self) -> UntilOpaque {
+        UntilOpaque { t_max: 0.0, ray: NONE, hits: Vec::new() }
     }
 
     #[inline(always)]
-    fn begin(&self, passed: &mut Passed, i: usize, t_max: f32) {
+    fn begin(&self, passed: &mut UntilOpaque, i: usize, t_max: f32) {
         (passed.t_max, passed.ray) = (t_max, i as u32);
         passed.hits.clear();
     }
 
     #[inline(always)]
-    fn end(&mut self, i: usize, passed: &Passed, ended: bool) {
+    fn end(&mut self, i: usize, passed: &UntilOpaque, ended: bool) {
         self.occluded[i] = u8::from(ended);
         if !ended {
             self.passed.extend_from_slice(&passed.hits);

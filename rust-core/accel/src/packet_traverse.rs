@@ -1,4 +1,4 @@
-//! The walk of sixteen coherent rays through one tree.
+//! Traversal of one tree with sixteen coherent rays.
 
 use super::node::{ChildRef, Node, STACK, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays};
@@ -26,13 +26,13 @@ pub(super) static EMPTY_PACKET_STACK: PacketStack = [PacketEntry { near: [0.0; P
 /// The numbers of a node's slots.
 const SLOTS: [u32; WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
 
-/// What happens at the leaves of a packet's walk.
+/// What happens at the leaves of a packet's traversal.
 pub(super) trait PacketVisitor<S: Simd> {
     /// True when nearer children are to be visited first.
     const ORDERED: bool;
     /// Nothing beyond these distances is of interest; minus infinity for lanes that are done.
     fn t_max(&self) -> &[f32; PACKET];
-    /// Has memory fetch a child that waits for its turn.
+    /// Has memory fetch a child that is pushed.
     fn fetch(&self, child: ChildRef);
     /// Visits a leaf with the lanes of a mask.
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32);
@@ -42,7 +42,7 @@ pub(super) trait PacketVisitor<S: Simd> {
 
 /// Sends all live lanes through a tree, in groups of equal signs and major axis.
 #[inline(always)]
-pub(super) fn walk_groups<S: Simd, V: PacketVisitor<S>>(
+pub(super) fn traverse_groups<S: Simd, V: PacketVisitor<S>>(
     simd: S,
     nodes: &[Node],
     rays: &PacketRays<S>,
@@ -57,7 +57,7 @@ pub(super) fn walk_groups<S: Simd, V: PacketVisitor<S>>(
             singles(simd, rays, ChildRef::ROOT, lanes, visitor);
         } else {
             let group = Group::new(simd, rays, lanes);
-            walk_packet(simd, nodes, rays, &group, lanes, stack, visitor);
+            traverse_packet(simd, nodes, rays, &group, lanes, stack, visitor);
         }
     }
 }
@@ -71,7 +71,7 @@ fn singles<S: Simd, V: PacketVisitor<S>>(simd: S, rays: &PacketRays<S>, start: C
 }
 
 #[inline(always)]
-fn walk_packet<S: Simd, V: PacketVisitor<S>>(
+fn traverse_packet<S: Simd, V: PacketVisitor<S>>(
     simd: S,
     nodes: &[Node],
     rays: &PacketRays<S>,
@@ -100,7 +100,7 @@ fn walk_packet<S: Simd, V: PacketVisitor<S>>(
 
 /// Tests all boxes against the group's intervals, those that pass against its rays, and leaves the children on the stack, nearest on top.
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "one step of the walk, inlined into it")]
+#[allow(clippy::too_many_arguments, reason = "one step of the traversal, inlined into it")]
 fn push_children<S: Simd, V: PacketVisitor<S>>(
     simd: S,
     node: &Node,

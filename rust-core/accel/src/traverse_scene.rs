@@ -1,83 +1,83 @@
-//! The walk of one ray through both levels.
+//! Traversal of both levels with one ray.
 
 use super::blas::Blas;
-use super::collector::{Collector, Hit};
+use super::hit_callback::{Hit, HitCallback};
 use super::instance::{Geometry, InstanceRecord, Owner};
 use super::lanes8::Lanes8;
 use super::node::{ChildRef, Kind, WIDTH};
 use super::prepared::PreparedRay;
 use super::ray::RayBatch;
-use super::scene_bvh::SceneBvh;
+use super::tlas::Tlas;
+use super::traverse::{Stack, Visitor, traverse};
 use super::triangle_block::{BlockHits, TriangleBlock};
-use super::walk::{Stack, Visitor, walk};
 
 /// The stacks of the two levels.
-pub(super) struct SceneWalk<'a> {
+pub(super) struct SceneStacks<'a> {
     pub(super) stack: &'a mut Stack,
     pub(super) mesh_stack: &'a mut Stack,
 }
 
-/// Sends ray `i` of a batch through the scene; true when the collector ended the search.
+/// Sends ray `i` of a batch through the scene; true when the callback ended the search.
 #[inline(always)]
-pub(super) fn walk_scene<K: Lanes8, C: Collector>(
+pub(super) fn traverse_scene<K: Lanes8, C: HitCallback>(
     lanes: K,
-    scene: &SceneBvh,
-    stacks: &mut SceneWalk,
+    scene: &Tlas,
+    stacks: &mut SceneStacks,
     rays: &RayBatch,
     i: usize,
-    collector: &mut C,
+    callback: &mut C,
 ) -> bool {
     let Some(ray) = lanes.prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
-    walk_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], collector)
+    traverse_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], callback)
 }
 
 /// Sends ray `i` of a batch through the mesh of one instance.
 #[inline(always)]
-pub(super) fn walk_instance<K: Lanes8, C: Collector>(
+pub(super) fn traverse_instance<K: Lanes8, C: HitCallback>(
     lanes: K,
-    scene: &SceneBvh,
+    scene: &Tlas,
     stack: &mut Stack,
     rays: &RayBatch,
     i: usize,
     instance: u32,
-    collector: &mut C,
+    callback: &mut C,
 ) {
     let Some(record) = scene.record_of.get(instance as usize).and_then(|place| scene.records.get(*place as usize)) else { return };
     let Geometry::Mesh(index) = record.geometry.get() else { return };
     let origin = record.world_to_object.point(rays.origin_of(i));
     let direction = record.world_to_object.direction(rays.direction_of(i));
-    let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], collector.t_max()) else { return };
-    walk_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, collector);
+    let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], callback.t_max()) else { return };
+    traverse_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, callback);
 }
 
 /// Sends a ray through the part of the scene's tree below `start`.
 #[inline(always)]
-pub(super) fn walk_scene_from<K: Lanes8, C: Collector>(
+pub(super) fn traverse_scene_from<K: Lanes8, C: HitCallback>(
     lanes: K,
-    scene: &SceneBvh,
-    stacks: &mut SceneWalk,
+    scene: &Tlas,
+    stacks: &mut SceneStacks,
     start: ChildRef,
     ray: &PreparedRay,
     mask: u8,
-    collector: &mut C,
+    callback: &mut C,
 ) -> bool {
-    let mut visitor = SceneVisitor { scene, mask, stack: stacks.mesh_stack, collector };
-    walk(lanes, &scene.nodes, start, ray, stacks.stack, &mut visitor)
+    let mut visitor = SceneVisitor { scene, mask, stack: stacks.mesh_stack, callback };
+    traverse(lanes, &scene.nodes, start, ray, stacks.stack, &mut visitor)
 }
 
-struct SceneVisitor<'a, C: Collector> {
-    scene: &'a SceneBvh,
+struct SceneVisitor<'a, C: HitCallback> {
+    scene: &'a Tlas,
     mask: u8,
     stack: &'a mut Stack,
-    collector: &'a mut C,
+    callback: &'a mut C,
 }
 
-impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
+impl<K: Lanes8, C: HitCallback> Visitor<K> for SceneVisitor<'_, C> {
     const ORDERED: bool = C::ORDERED;
 
     #[inline(always)]
     fn t_max(&self) -> f32 {
-        self.collector.t_max()
+        self.callback.t_max()
     }
 
     #[inline(always)]
@@ -89,7 +89,7 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
         if leaf.is(Kind::WorldTriangles) {
             let owner = self.scene.owners[leaf.index()];
-            return owner.mask & self.mask != 0 && meet(lanes, &self.scene.blocks[leaf.index()], ray, owner, self.collector);
+            return owner.mask & self.mask != 0 && intersect_leaf(lanes, &self.scene.blocks[leaf.index()], ray, owner, self.callback);
         }
         let record = &self.scene.records[leaf.index()];
         if record.mask & self.mask == 0 {
@@ -97,45 +97,45 @@ impl<K: Lanes8, C: Collector> Visitor<K> for SceneVisitor<'_, C> {
         }
         if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
             let mesh = &self.scene.meshes[index as usize];
-            return walk_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.collector);
+            return traverse_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.callback);
         }
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = lanes.image(&record.world_to_object, ray, self.collector.t_max()) else { return false };
-                walk_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.collector)
+                let Some(ray) = lanes.image(&record.world_to_object, ray, self.callback.t_max()) else { return false };
+                traverse_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.callback)
             }
-            Geometry::Shape(shape) => record.meet_shape(shape, ray.origin, ray.direction, ray.t_min, self.collector),
+            Geometry::Shape(shape) => record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, self.callback),
         }
     }
 }
 
 /// Sends a ray in object space through the part of a mesh's tree below `start`.
 #[inline(always)]
-pub(super) fn walk_mesh<K: Lanes8, C: Collector>(
+pub(super) fn traverse_mesh<K: Lanes8, C: HitCallback>(
     lanes: K,
     mesh: &Blas,
     start: ChildRef,
     ray: &PreparedRay,
     record: &InstanceRecord,
     stack: &mut Stack,
-    collector: &mut C,
+    callback: &mut C,
 ) -> bool {
-    let mut visitor = MeshVisitor { mesh, record, collector };
-    walk(lanes, &mesh.nodes, start, ray, stack, &mut visitor)
+    let mut visitor = MeshVisitor { mesh, record, callback };
+    traverse(lanes, &mesh.nodes, start, ray, stack, &mut visitor)
 }
 
-struct MeshVisitor<'a, C: Collector> {
+struct MeshVisitor<'a, C: HitCallback> {
     mesh: &'a Blas,
     record: &'a InstanceRecord,
-    collector: &'a mut C,
+    callback: &'a mut C,
 }
 
-impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
+impl<K: Lanes8, C: HitCallback> Visitor<K> for MeshVisitor<'_, C> {
     const ORDERED: bool = C::ORDERED;
 
     #[inline(always)]
     fn t_max(&self) -> f32 {
-        self.collector.t_max()
+        self.callback.t_max()
     }
 
     #[inline(always)]
@@ -145,20 +145,20 @@ impl<K: Lanes8, C: Collector> Visitor<K> for MeshVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
-        meet(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.collector)
+        intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback)
     }
 }
 
-/// Hands the triangles of a block that a ray meets to a collector; true when it ended the search.
+/// Hands the triangles of a block that a ray meets to a callback; true when it ended the search.
 #[inline(always)]
-fn meet<K: Lanes8, C: Collector>(lanes: K, block: &TriangleBlock, ray: &PreparedRay, owner: Owner, collector: &mut C) -> bool {
+fn intersect_leaf<K: Lanes8, C: HitCallback>(lanes: K, block: &TriangleBlock, ray: &PreparedRay, owner: Owner, callback: &mut C) -> bool {
     let mut hits = BlockHits::default();
-    let mut mask = lanes.triangles(block, ray, collector.t_max(), &mut hits);
+    let mut mask = lanes.triangles(block, ray, callback.t_max(), &mut hits);
     while mask != 0 {
         let lane = mask.trailing_zeros() as usize % WIDTH;
         mask &= mask - 1;
         let hit = Hit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], primitive: block.primitives[lane], instance: owner.id };
-        if collector.add(hit, owner.transparent) {
+        if callback.add(hit, owner.transparent) {
             return true;
         }
     }

@@ -1,16 +1,16 @@
-//! A packet's walk through both levels, and its tests at the leaves.
+//! Traversal of both levels with a packet, and its tests at the leaves.
 
 use super::blas::Blas;
-use super::collector::{Any, Collector, Hit, Nearest};
+use super::hit_callback::{Any, Hit, HitCallback, Nearest};
 use super::instance::{Geometry, InstanceRecord};
-use super::instance_walk::{SceneWalk, walk_mesh, walk_scene_from};
 use super::node::{ChildRef, Kind, WIDTH};
 use super::packet_ray::{Group, PACKET, PacketRays, lane_of};
-use super::packet_walk::{PacketStack, PacketVisitor, walk_groups};
+use super::packet_traverse::{PacketStack, PacketVisitor, traverse_groups};
 use super::ray::NONE;
-use super::scene_bvh::SceneBvh;
+use super::tlas::Tlas;
+use super::traverse::Stack;
+use super::traverse_scene::{SceneStacks, traverse_mesh, traverse_scene_from};
 use super::triangle_block::TriangleBlock;
-use super::walk::Stack;
 use super::wide::Wide;
 use fearless_simd::{f32x16, mask32x16, prelude::*, u32x16};
 
@@ -54,7 +54,7 @@ impl PacketHits {
     }
 }
 
-/// The stacks of a packet's walk.
+/// The stacks of a packet's traversal.
 pub(super) struct PacketStacks {
     pub(super) scene: Box<PacketStack>,
     pub(super) mesh: Box<PacketStack>,
@@ -64,9 +64,9 @@ pub(super) struct PacketStacks {
 
 /// Sends a packet through the scene; with `ANY`, hits end a lane's search and are kept as `t` minus infinity alone.
 #[inline(always)]
-pub(super) fn walk_scene_packet<S: Simd, const ANY: bool>(
+pub(super) fn traverse_scene_packet<S: Simd, const ANY: bool>(
     simd: S,
-    scene: &SceneBvh,
+    scene: &Tlas,
     rays: &PacketRays<S>,
     masks: &[u8; PACKET],
     stacks: &mut PacketStacks,
@@ -74,11 +74,11 @@ pub(super) fn walk_scene_packet<S: Simd, const ANY: bool>(
 ) {
     let PacketStacks { scene: stack, mesh, single_scene, single_mesh } = stacks;
     let mut visitor = SceneVisitor::<ANY> { scene, masks, mesh_stack: mesh, single_scene, single_mesh, hits };
-    walk_groups(simd, &scene.nodes, rays, stack, &mut visitor);
+    traverse_groups(simd, &scene.nodes, rays, stack, &mut visitor);
 }
 
 struct SceneVisitor<'a, const ANY: bool> {
-    scene: &'a SceneBvh,
+    scene: &'a Tlas,
     masks: &'a [u8; PACKET],
     mesh_stack: &'a mut PacketStack,
     single_scene: &'a mut Stack,
@@ -116,7 +116,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
         if leaf.is(Kind::WorldTriangles) {
             let owner = self.scene.owners[leaf.index()];
             let (block, lanes) = (&self.scene.blocks[leaf.index()], lanes & self.seeing(owner.mask));
-            return meet::<S, ANY>(simd, block, rays, group, lanes, owner.id, self.hits);
+            return intersect_leaf::<S, ANY>(simd, block, rays, group, lanes, owner.id, self.hits);
         }
         let record = &self.scene.records[leaf.index()];
         let lanes = lanes & self.seeing(record.mask);
@@ -129,7 +129,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
             Geometry::Mesh(index) => {
                 let mesh = &*self.scene.meshes[index as usize];
                 let mut visitor = MeshVisitor::<ANY> { mesh, record, stack: self.single_mesh, hits: self.hits };
-                walk_groups(simd, &mesh.nodes, &rays, self.mesh_stack, &mut visitor);
+                traverse_groups(simd, &mesh.nodes, &rays, self.mesh_stack, &mut visitor);
             }
             Geometry::Shape(shape) => {
                 let mut left = lanes;
@@ -159,14 +159,14 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
     #[inline(always)]
     fn single(&mut self, simd: S, rays: &PacketRays<S>, start: ChildRef, lane: usize) {
         let ray = rays.single(lane);
-        let mut stacks = SceneWalk { stack: self.single_scene, mesh_stack: self.single_mesh };
+        let mut stacks = SceneStacks { stack: self.single_scene, mesh_stack: self.single_mesh };
         let (scene, mask) = (self.scene, self.masks[lane]);
-        // Outlined: the code of the single walk exists once, however often it is called for.
+        // Outlined: the code of single-ray traversal exists once, however often it is called for.
         if ANY {
             let mut any = Any { t_max: self.hits.t[lane] };
             let blocked = simd.vectorize(
                 #[inline(always)]
-                || walk_scene_from(Wide(simd), scene, &mut stacks, start, &ray, mask, &mut any),
+                || traverse_scene_from(Wide(simd), scene, &mut stacks, start, &ray, mask, &mut any),
             );
             if blocked {
                 self.hits.set_blocked(lane);
@@ -175,7 +175,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
             let mut nearest = Nearest(self.hits.get(lane));
             simd.vectorize(
                 #[inline(always)]
-                || walk_scene_from(Wide(simd), scene, &mut stacks, start, &ray, mask, &mut nearest),
+                || traverse_scene_from(Wide(simd), scene, &mut stacks, start, &ray, mask, &mut nearest),
             );
             self.hits.set(lane, nearest.0);
         }
@@ -204,7 +204,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
 
     #[inline(always)]
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
-        meet::<S, ANY>(simd, &self.mesh.blocks[leaf.index()], rays, group, lanes, self.record.id, self.hits);
+        intersect_leaf::<S, ANY>(simd, &self.mesh.blocks[leaf.index()], rays, group, lanes, self.record.id, self.hits);
     }
 
     #[inline(always)]
@@ -215,7 +215,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
             let mut any = Any { t_max: self.hits.t[lane] };
             let blocked = simd.vectorize(
                 #[inline(always)]
-                || walk_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut any),
+                || traverse_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut any),
             );
             if blocked {
                 self.hits.set_blocked(lane);
@@ -224,7 +224,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
             let mut nearest = Nearest(self.hits.get(lane));
             simd.vectorize(
                 #[inline(always)]
-                || walk_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut nearest),
+                || traverse_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut nearest),
             );
             self.hits.set(lane, nearest.0);
         }
@@ -233,7 +233,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
 
 /// The triangles of a block against sixteen rays.
 #[inline(always)]
-fn meet<S: Simd, const ANY: bool>(
+fn intersect_leaf<S: Simd, const ANY: bool>(
     simd: S,
     block: &TriangleBlock,
     rays: &PacketRays<S>,
@@ -244,14 +244,14 @@ fn meet<S: Simd, const ANY: bool>(
 ) {
     for triangle in 0..block.len() {
         let lanes = if ANY { hits.live(simd, lanes) } else { lanes };
-        intersect::<S, ANY>(simd, block, triangle, rays, group, lanes, instance, hits);
+        intersect_triangle::<S, ANY>(simd, block, triangle, rays, group, lanes, instance, hits);
     }
 }
 
 /// One triangle against sixteen rays: lane for lane the arithmetic of `Wide::triangles`.
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "one step of the walk, inlined into it")]
-fn intersect<S: Simd, const ANY: bool>(
+#[allow(clippy::too_many_arguments, reason = "one step of the traversal, inlined into it")]
+fn intersect_triangle<S: Simd, const ANY: bool>(
     simd: S,
     block: &TriangleBlock,
     triangle: usize,

@@ -1,4 +1,4 @@
-//! What the top level of a scene is built over: instances, and the triangles of small ones, in world space.
+//! What the TLAS is built over: instances, and the triangles of small ones, in world space.
 
 use super::blas::Blas;
 use super::instance::{Geometry, Instance, InstanceRecord, Owner, PackedGeometry};
@@ -13,7 +13,7 @@ const SMALL_MESH: usize = 4;
 
 /// Boxes in world space, and what they hold.
 #[derive(Default)]
-pub(super) struct Placement {
+pub(super) struct TlasInput {
     pub(super) boxes: Vec<Bounds>,
     /// What is in each box: an instance or a block by its number in the lists below.
     pub(super) contents: Vec<ChildRef>,
@@ -23,19 +23,19 @@ pub(super) struct Placement {
     pub(super) owners: Vec<Owner>,
 }
 
-impl Placement {
-    /// Places instances; with `opened` those of small meshes are taken apart. Those from `first_apart` on get no boxes.
-    pub(super) fn new(meshes: &[Arc<Blas>], instances: &[Instance], first_apart: usize, opened: bool) -> Self {
-        let mut placement = Placement::default();
+impl TlasInput {
+    /// Places instances; with `opened` those of small meshes are taken apart. Those from `first_loose` on get no boxes.
+    pub(super) fn new(meshes: &[Arc<Blas>], instances: &[Instance], first_loose: usize, opened: bool) -> Self {
+        let mut input = TlasInput::default();
         for (id, instance) in instances.iter().enumerate() {
             let Some((bounds, record)) = placed(meshes, instance, id as u32) else { continue };
-            if id < first_apart && !(opened && placement.open(meshes, instance, record.owner())) {
-                placement.boxes.push(bounds);
-                placement.contents.push(ChildRef::new(Kind::Instance, placement.records.len()));
+            if id < first_loose && !(opened && input.open(meshes, instance, record.owner())) {
+                input.boxes.push(bounds);
+                input.contents.push(ChildRef::new(Kind::Instance, input.records.len()));
             }
-            placement.records.push(record);
+            input.records.push(record);
         }
-        placement
+        input
     }
 
     /// Takes an instance of a small mesh apart; false if the mesh is too large, or no mesh at all.

@@ -1,19 +1,19 @@
-//! Shapes that stand apart from the tree: few, and seen by no shadow ray. A register of rays is tested against a ball around each, which costs
+//! Loose lights, the shapes of lights that stand beside the tree: few, and seen by no shadow ray. A register of rays is tested against a ball around each, which costs
 //! less than what the tree would take; rays that meet the ball are tested against the shape.
 
-use super::collector::Nearest;
+use super::hit_callback::Nearest;
 use super::instance::{Geometry, Instance};
 use super::ray::{Covered, Hits, NONE, RayBatch};
-use super::scene_bvh::SceneBvh;
 use super::shape::Shape;
+use super::tlas::Tlas;
 use gonio_simd::{Execution, Lanes, Vec3, dispatch};
 
 /// More shapes than this stand in the tree.
-pub(super) const MOST_APART: usize = 8;
+pub(super) const MOST_LOOSE: usize = 8;
 
 /// A shape's record, and a ball around it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Apart {
+pub(super) struct LooseLight {
     pub(super) record: u32,
     centre: [f32; 3],
     radius: f32,
@@ -22,7 +22,7 @@ pub(super) struct Apart {
 /// A ball's radius is widened by this share of itself, of its distance and of its place's distance from the world's middle, for rounding.
 const ROUNDING: f32 = 2e-6;
 
-impl Apart {
+impl LooseLight {
     /// The shape of an instance whose record has a number; `None` for meshes.
     pub(super) fn new(instance: &Instance, record: u32) -> Option<Self> {
         let Geometry::Shape(shape) = instance.geometry else { return None };
@@ -36,7 +36,7 @@ impl Apart {
         };
         let centre = column(3).map(|x| x as f32);
         let away: f32 = centre.iter().map(|x| x.abs()).sum();
-        Some(Apart { record, centre, radius: radius as f32 * (1.0 + ROUNDING) + away * ROUNDING })
+        Some(LooseLight { record, centre, radius: radius as f32 * (1.0 + ROUNDING) + away * ROUNDING })
     }
 }
 
@@ -50,42 +50,42 @@ fn reach(axes: &[[f64; 3]]) -> f64 {
     axes.iter().map(products).fold(0.0, f64::max).sqrt()
 }
 
-impl SceneBvh {
-    /// Whether shapes stand apart: then all shapes of lights do.
-    pub fn has_shapes_apart(&self) -> bool {
-        !self.apart.is_empty()
+impl Tlas {
+    /// Whether shapes stand beside the tree: then all shapes of lights do.
+    pub fn has_loose_lights(&self) -> bool {
+        !self.loose_lights.is_empty()
     }
 
-    /// The nearest hit of every ray on shapes that stand apart, or else what is known of what is behind: an entry a ray.
+    /// The nearest hit of every ray on shapes that stand beside the tree, or else what is known of what is behind: an entry a ray.
     pub fn first_hit_before(&self, execution: Execution, rays: &RayBatch, behind: &[Covered], hits: &mut Hits) {
         hits.resize(rays.len());
         for (i, covered) in behind[..rays.len()].iter().enumerate() {
             hits.set(i, &covered.hit);
         }
-        self.meet_apart(execution, rays, hits);
+        self.intersect_loose_lights(execution, rays, hits);
     }
 
-    /// Replaces hits by nearer ones on the shapes that stand apart.
-    pub(super) fn meet_apart(&self, execution: Execution, rays: &RayBatch, hits: &mut Hits) {
+    /// Replaces hits by nearer ones on the shapes that stand beside the tree.
+    pub(super) fn intersect_loose_lights(&self, execution: Execution, rays: &RayBatch, hits: &mut Hits) {
         hits.covered.clear();
-        if self.has_shapes_apart() {
-            dispatch!(execution, l => meet(l, self, rays, hits));
+        if self.has_loose_lights() {
+            dispatch!(execution, l => intersect_balls(l, self, rays, hits));
             hits.covered.sort_unstable_by_key(|covered| covered.ray);
         }
     }
 
     /// The hit of ray `i` on one of them, if it is the nearest.
-    fn meet_one(&self, apart: &Apart, rays: &RayBatch, i: usize, hits: &mut Hits) {
-        let record = &self.records[apart.record as usize];
+    fn intersect_one(&self, light: &LooseLight, rays: &RayBatch, i: usize, hits: &mut Hits) {
+        let record = &self.records[light.record as usize];
         let Geometry::Shape(shape) = record.geometry.get() else { return };
         if record.mask & rays.mask[i] == 0 {
             return;
         }
         let before = hits.get(i);
         let mut nearest = Nearest(before);
-        record.meet_shape(shape, rays.origin_of(i), rays.direction_of(i), rays.t_min[i].max(0.0), &mut nearest);
+        record.intersect_shape(shape, rays.origin_of(i), rays.direction_of(i), rays.t_min[i].max(0.0), &mut nearest);
         if nearest.0 != before {
-            if before.instance < self.records[self.apart[0].record as usize].id || before.instance == NONE {
+            if before.instance < self.records[self.loose_lights[0].record as usize].id || before.instance == NONE {
                 hits.covered.push(Covered { ray: i as u32, hit: before });
             }
             hits.set(i, &nearest.0);
@@ -94,23 +94,23 @@ impl SceneBvh {
 }
 
 #[inline(always)]
-fn meet<L: Lanes>(l: L, scene: &SceneBvh, rays: &RayBatch, hits: &mut Hits) {
+fn intersect_balls<L: Lanes>(l: L, scene: &Tlas, rays: &RayBatch, hits: &mut Hits) {
     for at in (0..rays.len()).step_by(L::COUNT) {
         let vector =
             |columns: &[&[f32]; 3]| Vec3::new(l.load_to_end(columns[0], at), l.load_to_end(columns[1], at), l.load_to_end(columns[2], at));
         let (origin, direction) = (vector(&rays.origin), vector(&rays.direction));
         let (t_min, t_max) = (l.load_to_end(rays.t_min, at), l.load_to_end(&hits.t, at));
         let inverse_length = direction.length_squared().inverse_root();
-        for apart in &scene.apart {
-            let way = Vec3::splat(l, apart.centre) - origin;
+        for light in &scene.loose_lights {
+            let way = Vec3::splat(l, light.centre) - origin;
             let along = way.dot(direction) * (inverse_length * inverse_length);
             let foot = way - direction * along;
-            let radius = (way.x.abs() + way.y.abs() + way.z.abs()).mul_add(ROUNDING, l.f(apart.radius));
+            let radius = (way.x.abs() + way.y.abs() + way.z.abs()).mul_add(ROUNDING, l.f(light.radius));
             let half = radius * inverse_length;
             let near = foot.length_squared().le(radius * radius) & t_min.le(along + half) & (along - half).le(t_max);
             let mut lanes = (near & l.first(rays.len() - at)).bits();
             while lanes != 0 {
-                scene.meet_one(apart, rays, at + lanes.trailing_zeros() as usize, hits);
+                scene.intersect_one(light, rays, at + lanes.trailing_zeros() as usize, hits);
                 lanes &= lanes - 1;
             }
         }

@@ -1,4 +1,4 @@
-//! Shapes apart from the tree, against the same shapes in it.
+//! Lights beside the tree, against the same shapes in it.
 
 use super::agreement::random_placement;
 use super::*;
@@ -29,17 +29,17 @@ impl Lit {
         Lit { mesh, instances, rays }
     }
 
-    /// With the shapes apart, in the tree, and without them.
-    fn scenes(&self) -> [SceneBvh; 3] {
+    /// With the shapes beside the tree, in the tree, and without them.
+    fn scenes(&self) -> [Tlas; 3] {
         let meshes = || vec![self.mesh.clone()];
-        let apart = SceneBvh::build_with_lights(meshes(), &self.instances, 1, &AtomicBool::new(false)).expect("not cancelled");
-        apart.trials.settle(true);
-        [apart, scene(meshes(), &self.instances), scene(meshes(), &self.instances[..1])]
+        let loose = Tlas::build_with_lights(meshes(), &self.instances, 1, &AtomicBool::new(false)).expect("not cancelled");
+        loose.tuners.settle(true);
+        [loose, scene(meshes(), &self.instances), scene(meshes(), &self.instances[..1])]
     }
 }
 
-/// Hits by all walks.
-fn all_hits(scene: &SceneBvh, rays: &RayBatch) -> Vec<Hits> {
+/// Hits by all kinds of traversal.
+fn all_hits(scene: &Tlas, rays: &RayBatch) -> Vec<Hits> {
     let mut alone = Hits::default();
     scene.first_hit_scalar(rays, &mut alone);
     let mut all = vec![alone];
@@ -63,19 +63,19 @@ fn visible(hits: &Hits) -> Hits {
 }
 
 #[test]
-fn shapes_apart_are_hit_as_in_the_tree() {
+fn loose_lights_are_hit_as_in_the_tree() {
     for seed in 40..48 {
         let lit = Lit::new(seed, 8);
-        let [apart, inside, without] = lit.scenes();
-        assert!(apart.has_shapes_apart() && !inside.has_shapes_apart());
+        let [loose, inside, without] = lit.scenes();
+        assert!(loose.has_loose_lights() && !inside.has_loose_lights());
         let rays = lit.rays.batch();
         let behind = all_hits(&without, &rays);
-        for ((apart, inside), behind) in all_hits(&apart, &rays).iter().zip(all_hits(&inside, &rays)).zip(behind) {
-            assert_eq!(visible(apart), inside);
-            let lit: Vec<usize> = (0..rays.len()).filter(|i| (1..NONE).contains(&apart.instance[*i])).collect();
+        for ((loose, inside), behind) in all_hits(&loose, &rays).iter().zip(all_hits(&inside, &rays)).zip(behind) {
+            assert_eq!(visible(loose), inside);
+            let lit: Vec<usize> = (0..rays.len()).filter(|i| (1..NONE).contains(&loose.instance[*i])).collect();
             assert!(lit.len() > 50, "{} rays hit a shape", lit.len());
-            assert_eq!(apart.covered.iter().map(|covered| covered.ray as usize).collect::<Vec<_>>(), lit);
-            assert!(apart.covered.iter().all(|covered| covered.hit == behind.get(covered.ray as usize)));
+            assert_eq!(loose.covered.iter().map(|covered| covered.ray as usize).collect::<Vec<_>>(), lit);
+            assert!(loose.covered.iter().all(|covered| covered.hit == behind.get(covered.ray as usize)));
         }
     }
 }
@@ -98,21 +98,21 @@ fn shapes_smaller_than_a_millimetre_and_a_kilometre_away_are_hit_as_in_the_tree(
         lit.rays.push(origin, [0, 1, 2].map(|axis| middle[axis] + 3e-4 * aim[axis] - origin[axis]), f32::INFINITY);
         lit.rays.mask[i] = 3;
     }
-    let [apart, inside, _] = lit.scenes();
-    for (apart, inside) in all_hits(&apart, &lit.rays.batch()).iter().zip(all_hits(&inside, &lit.rays.batch())) {
-        assert_eq!(visible(apart), inside);
-        let lit = apart.instance.iter().filter(|instance| (1..NONE).contains(*instance)).count();
+    let [loose, inside, _] = lit.scenes();
+    for (loose, inside) in all_hits(&loose, &lit.rays.batch()).iter().zip(all_hits(&inside, &lit.rays.batch())) {
+        assert_eq!(visible(loose), inside);
+        let lit = loose.instance.iter().filter(|instance| (1..NONE).contains(*instance)).count();
         assert!(lit > 200, "{lit} rays hit a shape");
     }
 }
 
 #[test]
-fn rays_go_on_behind_shapes_apart_as_in_the_tree() {
+fn rays_go_on_behind_loose_lights_as_in_the_tree() {
     let lit = Lit::new(50, 8);
-    let [apart, inside, _] = lit.scenes();
+    let [loose, inside, _] = lit.scenes();
     for execution in Execution::all() {
         let (mut hits, mut again) = (Hits::default(), Hits::default());
-        apart.first_hit_scalar(&lit.rays.batch(), &mut hits);
+        loose.first_hit_scalar(&lit.rays.batch(), &mut hits);
         let mut beyond = OwnedRays::default();
         for covered in &hits.covered {
             let i = covered.ray as usize;
@@ -124,7 +124,7 @@ fn rays_go_on_behind_shapes_apart_as_in_the_tree() {
             *beyond.t_min.last_mut().expect("pushed") = hits.t[i].next_up();
             *beyond.mask.last_mut().expect("pushed") = lit.rays.mask[i];
         }
-        apart.first_hit_before(execution, &beyond.batch(), &hits.covered, &mut again);
+        loose.first_hit_before(execution, &beyond.batch(), &hits.covered, &mut again);
         let mut traced = Hits::default();
         inside.first_hit_scalar(&beyond.batch(), &mut traced);
         assert_eq!(visible(&again), traced, "{}", execution.name());
@@ -135,7 +135,7 @@ fn rays_go_on_behind_shapes_apart_as_in_the_tree() {
 #[test]
 fn many_shapes_stand_in_the_tree() {
     let lit = Lit::new(51, 9);
-    let [apart, ..] = lit.scenes();
-    assert!(!apart.has_shapes_apart());
-    assert!(all_hits(&apart, &lit.rays.batch())[0].instance.iter().any(|instance| (1..NONE).contains(instance)));
+    let [loose, ..] = lit.scenes();
+    assert!(!loose.has_loose_lights());
+    assert!(all_hits(&loose, &lit.rays.batch())[0].instance.iter().any(|instance| (1..NONE).contains(instance)));
 }
