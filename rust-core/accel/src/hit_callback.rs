@@ -179,7 +179,7 @@ impl UntilOpaque {
 /// [`Occluded`] by opaque instances alone, and the hits of all other rays on transparent ones.
 pub(super) struct AnyHitTransparent<'a> {
     pub(super) occluded: &'a mut [u8],
-    pub(super) passed: &'a mut Vec<TransparentHit>,
+    pub(super) transparent: &'a mut Vec<TransparentHit>,
 }
 
 impl RayQuery for AnyHitTransparent<'_> {
@@ -190,16 +190,16 @@ impl RayQuery for AnyHitTransparent<'_> {
     }
 
     #[inline(always)]
-    fn begin(&self, passed: &mut UntilOpaque, i: usize, t_max: f32) {
-        (passed.t_max, passed.ray) = (t_max, i as u32);
-        passed.hits.clear();
+    fn begin(&self, until_opaque: &mut UntilOpaque, i: usize, t_max: f32) {
+        (until_opaque.t_max, until_opaque.ray) = (t_max, i as u32);
+        until_opaque.hits.clear();
     }
 
     #[inline(always)]
-    fn end(&mut self, i: usize, passed: &UntilOpaque, ended: bool) {
+    fn end(&mut self, i: usize, until_opaque: &UntilOpaque, ended: bool) {
         self.occluded[i] = u8::from(ended);
         if !ended {
-            self.passed.extend_from_slice(&passed.hits);
+            self.transparent.extend_from_slice(&until_opaque.hits);
         }
     }
 }

@@ -7,20 +7,17 @@ use super::packet_traverse::EMPTY_PACKET_STACK;
 use super::ray::{Hits, RayBatch};
 use super::tlas::Tlas;
 use fearless_simd::{Level, f32x16, prelude::*};
-use gonio_simd::Execution;
 use gonio_simd::dispatch_level;
 use std::cell::RefCell;
 
 impl Tlas {
-    /// The nearest hit of every ray, consecutive groups of sixteen together: for coherent rays. The hits are those of
-    /// [`Tlas::first_hit`].
-    pub fn first_hit_packets(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
+    /// The nearest hit of every ray in the tree, consecutive groups of sixteen together.
+    pub(super) fn first_hit_packets(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
         STACKS.with_borrow_mut(|stacks| dispatch_level!(level, simd => first_hit_packets(simd, self, rays, stacks, hits)));
-        self.intersect_loose_lights(Execution::Vector(level), rays, hits);
     }
 
-    /// [`Tlas::occluded`], consecutive groups of sixteen rays together: for coherent rays.
-    pub fn occluded_packets(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
+    /// [`Tlas::occluded`], consecutive groups of sixteen rays together.
+    pub(super) fn occluded_packets(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
         STACKS.with_borrow_mut(|stacks| dispatch_level!(level, simd => occluded_packets(simd, self, rays, stacks, out)));
     }
 }

@@ -1,4 +1,4 @@
-//! The queries a batch of incoherent rays can ask, and their loops.
+//! The queries of a batch of rays, and the loops of single rays.
 
 use super::hit_callback::{Any, AnyHitTransparent, Hit, HitCallback, Nearest, NearestHits, Occluded, RayQuery};
 use super::lanes8::Lanes8;
@@ -10,61 +10,54 @@ use super::tlas::Tlas;
 use super::traverse::EMPTY_STACK;
 use super::traverse_scene::{SceneStacks, traverse_instance, traverse_scene};
 use super::wide::Wide;
-use fearless_simd::Level;
 use gonio_simd::dispatch_level;
 use gonio_simd::{Execution, sorts_fast};
 
 impl Tlas {
+    /// The nearest hit of every ray. With `coherent` consecutive groups of sixteen rays go as packets where there is vector code; hits are the
+    /// same either way.
+    pub fn first_hit(&self, execution: Execution, rays: &RayBatch, coherent: bool, hits: &mut Hits) {
+        match execution {
+            Execution::Vector(level) if coherent => self.first_hit_packets(level, rays, hits),
+            _ => self.ask(execution, rays, &mut NearestHits::new(hits, rays.len())),
+        }
+        self.intersect_loose_lights(execution, rays, hits);
+    }
+
     /// The nearest hit of every ray on the mesh of one instance, whatever else is in the way: `instances[i]` is that of ray `i`.
-    pub fn first_hit_within(&self, level: Level, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
-        dispatch_level!(level, simd => first_hit_within(Wide(simd), self, rays, instances, hits));
+    pub fn first_hit_within(&self, execution: Execution, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
+        match execution {
+            Execution::Scalar => first_hit_within(Scalar, self, rays, instances, hits),
+            Execution::Vector(level) => dispatch_level!(level, simd => first_hit_within(Wide(simd), self, rays, instances, hits)),
+        }
     }
 
-    /// [`Tlas::first_hit_within`] without vector code.
-    pub fn first_hit_within_scalar(&self, rays: &RayBatch, instances: &[u32], hits: &mut Hits) {
-        first_hit_within(Scalar, self, rays, instances, hits);
-    }
-
-    /// The nearest hit of every ray: for incoherent rays.
-    pub fn first_hit(&self, level: Level, rays: &RayBatch, hits: &mut Hits) {
-        self.ask(level, rays, &mut NearestHits::new(hits, rays.len()));
-        self.intersect_loose_lights(Execution::Vector(level), rays, hits);
-    }
-
-    /// [`Tlas::first_hit`] without vector code.
-    pub fn first_hit_scalar(&self, rays: &RayBatch, hits: &mut Hits) {
-        single(Scalar, self, rays, Part::ALL, &mut NearestHits::new(hits, rays.len()));
-        self.intersect_loose_lights(Execution::Scalar, rays, hits);
-    }
-
-    /// `out[i] = 1` when ray `i` hits anything, transparent or not, else 0; `out` is as long as the batch.
-    pub fn occluded(&self, level: Level, rays: &RayBatch, out: &mut [u8]) {
-        self.ask(level, rays, &mut Occluded(out));
-    }
-
-    /// [`Tlas::occluded`] without vector code.
-    pub fn occluded_scalar(&self, rays: &RayBatch, out: &mut [u8]) {
-        single(Scalar, self, rays, Part::ALL, &mut Occluded(out));
+    /// `out[i] = 1` when ray `i` hits anything, transparent or not, else 0; `out` is as long as the batch. `coherent` as in
+    /// [`Tlas::first_hit`].
+    pub fn occluded(&self, execution: Execution, rays: &RayBatch, coherent: bool, out: &mut [u8]) {
+        match execution {
+            Execution::Vector(level) if coherent => self.occluded_packets(level, rays, out),
+            _ => self.ask(execution, rays, &mut Occluded(out)),
+        }
     }
 
     /// Every hit up to the first opaque one: `out[i] = 1` when ray `i` meets an opaque instance, else 0 and its hits on transparent
-    /// instances are appended to `passed`, those of a ray together, in no order.
-    pub fn any_hit_transparent(&self, level: Level, rays: &RayBatch, out: &mut [u8], passed: &mut Vec<TransparentHit>) {
-        self.ask(level, rays, &mut AnyHitTransparent { occluded: out, passed });
+    /// instances are appended to `transparent`, those of a ray together, in no order.
+    pub fn any_hit_transparent(&self, execution: Execution, rays: &RayBatch, out: &mut [u8], transparent: &mut Vec<TransparentHit>) {
+        self.ask(execution, rays, &mut AnyHitTransparent { occluded: out, transparent });
     }
 
-    /// [`Tlas::any_hit_transparent`] without vector code.
-    pub fn any_hit_transparent_scalar(&self, rays: &RayBatch, out: &mut [u8], passed: &mut Vec<TransparentHit>) {
-        single(Scalar, self, rays, Part::ALL, &mut AnyHitTransparent { occluded: out, passed });
+    /// Whether packets of coherent shadow rays are faster than incoherent ones: where these do not go in streams.
+    pub fn has_shadow_packets(&self, execution: Execution) -> bool {
+        match execution {
+            Execution::Scalar => false,
+            Execution::Vector(level) => !(sorts_fast(level) && self.tuners.streams(level, Any::ORDERED, self.is_large)),
+        }
     }
 
-    /// Whether many incoherent shadow rays are under way at once, which is as fast as packets of coherent ones, or faster.
-    pub fn has_streams(&self, level: Level) -> bool {
-        sorts_fast(level) && self.tuners.streams(level, Any::ORDERED, self.is_large)
-    }
-
-    /// Many rays under way at once where that pays, else one by one.
-    fn ask<Q: RayQuery>(&self, level: Level, rays: &RayBatch, query: &mut Q) {
+    /// Incoherent rays: as a stream where that pays, else one by one.
+    fn ask<Q: RayQuery>(&self, execution: Execution, rays: &RayBatch, query: &mut Q) {
+        let Execution::Vector(level) = execution else { return single(Scalar, self, rays, Part::ALL, query) };
         let mut run = |as_stream, part| {
             if as_stream {
                 with_stacks(|stacks| dispatch_level!(level, simd => stream(simd, self, rays, part, stacks, query)));

@@ -18,7 +18,7 @@ use super::{
 use crate::graph::CHUNK;
 use gonio_accel::{RayBatch, TransparentHit};
 use gonio_bsdf::parameter::OPACITY;
-use gonio_simd::{Execution, Frame, Lanes, PADDING, Rgb, dispatch};
+use gonio_simd::{Frame, Lanes, PADDING, Rgb, dispatch};
 
 /// Traces what is queued if the shadow rays of some more hits have no room.
 pub(super) fn make_room(tables: &Tables, transport: &Transport, coherent: bool, hits: usize, ws: &mut Workspace) {
@@ -40,15 +40,13 @@ pub(super) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     catcher::narrow_shadows(tables, &mut ws.shadows);
     let rays = rays_of(&ws.shadows);
     let blocked = &mut ws.blocked[..n];
-    match (transport.execution, tables.any_transparent) {
-        (Execution::Scalar, true) => tables.bvh.any_hit_transparent_scalar(&rays, blocked, &mut ws.passed),
-        (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
-        (Execution::Vector(level), true) => tables.bvh.any_hit_transparent(level, &rays, blocked, &mut ws.passed),
-        (Execution::Vector(level), false) if !coherent || tables.bvh.has_streams(level) => tables.bvh.occluded(level, &rays, blocked),
-        (Execution::Vector(level), false) if ShadowOrder::pays(&tables.lights) => {
-            ws.shadow_order.occluded(&tables.bvh, &tables.lights, level, &ws.shadows, blocked);
-        }
-        (Execution::Vector(level), false) => tables.bvh.occluded_packets(level, &rays, blocked),
+    let packets = coherent && tables.bvh.has_shadow_packets(transport.execution);
+    if tables.any_transparent {
+        tables.bvh.any_hit_transparent(transport.execution, &rays, blocked, &mut ws.passed);
+    } else if packets && ShadowOrder::pays(&tables.lights) {
+        ws.shadow_order.occluded(&tables.bvh, &tables.lights, transport.execution, &ws.shadows, blocked);
+    } else {
+        tables.bvh.occluded(transport.execution, &rays, packets, blocked);
     }
     if !ws.passed.is_empty() {
         dim_by_surfaces(tables, transport, ws);

@@ -19,7 +19,7 @@ use gonio_accel::{Hits, NONE, RayBatch};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, Medium, REDUCED_FROM};
 use gonio_camera::sampler::CAPACITY;
 use gonio_camera::sampler::dimension;
-use gonio_simd::{Column, Execution, F, Frame, Lanes, M, PADDING, Rgb, U, Vec3, dispatch, padded};
+use gonio_simd::{Column, F, Frame, Lanes, M, PADDING, Rgb, U, Vec3, dispatch, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -141,10 +141,7 @@ pub(super) fn walk(tables: &Tables, transport: &Transport, context: &SampleConte
         }
         dispatch!(transport.execution, l => fly(l, context, step, &mut ws.walks));
         let rays = ws.walks.rays(&ws.shadows.mask);
-        match transport.execution {
-            Execution::Scalar => tables.bvh.first_hit_within_scalar(&rays, &ws.walks.instance, &mut ws.walk_hits),
-            Execution::Vector(level) => tables.bvh.first_hit_within(level, &rays, &ws.walks.instance, &mut ws.walk_hits),
-        }
+        tables.bvh.first_hit_within(transport.execution, &rays, &ws.walks.instance, &mut ws.walk_hits);
         ws.statistics.rays += ws.walks.count as u64;
         ws.out.clear();
         ws.out.extend(ws.walk_hits.instance.iter().enumerate().filter(|(_, hit)| **hit != NONE).map(|(walk, _)| walk as u32));

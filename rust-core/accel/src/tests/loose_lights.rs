@@ -41,15 +41,15 @@ impl Lit {
 /// Hits by all kinds of traversal.
 fn all_hits(scene: &Tlas, rays: &RayBatch) -> Vec<Hits> {
     let mut alone = Hits::default();
-    scene.first_hit_scalar(rays, &mut alone);
+    scene.first_hit(Execution::Scalar, rays, false, &mut alone);
     let mut all = vec![alone];
     for level in levels() {
         for packets in [false, true] {
             let mut hits = Hits::default();
             if packets {
-                scene.first_hit_packets(level, rays, &mut hits)
+                scene.first_hit(Execution::Vector(level), rays, true, &mut hits)
             } else {
-                scene.first_hit(level, rays, &mut hits)
+                scene.first_hit(Execution::Vector(level), rays, false, &mut hits)
             }
             all.push(hits);
         }
@@ -112,7 +112,7 @@ fn rays_go_on_behind_loose_lights_as_in_the_tree() {
     let [loose, inside, _] = lit.scenes();
     for execution in Execution::all() {
         let (mut hits, mut again) = (Hits::default(), Hits::default());
-        loose.first_hit_scalar(&lit.rays.batch(), &mut hits);
+        loose.first_hit(Execution::Scalar, &lit.rays.batch(), false, &mut hits);
         let mut beyond = OwnedRays::default();
         for covered in &hits.covered {
             let i = covered.ray as usize;
@@ -126,7 +126,7 @@ fn rays_go_on_behind_loose_lights_as_in_the_tree() {
         }
         loose.first_hit_before(execution, &beyond.batch(), &hits.covered, &mut again);
         let mut traced = Hits::default();
-        inside.first_hit_scalar(&beyond.batch(), &mut traced);
+        inside.first_hit(Execution::Scalar, &beyond.batch(), false, &mut traced);
         assert_eq!(visible(&again), traced, "{}", execution.name());
         assert!(again.covered.len() > 5, "{} rays hit a second shape", again.covered.len());
     }

@@ -12,6 +12,7 @@ mod watertight;
 
 use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, Tlas};
 use fearless_simd::Level;
+use gonio_simd::Execution;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -148,6 +149,6 @@ fn levels() -> Vec<Level> {
 
 fn first_hits(scene: &Tlas, level: Level, rays: &OwnedRays) -> Hits {
     let mut hits = Hits::default();
-    scene.first_hit(level, &rays.batch(), &mut hits);
+    scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut hits);
     hits
 }
