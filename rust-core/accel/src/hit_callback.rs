@@ -1,27 +1,27 @@
 //! What a ray looks for: the callbacks that take its hits, and the queries that say where the results go.
 
-use super::ray::{Hits, NONE, TransparentHit};
+use crate::ray::{Hits, NONE, TransparentHit};
 
 /// A hit as it is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hit {
-    pub(super) t: f32,
-    pub(super) u: f32,
-    pub(super) v: f32,
-    pub(super) primitive: u32,
-    pub(super) instance: u32,
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+    pub(crate) primitive: u32,
+    pub(crate) instance: u32,
 }
 
 impl Hit {
     /// No hit up to `t_max`.
     #[inline(always)]
-    pub(super) fn miss(t_max: f32) -> Self {
+    pub(crate) fn miss(t_max: f32) -> Self {
         Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
     }
 }
 
 /// Takes the hits of one ray as they are found.
-pub(super) trait HitCallback {
+pub(crate) trait HitCallback {
     /// True when near hits shorten the search.
     const ORDERED: bool;
     /// Hits beyond this distance are not wanted.
@@ -31,7 +31,7 @@ pub(super) trait HitCallback {
 }
 
 /// What the rays of a batch look for.
-pub(super) trait RayQuery {
+pub(crate) trait RayQuery {
     /// Collects for one ray, and for the next one after that.
     type Callback: HitCallback;
     /// A callback without a ray.
@@ -43,7 +43,7 @@ pub(super) trait RayQuery {
 }
 
 /// Keeps the nearest hit.
-pub(super) struct Nearest(pub(super) Hit);
+pub(crate) struct Nearest(pub(crate) Hit);
 
 impl HitCallback for Nearest {
     const ORDERED: bool = true;
@@ -64,11 +64,11 @@ impl HitCallback for Nearest {
 }
 
 /// The nearest hit of every ray.
-pub(super) struct NearestHits<'a>(&'a mut Hits);
+pub(crate) struct NearestHits<'a>(&'a mut Hits);
 
 impl<'a> NearestHits<'a> {
     /// Of `n` rays.
-    pub(super) fn new(hits: &'a mut Hits, n: usize) -> Self {
+    pub(crate) fn new(hits: &'a mut Hits, n: usize) -> Self {
         hits.resize(n);
         NearestHits(hits)
     }
@@ -93,8 +93,8 @@ impl RayQuery for NearestHits<'_> {
 }
 
 /// Ends at the first hit.
-pub(super) struct Any {
-    pub(super) t_max: f32,
+pub(crate) struct Any {
+    pub(crate) t_max: f32,
 }
 
 impl HitCallback for Any {
@@ -112,7 +112,7 @@ impl HitCallback for Any {
 }
 
 /// 1 for every ray that hits anything, else 0.
-pub(super) struct Occluded<'a>(pub(super) &'a mut [u8]);
+pub(crate) struct Occluded<'a>(pub(crate) &'a mut [u8]);
 
 impl RayQuery for Occluded<'_> {
     type Callback = Any;
@@ -136,7 +136,7 @@ impl RayQuery for Occluded<'_> {
 const SAME_DISTANCE: f32 = 1e-5;
 
 /// Ends at the first opaque hit and keeps the transparent ones.
-pub(super) struct UntilOpaque {
+pub(crate) struct UntilOpaque {
     t_max: f32,
     ray: u32,
     hits: Vec<TransparentHit>,
@@ -177,9 +177,9 @@ impl UntilOpaque {
 }
 
 /// [`Occluded`] by opaque instances alone, and the hits of all other rays on transparent ones.
-pub(super) struct AnyHitTransparent<'a> {
-    pub(super) occluded: &'a mut [u8],
-    pub(super) transparent: &'a mut Vec<TransparentHit>,
+pub(crate) struct AnyHitTransparent<'a> {
+    pub(crate) occluded: &'a mut [u8],
+    pub(crate) transparent: &'a mut Vec<TransparentHit>,
 }
 
 impl RayQuery for AnyHitTransparent<'_> {

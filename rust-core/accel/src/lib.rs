@@ -6,51 +6,21 @@
 //! boxes are widened by a bound on the rounding errors (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong
 //! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
 
-mod blas;
-mod block_tests;
 mod build;
-mod clusters;
-mod collapse;
-mod division;
-mod emit;
-mod flat_tree;
 mod hit_callback;
-mod instance;
-mod join;
-mod lanes8;
-mod loose_lights;
-mod node;
-mod packet_query;
-mod packet_ray;
-mod packet_scene;
-mod packet_traverse;
-mod part;
-mod prepared;
-mod query;
+mod intersect;
 mod ray;
-mod refit;
-mod scalar;
-mod shape;
-mod stream;
-mod stream_ray;
-mod stream_tuner;
 #[cfg(test)]
 mod tests;
-mod tlas;
-mod tlas_input;
-mod top;
-mod transform;
 mod traverse;
-mod traverse_scene;
-mod triangle_block;
-mod wide;
+mod tree;
 
-pub use blas::{Blas, BlasMemory, Care};
-pub use block_tests::BlockTests;
-pub use instance::{Geometry, Instance};
+pub use intersect::block_tests::BlockTests;
+pub use intersect::shape::Shape;
 pub use ray::{Covered, Hits, NONE, RayBatch, TransparentHit};
-pub use shape::Shape;
-pub use tlas::Tlas;
+pub use tree::blas::{Blas, BlasMemory, Care};
+pub use tree::instance::{Geometry, Instance};
+pub use tree::tlas::Tlas;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

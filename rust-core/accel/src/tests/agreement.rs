@@ -1,7 +1,7 @@
 //! Single rays, packets and the scalar path find the same.
 
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels, scene};
-use crate::{NONE, Shape, stream_tuner::StreamTuners};
+use crate::{NONE, Shape, traverse::stream_tuner::StreamTuners};
 use gonio_simd::Execution;
 
 /// A random map: rotation by a quaternion, scale with a mirror now and then, translation.

@@ -2,7 +2,7 @@
 
 use super::oracle::crossing;
 use super::{Geometry, Instance, Mesh, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::{Blas, Cancelled, Care, Hits, NONE, Shape, Tlas, triangle_block::TriangleBlock};
+use crate::{Blas, Cancelled, Care, Hits, NONE, Shape, Tlas, intersect::triangle_block::TriangleBlock};
 use gonio_simd::Execution;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

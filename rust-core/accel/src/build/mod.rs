@@ -1,0 +1,11 @@
+//! Construction of trees: division into parts, a binary tree for each, the collapse to eight children.
+
+mod clusters;
+pub(crate) mod collapse;
+pub(crate) mod division;
+mod emit;
+mod flat_tree;
+mod join;
+mod part;
+mod top;
+pub(crate) mod wide_tree;
