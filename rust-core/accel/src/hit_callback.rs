@@ -1,24 +1,6 @@
 //! What a ray looks for: the callbacks that take its hits, and the queries that say where the results go.
 
-use crate::ray::{Hits, NONE, TransparentHit};
-
-/// A hit as it is found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Hit {
-    pub(crate) t: f32,
-    pub(crate) u: f32,
-    pub(crate) v: f32,
-    pub(crate) primitive: u32,
-    pub(crate) instance: u32,
-}
-
-impl Hit {
-    /// No hit up to `t_max`.
-    #[inline(always)]
-    pub(crate) fn miss(t_max: f32) -> Self {
-        Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
-    }
-}
+use crate::ray::{Hit, Hits, NONE, TransparentHit};
 
 /// Takes the hits of one ray as they are found.
 pub(crate) trait HitCallback {

@@ -7,6 +7,7 @@
 //! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
 
 mod build;
+mod cancelled;
 mod hit_callback;
 mod intersect;
 mod ray;
@@ -15,30 +16,10 @@ mod tests;
 mod traverse;
 mod tree;
 
+pub use cancelled::Cancelled;
 pub use intersect::block_tests::BlockTests;
 pub use intersect::shape::Shape;
 pub use ray::{Covered, Hits, NONE, RayBatch, TransparentHit};
 pub use tree::blas::{Blas, BlasMemory, Care};
 pub use tree::instance::{Geometry, Instance};
 pub use tree::tlas::Tlas;
-
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The build was cancelled through its flag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cancelled;
-
-impl Cancelled {
-    /// Fails once the flag is set.
-    fn check(cancel: &AtomicBool) -> Result<(), Cancelled> {
-        if cancel.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
-    }
-}
-
-impl std::fmt::Display for Cancelled {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str("cancelled")
-    }
-}
-
-impl std::error::Error for Cancelled {}

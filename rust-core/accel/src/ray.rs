@@ -1,6 +1,5 @@
 //! Batches of rays and of hits, one entry a ray.
 
-use crate::hit_callback::Hit;
 use crate::intersect::prepared::Padded;
 
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
@@ -59,6 +58,24 @@ impl<'a> RayBatch<'a> {
             t_max: self.t_max,
             mask: &self.mask[..n],
         }
+    }
+}
+
+/// A hit as it is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+    pub(crate) primitive: u32,
+    pub(crate) instance: u32,
+}
+
+impl Hit {
+    /// No hit up to `t_max`.
+    #[inline(always)]
+    pub(crate) fn miss(t_max: f32) -> Self {
+        Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Binary trees by obvhs: locally ordered clustering, then reinsertion.
 
-use super::wide_tree::Effort;
-use crate::Cancelled;
+use super::effort::Effort;
+use crate::cancelled::Cancelled;
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;

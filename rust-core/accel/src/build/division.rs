@@ -2,7 +2,7 @@
 //!
 //! Parts are runs of grid cells along a Morton curve (Morton 1966). Nothing here depends on the number of threads.
 
-use crate::Cancelled;
+use crate::cancelled::Cancelled;
 use crate::tree::node::{Bounds, MAX_INDEX};
 use glam::{UVec3, Vec3A};
 use obvhs::aabb::Aabb;

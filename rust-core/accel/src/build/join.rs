@@ -2,7 +2,7 @@
 
 use super::collapse::LeafMaker;
 use super::emit::Wide;
-use crate::Cancelled;
+use crate::cancelled::Cancelled;
 use crate::ray::NONE;
 use crate::tree::node::{Node, WIDTH};
 use rayon::prelude::*;

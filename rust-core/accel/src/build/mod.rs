@@ -3,6 +3,7 @@
 mod clusters;
 pub(crate) mod collapse;
 pub(crate) mod division;
+pub(crate) mod effort;
 mod emit;
 mod flat_tree;
 mod join;

@@ -3,9 +3,9 @@
 use super::clusters::Clusters;
 use super::collapse::{Forest, LeafRule, plan};
 use super::division::{Item, Source};
+use super::effort::Effort;
 use super::flat_tree::{FlatNode, balanced, children, flatten};
-use super::wide_tree::Effort;
-use crate::Cancelled;
+use crate::cancelled::Cancelled;
 use obvhs::aabb::Aabb;
 use std::collections::BinaryHeap;
 use std::ops::Range;

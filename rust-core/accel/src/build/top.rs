@@ -2,11 +2,11 @@
 
 use super::clusters::Clusters;
 use super::collapse::{Forest, LeafRule, plan};
+use super::effort::Effort;
 use super::emit::{Pending, Wide};
 use super::flat_tree::{FlatNode, balanced, flatten, root};
 use super::part::Piece;
-use super::wide_tree::Effort;
-use crate::Cancelled;
+use crate::cancelled::Cancelled;
 use crate::tree::node::{Kind, Node};
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;

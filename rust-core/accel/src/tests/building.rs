@@ -3,7 +3,8 @@
 use super::{Mesh, Random};
 use crate::build::collapse::{LeafMaker, LeafRule};
 use crate::build::division::{PART, Source, divide_all};
-use crate::build::wide_tree::{Effort, WideTree, build, shares};
+use crate::build::effort::Effort;
+use crate::build::wide_tree::{WideTree, build, shares};
 use crate::ray::NONE;
 use crate::tree::node::{Bounds, ChildRef, Kind, MAX_DEPTH, WIDTH};
 use crate::{Blas, Cancelled, Care};

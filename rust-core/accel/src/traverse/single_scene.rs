@@ -1,11 +1,11 @@
 //! Traversal of both levels with one ray.
 
 use super::single::{Stack, Visitor, traverse};
-use crate::hit_callback::{Hit, HitCallback};
+use crate::hit_callback::HitCallback;
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
-use crate::ray::RayBatch;
+use crate::ray::{Hit, RayBatch};
 use crate::tree::blas::Blas;
 use crate::tree::instance::{Geometry, InstanceRecord, Owner};
 use crate::tree::node::{ChildRef, Kind, WIDTH};

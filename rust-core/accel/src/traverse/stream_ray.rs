@@ -1,13 +1,13 @@
 //! A ray in a stream: its traversal state and its steps. Each step returns the number of the next queue, so that no step branches on it.
 
-use crate::hit_callback::{Hit, HitCallback, RayQuery};
+use crate::hit_callback::{HitCallback, RayQuery};
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::intersect::wide::{Wide, intersect_boxes};
-use crate::ray::{NONE, RayBatch};
+use crate::ray::{Hit, NONE, RayBatch};
 use crate::tree::blas::Blas;
-use crate::tree::instance::Geometry;
+use crate::tree::instance::{Geometry, InstanceRecord};
 use crate::tree::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
 use crate::tree::tlas::Tlas;
 use fearless_simd::{f32x4, prelude::*, u32x8};
@@ -20,6 +20,10 @@ const STACK_SIZE: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 1 + WIDTH;
 /// and a cache line, the two columns of a ray differ in them, and those of its neighbours too.
 const ROOM: usize = (4096 + 2048 + 64) / size_of::<u32>();
 const _: () = assert!(STACK_SIZE <= ROOM);
+
+/// Bytes of what a reference of each kind refers to.
+const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<InstanceRecord>(), 0, BLOCK, size_of::<Node>(), BLOCK, 0, 0];
+const BLOCK: usize = size_of::<TriangleBlock>();
 
 /// Bits of a distance that the slot takes while children are sorted.
 const SLOT_BITS: u32 = WIDTH as u32 - 1;
@@ -141,7 +145,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
                 self.current = ChildRef(stack.child[self.stacked]);
                 let kind = self.current.kind();
                 // Other rays take their steps before this one takes its next.
-                prefetch_at(self.addresses[kind].wrapping_add(Kind::SIZES[kind] * self.current.index()), size_of::<Node>());
+                prefetch_at(self.addresses[kind].wrapping_add(SIZES[kind] * self.current.index()), size_of::<Node>());
                 return kind;
             }
         }

@@ -1,11 +1,11 @@
 //! The bottom-level acceleration structure (BLAS): the tree of one triangle mesh.
 
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
-use super::refit::sah_cost;
-use crate::Cancelled;
 use crate::build::collapse::LeafMaker;
 use crate::build::division::Source;
-use crate::build::wide_tree::{Effort, WideTree, build};
+use crate::build::effort::Effort;
+use crate::build::wide_tree::{WideTree, build};
+use crate::cancelled::Cancelled;
 use crate::intersect::triangle_block::TriangleBlock;
 use glam::Vec3A;
 use gonio_simd::prefetch;
@@ -26,7 +26,7 @@ pub struct Blas {
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
     pub(crate) outline: Vec<Bounds>,
     pub(crate) triangles: usize,
-    /// Surface area heuristic cost (`refit.rs`), as it was built.
+    /// Surface area heuristic cost ([`sah_cost`]), as it was built.
     pub(crate) sah_cost: f32,
 }
 
@@ -119,6 +119,13 @@ pub(crate) fn outline(nodes: &[Node], bounds: Bounds) -> Vec<Bounds> {
         outline.extend((0..WIDTH).map(|slot| (node.bounds_of(slot), node.children[slot])).filter(|(bounds, _)| !bounds.is_empty()));
     }
     outline.into_iter().map(|(bounds, _)| bounds).filter(|bounds| !bounds.is_empty()).collect()
+}
+
+/// Surface area heuristic: the boxes that a ray through the root's box meets on average, from the areas of all boxes over that of the whole.
+pub(crate) fn sah_cost(nodes: &[Node], bounds: &Bounds) -> f32 {
+    let areas: f32 =
+        nodes.iter().flat_map(|node| (0..WIDTH).map(|slot| node.bounds_of(slot))).filter(|b| !b.is_empty()).map(|b| b.half_area()).sum();
+    areas / bounds.half_area().max(f32::MIN_POSITIVE)
 }
 
 /// A triangle's points, if the mesh has them all.

@@ -1,9 +1,10 @@
 //! Placed geometry: what the caller says, and the record the traversal reads.
 
-use crate::hit_callback::{Hit, HitCallback};
+use crate::hit_callback::HitCallback;
 use crate::intersect::prepared::Padded;
 use crate::intersect::shape::Shape;
 use crate::intersect::transform::Affine;
+use crate::ray::Hit;
 
 /// What an instance shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,5 @@
 //! The 8-wide node shared by both levels of the tree.
 
-use super::instance::InstanceRecord;
-use crate::intersect::triangle_block::TriangleBlock;
 use bytemuck::{Pod, Zeroable};
 
 /// Children of a node, and triangles of a block.
@@ -37,13 +35,6 @@ pub(crate) enum Kind {
     /// The next entry of the stack.
     Next = 6,
 }
-
-impl Kind {
-    /// Bytes of what a reference of each kind refers to.
-    pub(crate) const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<InstanceRecord>(), 0, BLOCK, size_of::<Node>(), BLOCK, 0, 0];
-}
-
-const BLOCK: usize = size_of::<TriangleBlock>();
 
 /// Kinds that three bits can tell apart.
 pub(crate) const KINDS: usize = 8;

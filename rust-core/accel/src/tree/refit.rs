@@ -1,6 +1,6 @@
 //! The tree of a mesh whose points moved, fitted to them rather than built anew.
 
-use super::blas::{Blas, corners, outline, triangle_bounds};
+use super::blas::{Blas, corners, outline, sah_cost, triangle_bounds};
 use super::node::{Bounds, ChildRef, Node, WIDTH};
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::ray::NONE;
@@ -64,11 +64,4 @@ fn fit_nodes(nodes: &[Node], leaves: &[Bounds]) -> (Vec<Node>, Bounds) {
         }
     }
     (nodes, boxes[0])
-}
-
-/// Surface area heuristic: the boxes that a ray through the root's box meets on average, from the areas of all boxes over that of the whole.
-pub(crate) fn sah_cost(nodes: &[Node], bounds: &Bounds) -> f32 {
-    let areas: f32 =
-        nodes.iter().flat_map(|node| (0..WIDTH).map(|slot| node.bounds_of(slot))).filter(|b| !b.is_empty()).map(|b| b.half_area()).sum();
-    areas / bounds.half_area().max(f32::MIN_POSITIVE)
 }
