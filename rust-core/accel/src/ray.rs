@@ -1,7 +1,6 @@
 //! Batches of rays and of hits, one entry a ray.
 
-use super::collector::Hit;
-use super::prepared::Padded;
+use crate::intersect::prepared::Padded;
 
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
 pub const NONE: u32 = u32::MAX;
@@ -37,19 +36,19 @@ impl<'a> RayBatch<'a> {
 
     /// The start point of a ray.
     #[inline(always)]
-    pub(super) fn origin_of(&self, i: usize) -> Padded {
+    pub(crate) fn origin_of(&self, i: usize) -> Padded {
         [self.origin[0][i], self.origin[1][i], self.origin[2][i], 0.0]
     }
 
     /// The direction of a ray.
     #[inline(always)]
-    pub(super) fn direction_of(&self, i: usize) -> Padded {
+    pub(crate) fn direction_of(&self, i: usize) -> Padded {
         [self.direction[0][i], self.direction[1][i], self.direction[2][i], 0.0]
     }
 
     /// Cuts all columns to one length, so that later indexing is checked once.
     #[inline(always)]
-    pub(super) fn same_length(self) -> Self {
+    pub(crate) fn same_length(self) -> Self {
         let n = self.len();
         let cut = |column: &'a [f32]| &column[..n];
         RayBatch {
@@ -59,6 +58,24 @@ impl<'a> RayBatch<'a> {
             t_max: self.t_max,
             mask: &self.mask[..n],
         }
+    }
+}
+
+/// A hit as it is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+    pub(crate) primitive: u32,
+    pub(crate) instance: u32,
+}
+
+impl Hit {
+    /// No hit up to `t_max`.
+    #[inline(always)]
+    pub(crate) fn miss(t_max: f32) -> Self {
+        Hit { t: t_max, u: 0.0, v: 0.0, primitive: NONE, instance: NONE }
     }
 }
 
@@ -75,16 +92,16 @@ pub struct Hits {
     pub primitive: Vec<u32>,
     /// The instance's number, [`NONE`] for a miss.
     pub instance: Vec<u32>,
-    /// What the rays that hit a shape apart from the tree would hit without all of those, in the order of the rays.
+    /// What the rays that hit a loose light would hit without all of those, in the order of the rays.
     pub covered: Vec<Covered>,
 }
 
-/// The hit of a ray, or its miss, behind shapes that stand apart from the tree; as in [`Hits`].
+/// The hit of a ray, or its miss, behind loose lights; as in [`Hits`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covered {
     /// The ray's number in its batch.
-    pub(super) ray: u32,
-    pub(super) hit: Hit,
+    pub(crate) ray: u32,
+    pub(crate) hit: Hit,
 }
 
 impl Hits {
@@ -96,13 +113,13 @@ impl Hits {
 
     /// An entry.
     #[inline(always)]
-    pub(super) fn get(&self, i: usize) -> Hit {
+    pub(crate) fn get(&self, i: usize) -> Hit {
         Hit { t: self.t[i], u: self.u[i], v: self.v[i], primitive: self.primitive[i], instance: self.instance[i] }
     }
 
     /// Writes an entry.
     #[inline(always)]
-    pub(super) fn set(&mut self, i: usize, hit: &Hit) {
+    pub(crate) fn set(&mut self, i: usize, hit: &Hit) {
         (self.t[i], self.u[i], self.v[i], self.primitive[i], self.instance[i]) = (hit.t, hit.u, hit.v, hit.primitive, hit.instance);
     }
 
@@ -118,7 +135,7 @@ impl Hits {
 
 /// A hit on a transparent instance, on the way of a ray that no opaque surface blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PassedHit {
+pub struct TransparentHit {
     /// The ray's number in its batch.
     pub ray: u32,
     /// The instance's number.
@@ -133,9 +150,9 @@ pub struct PassedHit {
     pub t: f32,
 }
 
-impl PassedHit {
+impl TransparentHit {
     /// Whether the hit is on an edge of its triangle, where a neighbour is hit as well.
-    pub(super) fn is_on_edge(&self) -> bool {
+    pub(crate) fn is_on_edge(&self) -> bool {
         self.u <= 0.0 || self.v <= 0.0 || self.u + self.v >= 1.0 - f32::EPSILON
     }
 }

@@ -5,7 +5,7 @@ use gonio::accel::{Hits, NONE, RayBatch};
 use gonio::camera::CameraTable;
 use gonio::geometry::{SurfacePoint, spawn_to};
 use gonio::transport::{Tables, kernels, ray_mask};
-use gonio_simd::{F, M, One, U, Vec3};
+use gonio_simd::{Execution, F, M, One, U, Vec3};
 
 /// Rays that own their columns.
 #[derive(Clone, Debug, Default)]
@@ -89,7 +89,7 @@ impl Rays {
     /// Surface points that the rays hit, and the normals on the rays' side.
     fn surfaces(&self, tables: &Tables) -> Vec<(SurfacePoint<One>, Vec3<One>)> {
         let mut hits = Hits::default();
-        tables.bvh.first_hit_scalar(&self.batch(0, self.len()), &mut hits);
+        tables.bvh.first_hit(Execution::Scalar, &self.batch(0, self.len()), false, &mut hits);
         let at_surface = (0..self.len()).filter(|i| hits.instance[*i] != NONE && hits.instance[*i] < tables.first_light_instance);
         let point = |i: usize| {
             let (instance, primitive) = (U(hits.instance[i]), U(hits.primitive[i]));

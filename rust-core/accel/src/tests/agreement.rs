@@ -1,7 +1,8 @@
 //! Single rays, packets and the scalar path find the same.
 
-use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, SceneBvh, instance, levels, scene};
-use crate::{NONE, Shape, trial::Trials};
+use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels, scene};
+use crate::{NONE, Shape, traverse::stream_tuner::StreamTuners};
+use gonio_simd::Execution;
 
 /// A random map: rotation by a quaternion, scale with a mirror now and then, translation.
 pub(super) fn random_placement(random: &mut Random) -> [[f64; 4]; 3] {
@@ -24,7 +25,7 @@ pub(super) fn random_placement(random: &mut Random) -> [[f64; 4]; 3] {
     m
 }
 
-fn busy_scene(random: &mut Random, n: usize) -> (SceneBvh, Vec<Instance>) {
+fn busy_scene(random: &mut Random, n: usize) -> (Tlas, Vec<Instance>) {
     let meshes: Vec<_> = [(1, 1.0), (40, 0.5), (3000, 0.1)].map(|(n, size)| Mesh::soup(random, n, 1.0, size).blas()).into();
     let shapes = [Shape::Rectangle, Shape::Disk, Shape::Sphere, Shape::Cylinder];
     let instances: Vec<Instance> = (0..n)
@@ -49,12 +50,12 @@ fn packets_find_what_single_rays_find() {
         for level in levels() {
             let single = super::first_hits(&scene, level, &rays);
             let mut packets = Hits::default();
-            scene.first_hit_packets(level, &rays.batch(), &mut packets);
+            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
             assert_eq!(single, packets, "{level:?}");
             assert!(single.instance.iter().filter(|&&i| i != NONE).count() > 2000);
             let (mut a, mut b) = (vec![9; 20_011], vec![9; 20_011]);
-            scene.occluded(level, &rays.batch(), &mut a);
-            scene.occluded_packets(level, &rays.batch(), &mut b);
+            scene.occluded(Execution::Vector(level), &rays.batch(), false, &mut a);
+            scene.occluded(Execution::Vector(level), &rays.batch(), true, &mut b);
             assert_eq!(a, b, "{level:?}");
             let hit: Vec<u8> = single.instance.iter().map(|&i| u8::from(i != NONE)).collect();
             assert_eq!(a, hit, "{level:?}");
@@ -63,45 +64,45 @@ fn packets_find_what_single_rays_find() {
 }
 
 #[test]
-fn rays_that_go_together_find_what_each_finds_alone() {
+fn rays_in_streams_find_what_single_rays_find() {
     let mut random = Random(14);
     let (scene, _) = busy_scene(&mut random, 300);
     let mut rays = OwnedRays::random(&mut random, 3001, 1.0, false);
     for i in (0..3001).step_by(7) {
         rays.direction[0][i] = f32::NAN;
     }
-    // A whole run of rays that hit nothing, longer than what goes together.
+    // A whole run of rays that hit nothing, longer than a stream.
     rays.direction[1][100..160].fill(f32::INFINITY);
     for level in levels() {
-        let (mut together, mut alone) = (Hits::default(), Hits::default());
-        scene.first_hit(level, &rays.batch(), &mut together);
+        let (mut streamed, mut single) = (Hits::default(), Hits::default());
+        scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut streamed);
         let mut blocked = vec![9; 3001];
-        scene.occluded(level, &rays.batch(), &mut blocked);
+        scene.occluded(Execution::Vector(level), &rays.batch(), false, &mut blocked);
         for (i, is_blocked) in blocked.iter().enumerate() {
-            scene.first_hit(level, &rays.part(i, i + 1), &mut alone);
-            let [a, b] = [(&together, i), (&alone, 0)]
+            scene.first_hit(Execution::Vector(level), &rays.part(i, i + 1), false, &mut single);
+            let [a, b] = [(&streamed, i), (&single, 0)]
                 .map(|(hits, i)| ([hits.t[i], hits.u[i], hits.v[i]].map(f32::to_bits), hits.primitive[i], hits.instance[i]));
             assert_eq!(a, b, "ray {i}, {level:?}");
-            assert_eq!(*is_blocked, u8::from(alone.instance[0] != NONE), "ray {i}, {level:?}");
+            assert_eq!(*is_blocked, u8::from(single.instance[0] != NONE), "ray {i}, {level:?}");
         }
     }
 }
 
 #[test]
-fn rays_find_the_same_while_ways_are_tried_and_after() {
+fn rays_find_the_same_while_modes_are_measured_and_after() {
     let mut random = Random(15);
-    let (together, _) = busy_scene(&mut random, 300);
+    let (streamed, _) = busy_scene(&mut random, 300);
     for n in [700, 2113] {
         let rays = OwnedRays::random(&mut random, n, 1.0, false);
         for level in levels() {
-            let tried = SceneBvh { trials: Trials::default(), ..together.clone() };
-            let known = super::first_hits(&together, level, &rays);
+            let tried = Tlas { tuners: StreamTuners::default(), ..streamed.clone() };
+            let known = super::first_hits(&streamed, level, &rays);
             let mut blocked = vec![9; n];
-            together.occluded(level, &rays.batch(), &mut blocked);
+            streamed.occluded(Execution::Vector(level), &rays.batch(), false, &mut blocked);
             for turn in 0..40 {
                 assert_eq!(super::first_hits(&tried, level, &rays), known, "turn {turn}, {level:?}");
                 let mut found = vec![9; n];
-                tried.occluded(level, &rays.batch(), &mut found);
+                tried.occluded(Execution::Vector(level), &rays.batch(), false, &mut found);
                 assert_eq!(found, blocked, "turn {turn}, {level:?}");
             }
         }
@@ -114,9 +115,9 @@ fn the_scalar_path_finds_the_same_up_to_rounding() {
     let (scene, _) = busy_scene(&mut random, 300);
     let rays = OwnedRays::random(&mut random, 20_000, 1.0, true);
     let mut scalar = Hits::default();
-    scene.first_hit_scalar(&rays.batch(), &mut scalar);
+    scene.first_hit(Execution::Scalar, &rays.batch(), false, &mut scalar);
     let mut blocked = vec![0; 20_000];
-    scene.occluded_scalar(&rays.batch(), &mut blocked);
+    scene.occluded(Execution::Scalar, &rays.batch(), false, &mut blocked);
     for level in levels() {
         let single = super::first_hits(&scene, level, &rays);
         let differ =
@@ -139,8 +140,8 @@ fn passed_hits_are_all_transparent_hits_of_rays_that_no_opaque_surface_blocks() 
     let rays = OwnedRays::random(&mut random, 5_000, 1.0, false);
     for level in levels() {
         let (mut expected, mut blocked, mut passed) = (vec![0; 5_000], vec![0; 5_000], Vec::new());
-        opaque.occluded(level, &rays.batch(), &mut expected);
-        everything.blocked_or_passed(level, &rays.batch(), &mut blocked, &mut passed);
+        opaque.occluded(Execution::Vector(level), &rays.batch(), false, &mut expected);
+        everything.any_hit_transparent(Execution::Vector(level), &rays.batch(), &mut blocked, &mut passed);
         assert_eq!(blocked, expected);
         assert!(passed.iter().all(|hit| blocked[hit.ray as usize] == 0 && instances[hit.instance as usize].transparent));
         // The nearest of a ray's passed hits is its first hit on transparent instances alone.
@@ -150,7 +151,7 @@ fn passed_hits_are_all_transparent_hits_of_rays_that_no_opaque_surface_blocks() 
             assert_eq!(nearest, first.t[i]);
         }
         let (mut scalar_blocked, mut scalar_passed) = (vec![0; 5_000], Vec::new());
-        everything.blocked_or_passed_scalar(&rays.batch(), &mut scalar_blocked, &mut scalar_passed);
+        everything.any_hit_transparent(Execution::Scalar, &rays.batch(), &mut scalar_blocked, &mut scalar_passed);
         assert!(scalar_passed.len().abs_diff(passed.len()) <= 5);
     }
 }
@@ -173,10 +174,10 @@ fn an_edge_that_two_triangles_share_is_passed_once() {
     }
     for level in levels() {
         let (mut blocked, mut passed) = (vec![0; 101], Vec::new());
-        panes.blocked_or_passed(level, &rays.batch(), &mut blocked, &mut passed);
+        panes.any_hit_transparent(Execution::Vector(level), &rays.batch(), &mut blocked, &mut passed);
         assert_eq!(passed.len(), 2 * 101);
         passed.clear();
-        panes.blocked_or_passed_scalar(&rays.batch(), &mut blocked, &mut passed);
+        panes.any_hit_transparent(Execution::Scalar, &rays.batch(), &mut blocked, &mut passed);
         assert_eq!(passed.len(), 2 * 101);
     }
 }

@@ -1,11 +1,12 @@
 //! What every built tree must be, whatever it is built over and by how many threads.
 
 use super::{Mesh, Random};
-use crate::build::{Effort, WideTree, build, shares};
-use crate::collapse::{LeafMaker, LeafRule};
-use crate::division::{PART, Source, divide_all};
-use crate::node::{Bounds, ChildRef, Kind, MAX_DEPTH, WIDTH};
+use crate::build::collapse::{LeafMaker, LeafRule};
+use crate::build::division::{PART, Source, divide_all};
+use crate::build::effort::Effort;
+use crate::build::wide_tree::{WideTree, build, shares};
 use crate::ray::NONE;
+use crate::tree::node::{Bounds, ChildRef, Kind, MAX_DEPTH, WIDTH};
 use crate::{Blas, Cancelled, Care};
 use obvhs::aabb::Aabb;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -2,6 +2,7 @@
 
 use super::{Hits, Mesh, OwnedRays, Random, first_hits, levels};
 use crate::NONE;
+use gonio_simd::Execution;
 
 /// A soup with points, lines, NaN, infinite and huge triangles and missing points among it hits what it hits without them.
 #[test]
@@ -48,12 +49,12 @@ fn unusable_rays_hit_nothing() {
     for level in levels() {
         let mut hits = first_hits(&scene, level, &rays);
         assert!(hits.instance.iter().all(|&i| i == NONE));
-        scene.first_hit_packets(level, &rays.batch(), &mut hits);
+        scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut hits);
         assert!(hits.instance.iter().all(|&i| i == NONE));
         let mut out = vec![1; rays.mask.len()];
-        scene.occluded(level, &rays.batch(), &mut out);
+        scene.occluded(Execution::Vector(level), &rays.batch(), false, &mut out);
         assert!(out.iter().all(|&o| o == 0));
-        scene.occluded_packets(level, &rays.batch(), &mut out);
+        scene.occluded(Execution::Vector(level), &rays.batch(), true, &mut out);
         assert!(out.iter().all(|&o| o == 0));
     }
 }
@@ -83,7 +84,7 @@ fn trees_without_good_splits_stay_correct() {
         let hits = first_hits(&stacked.scene(), level, &rays);
         assert!(hits.primitive.iter().all(|&p| p == 0), "the lowest of equal triangles is named");
         let mut packets = Hits::default();
-        stacked.scene().first_hit_packets(level, &rays.batch(), &mut packets);
+        stacked.scene().first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
         assert_eq!(packets, hits);
         let hits = first_hits(&nested.scene(), level, &rays);
         assert_eq!(super::oracle::disagreements(&nested, &rays, &hits), 0);

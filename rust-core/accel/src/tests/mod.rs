@@ -1,17 +1,18 @@
 //! Tests of the accelerator against an oracle in f64, and of all execution paths against each other.
 
 mod agreement;
-mod apart;
 mod building;
 mod degenerate;
+mod loose_lights;
 mod oracle;
 mod refit;
 mod robust;
 mod scenes;
 mod watertight;
 
-use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, SceneBvh};
+use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, Tlas};
 use fearless_simd::Level;
+use gonio_simd::Execution;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -118,7 +119,7 @@ impl Mesh {
     }
 
     /// The mesh alone in a scene.
-    fn scene(&self) -> SceneBvh {
+    fn scene(&self) -> Tlas {
         scene(vec![self.blas()], &[instance(Geometry::Mesh(0), Instance::IDENTITY)])
     }
 }
@@ -127,10 +128,10 @@ fn instance(geometry: Geometry, object_to_world: [[f64; 4]; 3]) -> Instance {
     Instance { geometry, object_to_world, mask: 1, transparent: false }
 }
 
-/// A scene whose rays go together however small it is.
-fn scene(meshes: Vec<Arc<Blas>>, instances: &[Instance]) -> SceneBvh {
-    let scene = SceneBvh::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled");
-    scene.trials.settle(true);
+/// A scene whose rays go in streams however small it is.
+fn scene(meshes: Vec<Arc<Blas>>, instances: &[Instance]) -> Tlas {
+    let scene = Tlas::build(meshes, instances, &AtomicBool::new(false)).expect("not cancelled");
+    scene.tuners.settle(true);
     scene
 }
 
@@ -146,8 +147,8 @@ fn levels() -> Vec<Level> {
     levels
 }
 
-fn first_hits(scene: &SceneBvh, level: Level, rays: &OwnedRays) -> Hits {
+fn first_hits(scene: &Tlas, level: Level, rays: &OwnedRays) -> Hits {
     let mut hits = Hits::default();
-    scene.first_hit(level, &rays.batch(), &mut hits);
+    scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut hits);
     hits
 }

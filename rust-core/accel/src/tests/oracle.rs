@@ -2,6 +2,7 @@
 
 use super::{Hits, Mesh, OwnedRays};
 use crate::NONE;
+use gonio_simd::Execution;
 
 /// The nearest hit: distance, triangle, and how far inside its triangle it is (the least barycentric coordinate).
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,7 @@ fn soups_match_the_oracle() {
             assert!(wrong <= 2, "{wrong} of 4000 rays differ, {n} triangles, scale {scale}, {level:?}");
         }
         let mut hits = Hits::default();
-        scene.first_hit_scalar(&rays.batch(), &mut hits);
+        scene.first_hit(Execution::Scalar, &rays.batch(), false, &mut hits);
         assert!(disagreements(&mesh, &rays, &hits) <= 2);
     }
 }

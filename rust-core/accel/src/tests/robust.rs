@@ -2,6 +2,7 @@
 
 use super::{Mesh, OwnedRays, Random, first_hits, levels};
 use crate::NONE;
+use gonio_simd::Execution;
 
 #[test]
 fn rays_with_zero_components_hit_boxes_they_start_on_the_border_of() {
@@ -23,7 +24,7 @@ fn rays_with_zero_components_hit_boxes_they_start_on_the_border_of() {
     for level in levels() {
         let mut hits = first_hits(&scene, level, &rays);
         assert!(hits.instance.iter().all(|&i| i != NONE), "{level:?}");
-        scene.first_hit_packets(level, &rays.batch(), &mut hits);
+        scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut hits);
         assert!(hits.instance.iter().all(|&i| i != NONE), "{level:?}");
     }
 }

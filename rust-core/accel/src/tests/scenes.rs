@@ -2,7 +2,8 @@
 
 use super::oracle::crossing;
 use super::{Geometry, Instance, Mesh, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::{Blas, Cancelled, Care, Hits, NONE, SceneBvh, Shape, triangle_block::TriangleBlock};
+use crate::{Blas, Cancelled, Care, Hits, NONE, Shape, Tlas, intersect::triangle_block::TriangleBlock};
+use gonio_simd::Execution;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -55,7 +56,7 @@ fn triangles_of_small_meshes_are_hit_in_world_space() {
     let all = first_hits(&scene, levels()[0], &rays);
     let (mut met, mut alone) = (0, Hits::default());
     for i in (0..3000).filter(|i| all.instance[*i] != NONE) {
-        scene.first_hit_within(levels()[0], &rays.part(i, i + 1), &all.instance[i..=i], &mut alone);
+        scene.first_hit_within(Execution::Vector(levels()[0]), &rays.part(i, i + 1), &all.instance[i..=i], &mut alone);
         let near = |a: f32, b: f32| (a - b).abs() <= 1e-4 * (1.0 + b.abs());
         let same = all.primitive[i] == alone.primitive[0] && near(all.u[i], alone.u[0]) && near(all.v[i], alone.v[0]);
         met += usize::from(near(all.t[i], alone.t[0]) && same);
@@ -98,7 +99,7 @@ fn masks_hide_instances() {
     for level in levels() {
         let mut hits = first_hits(&scene, level, &rays);
         assert_eq!(hits.instance, expected);
-        scene.first_hit_packets(level, &rays.batch(), &mut hits);
+        scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut hits);
         assert_eq!(hits.instance, expected);
     }
 }
@@ -145,13 +146,13 @@ fn nothing_is_hit_in_empty_scenes() {
     for scene in [scene(Vec::new(), &[]), scene(vec![empty, triangle], &hidden)] {
         let mut hits = first_hits(&scene, levels()[0], &rays);
         assert!(hits.instance.iter().all(|&i| i == NONE) && hits.t == rays.t_max);
-        scene.first_hit_packets(levels()[0], &rays.batch(), &mut hits);
+        scene.first_hit(Execution::Vector(levels()[0]), &rays.batch(), true, &mut hits);
         assert!(hits.instance.iter().all(|&i| i == NONE));
-        scene.first_hit_scalar(&rays.batch(), &mut hits);
+        scene.first_hit(Execution::Scalar, &rays.batch(), false, &mut hits);
         assert!(hits.instance.iter().all(|&i| i == NONE));
     }
     let mut hits = Hits::default();
-    scene(Vec::new(), &[]).first_hit(levels()[0], &OwnedRays::default().batch(), &mut hits);
+    scene(Vec::new(), &[]).first_hit(Execution::Vector(levels()[0]), &OwnedRays::default().batch(), false, &mut hits);
     assert_eq!(hits, Hits::default());
 }
 
@@ -174,7 +175,7 @@ fn instances_are_cheap_and_builds_can_be_cancelled() {
     let bytes = scene(Vec::new(), &instances).memory() / instances.len();
     assert!(bytes < 200, "{bytes} bytes an instance");
     let cancel = AtomicBool::new(true);
-    assert_eq!(SceneBvh::build(Vec::new(), &instances, &cancel).err(), Some(Cancelled));
+    assert_eq!(Tlas::build(Vec::new(), &instances, &cancel).err(), Some(Cancelled));
     let mesh = Mesh::soup(&mut random, 1000, 1.0, 0.1);
     assert_eq!(Blas::build(&mesh.positions, &mesh.triangles, Care::Quick, &cancel).err(), Some(Cancelled));
 }

@@ -2,6 +2,7 @@
 
 use super::{Hits, Mesh, OwnedRays, Random, levels};
 use crate::NONE;
+use gonio_simd::Execution;
 use std::collections::HashMap;
 
 /// An octahedron with every triangle cut in four, `levels` times, its points on the unit sphere.
@@ -79,11 +80,11 @@ fn no_ray_slips_through_a_closed_mesh() {
         for level in levels() {
             let mut hits = super::first_hits(&scene, level, &rays);
             assert_eq!(leaks(&hits), 0, "single, {subdivisions} subdivisions, scale {scale}, {level:?}");
-            scene.first_hit_packets(level, &rays.batch(), &mut hits);
+            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut hits);
             assert_eq!(leaks(&hits), 0, "packets, {subdivisions} subdivisions, scale {scale}, {level:?}");
         }
         let mut hits = Hits::default();
-        scene.first_hit_scalar(&rays.batch(), &mut hits);
+        scene.first_hit(Execution::Scalar, &rays.batch(), false, &mut hits);
         assert_eq!(leaks(&hits), 0, "scalar, {subdivisions} subdivisions, scale {scale}");
     }
 }
@@ -123,7 +124,7 @@ fn grids_have_no_gaps_for_axis_parallel_rays() {
         for level in levels() {
             let mut hits = super::first_hits(&scene, level, &rays);
             assert_eq!(leaks(&hits), 0, "single, axis {axis}, {level:?}");
-            scene.first_hit_packets(level, &rays.batch(), &mut hits);
+            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut hits);
             assert_eq!(leaks(&hits), 0, "packets, axis {axis}, {level:?}");
         }
     }

@@ -67,11 +67,7 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
 impl Traversal {
     fn nearest(&mut self, execution: Execution, first: usize) {
         let (bvh, rays) = (&self.scene.tables.bvh, self.rays.batch(first, BATCH));
-        match execution {
-            Execution::Scalar => bvh.first_hit_scalar(&rays, &mut self.hits),
-            Execution::Vector(level) if self.packets => bvh.first_hit_packets(level, &rays, &mut self.hits),
-            Execution::Vector(level) => bvh.first_hit(level, &rays, &mut self.hits),
-        }
+        bvh.first_hit(execution, &rays, self.packets, &mut self.hits);
         let hits = self.hits.t.iter().zip(&self.hits.instance).filter(|(_, instance)| **instance != gonio::accel::NONE);
         for (t, _) in hits {
             self.found = (self.found.0 + 1, self.found.1 + f64::from(*t));
@@ -81,11 +77,7 @@ impl Traversal {
     fn any(&mut self, execution: Execution, first: usize) {
         let (bvh, rays) = (&self.scene.tables.bvh, self.rays.batch(first, BATCH));
         let blocked = &mut self.blocked[..rays.len()];
-        match execution {
-            Execution::Scalar => bvh.occluded_scalar(&rays, blocked),
-            Execution::Vector(level) if self.packets => bvh.occluded_packets(level, &rays, blocked),
-            Execution::Vector(level) => bvh.occluded(level, &rays, blocked),
-        }
+        bvh.occluded(execution, &rays, self.packets, blocked);
         self.found.0 += blocked.iter().filter(|blocked| **blocked != 0).count();
     }
 }

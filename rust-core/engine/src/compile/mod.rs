@@ -30,7 +30,7 @@ pub use view::View;
 pub(crate) use view::{check_tiles, transport, window};
 
 use crate::{
-    accel::{Blas, SceneBvh},
+    accel::{Blas, Tlas},
     error::{Diagnostic, Error, Result},
     scene::{Camera, Scene},
     transport::{Tables, Workspaces},
@@ -108,7 +108,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     check(cancel)?;
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
     let first_light = geometry.first_light as usize;
-    let bvh = SceneBvh::build_with_lights(blases, &geometry.instances, first_light, cancel).map_err(|_| Error::Cancelled)?;
+    let bvh = Tlas::build_with_lights(blases, &geometry.instances, first_light, cancel).map_err(|_| Error::Cancelled)?;
     let statistics = CompileStatistics {
         triangles: scene.meshes.iter().map(|mesh| mesh.triangles.len() as u64).sum(),
         instanced_triangles: instanced_triangles(scene),

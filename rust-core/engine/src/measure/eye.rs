@@ -12,7 +12,7 @@ use crate::{
     scene::Meter,
     transport::ray_mask,
 };
-use gonio_simd::{Lanes, One, Vec3};
+use gonio_simd::{Execution, Lanes, One, Vec3};
 
 /// Square metres of luminous area below which a source counts as small (CIE 147).
 const SMALL: f64 = 0.005;
@@ -120,7 +120,7 @@ fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) {
         mask: &vec![ray_mask::SHADOW; count],
     };
     let mut blocked = vec![0; count];
-    scene.tables.bvh.blocked_or_passed_scalar(&rays, &mut blocked, &mut Vec::new());
+    scene.tables.bvh.any_hit_transparent(Execution::Scalar, &rays, &mut blocked, &mut Vec::new());
     let mut blocked = blocked.into_iter();
     parts.retain(|_| blocked.next() == Some(0));
 }

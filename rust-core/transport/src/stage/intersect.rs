@@ -20,9 +20,9 @@ use crate::state::paths::VertexLanes;
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use gonio_accel::{Hits, NONE, RayBatch, SceneBvh};
+use gonio_accel::{NONE, RayBatch};
 use gonio_light::power_heuristic;
-use gonio_simd::{Execution, Lanes, M, PADDING, U, dispatch};
+use gonio_simd::{Lanes, M, PADDING, U, dispatch};
 
 /// Finds what every path hits, adds the light that shapes and the environment send, and looks up the materials of the surface hits.
 pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
@@ -43,7 +43,7 @@ pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
 /// Finds what every path hits; `coherent` ones in packets.
 pub(crate) fn find_first(tables: &Tables, transport: &Transport, coherent: bool, ws: &mut Workspace) {
     ws.statistics.rays += ws.paths.count as u64;
-    first_hits(transport.execution, &tables.bvh, &rays_of(&ws.paths), coherent, &mut ws.hits);
+    tables.bvh.first_hit(transport.execution, &rays_of(&ws.paths), coherent, &mut ws.hits);
 }
 
 fn rays_of(paths: &Paths) -> RayBatch<'_> {
@@ -54,14 +54,6 @@ fn rays_of(paths: &Paths) -> RayBatch<'_> {
         t_min: &paths.t_min[..n],
         t_max: &paths.t_max[..n],
         mask: &paths.mask[..n],
-    }
-}
-
-fn first_hits(execution: Execution, bvh: &SceneBvh, rays: &RayBatch<'_>, coherent: bool, hits: &mut Hits) {
-    match execution {
-        Execution::Scalar => bvh.first_hit_scalar(rays, hits),
-        Execution::Vector(level) if coherent => bvh.first_hit_packets(level, rays, hits),
-        Execution::Vector(level) => bvh.first_hit(level, rays, hits),
     }
 }
 
@@ -133,10 +125,10 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
         t_max: &chosen.t_max,
         mask: &chosen.mask,
     };
-    if tables.bvh.has_shapes_apart() {
+    if tables.bvh.has_loose_lights() {
         tables.bvh.first_hit_before(transport.execution, &rays, &ws.hits.covered, &mut ws.retraced);
     } else {
-        first_hits(transport.execution, &tables.bvh, &rays, false, &mut ws.retraced);
+        tables.bvh.first_hit(transport.execution, &rays, false, &mut ws.retraced);
     }
     std::mem::swap(&mut ws.hits.covered, &mut ws.retraced.covered);
     for (from, to) in waiting.iter().enumerate() {

@@ -18,9 +18,9 @@ use crate::tables::material::Shading;
 use crate::tables::material::parameter_values;
 use crate::tables::material::threshold;
 use crate::tables::transport::Transport;
-use gonio_accel::{PassedHit, RayBatch};
+use gonio_accel::{RayBatch, TransparentHit};
 use gonio_bsdf::parameter::OPACITY;
-use gonio_simd::{Execution, Frame, Lanes, PADDING, Rgb, dispatch};
+use gonio_simd::{Frame, Lanes, PADDING, Rgb, dispatch};
 
 /// Traces what is queued if the shadow rays of some more hits have no room.
 pub(crate) fn make_room(tables: &Tables, transport: &Transport, coherent: bool, hits: usize, ws: &mut Workspace) {
@@ -42,15 +42,13 @@ pub(crate) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     catcher::narrow_shadows(tables, &mut ws.shadows);
     let rays = rays_of(&ws.shadows);
     let blocked = &mut ws.blocked[..n];
-    match (transport.execution, tables.any_transparent) {
-        (Execution::Scalar, true) => tables.bvh.blocked_or_passed_scalar(&rays, blocked, &mut ws.passed),
-        (Execution::Scalar, false) => tables.bvh.occluded_scalar(&rays, blocked),
-        (Execution::Vector(level), true) => tables.bvh.blocked_or_passed(level, &rays, blocked, &mut ws.passed),
-        (Execution::Vector(level), false) if !coherent || tables.bvh.has_streams(level) => tables.bvh.occluded(level, &rays, blocked),
-        (Execution::Vector(level), false) if ShadowOrder::pays(&tables.lights) => {
-            ws.shadow_order.occluded(&tables.bvh, &tables.lights, level, &ws.shadows, blocked);
-        }
-        (Execution::Vector(level), false) => tables.bvh.occluded_packets(level, &rays, blocked),
+    let packets = coherent && tables.bvh.has_shadow_packets(transport.execution);
+    if tables.any_transparent {
+        tables.bvh.any_hit_transparent(transport.execution, &rays, blocked, &mut ws.passed);
+    } else if packets && ShadowOrder::pays(&tables.lights) {
+        ws.shadow_order.occluded(&tables.bvh, &tables.lights, transport.execution, &ws.shadows, blocked);
+    } else {
+        tables.bvh.occluded(transport.execution, &rays, packets, blocked);
     }
     if !ws.passed.is_empty() {
         dim_by_surfaces(tables, transport, ws);
@@ -95,9 +93,9 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
     let mut passed = std::mem::take(&mut ws.passed);
-    let material_of = |hit: &PassedHit| tables.geometry.material(hit.instance, hit.primitive);
+    let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.
-    let numbers = |hit: &PassedHit| (hit.instance, hit.primitive);
+    let numbers = |hit: &TransparentHit| (hit.instance, hit.primitive);
     passed.sort_unstable_by(|a, b| {
         let order = (material_of(a), a.ray).cmp(&(material_of(b), b.ray));
         order.then(a.t.total_cmp(&b.t)).then_with(|| numbers(a).cmp(&numbers(b)))
@@ -112,7 +110,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
 }
 
 #[inline(always)]
-fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[PassedHit], ws: &mut Workspace) {
+fn dim_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHit], ws: &mut Workspace) {
     let mut order = [0; CHUNK];
     for (i, place) in order[..hits.len()].iter_mut().enumerate() {
         *place = i as u32;
@@ -148,7 +146,7 @@ fn add_transmittance<L: Lanes>(
     l: L,
     tables: &Tables,
     surface: usize,
-    hits: &[PassedHit],
+    hits: &[TransparentHit],
     order: &[u32],
     weights: Option<[&[f32]; 3]>,
     sums: &mut [[f32; CHUNK]; 3],

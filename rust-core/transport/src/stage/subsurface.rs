@@ -23,7 +23,7 @@ use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use gonio_camera::sampler::dimension;
-use gonio_simd::{Execution, F, Frame, Lanes, M, PADDING, Rgb, U, dispatch};
+use gonio_simd::{F, Frame, Lanes, M, PADDING, Rgb, U, dispatch};
 
 /// Walks until all walks are out or lost; those that are out are lit and scatter.
 pub(crate) fn walk(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
@@ -33,10 +33,7 @@ pub(crate) fn walk(tables: &Tables, transport: &Transport, context: &SampleConte
         }
         dispatch!(transport.execution, l => fly(l, context, step, &mut ws.walks));
         let rays = ws.walks.rays(&ws.shadows.mask);
-        match transport.execution {
-            Execution::Scalar => tables.bvh.first_hit_within_scalar(&rays, &ws.walks.instance, &mut ws.walk_hits),
-            Execution::Vector(level) => tables.bvh.first_hit_within(level, &rays, &ws.walks.instance, &mut ws.walk_hits),
-        }
+        tables.bvh.first_hit_within(transport.execution, &rays, &ws.walks.instance, &mut ws.walk_hits);
         ws.statistics.rays += ws.walks.count as u64;
         ws.out.clear();
         ws.out.extend(ws.walk_hits.instance.iter().enumerate().filter(|(_, hit)| **hit != NONE).map(|(walk, _)| walk as u32));

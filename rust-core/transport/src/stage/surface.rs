@@ -6,7 +6,7 @@ use crate::state::columns::gather3;
 use crate::state::paths::ConeLanes;
 use crate::state::paths::Paths;
 use crate::tables::Tables;
-use gonio_accel::{Hits, PassedHit};
+use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
 
 /// The rays of a chunk.
@@ -57,7 +57,7 @@ impl HitSource for Hits {
     }
 }
 
-impl HitSource for [PassedHit] {
+impl HitSource for [TransparentHit] {
     #[inline(always)]
     fn load<L: Lanes>(&self, l: L, entries: U<L>) -> FoundHits<L> {
         let (mut whole, mut parts) = ([[0; PADDING]; 3], [[0.0; PADDING]; 3]);

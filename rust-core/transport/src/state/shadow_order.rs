@@ -4,10 +4,9 @@ use crate::state::columns::Columns3;
 use crate::state::columns::columns3;
 use crate::state::shadow_rays::SHADOW_ROOM;
 use crate::state::shadow_rays::ShadowRays;
-use fearless_simd::Level;
-use gonio_accel::{RayBatch, SceneBvh};
+use gonio_accel::{RayBatch, Tlas};
 use gonio_light::LightTable;
-use gonio_simd::Column;
+use gonio_simd::{Column, Execution};
 
 /// With more lights than this, too few rays lead to each.
 const MOST_LIGHTS: usize = 256;
@@ -44,8 +43,8 @@ impl ShadowOrder {
         (2..=MOST_LIGHTS).contains(&lights.len())
     }
 
-    /// [`SceneBvh::occluded`] by way of the sorted rays.
-    pub(crate) fn occluded(&mut self, bvh: &SceneBvh, lights: &LightTable, level: Level, shadows: &ShadowRays, blocked: &mut [u8]) {
+    /// [`Tlas::occluded`] by way of the sorted rays.
+    pub(crate) fn occluded(&mut self, bvh: &Tlas, lights: &LightTable, execution: Execution, shadows: &ShadowRays, blocked: &mut [u8]) {
         let coherent = self.sort(lights, shadows);
         self.fill(shadows);
         let n = shadows.count;
@@ -57,8 +56,8 @@ impl ShadowOrder {
             t_max: &self.t_max[first..end],
             mask: &self.mask[first..end],
         };
-        bvh.occluded_packets(level, &part(0, coherent), towards_places);
-        bvh.occluded(level, &part(coherent, n), all_around);
+        bvh.occluded(execution, &part(0, coherent), true, towards_places);
+        bvh.occluded(execution, &part(coherent, n), false, all_around);
         for (place, is_blocked) in self.order.iter().zip(&self.blocked) {
             blocked[*place as usize] = *is_blocked;
         }

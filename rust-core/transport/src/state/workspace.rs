@@ -14,7 +14,7 @@ use crate::state::walks::Walks;
 use crate::statistics::Statistics;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use gonio_accel::{Hits, PassedHit};
+use gonio_accel::{Hits, TransparentHit};
 use gonio_light::Arrival;
 
 /// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
@@ -32,7 +32,7 @@ pub struct Workspace {
     /// Light that arrived, where it is to be learned from.
     pub arrivals: Option<Vec<Arrival>>,
     pub(crate) blocked: Vec<u8>,
-    pub(crate) passed: Vec<PassedHit>,
+    pub(crate) passed: Vec<TransparentHit>,
     pub(crate) measure: MeasurePoints,
     pub(crate) walks: Walks,
     pub(crate) walk_hits: Hits,

@@ -8,7 +8,7 @@ pub(crate) mod transport;
 
 use crate::geometry::GeometryTable;
 use crate::tables::light_groups::LightGroups;
-use gonio_accel::SceneBvh;
+use gonio_accel::Tlas;
 use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
 use material::MaterialTable;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Tables {
     /// Two-level tree; instances of light shapes follow those of meshes.
-    pub bvh: SceneBvh,
+    pub bvh: Tlas,
     /// Meshes and instances.
     pub geometry: GeometryTable,
     /// Materials.

@@ -12,7 +12,8 @@ mod world;
 
 use embree::EmbreeScene;
 use fearless_simd::Level;
-use gonio::accel::{Blas, Care, Geometry, Hits, Instance, SceneBvh};
+use gonio::accel::{Blas, Care, Geometry, Hits, Instance, Tlas};
+use gonio_simd::Execution;
 use rays::{OwnedRays, Random};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -37,19 +38,19 @@ fn main() {
         builds(&world, runs);
     }
     let (robust, fast) = (EmbreeScene::new(&world, true, 1), EmbreeScene::new(&world, false, 1));
-    traversal(&Bench { level, scene: scene(&world), robust, fast, runs }, &world);
+    traversal(&Bench { vector: Execution::Vector(level), scene: scene(&world), robust, fast, runs }, &world);
 }
 
 fn tree(mesh: &Mesh, care: Care) -> Blas {
     Blas::build(&mesh.positions, &mesh.triangles, care, &AtomicBool::new(false)).expect("nobody cancels")
 }
 
-fn scene(world: &World) -> SceneBvh {
+fn scene(world: &World) -> Tlas {
     let care = Care::of_scene(world.triangles());
     let trees = world.meshes.iter().map(|mesh| Arc::new(tree(mesh, care))).collect();
     let place = |p: &Placement| Instance { geometry: Geometry::Mesh(p.mesh), object_to_world: p.object_to_world, mask: 1, transparent: false };
     let instances: Vec<Instance> = world.placements.iter().map(place).collect();
-    SceneBvh::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
+    Tlas::build(trees, &instances, &AtomicBool::new(false)).expect("nobody cancels")
 }
 
 /// Builds on one thread (processor seconds) and on two (seconds of the clock) beside Embree's.
@@ -84,8 +85,8 @@ fn builds(world: &World, runs: usize) {
 }
 
 struct Bench {
-    level: Level,
-    scene: SceneBvh,
+    vector: Execution,
+    scene: Tlas,
     robust: EmbreeScene,
     fast: EmbreeScene,
     runs: usize,
@@ -115,7 +116,7 @@ fn traversal(bench: &Bench, world: &World) {
 
 fn hits(bench: &Bench, rays: &OwnedRays) -> Hits {
     let mut hits = Hits::default();
-    bench.scene.first_hit(bench.level, &rays.batch(0, rays.len()), &mut hits);
+    bench.scene.first_hit(bench.vector, &rays.batch(0, rays.len()), false, &mut hits);
     hits
 }
 
@@ -136,15 +137,15 @@ fn first_hits(bench: &Bench, name: &str, rays: &OwnedRays, coherent: bool) {
     for run in 0..bench.runs {
         let batch = |first| rays.batch(first, BATCH);
         seconds[0].push(timed(rays, |first| bench.robust.first_hit(&batch(first), false, coherent, &mut t, &mut primitive)));
-        seconds[1].push(timed(rays, |first| bench.scene.first_hit(bench.level, &batch(first), &mut own)));
-        seconds[2].push(timed(rays, |first| bench.scene.first_hit_packets(bench.level, &batch(first), &mut own)));
-        seconds[3].push(timed(rays, |first| bench.scene.first_hit_scalar(&batch(first), &mut own)));
+        seconds[1].push(timed(rays, |first| bench.scene.first_hit(bench.vector, &batch(first), false, &mut own)));
+        seconds[2].push(timed(rays, |first| bench.scene.first_hit(bench.vector, &batch(first), true, &mut own)));
+        seconds[3].push(timed(rays, |first| bench.scene.first_hit(Execution::Scalar, &batch(first), false, &mut own)));
         seconds[4].push(timed(rays, |first| bench.robust.first_hit(&batch(first), true, coherent, &mut t, &mut primitive)));
         seconds[5].push(timed(rays, |first| bench.fast.first_hit(&batch(first), false, coherent, &mut t, &mut primitive)));
         if run == 0 {
             timed(rays, |first| {
                 bench.robust.first_hit(&batch(first), false, coherent, &mut t, &mut primitive);
-                bench.scene.first_hit(bench.level, &batch(first), &mut own);
+                bench.scene.first_hit(bench.vector, &batch(first), false, &mut own);
                 differ += primitive.iter().zip(&own.primitive).filter(|(a, b)| a != b).count();
             });
         }
@@ -159,15 +160,15 @@ fn occlusions(bench: &Bench, name: &str, rays: &OwnedRays) {
     for run in 0..bench.runs {
         let batch = |first| rays.batch(first, BATCH);
         seconds[0].push(timed(rays, |first| bench.robust.occluded(&batch(first), false, &mut theirs)));
-        seconds[1].push(timed(rays, |first| bench.scene.occluded(bench.level, &batch(first), &mut own)));
-        seconds[2].push(timed(rays, |first| bench.scene.occluded_packets(bench.level, &batch(first), &mut own)));
-        seconds[3].push(timed(rays, |first| bench.scene.occluded_scalar(&batch(first), &mut own)));
+        seconds[1].push(timed(rays, |first| bench.scene.occluded(bench.vector, &batch(first), false, &mut own)));
+        seconds[2].push(timed(rays, |first| bench.scene.occluded(bench.vector, &batch(first), true, &mut own)));
+        seconds[3].push(timed(rays, |first| bench.scene.occluded(Execution::Scalar, &batch(first), false, &mut own)));
         seconds[4].push(timed(rays, |first| bench.robust.occluded(&batch(first), true, &mut theirs)));
         seconds[5].push(timed(rays, |first| bench.fast.occluded(&batch(first), false, &mut theirs)));
         if run == 0 {
             timed(rays, |first| {
                 bench.robust.occluded(&batch(first), false, &mut theirs);
-                bench.scene.occluded(bench.level, &batch(first), &mut own);
+                bench.scene.occluded(bench.vector, &batch(first), false, &mut own);
                 differ += theirs.iter().zip(&own).filter(|(a, b)| a != b).count();
             });
         }

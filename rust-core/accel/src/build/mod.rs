@@ -1,0 +1,12 @@
+//! Construction of trees: division into parts, a binary tree for each, the collapse to eight children.
+
+mod clusters;
+pub(crate) mod collapse;
+pub(crate) mod division;
+pub(crate) mod effort;
+mod emit;
+mod flat_tree;
+mod join;
+mod part;
+mod top;
+pub(crate) mod wide_tree;

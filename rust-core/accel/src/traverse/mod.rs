@@ -1,0 +1,12 @@
+//! Traversal by single rays, packets and streams, and the queries that choose among them.
+
+mod packet;
+mod packet_query;
+mod packet_ray;
+mod packet_scene;
+mod query;
+mod single;
+mod single_scene;
+mod stream;
+mod stream_ray;
+pub(crate) mod stream_tuner;

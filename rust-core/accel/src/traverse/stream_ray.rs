@@ -1,0 +1,246 @@
+//! A ray in a stream: its traversal state and its steps. Each step returns the number of the next queue, so that no step branches on it.
+
+use crate::hit_callback::{HitCallback, RayQuery};
+use crate::intersect::lanes8::Lanes8;
+use crate::intersect::prepared::PreparedRay;
+use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
+use crate::intersect::wide::{Wide, intersect_boxes};
+use crate::ray::{Hit, NONE, RayBatch};
+use crate::tree::blas::Blas;
+use crate::tree::instance::{Geometry, InstanceRecord};
+use crate::tree::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
+use crate::tree::tlas::Tlas;
+use fearless_simd::{f32x4, prelude::*, u32x8};
+use gonio_simd::{Sort8, prefetch_at};
+
+/// Entries of both levels at most, with the end and the room that a whole register of children takes.
+const STACK_SIZE: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 1 + WIDTH;
+
+/// The room of each column. Processors look for what was just stored by the last twelve bits of its address: with one and a half times 4096 bytes
+/// and a cache line, the two columns of a ray differ in them, and those of its neighbours too.
+const ROOM: usize = (4096 + 2048 + 64) / size_of::<u32>();
+const _: () = assert!(STACK_SIZE <= ROOM);
+
+/// Bytes of what a reference of each kind refers to.
+const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<InstanceRecord>(), 0, BLOCK, size_of::<Node>(), BLOCK, 0, 0];
+const BLOCK: usize = size_of::<TriangleBlock>();
+
+/// Bits of a distance that the slot takes while children are sorted.
+const SLOT_BITS: u32 = WIDTH as u32 - 1;
+
+/// The traversal stack: the bits of the children's distances, and what they are.
+#[repr(C, align(64))]
+pub(crate) struct TraversalStack {
+    near: [u32; ROOM],
+    child: [u32; ROOM],
+}
+
+impl TraversalStack {
+    /// Without entries.
+    pub(crate) const EMPTY: TraversalStack = TraversalStack { near: [0; ROOM], child: [0; ROOM] };
+
+    /// Eight entries from `first` on.
+    #[inline(always)]
+    fn places(&mut self, first: usize) -> [&mut [u32; WIDTH]; 2] {
+        let eight = |all| <&mut [u32; WIDTH]>::try_from(all).expect("eight of them");
+        [eight(&mut self.near[first..first + WIDTH]), eight(&mut self.child[first..first + WIDTH])]
+    }
+}
+
+/// A ray in a stream.
+pub(crate) struct StreamRay<'a, C: HitCallback> {
+    /// In the world, and in the space of the mesh it is in.
+    rays: [PreparedRay; 2],
+    nodes: [&'a [Node]; 2],
+    blocks: [&'a [TriangleBlock]; 2],
+    /// Where in memory the children of a kind begin, for fetching them.
+    addresses: [usize; KINDS],
+    callback: C,
+    /// Nothing beyond is of interest: the bits of the distance, and all of a slot.
+    farthest: u32,
+    /// Entries on the traversal stack.
+    stacked: usize,
+    current: ChildRef,
+    /// The instance that the ray is in.
+    instance: u32,
+    /// Whether that one may let shadow rays pass.
+    transparent: bool,
+    mask: u8,
+    /// The ray's number in its batch, [`NONE`] without a ray.
+    number: u32,
+    /// Whether a hit ended the search.
+    ended: bool,
+}
+
+impl<'a, C: HitCallback> StreamRay<'a, C> {
+    /// Without a ray.
+    pub(crate) fn new(scene: &'a Tlas, callback: C) -> Self {
+        let mut addresses = [0; KINDS];
+        addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
+        addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
+        addresses[Kind::WorldTriangles as usize] = scene.blocks.as_ptr().addr();
+        StreamRay {
+            rays: [PreparedRay::NOTHING; 2],
+            nodes: [&scene.nodes, &[]],
+            blocks: [&scene.blocks, &[]],
+            addresses,
+            callback,
+            farthest: 0,
+            stacked: 0,
+            current: ChildRef::ROOT,
+            instance: NONE,
+            transparent: false,
+            mask: 0,
+            number: NONE,
+            ended: false,
+        }
+    }
+
+    /// Starts ray `i` of a query; false when it can hit nothing.
+    #[inline(always)]
+    pub(crate) fn start<S: Simd, Q: RayQuery<Callback = C>>(
+        &mut self,
+        simd: S,
+        stack: &mut TraversalStack,
+        rays: &RayBatch,
+        i: usize,
+        query: &Q,
+    ) -> bool {
+        query.begin(&mut self.callback, i, rays.t_max[i]);
+        (self.number, self.ended) = (i as u32, false);
+        let [origin, direction] = [f32x4::from_slice(simd, &rays.origin_of(i)), f32x4::from_slice(simd, &rays.direction_of(i))];
+        if !self.rays[0].prepare(simd, origin, direction, rays.t_min[i], rays.t_max[i]) {
+            return false;
+        }
+        self.mask = rays.mask[i];
+        self.shorten();
+        stack.near[0] = 0;
+        stack.child[0] = ChildRef::new(Kind::End, 0).0;
+        self.stacked = 1;
+        self.current = ChildRef::ROOT;
+        true
+    }
+
+    /// Hands over what was found for its ray, if it has one, and drops it.
+    #[inline(always)]
+    pub(crate) fn end<Q: RayQuery<Callback = C>>(&mut self, query: &mut Q) {
+        if self.number != NONE {
+            query.end(self.number as usize, &self.callback, self.ended);
+            self.number = NONE;
+        }
+    }
+
+    /// Updates how far to look.
+    #[inline(always)]
+    fn shorten(&mut self) {
+        self.farthest = self.callback.t_max().to_bits() | SLOT_BITS;
+    }
+
+    /// Pops the nearest child off the traversal stack.
+    #[inline(always)]
+    pub(crate) fn pop(&mut self, stack: &TraversalStack) -> usize {
+        loop {
+            self.stacked -= 1;
+            if !C::ORDERED || stack.near[self.stacked] <= self.farthest {
+                self.current = ChildRef(stack.child[self.stacked]);
+                let kind = self.current.kind();
+                // Other rays take their steps before this one takes its next.
+                prefetch_at(self.addresses[kind].wrapping_add(SIZES[kind] * self.current.index()), size_of::<Node>());
+                return kind;
+            }
+        }
+    }
+
+    /// To the root of a mesh's tree.
+    #[inline(always)]
+    fn enter(&mut self, mesh: &'a Blas) -> usize {
+        self.nodes[1] = &mesh.nodes;
+        self.blocks[1] = &mesh.blocks;
+        self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
+        self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
+        self.current = ChildRef::new(Kind::MeshInner, 0);
+        Kind::MeshInner as usize
+    }
+
+    /// Takes a hit; true when it ends the search.
+    #[inline(always)]
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool {
+        self.ended = self.callback.add(hit, transparent);
+        self.shorten();
+        self.ended
+    }
+
+    /// The step at a node.
+    #[inline(always)]
+    pub(crate) fn inner<S: Simd>(&mut self, simd: S, stack: &mut TraversalStack) {
+        let space = self.current.space();
+        let node = &self.nodes[space][self.current.index()];
+        let (near, met) = intersect_boxes(simd, node, &self.rays[space], self.callback.t_max());
+        let children = u32x8::from_slice(simd, bytemuck::cast_ref::<_, [u32; WIDTH]>(&node.children)) | self.current.child_bits();
+        let [distances, stacked] = stack.places(self.stacked);
+        let mask = met.to_bitmask() as u32;
+        if C::ORDERED {
+            simd.sort8(near, mask, children, distances, stacked);
+        } else {
+            // Smallest box on top: often a leaf, and a likely end of the search.
+            children.compress(met).store_slice(stacked);
+        }
+        self.stacked += mask.count_ones() as usize;
+    }
+
+    /// The step at a block of triangles.
+    #[inline(always)]
+    pub(crate) fn triangles<S: Simd>(&mut self, simd: S) -> usize {
+        let space = self.current.space();
+        let block = &self.blocks[space][self.current.index()];
+        let mut hits = BlockHits::default();
+        let mut mask = Wide(simd).triangles(block, &self.rays[space], self.callback.t_max(), &mut hits);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize % WIDTH;
+            mask &= mask - 1;
+            let [t, u, v] = [hits.t[lane], hits.u[lane], hits.v[lane]];
+            if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }, self.transparent) {
+                return Kind::End as usize;
+            }
+        }
+        Kind::Next as usize
+    }
+
+    /// The step at a block of triangles in world space.
+    #[inline(always)]
+    pub(crate) fn world_triangles<S: Simd>(&mut self, simd: S, scene: &Tlas) -> usize {
+        let owner = scene.owners[self.current.index()];
+        if owner.mask & self.mask == 0 {
+            return Kind::Next as usize;
+        }
+        (self.instance, self.transparent) = (owner.id, owner.transparent);
+        self.triangles(simd)
+    }
+
+    /// The step at an instance.
+    #[inline(always)]
+    pub(crate) fn instance<S: Simd>(&mut self, simd: S, scene: &'a Tlas) -> usize {
+        let record = &scene.records[self.current.index()];
+        if record.mask & self.mask == 0 {
+            return Kind::Next as usize;
+        }
+        (self.instance, self.transparent) = (record.id, record.transparent);
+        let ([ray, image], map, t_max) = (&mut self.rays, &record.world_to_object, self.callback.t_max());
+        match record.geometry.get() {
+            Geometry::Mesh(index) => {
+                let may_hit = if record.keeps_directions {
+                    image.shift(simd, ray, map.translation(simd), t_max)
+                } else {
+                    let [origin, direction] = map.images(simd, &ray.origin, &ray.direction);
+                    image.prepare(simd, origin, direction, ray.t_min, t_max)
+                };
+                if may_hit { self.enter(&scene.meshes[index as usize]) } else { Kind::Next as usize }
+            }
+            Geometry::Shape(shape) => {
+                self.ended = record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, &mut self.callback);
+                self.shorten();
+                if self.ended { Kind::End as usize } else { Kind::Next as usize }
+            }
+        }
+    }
+}

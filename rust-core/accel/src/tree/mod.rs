@@ -1,0 +1,9 @@
+//! What rays traverse: the BLAS of a mesh, the TLAS of a scene, their nodes and instances.
+
+pub(crate) mod blas;
+pub(crate) mod instance;
+mod loose_lights;
+pub(crate) mod node;
+mod refit;
+pub(crate) mod tlas;
+mod tlas_input;
