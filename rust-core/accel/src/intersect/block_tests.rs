@@ -44,7 +44,7 @@ impl BlockTests {
     }
 
     /// Tests of one ray and one triangle in a run, counting empty places of leaves.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.rays.len() * LEAVES * WIDTH
     }
 

@@ -1,5 +1,7 @@
-//! Loose lights, the shapes of lights that stand beside the tree: few, and seen by no shadow ray. A register of rays is tested against a ball around each, which costs
-//! less than what the tree would take; rays that meet the ball are tested against the shape.
+//! Loose lights: the shapes of lights that stand beside the tree, few and seen by no shadow ray.
+//!
+//! A register of rays is tested against a ball around each, which costs less than what the tree would take. Rays that meet the ball are tested
+//! against the shape.
 
 use super::instance::{Geometry, Instance};
 use super::tlas::Tlas;

@@ -25,7 +25,7 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
     let meshes = scene.tables.bvh.meshes();
     let body = meshes.iter().max_by_key(|mesh| mesh.memory().triangles);
     let tests = body.map(|body| BlockTests::new(body, EYE, RAYS));
-    Ok(tests.into_iter().map(|tests| Case::new("watertight test", "triangle", tests.len(), Triangles { tests, hits: 0 })).collect())
+    Ok(tests.into_iter().map(|tests| Case::new("watertight test", "triangle", tests.count(), Triangles { tests, hits: 0 })).collect())
 }
 
 impl Kernel for Triangles {
