@@ -104,7 +104,7 @@ fn imports(all: &BTreeMap<Module, String>) -> (BTreeMap<Module, Vec<Module>>, BT
 fn file_of(path: &Module, all: &BTreeMap<Module, String>, handed_on: &BTreeMap<Module, Module>, left: u32) -> Module {
     for end in (0..=path.len()).rev() {
         if all.contains_key(&path[..end]) {
-            return match path.get(end).and_then(|name| handed_on.get(&[&path[..end], &[name.clone()]].concat())) {
+            return match path.get(end).and_then(|name| handed_on.get(&[&path[..end], std::slice::from_ref(name)].concat())) {
                 Some(target) if left > 0 => file_of(&[target, &path[end + 1..]].concat(), all, handed_on, left - 1),
                 _ => path[..end].to_vec(),
             };

@@ -17,6 +17,7 @@ pub use accumulate::tile_sums::FirstHit;
 pub use schedule::path::{Start, Tracer};
 pub use stage::generate::{TileArea, generate};
 pub use stage::sensors::{Sensor, SensorTable};
+pub use stage::sort::order_by_material;
 pub use state::paths::Paths;
 pub use state::workspace::Workspace;
 pub use state::workspaces::Workspaces;

@@ -22,23 +22,33 @@ pub(crate) fn list_materials<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace
 
 /// Sorts the paths at surfaces by material, once each has a closure; those of one material stay in their order.
 pub(crate) fn sort_by_material(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
-    sort(tables.materials.surfaces.len(), transport.execution, ws);
+    let Workspace { material_of, order, material_start, material_end, .. } = ws;
+    order_by_material(transport.execution, tables.materials.surfaces.len(), material_of, order, material_start, material_end);
 }
 
-fn sort(materials: usize, execution: Execution, ws: &mut Workspace) {
-    ws.material_end.clear();
-    ws.material_end.resize(materials, 0);
-    dispatch!(execution, l => count_materials(l, ws));
-    ws.material_start.clear();
+/// Lists the paths of each material in their order: `order[starts[m]..ends[m]]`. Paths of material [`NONE`] are left out; `material_of` is padded
+/// to whole registers.
+pub fn order_by_material(
+    execution: Execution,
+    materials: usize,
+    material_of: &[u32],
+    order: &mut Vec<u32>,
+    starts: &mut Vec<u32>,
+    ends: &mut Vec<u32>,
+) {
+    ends.clear();
+    ends.resize(materials, 0);
+    dispatch!(execution, l => count_materials(l, material_of, ends));
+    starts.clear();
     let mut room = 0;
-    for end in &mut ws.material_end {
-        ws.material_start.push(room);
+    for end in &mut *ends {
+        starts.push(room);
         // A register's room behind each material's paths: placing writes whole registers.
         let count = std::mem::replace(end, room);
         room += if count > 0 { count + PADDING as u32 } else { 0 };
     }
-    ws.order.resize(padded(room as usize) + PADDING, 0);
-    dispatch!(execution, l => place_by_material(l, ws));
+    order.resize(padded(room as usize) + PADDING, 0);
+    dispatch!(execution, l => place_by_material(l, material_of, order, ends));
 }
 
 /// Visits a register's paths of one material at once, as neighbours often share it: the material, the register's place, and a bit for each path.
@@ -58,18 +68,16 @@ fn for_each_material<L: Lanes>(l: L, material_of: &[u32], mut visit: impl FnMut(
 
 /// Counts the paths of each material.
 #[inline(always)]
-fn count_materials<L: Lanes>(l: L, ws: &mut Workspace) {
-    let counts = &mut ws.material_end;
-    for_each_material(l, &ws.material_of, |material, _, paths| counts[material] += paths.count_ones());
+fn count_materials<L: Lanes>(l: L, material_of: &[u32], counts: &mut [u32]) {
+    for_each_material(l, material_of, |material, _, paths| counts[material] += paths.count_ones());
 }
 
 /// Puts the paths of each material from its start on.
 #[inline(always)]
-fn place_by_material<L: Lanes>(l: L, ws: &mut Workspace) {
-    let (ends, order) = (&mut ws.material_end, &mut ws.order);
+fn place_by_material<L: Lanes>(l: L, material_of: &[u32], order: &mut [u32], ends: &mut [u32]) {
     for_each_material(
         l,
-        &ws.material_of,
+        material_of,
         #[inline(always)]
         |material, at, paths| {
             let end = &mut ends[material];
@@ -77,25 +85,4 @@ fn place_by_material<L: Lanes>(l: L, ws: &mut Workspace) {
             *end += paths.count_ones();
         },
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_of_one_material_stay_in_their_order_at_every_level() {
-        let runs = (0..100u32).map(|i| if i < 40 { 2 } else { i.wrapping_mul(2_654_435_761) >> 29 });
-        let material_of: Vec<u32> = runs.map(|material| if material > 4 { NONE } else { material }).chain([NONE; 12]).collect();
-        let mut expected: Vec<u32> = (0..100).filter(|path| material_of[*path as usize] != NONE).collect();
-        expected.sort_by_key(|path| material_of[*path as usize]);
-        for execution in Execution::all() {
-            let mut ws = Workspace { material_of: material_of.clone(), ..Workspace::default() };
-            sort(5, execution, &mut ws);
-            let ranges = ws.material_start.iter().zip(&ws.material_end).map(|(start, end)| *start as usize..*end as usize);
-            let sorted: Vec<u32> = ranges.flat_map(|range| ws.order[range].to_vec()).collect();
-            assert_eq!(sorted, expected, "{execution:?}");
-            assert!(ws.order.len() >= ws.material_end[4] as usize + PADDING);
-        }
-    }
 }
