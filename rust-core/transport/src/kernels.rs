@@ -7,9 +7,7 @@
 //! Points that many branches read go by reference down to them: as values they would be stored once more for all branches together.
 
 use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
-use crate::stage::surface::ChunkSource;
-use crate::stage::surface::HitSource;
-use crate::stage::surface::surface_chunk;
+use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};

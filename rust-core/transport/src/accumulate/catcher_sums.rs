@@ -1,7 +1,6 @@
 //! Sums of what lies behind shadow catchers.
 
-use crate::state::columns::Columns3;
-use crate::state::columns::columns3;
+use crate::state::columns::{Columns3, columns3};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::Column;
 

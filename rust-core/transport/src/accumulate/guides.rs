@@ -6,11 +6,9 @@
 
 use crate::accumulate::add::add_rgb;
 use crate::state::flag;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{Point, Stage};
 use crate::state::workspace::Workspace;
-use crate::tables::transport::Sight;
-use crate::tables::transport::Transport;
+use crate::tables::transport::{Sight, Transport};
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Lanes, M, Rgb, U};

@@ -1,7 +1,6 @@
 //! Radiance by where it comes from, for the passes of light.
 
-use crate::state::columns::add_scaled;
-use crate::state::columns::columns3;
+use crate::state::columns::{add_scaled, columns3};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
 

@@ -1,7 +1,6 @@
 //! What is kept of the first surface a camera ray meets, and limits on contributions.
 
-use crate::accumulate::add::add;
-use crate::accumulate::add::add_rgb;
+use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::FirstHit;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};

@@ -3,9 +3,7 @@
 use crate::accumulate::catcher_sums::CatcherSums;
 use crate::accumulate::light_sums::LightSums;
 use crate::accumulate::shader_sums::ShaderSums;
-use crate::state::columns::Columns3;
-use crate::state::columns::add_scaled;
-use crate::state::columns::columns3;
+use crate::state::columns::{Columns3, add_scaled, columns3};
 use crate::tables::transport::FirstPasses;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::Column;

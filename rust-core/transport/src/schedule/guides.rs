@@ -2,9 +2,7 @@
 
 use crate::schedule::path::Tracer;
 use crate::state::workspace::Workspace;
-use crate::tables::transport::FirstPasses;
-use crate::tables::transport::Sight;
-use crate::tables::transport::Transport;
+use crate::tables::transport::{FirstPasses, Sight, Transport};
 use gonio_camera::sampler::Runs;
 use std::ops::Range;
 

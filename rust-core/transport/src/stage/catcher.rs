@@ -3,18 +3,15 @@
 //!
 //! Slots tell the halves apart from there on: behind those of pixels and of measured points lie those of either half.
 
-use crate::accumulate::add::add;
-use crate::accumulate::add::add_rgb;
+use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::surface_aovs::clamped;
 use crate::kernels;
 use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::shadow_rays::ShadowRays;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{Point, Stage};
 use crate::state::workspace::Workspace;
-use crate::tables::Tables;
-use crate::tables::ray_mask;
+use crate::tables::{Tables, ray_mask};
 use gonio_accel::NONE;
 use gonio_camera::sampler::{BATCH, pixel};
 use gonio_simd::{Lanes, M, Rgb, U};

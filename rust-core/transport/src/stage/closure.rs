@@ -5,13 +5,11 @@
 
 use crate::graph::{CHUNK, OutputColumns};
 use crate::kernels;
-use crate::stage::surface::ChunkRays;
-use crate::stage::surface::ChunkSource;
+use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
-use crate::tables::material::Mix;
-use crate::tables::material::Shading;
+use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
 use gonio_accel::NONE;
 use gonio_camera::sampler::dimension;

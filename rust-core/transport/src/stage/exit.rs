@@ -2,8 +2,7 @@
 
 use crate::stage::nee::light;
 use crate::stage::scatter::scatter;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{Point, Stage};
 use crate::state::workspace::Workspace;
 use gonio_bsdf::subsurface;
 use gonio_camera::sampler::dimension;

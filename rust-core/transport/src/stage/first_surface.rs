@@ -1,14 +1,12 @@
 //! What is kept of the first surface that a camera ray meets, and holdouts, which hide it.
 
 use crate::accumulate::shader_passes;
-use crate::accumulate::surface_aovs::FirstSurface;
-use crate::accumulate::surface_aovs::SurfaceLook;
+use crate::accumulate::surface_aovs::{FirstSurface, SurfaceLook};
 use crate::stage::catcher;
 use crate::state::columns::append3;
 use crate::state::flag;
 use crate::state::measure_points::MeasurePoints;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{Point, Stage};
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
 use crate::tables::material::SurfaceMaterial;

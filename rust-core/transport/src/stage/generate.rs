@@ -1,8 +1,7 @@
 //! The first stage: a camera ray for every pixel of a tile.
 
 use crate::state::flag;
-use crate::state::paths::PathLanes;
-use crate::state::paths::Paths;
+use crate::state::paths::{PathLanes, Paths};
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};

@@ -1,22 +1,16 @@
 //! The second stage: tracing, and sorting what was hit into light, surface and nothing.
 
-use crate::accumulate::add::add;
-use crate::accumulate::add::add_light;
-use crate::accumulate::add::code_of;
+use crate::accumulate::add::{add, add_light, code_of};
 use crate::accumulate::guides;
 use crate::accumulate::light_groups::add_of_lights;
 use crate::accumulate::light_sums::code;
 use crate::accumulate::surface_aovs::clamped;
-use crate::kernels;
-use crate::kernels::LightHit;
+use crate::kernels::{self, LightHit};
 use crate::stage::catcher;
 use crate::stage::sort::list_materials;
 use crate::state::columns::gather3;
 use crate::state::flag;
-use crate::state::paths::CarriedLanes;
-use crate::state::paths::Paths;
-use crate::state::paths::TrackLanes;
-use crate::state::paths::VertexLanes;
+use crate::state::paths::{CarriedLanes, Paths, TrackLanes, VertexLanes};
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;

@@ -1,7 +1,6 @@
-//! A light sampled at each hit, and the shadow ray to it.
+//! Next event estimation (NEE): a light sampled at each hit, and the shadow ray to it.
 
-use crate::accumulate::add::add_sampled;
-use crate::accumulate::add::code_of_sampled;
+use crate::accumulate::add::{add_sampled, code_of_sampled};
 use crate::accumulate::arrivals::note_lost;
 use crate::accumulate::light_groups::add_of_lights;
 use crate::accumulate::surface_aovs::clamped;
@@ -9,8 +8,7 @@ use crate::geometry::spawn_to;
 use crate::kernels;
 use crate::stage::catcher;
 use crate::state::shadow_rays::ShadowLanes;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{Point, Stage};
 use crate::state::workspace::Workspace;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, power_heuristic};

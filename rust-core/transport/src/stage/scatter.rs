@@ -2,14 +2,11 @@
 
 use crate::geometry::spawn;
 use crate::kernels;
-use crate::state::event;
-use crate::state::flag;
 use crate::state::paths::PathLanes;
-use crate::state::vertex::CONE_PER_ROUGHNESS;
-use crate::state::vertex::Point;
-use crate::state::vertex::Stage;
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Point, Stage};
 use crate::state::walks::WalkLanes;
 use crate::state::workspace::Workspace;
+use crate::state::{event, flag};
 use crate::tables::transport::Transport;
 use gonio_bsdf::{Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};

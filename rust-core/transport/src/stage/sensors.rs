@@ -4,8 +4,7 @@
 //! net of the sampler's sequence and the lanes of a register lie side by side.
 
 use crate::stage::generate::TileArea;
-use crate::state::columns::append3;
-use crate::state::columns::gather3;
+use crate::state::columns::{append3, gather3};
 use crate::state::flag;
 use crate::state::paths::PathLanes;
 use crate::state::workspace::Workspace;

@@ -1,10 +1,8 @@
 //! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
 
 use crate::graph::{Program, SurfaceColumns};
-use crate::state::columns::Columns3;
-use crate::state::columns::gather3;
-use crate::state::paths::ConeLanes;
-use crate::state::paths::Paths;
+use crate::state::columns::{Columns3, gather3};
+use crate::state::paths::{ConeLanes, Paths};
 use crate::tables::Tables;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};

@@ -1,8 +1,6 @@
 //! Paths under way: the ray of each in columns, as the tracer wants it, and in items of four what the stages read of chosen paths.
 
-use crate::state::columns::Columns3;
-use crate::state::columns::append3;
-use crate::state::columns::columns3;
+use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;

@@ -1,9 +1,7 @@
 //! Shadow rays in the order of their lights: those that lead to one light from one tile go together as packets.
 
-use crate::state::columns::Columns3;
-use crate::state::columns::columns3;
-use crate::state::shadow_rays::SHADOW_ROOM;
-use crate::state::shadow_rays::ShadowRays;
+use crate::state::columns::{Columns3, columns3};
+use crate::state::shadow_rays::{SHADOW_ROOM, ShadowRays};
 use gonio_accel::{RayBatch, Tlas};
 use gonio_light::LightTable;
 use gonio_simd::{Column, Execution};

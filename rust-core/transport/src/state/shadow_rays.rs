@@ -1,9 +1,7 @@
 //! Rays to lights that wait to be traced.
 
 use crate::geometry::ShadowSegment;
-use crate::state::columns::Columns3;
-use crate::state::columns::append3;
-use crate::state::columns::columns3;
+use crate::state::columns::{Columns3, append3, columns3};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, Lanes, M, Rgb, U, padded};

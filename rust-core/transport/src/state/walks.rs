@@ -1,9 +1,6 @@
 //! Random walks under surfaces that are under way.
 
-use crate::state::columns::Columns3;
-use crate::state::columns::append3;
-use crate::state::columns::columns3;
-use crate::state::columns::load3;
+use crate::state::columns::{Columns3, append3, columns3, load3};
 use gonio_accel::RayBatch;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;

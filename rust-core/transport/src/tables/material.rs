@@ -1,7 +1,6 @@
 //! Compiled materials.
 
-use crate::graph::OutputColumns;
-use crate::graph::Program;
+use crate::graph::{OutputColumns, Program};
 use crate::tables::shader_passes::ShaderOutputs;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
 use gonio_bsdf::{Surface, parameter};

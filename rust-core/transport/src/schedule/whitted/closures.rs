@@ -2,15 +2,11 @@
 
 use crate::graph::CHUNK;
 use crate::kernels;
-use crate::stage::closure::for_mixes;
-use crate::stage::closure::share;
-use crate::stage::closure::weight;
-use crate::stage::surface::ChunkRays;
-use crate::stage::surface::ChunkSource;
+use crate::stage::closure::{for_mixes, share, weight};
+use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
-use crate::tables::material::Mix;
-use crate::tables::material::Shading;
+use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
 use gonio_accel::NONE;
 use gonio_simd::{Lanes, PADDING, Rgb, dispatch};

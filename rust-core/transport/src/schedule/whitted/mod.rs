@@ -12,8 +12,7 @@ mod surface;
 pub(crate) use gonio_camera::sampler::Runs;
 pub(crate) use surface::shade_lanes;
 
-use crate::schedule::path::MOST_DEPTH;
-use crate::schedule::path::Tracer;
+use crate::schedule::path::{MOST_DEPTH, Tracer};
 use crate::stage::catcher;
 use crate::stage::intersect::intersect;
 use crate::stage::measure::measure;
