@@ -70,11 +70,6 @@ impl<'py> Prim<'py> {
         *self.is_instance.get_or_init(|| self.flag(intern!(self.py(), "IsInstance")))
     }
 
-    /// Whether the prim stands inside an instance.
-    pub fn is_instance_proxy(&self) -> bool {
-        self.flag(intern!(self.py(), "IsInstanceProxy"))
-    }
-
     /// The prototype of a native instance.
     pub fn prototype(&self) -> Option<Self> {
         let prototype = Self::new(self.object.call_method0(intern!(self.py(), "GetPrototype")).ok()?);
@@ -173,11 +168,6 @@ impl<'py> Attribute<'py> {
     /// A token of the attribute's metadata, such as `interpolation` or `colorSpace`.
     pub fn metadata(&self, key: &str) -> Option<Bound<'py, PyAny>> {
         self.object.call_method1(intern!(self.object.py(), "GetMetadata"), (key,)).ok().filter(|value| !value.is_none())
-    }
-
-    /// Whether a value is authored.
-    pub fn has_authored_value(&self) -> bool {
-        self.object.call_method0(intern!(self.object.py(), "HasAuthoredValue")).and_then(|flag| flag.is_truthy()).unwrap_or(false)
     }
 
     /// The value at a `Usd.TimeCode`, `None` where there is none.

@@ -3,7 +3,7 @@
 use super::numbers::Random;
 use gonio::accel::{Hits, NONE, RayBatch};
 use gonio::camera::CameraTable;
-use gonio::geometry::{SurfacePoint, spawn_to};
+use gonio::geometry::{SurfacePoint, shadow_ray_to};
 use gonio::transport::{Tables, kernels, ray_mask};
 use gonio_simd::{Execution, F, M, One, U, Vec3};
 
@@ -67,7 +67,7 @@ impl Rays {
             let ring = (1.0 - z * z).max(0.0).sqrt();
             let ball = Vec3::splat(One, [ring * turn.cos(), ring * turn.sin(), z]);
             let direction = (normal * 1.0001 + ball).normalize();
-            rays.push(point.spawn(direction), direction, f32::MAX, ray_mask::DIFFUSE);
+            rays.push(point.offset_ray_origin(direction), direction, f32::MAX, ray_mask::DIFFUSE);
         }
         rays
     }
@@ -79,7 +79,7 @@ impl Rays {
             let [choice, u, v] = [random.unit(), random.unit(), random.unit()].map(F);
             let sample = kernels::sample_li(One, tables, None, &point.position, &normal, &[choice, u, v]);
             if sample.pdf.0 > 0.0 && normal.dot(sample.wi).0 > 0.0 {
-                let segment = spawn_to(point.position, point.geometric_normal, point.error, sample.wi, sample.distance);
+                let segment = shadow_ray_to(point.position, point.geometric_normal, point.error, sample.wi, sample.distance);
                 rays.push(segment.origin, segment.direction, segment.t_max.0, ray_mask::SHADOW);
             }
         }

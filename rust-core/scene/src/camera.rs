@@ -36,13 +36,6 @@ pub enum Projection {
     },
 }
 
-impl Projection {
-    /// Whether it is one of those around the camera, which take neither an aperture nor an axis of depth.
-    pub fn is_panorama(&self) -> bool {
-        !matches!(self, Self::Perspective { .. } | Self::Orthographic)
-    }
-}
-
 /// What multiplies a camera's colour (not its absolute passes).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraExposure(pub f32);

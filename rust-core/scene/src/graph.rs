@@ -32,17 +32,6 @@ pub enum Input {
     Node(NodeId, Channel),
 }
 
-/// What a value means to arithmetic nodes; kept for messages and front ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OutputKind {
-    /// One number.
-    Scalar,
-    /// A colour.
-    Colour,
-    /// A vector.
-    Vector,
-}
-
 /// A space that values are given in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Space {

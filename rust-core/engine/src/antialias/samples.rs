@@ -1,6 +1,6 @@
 //! Traced values, and what is compared of them.
 
-use crate::{colour::linear_to_srgb, transport::FirstHit};
+use crate::{colour::linear_to_srgb, transport::TileSums};
 use gonio_simd::{Column, Execution, F, Lanes, Rgb, dispatch, padded};
 
 /// Channels of a value: red, green, blue and coverage.
@@ -27,7 +27,7 @@ impl Samples {
     }
 
     /// Adds the values of traced slots to the places that they are of.
-    pub(super) fn add(&mut self, places: &[u32], traced: &FirstHit) {
+    pub(super) fn add(&mut self, places: &[u32], traced: &TileSums) {
         let columns = traced.radiance.iter().chain([&traced.alpha]);
         for (values, traced) in self.values.iter_mut().zip(columns) {
             places.iter().zip(traced.iter()).for_each(|(place, value)| values[*place as usize] += value);

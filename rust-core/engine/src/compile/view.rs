@@ -7,7 +7,7 @@ use crate::{
     error::{Error, Result},
     film::{Film, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{FirstPasses, Mist, Sight, Transport},
+    transport::{FirstPasses, Mist, PathFilter, Transport},
 };
 use gonio_simd::Execution;
 
@@ -84,7 +84,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         seed: settings.seed,
         samples: settings.samples,
         light_cache: None,
-        sight: Sight::Whole,
+        path_filter: PathFilter::All,
         fixed_samples: (settings.integrator == Integrator::Whitted)
             .then(|| scene.tables.lights.fixed_samples(settings.light_samples).into()),
     }

@@ -1,10 +1,10 @@
 //! Shadow catchers: what is behind them, dimmed by how much less light they send than they would without the objects.
 
 use super::develop::{Developing, Part};
-use crate::{camera::sampler::BATCH, colour::luminance, scene::Aov, transport::FirstHit};
+use crate::{camera::sampler::BATCH, colour::luminance, scene::Aov, transport::TileSums};
 
 /// Copies what a worker gathered to a block's channels.
-pub(super) fn fill(channels: &mut [f32], gathered: &FirstHit) {
+pub(super) fn fill(channels: &mut [f32], gathered: &TileSums) {
     let Some((coverage, behind)) = gathered.catchers.sums() else { return };
     let halves = (2..4).flat_map(|half| gathered.radiance.iter().map(move |column| &column[half * BATCH..(half + 1) * BATCH]));
     let rest = behind.iter().chain([coverage]).map(|column| &column[..BATCH]);

@@ -12,7 +12,7 @@ use crate::{
     camera::sampler::{BATCH, tile_code, unpack},
     colour::luminance_of_pixel,
     scene::{Aov, LightPart, Settings},
-    transport::{FirstHit, code},
+    transport::{TileSums, code},
 };
 use std::{borrow::Cow, collections::BTreeMap, ops::Range};
 
@@ -172,7 +172,7 @@ impl TileFilm {
 impl Block {
     /// A block from what a worker gathered in some zones, whose batches were packed as for the zones `packed`; positions are moved by `origin` back
     /// to world space, radiance is multiplied by `exposure` in the colour pass alone.
-    pub(crate) fn new(film: &Film, gathered: &FirstHit, zones: u64, packed: u64, origin: [f64; 3]) -> Self {
+    pub(crate) fn new(film: &Film, gathered: &TileSums, zones: u64, packed: u64, origin: [f64; 3]) -> Self {
         let (layout, exposure) = (&film.layout, film.exposure);
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
@@ -192,18 +192,18 @@ impl Block {
 }
 
 /// What a pixel's noise is measured by: the luminance of the colour, and of what shadow catchers send.
-fn shown_luminance(gathered: &FirstHit, layout: &ChannelLayout, exposure: f32) -> Vec<f32> {
+fn shown_luminance(gathered: &TileSums, layout: &ChannelLayout, exposure: f32) -> Vec<f32> {
     let luminance = |i: usize| luminance(gathered, i);
     let caught = |i: usize| if layout.catchers.is_some() { luminance(2 * BATCH + i) } else { 0.0 };
     (0..BATCH).map(|i| (luminance(i) + caught(i)) * exposure).collect()
 }
 
-fn luminance(gathered: &FirstHit, slot: usize) -> f32 {
+fn luminance(gathered: &TileSums, slot: usize) -> f32 {
     let [red, green, blue] = &gathered.radiance;
     luminance_of_pixel([red[slot], green[slot], blue[slot]])
 }
 
-fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &FirstHit, exposure: f32, origin: [f64; 3]) {
+fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileSums, exposure: f32, origin: [f64; 3]) {
     let radiance = &gathered.radiance;
     let luminance = |i: usize| luminance(gathered, i);
     match aov {

@@ -6,7 +6,7 @@ use crate::{
     camera::sampler::Runs,
     film::Block,
     scene::{Antialiasing, Aov, Crop, Integrator},
-    transport::{Sight, Tracer, Transport, Workspace},
+    transport::{PathFilter, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{
@@ -48,8 +48,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let sharp_rays = sharp_rays(shared);
-    let sight = if sharp_rays.is_some() { Sight::Blurred } else { Sight::Whole };
-    let transport = Transport { light_cache, sight, ..shared.source.transport().clone() };
+    let path_filter = if sharp_rays.is_some() { PathFilter::ExceptSpecular } else { PathFilter::All };
+    let transport = Transport { light_cache, path_filter, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -74,7 +74,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let origin = shared.scene.tables.origin;
     // Where samples follow discontinuities every pixel has its own slot.
     let packed = if rule.is_some() { u64::MAX } else { zones };
-    let block = Block::new(&shared.film, &workspace.first_hit, zones, packed, origin);
+    let block = Block::new(&shared.film, &workspace.sums, zones, packed, origin);
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
     let state = shared.film.add(work.tile, work.block, block, white, || {

@@ -1,7 +1,7 @@
 //! Adding lanes to sums by slot.
 
 use crate::accumulate::light_sums::code;
-use crate::accumulate::tile_sums::FirstHit;
+use crate::accumulate::tile_sums::TileSums;
 use crate::state::flag;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U};
 
@@ -27,7 +27,7 @@ pub(crate) fn add_rgb<L: Lanes>(sums: &mut [Column; 3], slot: U<L>, value: Rgb<L
 
 /// Adds to the radiance, and to the passes of light what they want of it.
 #[inline(always)]
-pub(crate) fn add_light<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, value: Rgb<L>, chosen: M<L>) {
+pub(crate) fn add_light<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>, value: Rgb<L>, chosen: M<L>) {
     add_rgb(&mut sums.radiance, slot, value, chosen);
     if sums.lights.wanted() {
         sums.lights.add(code, slot, value, chosen);
@@ -37,7 +37,7 @@ pub(crate) fn add_light<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, v
 /// Adds light from a sampled light. Where passes of light want it, `shares` tells the diffuse and the glossy share of what first surfaces
 /// scatter; the rest is transmitted.
 #[inline(always)]
-pub(crate) fn add_sampled<L: Lanes>(sums: &mut FirstHit, code: U<L>, slot: U<L>, value: Rgb<L>, shares: Option<[Rgb<L>; 2]>, chosen: M<L>) {
+pub(crate) fn add_sampled<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>, value: Rgb<L>, shares: Option<[Rgb<L>; 2]>, chosen: M<L>) {
     add_rgb(&mut sums.radiance, slot, value, chosen);
     let Some([diffuse, glossy]) = shares else { return };
     let at_first = code.eq(code::SHARED);

@@ -31,6 +31,6 @@ pub(crate) fn add_of_surfaces<L: Lanes>(stage: &Stage<'_, L>, at: usize, slot: U
     if passes.wanted() && chosen.any() {
         let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at).keep_if(chosen));
         let group = l.gather_integers(&passes.of_set, set);
-        ws.first_hit.groups.add(group, slot, value, chosen & group.ne(UNSEEN));
+        ws.sums.groups.add(group, slot, value, chosen & group.ne(UNSEEN));
     }
 }

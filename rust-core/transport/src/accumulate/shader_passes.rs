@@ -3,7 +3,7 @@
 use crate::accumulate::add::add;
 use crate::graph::Program;
 use crate::state::flag;
-use crate::state::vertex::Point;
+use crate::state::vertex::Vertex;
 use crate::state::workspace::Workspace;
 use crate::tables::transport::Transport;
 use gonio_camera::sampler::pixel;
@@ -20,17 +20,17 @@ impl Workspace {
 
 /// Adds what a program computed at the chosen hits.
 #[inline(always)]
-pub(crate) fn record<L: Lanes>(l: L, program: &Program, point: &Point<L>, chosen: M<L>, at: usize, ws: &mut Workspace) {
+pub(crate) fn record<L: Lanes>(l: L, program: &Program, point: &Vertex<L>, chosen: M<L>, at: usize, ws: &mut Workspace) {
     let slot = pixel(point.slot);
     let mut place = 0;
     for output in &program.outputs {
         for channel in 0..output.width {
             let value = l.load(ws.shader_outputs.column(place), at);
-            add(&mut ws.first_hit.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
+            add(&mut ws.sums.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
             place += 1;
         }
         if output.width == 3 {
-            add(&mut ws.first_hit.shader.columns[output.offset + 3], slot, point.share, chosen);
+            add(&mut ws.sums.shader.columns[output.offset + 3], slot, point.share, chosen);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::light_sums::code;
-use crate::accumulate::tile_sums::FirstHit;
+use crate::accumulate::tile_sums::TileSums;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
 
 /// A contribution held to the user's limit for fireflies; zero means no limit.
@@ -44,7 +44,7 @@ pub(crate) struct SurfaceLook<L: Lanes> {
     pub(crate) albedo: Rgb<L>,
 }
 
-impl FirstHit {
+impl TileSums {
     /// Adds what the chosen lanes' camera rays met.
     #[inline(always)]
     pub(crate) fn record<L: Lanes>(&mut self, l: L, surface: &FirstSurface<L>, chosen: M<L>) {

@@ -10,7 +10,7 @@ use gonio_simd::Column;
 
 /// What the camera sees first, by pixel slot; sums over the samples of a block. Columns that no pass wants are empty.
 #[derive(Debug)]
-pub struct FirstHit {
+pub struct TileSums {
     /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second, then that of shadow catchers.
     pub radiance: Columns3,
     /// Coverage.
@@ -49,7 +49,7 @@ pub struct FirstHit {
     pub catchers: CatcherSums,
 }
 
-impl Default for FirstHit {
+impl Default for TileSums {
     fn default() -> Self {
         Self {
             radiance: columns3(2 * BATCH),
@@ -74,7 +74,7 @@ impl Default for FirstHit {
     }
 }
 
-impl FirstHit {
+impl TileSums {
     /// Makes room for what passes want, and for nothing else.
     pub(crate) fn prepare_passes(&mut self, passes: &FirstPasses) {
         let [albedo, normal] = &mut self.guides;

@@ -8,7 +8,7 @@ mod surface_point;
 pub use derivatives::UvDerivatives;
 pub use instance_row::InstanceRow;
 pub use primvar::{PrimvarKind, PrimvarRef};
-pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, spawn, spawn_to};
+pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, offset_ray_origin, shadow_ray_to};
 
 /// No entry.
 pub const NONE: u32 = u32::MAX;

@@ -122,14 +122,14 @@ impl GeometryTable {
 impl<L: Lanes> SurfacePoint<L> {
     /// Where a ray into `direction` may start without meeting the surface it leaves.
     #[inline(always)]
-    pub fn spawn(&self, direction: Vec3<L>) -> Vec3<L> {
-        spawn(self.position, self.geometric_normal, self.error, direction)
+    pub fn offset_ray_origin(&self, direction: Vec3<L>) -> Vec3<L> {
+        offset_ray_origin(self.position, self.geometric_normal, self.error, direction)
     }
 }
 
 /// A ray's start at `position` moved off the surface to the side `direction` points to, by twice the error bound.
 #[inline(always)]
-pub fn spawn<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>) -> Vec3<L> {
+pub fn offset_ray_origin<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>) -> Vec3<L> {
     let side = (error * 2.0).copysign(normal.dot(direction));
     normal.mul_add(side, position)
 }
@@ -153,8 +153,8 @@ pub struct ShadowSegment<L: Lanes> {
 /// The ray from `position` to the point `distance` away in `direction`. It leads there from where it starts: if it were moved off the surface
 /// and no more, it would meet what the point lies on before its end, at grazing angles by far.
 #[inline(always)]
-pub fn spawn_to<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>, distance: F<L>) -> ShadowSegment<L> {
-    let origin = spawn(position, normal, error, direction);
+pub fn shadow_ray_to<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>, distance: F<L>) -> ShadowSegment<L> {
+    let origin = offset_ray_origin(position, normal, error, direction);
     let way = direction.mul_add(distance, position - origin);
     let near = distance.lt(FAR);
     let length = near.select(way.length(), distance);

@@ -2,7 +2,7 @@
 
 use crate::schedule::path::Tracer;
 use crate::state::workspace::Workspace;
-use crate::tables::transport::{FirstPasses, Sight, Transport};
+use crate::tables::transport::{FirstPasses, PathFilter, Transport};
 use gonio_camera::sampler::Runs;
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ const SEED: u32 = 0x5f35_6495;
 
 impl Tracer<'_> {
     /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples
-    /// themselves must have been traced with [`Sight::Blurred`].
+    /// themselves must have been traced with [`PathFilter::ExceptSpecular`].
     pub fn trace_sharp(
         &self,
         [min, max]: [[u32; 2]; 2],
@@ -25,7 +25,7 @@ impl Tracer<'_> {
         let transport = Transport {
             passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
             measure: false,
-            sight: Sight::Sharp,
+            path_filter: PathFilter::SpecularOnly,
             fixed_samples: Some([].into()),
             // Paths see what emits beyond the last bounce.
             max_bounces: own.max_bounces.saturating_add(1),

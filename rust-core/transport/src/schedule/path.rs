@@ -120,9 +120,9 @@ impl Tracer<'_> {
             trace_shadows(self.tables, &self.transport, depth == 0, ws);
             ws.statistics.spent(5, time);
             std::mem::swap(&mut ws.paths, &mut ws.next);
-            catcher::rejoin(self.tables, &mut ws.paths);
+            catcher::join(self.tables, &mut ws.paths);
             ws.paths.set_masks();
-            catcher::narrow(self.tables, &mut ws.paths);
+            catcher::set_masks(self.tables, &mut ws.paths);
         }
     }
 
@@ -132,7 +132,7 @@ impl Tracer<'_> {
         trace_shadows(self.tables, &self.transport, true, ws);
         std::mem::swap(&mut ws.paths, &mut ws.next);
         ws.paths.set_masks();
-        catcher::narrow(self.tables, &mut ws.paths);
+        catcher::set_masks(self.tables, &mut ws.paths);
     }
 
     /// Shades all surface hits, material by material, a chunk at a time.

@@ -9,7 +9,7 @@ use crate::kernels;
 use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::shadow_rays::ShadowRays;
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use crate::tables::{Tables, ray_mask};
 use gonio_accel::NONE;
@@ -17,12 +17,12 @@ use gonio_camera::sampler::{BATCH, pixel};
 use gonio_simd::{Lanes, M, Rgb, U};
 
 /// First slot of the halves that see all of the scene.
-const WHOLE: u32 = 2 * BATCH as u32;
+const WITH_OBJECTS: u32 = 2 * BATCH as u32;
 /// First slot of the halves that see catchers alone.
-const ALONE: u32 = 3 * BATCH as u32;
+const CATCHERS_ONLY: u32 = 3 * BATCH as u32;
 
 /// Splits the paths whose camera rays met a catcher.
-pub(crate) fn split(tables: &Tables, ws: &mut Workspace) {
+pub(crate) fn fork(tables: &Tables, ws: &mut Workspace) {
     let geometry = &tables.geometry;
     if geometry.set_catcher.is_empty() {
         return;
@@ -36,27 +36,27 @@ pub(crate) fn split(tables: &Tables, ws: &mut Workspace) {
             let twin = ws.paths.count;
             ws.paths.copy(path, twin);
             ws.hits.repeat(path);
-            *ws.paths.slot_mut(path) += WHOLE;
-            *ws.paths.slot_mut(twin) += ALONE;
+            *ws.paths.slot_mut(path) += WITH_OBJECTS;
+            *ws.paths.slot_mut(twin) += CATCHERS_ONLY;
             ws.paths.count += 1;
         }
     }
 }
 
 /// Makes one of the halves that went straight through a catcher which is not there.
-pub(crate) fn rejoin(tables: &Tables, paths: &mut Paths) {
+pub(crate) fn join(tables: &Tables, paths: &mut Paths) {
     if tables.geometry.set_catcher.is_empty() {
         return;
     }
     let mut kept = 0;
     for path in 0..paths.count {
-        let halved = paths.flags(path) & flag::CAMERA != 0 && paths.slot(path) >= WHOLE;
-        if halved && paths.slot(path) >= ALONE {
+        let halved = paths.flags(path) & flag::CAMERA != 0 && paths.slot(path) >= WITH_OBJECTS;
+        if halved && paths.slot(path) >= CATCHERS_ONLY {
             continue;
         }
         paths.copy(path, kept);
         if halved {
-            *paths.slot_mut(kept) -= WHOLE;
+            *paths.slot_mut(kept) -= WITH_OBJECTS;
         }
         kept += 1;
     }
@@ -64,10 +64,10 @@ pub(crate) fn rejoin(tables: &Tables, paths: &mut Paths) {
 }
 
 /// Lets rays of paths among catchers alone see those alone.
-pub(crate) fn narrow(tables: &Tables, paths: &mut Paths) {
+pub(crate) fn set_masks(tables: &Tables, paths: &mut Paths) {
     if !tables.geometry.set_catcher.is_empty() {
         for path in 0..paths.count {
-            if paths.slot(path) >= ALONE {
+            if paths.slot(path) >= CATCHERS_ONLY {
                 paths.mask[path] = ray_mask::CATCHER_SCATTERED;
             }
         }
@@ -75,9 +75,9 @@ pub(crate) fn narrow(tables: &Tables, paths: &mut Paths) {
 }
 
 /// The same for rays to lights.
-pub(crate) fn narrow_shadows(tables: &Tables, shadows: &mut ShadowRays) {
+pub(crate) fn set_shadow_masks(tables: &Tables, shadows: &mut ShadowRays) {
     if !tables.geometry.set_catcher.is_empty() {
-        let mask = |slot: u32| if slot >= ALONE { ray_mask::CATCHER_SHADOW } else { ray_mask::SHADOW };
+        let mask = |slot: u32| if slot >= CATCHERS_ONLY { ray_mask::CATCHER_SHADOW } else { ray_mask::SHADOW };
         shadows.mask.iter_mut().zip(&shadows.slot[..shadows.count]).for_each(|(place, slot)| *place = mask(*slot));
     }
 }
@@ -88,27 +88,27 @@ pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) ->
     if tables.object_lights.is_empty() {
         return l.m(true);
     }
-    slot.lt(ALONE) | l.gather_integers(&tables.object_lights, light).eq(0)
+    slot.lt(CATCHERS_ONLY) | l.gather_integers(&tables.object_lights, light).eq(0)
 }
 
 /// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on their paths are as if
 /// they had come from anywhere.
 #[inline(always)]
-pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, present: M<L>, ws: &mut Workspace) {
+pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Vertex<L>, present: M<L>, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, .. } = *stage;
-    let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WHOLE);
-    let caught = present & halved & point.slot.lt(ALONE);
+    let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WITH_OBJECTS);
+    let caught = present & halved & point.slot.lt(CATCHERS_ONLY);
     point.flags = halved.select(point.flags & !flag::CAMERA, point.flags);
     if !caught.any() {
         return;
     }
     let pixel = pixel(point.slot);
     if transport.environment_covers {
-        add(&mut ws.first_hit.alpha, pixel, point.share, caught);
+        add(&mut ws.sums.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
     let from = ws.paths.vertex(l, point.path);
-    let Some((coverage, behind)) = &mut ws.first_hit.catchers.sums else { return };
+    let Some((coverage, behind)) = &mut ws.sums.catchers.sums else { return };
     if !transport.environment_covers {
         add(coverage, pixel, point.share, caught);
     }
@@ -123,11 +123,11 @@ pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Point<L>, prese
 /// Of hits that the camera sees, those that passes show: halves among catchers alone are there for comparison only.
 #[inline(always)]
 pub(crate) fn shown<L: Lanes>(slot: U<L>) -> M<L> {
-    slot.lt(ALONE)
+    slot.lt(CATCHERS_ONLY)
 }
 
 /// Of hits that the camera sees, those that cover what is behind them.
 #[inline(always)]
 pub(crate) fn covers<L: Lanes>(slot: U<L>) -> M<L> {
-    slot.lt(WHOLE)
+    slot.lt(WITH_OBJECTS)
 }

@@ -2,7 +2,7 @@
 
 use crate::stage::nee::light;
 use crate::stage::scatter::scatter;
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use gonio_bsdf::subsurface;
 use gonio_camera::sampler::dimension;
@@ -10,7 +10,7 @@ use gonio_simd::{Lanes, Vec3};
 
 /// Lights and scatters what comes out from under a surface, as a white Lambertian surface does; `base` is the first dimension of its numbers.
 #[inline(always)]
-pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, base: u32, ws: &mut Workspace) {
+pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, base: u32, ws: &mut Workspace) {
     let Stage { l, tables, context, .. } = *stage;
     let lobes = subsurface::exit(l);
     let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);

@@ -6,7 +6,7 @@ use crate::stage::catcher;
 use crate::state::columns::append3;
 use crate::state::flag;
 use crate::state::measure_points::MeasurePoints;
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
 use crate::tables::material::SurfaceMaterial;
@@ -20,7 +20,7 @@ use gonio_simd::{F, Lanes, M, U, Vec3};
 pub(crate) fn covered<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
-    point: &Point<L>,
+    point: &Vertex<L>,
     present: M<L>,
     at: usize,
     ws: &Workspace,
@@ -41,7 +41,7 @@ pub(crate) fn covered<L: Lanes>(
 pub(crate) fn record_first<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
-    point: &Point<L>,
+    point: &Vertex<L>,
     lobes: &Lobes<'_, L>,
     present: M<L>,
     at: usize,
@@ -65,9 +65,9 @@ pub(crate) fn record_first<L: Lanes>(
             None => None,
         },
         uv: if transport.passes.uv { Some(texture_coordinates(l, tables, material, at, ws)) } else { None },
-        kinds: if ws.first_hit.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
+        kinds: if ws.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
     };
-    ws.first_hit.record(l, &surface, seen);
+    ws.sums.record(l, &surface, seen);
     if let Some(program) = stage.shader {
         shader_passes::record(l, program, point, seen, at, ws);
     }
@@ -75,7 +75,7 @@ pub(crate) fn record_first<L: Lanes>(
 
 /// Where the surface is, and what it is like.
 #[inline(always)]
-fn look<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, lobes: &Lobes<'_, L>, eye: Vec3<L>) -> SurfaceLook<L> {
+fn look<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, lobes: &Lobes<'_, L>, eye: Vec3<L>) -> SurfaceLook<L> {
     SurfaceLook {
         depth: (point.position - eye).dot(Vec3::splat(stage.l, stage.transport.forward)),
         normal: point.frame.z,
@@ -112,7 +112,7 @@ fn texture_coordinates<L: Lanes>(l: L, tables: &Tables, material: &SurfaceMateri
 }
 
 #[inline(always)]
-pub(crate) fn append_measure<L: Lanes>(point: &Point<L>, chosen: M<L>, out: &mut MeasurePoints) {
+pub(crate) fn append_measure<L: Lanes>(point: &Vertex<L>, chosen: M<L>, out: &mut MeasurePoints) {
     if !chosen.any() {
         return;
     }

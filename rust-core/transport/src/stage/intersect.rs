@@ -30,7 +30,7 @@ pub(crate) fn intersect(tables: &Tables, transport: &Transport, depth: u32, ws: 
     dispatch!(transport.execution, l => add_environment(l, tables, transport, depth, ws));
     let lanes = transport.execution.lanes();
     ws.statistics.count_lanes(depth, 0, count.next_multiple_of(lanes), count);
-    catcher::split(tables, ws);
+    catcher::fork(tables, ws);
     dispatch!(transport.execution, l => list_materials(l, tables, ws));
 }
 
@@ -96,8 +96,8 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
         let weight = sampled.select(power_heuristic(carried.pdf, pdf), l.f(1.0));
         let value = clamped(radiance * carried.throughput * weight, transport.clamp(depth));
         let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
-        add_light(&mut ws.first_hit, code_of(flags, code::EMISSION), slot, value, arrives);
-        add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.first_hit.groups);
+        add_light(&mut ws.sums, code_of(flags, code::EMISSION), slot, value, arrives);
+        add_of_lights(l, &transport.passes.groups, light, slot, value, arrives, &mut ws.sums.groups);
     }
     ws.at_lights.truncate(count);
 }
@@ -153,7 +153,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth
         let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (ws.paths.carried(l, path), ws.paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
         if transport.environment_covers {
-            add(&mut ws.first_hit.alpha, slot, pdf, alive & camera);
+            add(&mut ws.sums.alpha, slot, pdf, alive & camera);
         }
         let alive = if transport.shows_environment { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
@@ -164,13 +164,13 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth
         let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, None) * throughput;
         let value = clamped(unclamped, transport.clamp(depth));
         let arrives = guides::see(transport, flags, slot, value, alive & value.is_lit(), ws);
-        add_light(&mut ws.first_hit, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
+        add_light(&mut ws.sums, code_of(flags, code::ENVIRONMENT), slot, value, arrives);
         if transport.passes.groups.wanted() && arrives.any() {
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
             for light in tables.lights.infinite_lights() {
                 let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, Some(light)) * throughput * share;
-                add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.first_hit.groups);
+                add_of_lights(l, &transport.passes.groups, l.u(light), slot, part, arrives & part.is_lit(), &mut ws.sums.groups);
             }
         }
     }

@@ -12,10 +12,10 @@ use gonio_simd::{F, Lanes, Vec3};
 /// The light drawn for each of a register of hits; with the chunk's first come the draws of all hits behind.
 #[inline(always)]
 pub(crate) fn sample<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) -> LightSample<L> {
-    if !ws.light_draws.made {
+    if !ws.light_queue.made {
         draw_lights(stage.l, stage, at, ws);
     }
-    ws.light_draws.load(stage.l, at)
+    ws.light_queue.load(stage.l, at)
 }
 
 /// Draws a light and a place on it for all hits of the chunk from a register's beginning on.
@@ -25,11 +25,11 @@ pub(crate) fn draw_chunk<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut 
     for at in (first..end).step_by(L::COUNT) {
         choose(stage, at, ws);
     }
-    let total = ws.light_draws.sort(&stage.tables.lights, first..end, L::COUNT);
+    let total = ws.light_queue.sort(&stage.tables.lights, first..end, L::COUNT);
     for at in (0..total).step_by(L::COUNT) {
         aim(stage, at, ws);
     }
-    ws.light_draws.made = true;
+    ws.light_queue.made = true;
 }
 
 /// Chooses the lights of a register of hits.
@@ -43,7 +43,7 @@ fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let (p, n) = (load3(l, &ws.surface.position, at), load3(l, &ws.surface.shading_normal, at));
     let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_light);
-    let draws = &mut ws.light_draws;
+    let draws = &mut ws.light_queue;
     light.store(&mut draws.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut draws.draw, at);
     l.store_quads([p.x, p.y, p.z, l.f(0.0)], &mut draws.position, at);
@@ -54,12 +54,12 @@ fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
 #[inline(always)]
 fn aim<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, .. } = *stage;
-    let draws = &ws.light_draws;
+    let draws = &ws.light_queue;
     let hit = l.load_integers(&draws.order, at);
     let [light, probability, u, v] = l.gather_quads(&draws.draw, hit << 2);
     let (p, n) = (Vec3::gather(l, &draws.position, hit << 2), Vec3::gather(l, &draws.normal, hit << 2));
     let sample = tables.lights.sample_li_of(l, (light.to_bits(), probability), &p, &n, &[u, v]);
-    ws.light_draws.store(l, &sample, at);
+    ws.light_queue.store(l, &sample, at);
 }
 
 /// [`draw_chunk`] as a function of its own, as those of `kernels.rs`.

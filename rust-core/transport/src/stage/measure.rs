@@ -4,7 +4,7 @@
 
 use crate::accumulate::add::add_rgb;
 use crate::accumulate::arrivals::note_lost;
-use crate::geometry::{spawn, spawn_to};
+use crate::geometry::{offset_ray_origin, shadow_ray_to};
 use crate::kernels;
 use crate::stage::shadow::make_room;
 use crate::state::columns::load3;
@@ -115,8 +115,8 @@ fn light<L: Lanes>(l: L, point: &Point<L>, sample: &LightSample<L>, share: Optio
     let contribution = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
     note_lost(point.position, point.alive.and_not(lit), ws);
-    add_rgb(&mut ws.first_hit.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
-    let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
+    add_rgb(&mut ws.sums.radiance, point.slot, contribution, lit.and_not(sample.casts_shadow));
+    let segment = shadow_ray_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
     let ray = ShadowLanes { segment, contribution, slot: point.slot, code: l.u(0), light: sample.light, shares: None };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }
@@ -128,7 +128,7 @@ fn start<L: Lanes>(l: L, point: &Point<L>, u: [F<L>; 2], ws: &mut Workspace) {
     // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
     let alive = point.alive & local.z.gt(0.0) & point.geometric.dot(direction).gt(0.0);
     let state = PathLanes {
-        origin: spawn(point.position, point.geometric, point.error, direction),
+        origin: offset_ray_origin(point.position, point.geometric, point.error, direction),
         direction,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
@@ -139,7 +139,7 @@ fn start<L: Lanes>(l: L, point: &Point<L>, u: [F<L>; 2], ws: &mut Workspace) {
         width: point.width,
         spread: l.f(0.3),
         slot: point.slot,
-        flags: l.u(flag::MEASURED | (1 << flag::BOUNCE_SHIFT)),
+        flags: l.u(flag::NON_SPECULAR_SEEN | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
         medium: Rgb::zero(l),
     };

@@ -4,11 +4,11 @@ use crate::accumulate::add::{add_sampled, code_of_sampled};
 use crate::accumulate::arrivals::note_lost;
 use crate::accumulate::light_groups::add_of_lights;
 use crate::accumulate::surface_aovs::clamped;
-use crate::geometry::spawn_to;
+use crate::geometry::shadow_ray_to;
 use crate::kernels;
 use crate::stage::catcher;
 use crate::state::shadow_rays::ShadowLanes;
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, power_heuristic};
@@ -18,7 +18,7 @@ use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 #[inline(always)]
 pub(crate) fn light<L: Lanes>(
     stage: &Stage<'_, L>,
-    point: &Point<L>,
+    point: &Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     u: [F<L>; 3],
@@ -35,7 +35,7 @@ pub(crate) fn light<L: Lanes>(
 #[expect(clippy::too_many_arguments, reason = "a surface and a light")]
 pub(crate) fn send<L: Lanes>(
     stage: &Stage<'_, L>,
-    point: &Point<L>,
+    point: &Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     sample: &LightSample<L>,
@@ -60,10 +60,10 @@ pub(crate) fn send<L: Lanes>(
     note_lost(point.position, present.and_not(lit), ws);
     let free = lit.and_not(sample.casts_shadow);
     let code = code_of_sampled(point.flags);
-    let shares = if ws.first_hit.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
-    add_sampled(&mut ws.first_hit, code, point.slot, contribution, shares, free);
-    add_of_lights(l, &transport.passes.groups, sample.light, point.slot, contribution, free, &mut ws.first_hit.groups);
-    let segment = spawn_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
+    let shares = if ws.sums.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
+    add_sampled(&mut ws.sums, code, point.slot, contribution, shares, free);
+    add_of_lights(l, &transport.passes.groups, sample.light, point.slot, contribution, free, &mut ws.sums.groups);
+    let segment = shadow_ray_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
     let ray = ShadowLanes { segment, contribution, slot: point.slot, code, light: sample.light, shares };
     ws.shadows.append(&ray, lit & sample.casts_shadow);
 }

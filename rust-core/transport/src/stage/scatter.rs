@@ -1,9 +1,9 @@
 //! Where paths go from a surface: on, straight through, or under it.
 
-use crate::geometry::spawn;
+use crate::geometry::offset_ray_origin;
 use crate::kernels;
 use crate::state::paths::PathLanes;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, Point, Stage};
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Stage, Vertex};
 use crate::state::walks::WalkLanes;
 use crate::state::workspace::Workspace;
 use crate::state::{event, flag};
@@ -31,14 +31,14 @@ pub(crate) fn straight_left<L: Lanes>(counts: U<L>, transport: &Transport) -> M<
 
 /// Sends paths on that go through a surface which is not there: nothing about them changes but where they start.
 #[inline(always)]
-pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: &mut Workspace) {
+pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Vertex<L>, chosen: M<L>, ws: &mut Workspace) {
     if !chosen.any() {
         return;
     }
     let direction = -point.wo;
     let from = ws.paths.vertex(l, point.path);
     let state = PathLanes {
-        origin: spawn(point.position, point.geometric, point.error, direction),
+        origin: offset_ray_origin(point.position, point.geometric, point.error, direction),
         direction,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
@@ -58,7 +58,7 @@ pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Point<L>, chosen: M<L>, ws: 
 
 /// Starts walks under the surface.
 #[inline(always)]
-fn enter<L: Lanes>(point: &Point<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
+fn enter<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
     if !chosen.any() {
         return;
     }
@@ -94,7 +94,7 @@ fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -
 #[inline(always)]
 pub(crate) fn scatter<L: Lanes>(
     stage: &Stage<'_, L>,
-    point: &Point<L>,
+    point: &Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     u: [F<L>; 4],
@@ -128,7 +128,7 @@ pub(crate) fn scatter<L: Lanes>(
         return;
     }
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
-    let measured = (point.flags & flag::MEASURED) | point.only_delta.select(l.u(0), l.u(flag::MEASURED));
+    let measured = (point.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
     let scattered = delta | measured | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
@@ -143,7 +143,7 @@ pub(crate) fn scatter<L: Lanes>(
         pdf = straight.select(point.pdf, pdf);
     }
     let state = PathLanes {
-        origin: spawn(point.position, point.geometric, point.error, wi),
+        origin: offset_ray_origin(point.position, point.geometric, point.error, wi),
         direction: wi,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),

@@ -14,13 +14,13 @@ use crate::stage::scatter::{pass_straight, scatter, straight_left, within};
 use crate::stage::{catcher, light_queue};
 use crate::state::columns::{gather3, load3};
 use crate::state::flag;
-use crate::state::light_samples::LightDraws;
+use crate::state::light_samples::LightSampleQueue;
 use crate::state::paths::{CarriedLanes, TrackLanes};
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use crate::tables::material::SurfaceMaterial;
 use crate::tables::material::{parameter_values, threshold};
-use crate::tables::transport::Sight;
+use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Hits, Lobes, ParameterValues, normals::Normals};
 use gonio_camera::sampler::dimension;
 use gonio_light::power_heuristic;
@@ -34,7 +34,7 @@ pub(crate) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
     let outputs = std::mem::take(&mut ws.outputs);
     let values = parameter_values(material, &outputs);
     let mut lobes = Lobes::empty(l);
-    ws.light_draws.made = false;
+    ws.light_queue.made = false;
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let mut point = load_point(l, material, first, at, alive, ws);
@@ -55,14 +55,14 @@ pub(crate) fn shade_chunk<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMate
 }
 
 #[inline(always)]
-fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
+fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usize, alive: M<L>, ws: &Workspace) -> Vertex<L> {
     let path = l.load_integers(&ws.order, first + at);
     let shading = load3(l, &ws.surface.shading_normal, at);
     let frame =
         if material.anisotropic { Frame::from_tangent(shading, load3(l, &ws.surface.tangent, at)) } else { Frame::from_normal(shading) };
     let CarriedLanes { throughput, pdf } = ws.paths.carried(l, path);
     let TrackLanes { slot, flags, counts, spread } = ws.paths.track(l, path);
-    Point {
+    Vertex {
         alive,
         path,
         position: load3(l, &ws.surface.position, at),
@@ -80,7 +80,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
         bounces: flags >> flag::BOUNCE_SHIFT,
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
-        only_delta: l.m(false),
+        all_delta: l.m(false),
         pdf,
         share: pdf,
     }
@@ -88,7 +88,7 @@ fn load_point<L: Lanes>(l: L, material: &SurfaceMaterial, first: usize, at: usiz
 
 /// The normals beside the shading normal, where the material has any.
 #[inline(always)]
-fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Point<L>, at: usize, ws: &Workspace) -> Option<Normals<L>> {
+fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Vertex<L>, at: usize, ws: &Workspace) -> Option<Normals<L>> {
     let program = &material.program;
     let bent = program.normal.is_some() && program.free_normal;
     if !bent && program.coat_normal.is_none() {
@@ -102,7 +102,7 @@ fn normals<L: Lanes>(l: L, material: &SurfaceMaterial, point: &Point<L>, at: usi
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
 #[inline(always)]
-fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'_>, point: &mut Point<L>, at: usize, ws: &Workspace) {
+fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'_>, point: &mut Vertex<L>, at: usize, ws: &Workspace) {
     let sigma = gather3(l, &ws.paths.medium, point.path);
     point.medium = sigma.into();
     let distance = l.gather(&ws.hits.t, point.path);
@@ -117,7 +117,7 @@ fn absorb<L: Lanes>(l: L, material: &SurfaceMaterial, values: &ParameterValues<'
 fn shade_lanes<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
-    point: &mut Point<L>,
+    point: &mut Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     at: usize,
@@ -138,7 +138,7 @@ fn shade_lanes<L: Lanes>(
     let [smooth, going_on] = meet(stage, point, lobes, present, ws);
     let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if (smooth & going_on).any() && !tables.lights.is_empty() {
-        if LightDraws::pays::<L>(&tables.lights, stage.hits.len()) {
+        if LightSampleQueue::pays::<L>(&tables.lights, stage.hits.len()) {
             let sample = light_queue::sample(stage, at, ws);
             send(stage, point, wo, lobes, &sample, None, going_on, ws);
         } else {
@@ -155,19 +155,19 @@ fn shade_lanes<L: Lanes>(
 #[inline(always)]
 pub(crate) fn meet<L: Lanes>(
     stage: &Stage<'_, L>,
-    point: &mut Point<L>,
+    point: &mut Vertex<L>,
     lobes: &Lobes<'_, L>,
     present: M<L>,
     ws: &mut Workspace,
 ) -> [M<L>; 2] {
     let transport = stage.transport;
-    let [smooth, only_delta] = lobes.smoothness(stage.l);
-    point.only_delta = only_delta;
+    let [smooth, all_delta] = lobes.smoothness(stage.l);
+    point.all_delta = all_delta;
     guides::record(stage, point, lobes, present, ws);
     // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
     let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
     if transport.measure {
-        let measured = going_on.and_not(only_delta) & guides::is_sharp(point.flags, point.slot);
+        let measured = going_on.and_not(all_delta) & guides::is_specular_path(point.flags, point.slot);
         append_measure(point, measured, &mut ws.measure);
     }
     [smooth, going_on]
@@ -178,7 +178,7 @@ pub(crate) fn meet<L: Lanes>(
 pub(crate) fn show<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
-    point: &mut Point<L>,
+    point: &mut Vertex<L>,
     lobes: &Lobes<'_, L>,
     present: M<L>,
     at: usize,
@@ -194,7 +194,7 @@ pub(crate) fn show<L: Lanes>(
         add_emission(stage, point, lobes.emission(), present, at, ws);
     }
     // What is seen through a transparent closure comes first.
-    if !material.surface.lobes.straight && stage.transport.sight != Sight::Sharp {
+    if !material.surface.lobes.straight && stage.transport.path_filter != PathFilter::SpecularOnly {
         record_first(stage, material, point, lobes, present, at, ws);
         if !tables.geometry.set_catcher.is_empty() {
             catcher::record(stage, point, present, ws);
@@ -205,7 +205,7 @@ pub(crate) fn show<L: Lanes>(
 
 /// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
 #[inline(always)]
-fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
+fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, .. } = *stage;
     let mut value = emission * point.throughput;
     if !tables.triangle_lights.is_empty() {
@@ -222,6 +222,6 @@ fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, emission: Rgb<
     }
     let value = clamped(value, transport.clamp(context.depth));
     let arrives = guides::see(transport, point.flags, point.slot, value, present & value.is_lit(), ws);
-    add_light(&mut ws.first_hit, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
+    add_light(&mut ws.sums, code_of(point.flags, code::EMISSION), point.slot, value, arrives);
     add_of_surfaces(stage, at, point.slot, value, arrives, ws);
 }

@@ -35,7 +35,7 @@ pub(crate) fn trace_shadows(tables: &Tables, transport: &Transport, coherent: bo
     ws.blocked.clear();
     ws.blocked.resize(n + gonio_simd::PADDING, 1);
     ws.passed.clear();
-    catcher::narrow_shadows(tables, &mut ws.shadows);
+    catcher::set_shadow_masks(tables, &mut ws.shadows);
     let rays = rays_of(&ws.shadows);
     let blocked = &mut ws.blocked[..n];
     let packets = coherent && tables.bvh.has_shadow_packets(transport.execution);
@@ -77,11 +77,11 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, ws: &mut Workspace) {
         let value = load3(l, &rays.contribution, at).into();
         let (slot, code) = (l.load_integers(&rays.slot, at), l.load_integers(&rays.code, at));
         let [diffuse, glossy] = &rays.shares;
-        let shares = if ws.first_hit.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None };
-        add_sampled(&mut ws.first_hit, code, slot, value, shares, arrived);
+        let shares = if ws.sums.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None };
+        add_sampled(&mut ws.sums, code, slot, value, shares, arrived);
         if transport.passes.groups.wanted() {
             let light = l.load_integers(&ws.shadows.light, at);
-            add_of_lights(l, &transport.passes.groups, light, slot, value, arrived, &mut ws.first_hit.groups);
+            add_of_lights(l, &transport.passes.groups, light, slot, value, arrived, &mut ws.sums.groups);
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::stage::surface::{ChunkRays, ChunkSource, store3};
 use crate::state::columns::{gather3, load3};
 use crate::state::flag;
 use crate::state::sample::SampleContext;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, Point, Stage};
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Stage, Vertex};
 use crate::state::walks::Walks;
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;
@@ -128,13 +128,13 @@ fn come_out_chunk<L: Lanes>(
 
 /// Where walks come out; the normal is the direction they are seen from.
 #[inline(always)]
-fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Workspace) -> Point<L> {
+fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Workspace) -> Vertex<L> {
     let walk = l.load_integers(order, at);
     let (walks, surface) = (&ws.walks, &ws.surface);
     // Surface columns face the ray's start, which is inside; the way out is the other one.
     let normal = -load3(l, &surface.shading_normal, at);
     let flags = l.gather_integers(&walks.flags, walk);
-    Point {
+    Vertex {
         alive,
         path: l.u(0),
         position: load3(l, &surface.position, at),
@@ -152,7 +152,7 @@ fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Worksp
         bounces: flags >> flag::BOUNCE_SHIFT,
         medium: Rgb::zero(l),
         behind: Rgb::zero(l),
-        only_delta: l.m(false),
+        all_delta: l.m(false),
         pdf: l.f(0.0),
         share: l.f(0.0),
     }

@@ -5,7 +5,7 @@ pub(crate) const CAMERA: u32 = 1;
 /// The last scattering was a mirror's or a smooth boundary's: lights cannot be sampled for it.
 pub(crate) const DELTA: u32 = 2;
 /// A surface that is not a mirror has been met.
-pub(crate) const MEASURED: u32 = 4;
+pub(crate) const NON_SPECULAR_SEEN: u32 = 4;
 /// Above this bit, two bits: what the last scattering was, see [`super::event`].
 pub(crate) const LAST_SHIFT: u32 = 3;
 /// Above this bit, two bits: what the first scattering was; of use only once there was one.

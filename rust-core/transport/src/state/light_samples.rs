@@ -18,7 +18,7 @@ mod bit {
 
 /// A light drawn for each hit of a chunk, and the place on it.
 #[derive(Debug)]
-pub(crate) struct LightDraws {
+pub(crate) struct LightSampleQueue {
     /// Whether the draws of the chunk have been made: mirrors and glass want none.
     pub(crate) made: bool,
     /// By hit: the light.
@@ -37,7 +37,7 @@ pub(crate) struct LightDraws {
     pub(crate) bits: Column<u32>,
 }
 
-impl Default for LightDraws {
+impl Default for LightSampleQueue {
     fn default() -> Self {
         Self {
             made: false,
@@ -54,7 +54,7 @@ impl Default for LightDraws {
     }
 }
 
-impl LightDraws {
+impl LightSampleQueue {
     /// Whether hits are worth sorting: lanes would draw lights of several kinds.
     #[inline(always)]
     pub(crate) fn pays<L: Lanes>(lights: &LightTable, hits: usize) -> bool {

@@ -12,7 +12,7 @@ pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
 
 /// One register of shading points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Point<L: Lanes> {
+pub(crate) struct Vertex<L: Lanes> {
     pub(crate) alive: M<L>,
     pub(crate) path: U<L>,
     pub(crate) position: Vec3<L>,
@@ -32,7 +32,7 @@ pub(crate) struct Point<L: Lanes> {
     pub(crate) medium: Rgb<L>,
     pub(crate) behind: Rgb<L>,
     /// Where all lobes are mirrors or clear glass.
-    pub(crate) only_delta: M<L>,
+    pub(crate) all_delta: M<L>,
     /// Density of the path's direction per solid angle, but for camera rays.
     pub(crate) pdf: F<L>,
     /// How much of a camera ray's sample is here; of other rays, nothing of meaning.

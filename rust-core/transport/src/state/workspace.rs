@@ -1,10 +1,10 @@
 //! The state of a batch of paths, in columns.
 
 use crate::accumulate::light_sums::code;
-use crate::accumulate::tile_sums::FirstHit;
+use crate::accumulate::tile_sums::TileSums;
 use crate::graph::{CHUNK, GraphScratch, OutputColumns, SurfaceColumns};
 use crate::state::branches::Branches;
-use crate::state::light_samples::LightDraws;
+use crate::state::light_samples::LightSampleQueue;
 use crate::state::measure_points::MeasurePoints;
 use crate::state::paths::Paths;
 use crate::state::retraced::RetracedRays;
@@ -26,7 +26,7 @@ pub struct Workspace {
     pub(crate) hits: Hits,
     pub(crate) retraced: Hits,
     pub(crate) retraced_rays: RetracedRays,
-    pub(crate) light_draws: LightDraws,
+    pub(crate) light_queue: LightSampleQueue,
     pub(crate) shadows: ShadowRays,
     pub(crate) shadow_order: ShadowOrder,
     /// Light that arrived, where it is to be learned from.
@@ -55,9 +55,9 @@ pub struct Workspace {
     /// What programs of shader passes computed.
     pub(crate) shader_outputs: OutputColumns,
     /// The block under way.
-    pub first_hit: FirstHit,
+    pub sums: TileSums,
     /// The same of rays that see sharply alone.
-    pub(crate) sharp_hit: FirstHit,
+    pub(crate) specular_sums: TileSums,
     /// Rays traced and lanes alive, for benchmarks.
     pub statistics: Statistics,
 }
@@ -71,29 +71,29 @@ impl Workspace {
     /// Lets rays that see sharply alone have sums of their own.
     pub(crate) fn start_sharp(&mut self, transport: &Transport) {
         self.branches.prepare(transport);
-        self.sharp_hit.clear();
-        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
+        self.specular_sums.clear();
+        std::mem::swap(&mut self.sums, &mut self.specular_sums);
     }
 
     /// Adds what they saw to the block, so many of them counting as one sample.
     pub(crate) fn end_sharp(&mut self, rays: u32) {
-        std::mem::swap(&mut self.first_hit, &mut self.sharp_hit);
-        self.first_hit.add_sharp(&self.sharp_hit, 1.0 / rays as f32);
+        std::mem::swap(&mut self.sums, &mut self.specular_sums);
+        self.sums.add_sharp(&self.specular_sums, 1.0 / rays as f32);
     }
 
     /// Empties the block's sums, and makes room for those that passes want.
     pub fn prepare(&mut self, tables: &Tables, transport: &Transport, shows_lights: bool) {
         self.branches.prepare(transport);
-        for sums in [&mut self.first_hit, &mut self.sharp_hit] {
+        for sums in [&mut self.sums, &mut self.specular_sums] {
             sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
             sums.groups.prepare(transport.passes.groups.count);
             sums.prepare_passes(&transport.passes);
         }
-        self.first_hit.shader.prepare(&transport.passes.shader);
+        self.sums.shader.prepare(&transport.passes.shader);
         if !tables.geometry.set_catcher.is_empty() {
-            self.first_hit.prepare_catchers();
+            self.sums.prepare_catchers();
         }
-        self.first_hit.clear();
+        self.sums.clear();
     }
 }
 

@@ -38,21 +38,21 @@ pub struct Transport {
     /// The learned light cache, if there is one: which lights arrive where.
     pub light_cache: Option<Arc<LightCache>>,
     /// Which light counts of what paths meet.
-    pub sight: Sight,
+    pub path_filter: PathFilter,
     /// How every point is lit, where paths are trees of sharp rays instead.
     pub fixed_samples: Option<Arc<[FixedLightSample]>>,
 }
 
 /// Which light counts of what paths meet: a camera sees it sharply where there are mirrors and smooth glass alone between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sight {
+pub enum PathFilter {
     /// All of it.
     #[default]
-    Whole,
+    All,
     /// What is seen sharply; paths end at other surfaces.
-    Sharp,
+    SpecularOnly,
     /// What is not.
-    Blurred,
+    ExceptSpecular,
 }
 
 /// What passes want to know of first surfaces beyond the usual.

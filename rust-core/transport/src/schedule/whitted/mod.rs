@@ -38,9 +38,9 @@ pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: 
             Some(next) => depth = next,
             None => return,
         }
-        catcher::rejoin(tracer.tables, &mut ws.paths);
+        catcher::join(tracer.tables, &mut ws.paths);
         ws.paths.set_masks();
-        catcher::narrow(tracer.tables, &mut ws.paths);
+        catcher::set_masks(tracer.tables, &mut ws.paths);
     }
 }
 

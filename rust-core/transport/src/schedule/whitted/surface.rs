@@ -1,16 +1,16 @@
 //! Shading the points of a tree: lit by all fixed samples, and left on all sharp ways.
 
-use crate::geometry::spawn;
+use crate::geometry::offset_ray_origin;
 use crate::kernels;
 use crate::stage::nee::send;
 use crate::stage::scatter::{straight_left, within};
 use crate::stage::shade::{meet, show};
 use crate::state::paths::PathLanes;
-use crate::state::vertex::{Point, Stage};
+use crate::state::vertex::{Stage, Vertex};
 use crate::state::workspace::Workspace;
 use crate::state::{event, flag};
 use crate::tables::material::{SurfaceMaterial, threshold};
-use crate::tables::transport::Sight;
+use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Lobes, Way};
 use gonio_camera::sampler::dimension;
 use gonio_light::FixedLightSample;
@@ -36,7 +36,7 @@ struct Branch<L: Lanes> {
 pub(crate) fn shade_lanes<L: Lanes>(
     stage: &Stage<'_, L>,
     material: &SurfaceMaterial,
-    point: &mut Point<L>,
+    point: &mut Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     samples: &[FixedLightSample],
@@ -54,7 +54,7 @@ pub(crate) fn shade_lanes<L: Lanes>(
     if (smooth & lit).any() {
         light(stage, point, wo, lobes, samples, lit & smooth, ws);
     }
-    let present = if transport.sight == Sight::Sharp { present & point.only_delta } else { present };
+    let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
     for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, wo)) {
         let throughput = (point.throughput * ray.weight).keep_if(present);
         if way == Way::Straight {
@@ -72,7 +72,7 @@ pub(crate) fn shade_lanes<L: Lanes>(
 
 /// Parts what opacity leaves open from what is there, and tells where something is.
 #[inline(always)]
-fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Point<L>, lobes: &Lobes<'_, L>, open: &mut Branch<L>) -> M<L> {
+fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Vertex<L>, lobes: &Lobes<'_, L>, open: &mut Branch<L>) -> M<L> {
     let opacity = threshold(lobes.opacity(), material.opacity_threshold).saturate();
     open.throughput = (point.throughput * (1.0 - opacity)).keep_if(point.alive);
     open.share = point.share * (1.0 - opacity);
@@ -85,7 +85,7 @@ fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Point<L>, lo
 #[inline(always)]
 fn light<L: Lanes>(
     stage: &Stage<'_, L>,
-    point: &Point<L>,
+    point: &Vertex<L>,
     wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     samples: &[FixedLightSample],
@@ -108,7 +108,7 @@ fn light<L: Lanes>(
 
 /// Appends the rays of a way that are worth following.
 #[inline(always)]
-fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goes: M<L>, ws: &mut Workspace) {
+fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, ray: &Branch<L>, goes: M<L>, ws: &mut Workspace) {
     let Branch { way, wi, throughput, share } = *ray;
     let (throughput, worth) = worth(stage, point, way, throughput);
     // A direction on the other side of the triangle than of the shading normal would leak light.
@@ -125,7 +125,7 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goe
         Way::Straight => 1 << 24,
     };
     let state = PathLanes {
-        origin: spawn(point.position, point.geometric, point.error, wi),
+        origin: offset_ray_origin(point.position, point.geometric, point.error, wi),
         direction: wi,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
@@ -136,7 +136,7 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goe
         width: point.width,
         spread: point.spread,
         slot: point.slot,
-        flags: flags(l, stage.transport.sight, point, way),
+        flags: flags(l, stage.transport.path_filter, point, way),
         counts: point.counts + counted,
         medium: if way == Way::Refracted { point.behind } else { point.medium },
     };
@@ -146,11 +146,11 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, ray: &Branch<L>, goe
 /// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of
 /// it stand for others like them by chance.
 #[inline(always)]
-fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
+fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
     let Stage { l, transport, context, .. } = *stage;
     let brightest = throughput.max_component();
     let usable = brightest.gt(0.0) & brightest.is_finite();
-    if transport.sight != Sight::Sharp {
+    if transport.path_filter != PathFilter::SpecularOnly {
         return (throughput, usable & brightest.ge(LEAST_THROUGHPUT));
     }
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + way as u32;
@@ -161,15 +161,15 @@ fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Point<L>, way: Way, throughput:
 
 /// What a ray has met once it has gone this way.
 #[inline(always)]
-fn flags<L: Lanes>(l: L, sight: Sight, point: &Point<L>, way: Way) -> U<L> {
-    let all_sharp = if sight == Sight::Sharp { l.m(true) } else { point.only_delta };
-    let measured = all_sharp.select(l.u(0), l.u(flag::MEASURED));
+fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -> U<L> {
+    let all_sharp = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
+    let measured = all_sharp.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
         Way::Refracted => event::TRANSMISSION,
         Way::Straight => return point.flags | measured,
     };
     let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.flags & (3 << flag::FIRST_SHIFT));
-    let before = (point.flags & flag::MEASURED) | measured | first;
+    let before = (point.flags & flag::NON_SPECULAR_SEEN) | measured | first;
     before | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
 }
