@@ -1,4 +1,11 @@
-//! Light transport in stages over batches of paths: generate, intersect, shade by material, sample lights, trace shadows, accumulate.
+//! Light transport: a wavefront path tracer over batches of paths.
+//!
+//! In go the [`Tables`] of a compiled scene, a view's [`Transport`] and a [`Start`] (camera or sensors). Out come [`TileSums`]: radiance and
+//! AOVs by slot.
+//!
+//! Read `schedule/path.rs` first: [`Tracer`] calls the wavefront stages in order. `stage` has a file for each, `state` the columns that wait
+//! between them. `accumulate` adds to the sums. `tables` is what no stage changes. The design is that of pbrt's `WavefrontPathIntegrator`
+//! (Physically Based Rendering, 4th edition, chapter 15), on SIMD lanes in place of a GPU's threads.
 
 mod accumulate;
 pub mod geometry;

@@ -1,16 +1,16 @@
-//! Trees of rays: what a generation sends on, and batches that wait.
+//! Trees of rays (Whitted): the rays that one generation sends on, and the batches that wait.
 
 use crate::state::paths::Paths;
 use crate::tables::transport::Transport;
 use gonio_bsdf::Way;
 use gonio_simd::Column;
 
-/// What a generation sends on, and batches that wait for their turn.
+/// The rays that one generation sends on, and the batches that wait for their turn.
 #[derive(Debug, Default)]
 pub(crate) struct Branches {
-    /// By way, in the order of [`Way::ALL`].
+    /// By specular way out of the surface, in the order of [`Way::ALL`].
     pub(crate) ways: Vec<Paths>,
-    /// Depth and paths; the last is the next.
+    /// Depth and paths, a stack: the last is taken next.
     pub(crate) waiting: Vec<(u32, Paths)>,
     /// Columns for later batches.
     pub(crate) spare: Vec<Paths>,
@@ -25,7 +25,7 @@ impl Branches {
         }
     }
 
-    /// Puts what was sent on into the queue.
+    /// Pushes what was sent on, so that it is taken in the order of the ways.
     pub(crate) fn queue(&mut self, depth: u32) {
         for way in self.ways.iter_mut().rev().filter(|way| way.count > 0) {
             let empty = self.spare.pop().unwrap_or_default();

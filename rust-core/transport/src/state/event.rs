@@ -1,4 +1,4 @@
-//! Kinds of scattering.
+//! Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 
 /// Diffuse, fuzz and subsurface, reflected or transmitted.
 pub(crate) const DIFFUSE: u32 = 0;

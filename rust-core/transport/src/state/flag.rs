@@ -1,8 +1,8 @@
-//! What a path has met so far, as bits.
+//! Path flags (Cycles' path flags): what a path has met so far, as bits of one word.
 
-/// Nothing yet but what it saw through: hits are what the camera sees.
+/// No scattering yet, at most ways straight through: the next hit is what the camera sees.
 pub(crate) const CAMERA: u32 = 1;
-/// The last scattering was a mirror's or a smooth boundary's: lights cannot be sampled for it.
+/// The last scattering was specular (a delta lobe), so next event estimation has no share and the MIS weight is 1.
 pub(crate) const DELTA: u32 = 2;
 /// A surface that is not a mirror has been met.
 pub(crate) const NON_SPECULAR_SEEN: u32 = 4;

@@ -1,4 +1,4 @@
-//! The light samples of a chunk of hits, sorted by light.
+//! The queue of next event estimation (NEE): the light samples of a chunk of hits, sorted by light.
 
 use crate::graph::CHUNK;
 use gonio_light::{LightSample, LightTable};
@@ -16,22 +16,22 @@ mod bit {
     pub(crate) const CASTS_SHADOW: u32 = 2;
 }
 
-/// A light drawn for each hit of a chunk, and the place on it.
+/// A light selected for each hit of a chunk, and the point sampled on it.
 #[derive(Debug)]
 pub(crate) struct LightSampleQueue {
-    /// Whether the draws of the chunk have been made: mirrors and glass want none.
+    /// Whether the chunk's lights have been sampled; specular surfaces never ask for it.
     pub(crate) made: bool,
     /// By hit: the light.
     pub(crate) light: Column<u32>,
-    /// By hit, items of four: the light once more, its probability and numbers for the place on it; the hit's position and its normal.
+    /// By hit, items of four: the light once more, its probability and two random numbers; the hit's position; its normal.
     pub(crate) draw: Column,
     pub(crate) position: Column,
     pub(crate) normal: Column,
-    /// Where each hit's sample is.
+    /// Where each hit's sample stands in `order`.
     pub(crate) place: Column<u32>,
     /// The hits, group of lights by group; what fills a group's last register repeats a hit.
     pub(crate) order: Column<u32>,
-    /// The samples in that order, items of four: directions and distances, radiances and densities.
+    /// The samples in that order, items of four: direction and distance; radiance and pdf.
     pub(crate) way: Column,
     pub(crate) arriving: Column,
     pub(crate) bits: Column<u32>,
@@ -55,7 +55,7 @@ impl Default for LightSampleQueue {
 }
 
 impl LightSampleQueue {
-    /// Whether hits are worth sorting: lanes would draw lights of several kinds.
+    /// Whether sorting hits by light pays: unsorted lanes would sample lights of several kinds.
     #[inline(always)]
     pub(crate) fn pays<L: Lanes>(lights: &LightTable, hits: usize) -> bool {
         L::COUNT > 1 && lights.has_several_kinds() && hits > 2 * PADDING
@@ -87,7 +87,7 @@ impl LightSampleQueue {
         bits.store(&mut self.bits, at);
     }
 
-    /// Counts and places some hits, each group's first at a register's beginning; gives the places taken.
+    /// Counting sort of some hits by light; each group starts a register. Returns the length of `order`.
     pub(crate) fn sort(&mut self, lights: &LightTable, hits: Range<usize>, lanes: usize) -> usize {
         // A group should fill half a register.
         let one_by_one = lights.len() <= MOST_GROUPS.min(2 * hits.len() / lanes);

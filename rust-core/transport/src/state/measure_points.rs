@@ -1,4 +1,4 @@
-//! Points whose illuminance waits to be measured.
+//! The queue of points whose illuminance is to be measured: `stage/shade.rs` and `stage/sensors.rs` fill it, `stage/measure.rs` empties it.
 
 use crate::state::columns::{Columns3, columns3};
 use gonio_camera::sampler::BATCH;

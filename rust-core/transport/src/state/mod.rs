@@ -1,4 +1,6 @@
-//! What waits between stages: paths, rays, vertices, walks and light samples, in columns.
+//! What waits between wavefront stages, as structs of arrays: pbrt's work items and queues.
+//!
+//! Paths, shadow rays, measured points, subsurface random walks and light samples. [`workspace::Workspace`] holds all of them for one worker.
 
 pub(crate) mod branches;
 pub(crate) mod columns;

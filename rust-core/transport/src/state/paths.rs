@@ -1,4 +1,6 @@
-//! Paths under way: the ray of each in columns, as the tracer wants it, and in items of four what the stages read of chosen paths.
+//! Paths under way: ray, throughput, pdf, ray cone, previous vertex, slot and flags of each.
+//!
+//! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
@@ -19,11 +21,11 @@ pub struct Paths {
     pub(crate) t_max: Column,
     /// Absorption a metre of what the ray goes through.
     pub(crate) medium: Columns3,
-    /// Items of throughput and density, see [`CarriedLanes`].
+    /// Items of throughput and pdf, see [`CarriedLanes`].
     pub(crate) carried: Column,
-    /// Items of directions and widths, see [`ConeLanes`].
+    /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Items of points and of normals, the fourth of no meaning, see [`VertexLanes`].
+    /// Previous vertices: items of points and of normals, the fourth word unused, see [`VertexLanes`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -51,36 +53,36 @@ pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) medium: Rgb<L>,
 }
 
-/// What light along paths counts.
+/// Throughput of paths and the pdf of their directions: what light found along them counts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CarriedLanes<L: Lanes> {
     pub(crate) throughput: Rgb<L>,
-    /// Density of the direction per solid angle; of a camera ray, how much of its sample it stands for.
+    /// Pdf of the direction per solid angle, for MIS; of a camera ray, the share of its sample that it stands for.
     pub(crate) pdf: F<L>,
 }
 
-/// The cones around paths' rays.
+/// Ray cones (ray footprints, pbrt's ray differentials); the growth is in [`TrackLanes::spread`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ConeLanes<L: Lanes> {
     pub(crate) direction: Vec3<L>,
-    /// Width at the ray's start.
+    /// Width at the ray's start, metres.
     pub(crate) width: F<L>,
 }
 
-/// The points that scattered paths' rays: what lights are sampled from.
+/// The previous vertex of paths: NEE sampled lights from there, so MIS asks for its pdf from there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexLanes<L: Lanes> {
     pub(crate) position: Vec3<L>,
     pub(crate) normal: Vec3<L>,
 }
 
-/// Whose paths are, and how they came.
+/// Where contributions of paths go, and what the paths have met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TrackLanes<L: Lanes> {
-    /// Where contributions go: the pixel's Morton number, plus `BATCH` for the paths that measure illuminance; see [`super::catcher`] for more.
+    /// Where contributions go: the pixel's Morton number, plus `BATCH` for paths that measure illuminance. [`crate::stage::catcher`] adds more.
     pub(crate) slot: U<L>,
     pub(crate) flags: U<L>,
-    /// Scatterings so far, a byte each: diffuse, glossy, transmitted, straight through.
+    /// Bounces so far by kind, a byte each: diffuse, glossy, transmitted, straight through.
     pub(crate) counts: U<L>,
     /// Growth of the cone a metre.
     pub(crate) spread: F<L>,
@@ -112,7 +114,7 @@ impl Default for Paths {
 }
 
 impl Paths {
-    /// Appends the chosen lanes; `camera` bits of the flags decide the rays' visibility mask.
+    /// Appends the chosen lanes; their visibility bits are set later by [`Self::set_masks`].
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
         let (l, n) = (p.pdf.lanes(), self.count);
@@ -130,27 +132,27 @@ impl Paths {
         self.count += chosen.count();
     }
 
-    /// What light along some paths counts.
+    /// Throughput and pdf of some paths.
     #[inline(always)]
     pub(crate) fn carried<L: Lanes>(&self, l: L, path: U<L>) -> CarriedLanes<L> {
         let [r, g, b, pdf] = l.gather_quads(&self.carried, path << 2);
         CarriedLanes { throughput: Rgb::new(r, g, b), pdf }
     }
 
-    /// The cones around some paths' rays.
+    /// The ray cones of some paths.
     #[inline(always)]
     pub(crate) fn cone<L: Lanes>(&self, l: L, path: U<L>) -> ConeLanes<L> {
         let [x, y, z, width] = l.gather_quads(&self.cone, path << 2);
         ConeLanes { direction: Vec3::new(x, y, z), width }
     }
 
-    /// The points that scattered some paths' rays.
+    /// The previous vertices of some paths.
     #[inline(always)]
     pub(crate) fn vertex<L: Lanes>(&self, l: L, path: U<L>) -> VertexLanes<L> {
         VertexLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
     }
 
-    /// Whose some paths are, and how they came.
+    /// Slots, flags, bounce counts and cone growth of some paths.
     #[inline(always)]
     pub(crate) fn track<L: Lanes>(&self, l: L, path: U<L>) -> TrackLanes<L> {
         let [slot, flags, counts, spread] = l.gather_integer_quads(&self.track, path << 2);
@@ -172,7 +174,7 @@ impl Paths {
         self.track[4 * path + FLAGS]
     }
 
-    /// Throughput and density of a path.
+    /// Throughput and pdf of a path, four words.
     pub(crate) fn carried_mut(&mut self, path: usize) -> &mut [f32] {
         &mut self.carried[4 * path..][..4]
     }

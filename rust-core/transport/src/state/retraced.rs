@@ -1,4 +1,4 @@
-//! Rays that are traced once more.
+//! Rays that are traced again, behind the shape of a light that they hit.
 
 use crate::state::paths::Paths;
 

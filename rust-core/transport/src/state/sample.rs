@@ -1,4 +1,4 @@
-//! Which samples are under way.
+//! The sample context: sampler, slot runs and depth. With a slot they determine every random number.
 
 use gonio_camera::sampler::{Runs, Sampler};
 use gonio_simd::{Lanes, U};
@@ -12,7 +12,7 @@ pub(crate) struct SampleContext<'a> {
 }
 
 impl SampleContext<'_> {
-    /// The number in the sampler's sequence for the path of a slot.
+    /// The index in the sampler's sequence for the path of a slot (pbrt's sample index).
     #[inline(always)]
     pub(crate) fn index<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
         self.runs.index(l, &self.sampler, slot)

@@ -1,4 +1,4 @@
-//! Shadow rays in the order of their lights: those that lead to one light from one tile go together as packets.
+//! Shadow rays sorted by light: those from one tile to one light are coherent and go in packets.
 
 use crate::state::columns::{Columns3, columns3};
 use crate::state::shadow_rays::{SHADOW_ROOM, ShadowRays};
@@ -36,7 +36,7 @@ impl Default for ShadowOrder {
 }
 
 impl ShadowOrder {
-    /// Whether the rays are worth sorting.
+    /// Whether sorting pays.
     pub(crate) fn pays(lights: &LightTable) -> bool {
         (2..=MOST_LIGHTS).contains(&lights.len())
     }
@@ -61,7 +61,7 @@ impl ShadowOrder {
         }
     }
 
-    /// Counts and places: rays of one light stay in the order of the tile, those of domes come last. Gives the number of the others.
+    /// Counting sort: rays to one light keep the order of the tile, those to domes come last. Returns how many are not to domes.
     fn sort(&mut self, lights: &LightTable, shadows: &ShadowRays) -> usize {
         let n = shadows.count;
         let last = lights.len();

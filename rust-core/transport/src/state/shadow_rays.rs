@@ -1,4 +1,4 @@
-//! Rays to lights that wait to be traced.
+//! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
 
 use crate::geometry::ShadowSegment;
 use crate::state::columns::{Columns3, append3, columns3};
@@ -6,7 +6,7 @@ use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, Lanes, M, Rgb, U, padded};
 
-/// Room for shadow rays: walks under surfaces come out and are lit beside the surfaces themselves.
+/// Room for shadow rays: one for each path, and one for each subsurface walk that comes out in the same bounce.
 pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + gonio_simd::PADDING;
 
 /// One register of shadow rays, to be appended.
@@ -20,7 +20,7 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) shares: Option<[Rgb<L>; 2]>,
 }
 
-/// Shadow rays with what they bring if nothing is in the way.
+/// Shadow rays, and the contribution of each if nothing blocks it.
 #[derive(Debug)]
 pub(crate) struct ShadowRays {
     pub(crate) count: usize,
@@ -29,7 +29,7 @@ pub(crate) struct ShadowRays {
     pub(crate) t_max: Column,
     pub(crate) contribution: Columns3,
     pub(crate) slot: Column<u32>,
-    /// What the contribution counts as, see [`super::light_sums::code`].
+    /// The light pass that the contribution counts for, see [`crate::accumulate::light_sums::code`].
     pub(crate) code: Column<u32>,
     /// The light that each ray leads to.
     pub(crate) light: Column<u32>,

@@ -1,4 +1,4 @@
-//! A register of path vertices on surfaces, and what all hits of a chunk share.
+//! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`), and what all hits of a chunk share.
 
 use crate::graph::Program;
 use crate::state::sample::SampleContext;
@@ -7,10 +7,10 @@ use crate::tables::transport::Transport;
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
 use std::ops::Range;
 
-/// Roughness widens a path's cone by this much, radians: blurred reflections need no sharp textures.
+/// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
 
-/// One register of shading points.
+/// One register of path vertices: what shading, NEE and scattering read of a hit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex<L: Lanes> {
     pub(crate) alive: M<L>,
@@ -31,15 +31,15 @@ pub(crate) struct Vertex<L: Lanes> {
     /// Absorption a metre of what the path is in, and of what is behind the surface.
     pub(crate) medium: Rgb<L>,
     pub(crate) behind: Rgb<L>,
-    /// Where all lobes are mirrors or clear glass.
+    /// Where all lobes are specular: mirrors or smooth glass.
     pub(crate) all_delta: M<L>,
-    /// Density of the path's direction per solid angle, but for camera rays.
+    /// Pdf of the direction that found the vertex, per solid angle; of no meaning for camera rays.
     pub(crate) pdf: F<L>,
-    /// How much of a camera ray's sample is here; of other rays, nothing of meaning.
+    /// Share of a camera ray's sample that is here; of no meaning for other rays.
     pub(crate) share: F<L>,
 }
 
-/// What all hits of a chunk share.
+/// What all hits of a chunk share: the scene, the settings, the sample context.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage<'a, L> {
     pub(crate) l: L,

@@ -1,4 +1,4 @@
-//! Random walks under surfaces that are under way.
+//! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
 use gonio_accel::RayBatch;
@@ -12,13 +12,13 @@ pub(crate) struct Walks {
     pub(crate) count: usize,
     pub(crate) origin: Columns3,
     pub(crate) direction: Columns3,
-    /// Distance within which the surface that was entered is not met again: walks start on it, for an offset would count as depth.
+    /// Hits nearer than this are the surface that was entered: walks start on it, as an offset would count as depth.
     pub(crate) t_min: Column,
     pub(crate) throughput: Columns3,
     pub(crate) albedo: Columns3,
     pub(crate) extinction: Columns3,
     pub(crate) anisotropy: Column,
-    /// Length of the flight, and the probabilities of the channels it was drawn by.
+    /// Length of the free flight, and the probabilities of the colour channels it was sampled by.
     pub(crate) distance: Column,
     pub(crate) channels: Columns3,
     pub(crate) instance: Column<u32>,

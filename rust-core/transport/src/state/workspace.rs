@@ -1,4 +1,4 @@
-//! The state of a batch of paths, in columns.
+//! The workspace of a worker: the wavefront state of a batch of paths, in columns, and the sums of its block.
 
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
@@ -29,14 +29,14 @@ pub struct Workspace {
     pub(crate) light_queue: LightSampleQueue,
     pub(crate) shadows: ShadowRays,
     pub(crate) shadow_order: ShadowOrder,
-    /// Light that arrived, where it is to be learned from.
+    /// Lights that arrived and where, for the learned light cache; `None` where nothing learns.
     pub arrivals: Option<Vec<Arrival>>,
     pub(crate) blocked: Vec<u8>,
     pub(crate) passed: Vec<TransparentHit>,
     pub(crate) measure: MeasurePoints,
     pub(crate) walks: Walks,
     pub(crate) walk_hits: Hits,
-    /// Walks that reached the surface.
+    /// Subsurface walks that reached the surface.
     pub(crate) out: Vec<u32>,
     /// Path numbers in the order of their materials, and where each material's begin and end.
     pub(crate) order: Vec<u32>,
@@ -54,28 +54,28 @@ pub struct Workspace {
     pub(crate) outputs: OutputColumns,
     /// What programs of shader passes computed.
     pub(crate) shader_outputs: OutputColumns,
-    /// The block under way.
+    /// Sums of the sample block under way.
     pub sums: TileSums,
-    /// The same of rays that see sharply alone.
+    /// The same for trees of specular rays, which guide denoisers.
     pub(crate) specular_sums: TileSums,
     /// Rays traced and lanes alive, for benchmarks.
     pub statistics: Statistics,
 }
 
 impl Workspace {
-    /// Slots of the rays at hand, and what they have hit.
+    /// Slots of the current rays, and their hits.
     pub fn hits_by_slot(&self) -> (impl Iterator<Item = u32>, &Hits) {
         ((0..self.paths.count).map(|path| self.paths.slot(path)), &self.hits)
     }
 
-    /// Lets rays that see sharply alone have sums of their own.
+    /// Gives trees of specular rays sums of their own.
     pub(crate) fn start_sharp(&mut self, transport: &Transport) {
         self.branches.prepare(transport);
         self.specular_sums.clear();
         std::mem::swap(&mut self.sums, &mut self.specular_sums);
     }
 
-    /// Adds what they saw to the block, so many of them counting as one sample.
+    /// Adds their sums to the block's; so many rays count as one sample.
     pub(crate) fn end_sharp(&mut self, rays: u32) {
         std::mem::swap(&mut self.sums, &mut self.specular_sums);
         self.sums.add_sharp(&self.specular_sums, 1.0 / rays as f32);

@@ -1,4 +1,4 @@
-//! Workspaces between renders.
+//! The pool of workspaces between renders.
 
 use crate::state::workspace::Workspace;
 use crate::statistics::Statistics;

@@ -1,4 +1,4 @@
-//! Light groups: which light belongs to which sums.
+//! Light groups (Cycles' light groups): which light belongs to which sums.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ pub struct LightGroups {
     pub names: Vec<String>,
     /// The group of each light.
     pub of_light: Vec<u32>,
-    /// The group of what each set of instances emits.
+    /// The group of what each instance set emits.
     pub of_set: Vec<u32>,
 }
 
@@ -21,7 +21,7 @@ pub struct LightGroups {
 pub struct GroupPasses {
     /// By light, the number of its group's sums, or [`UNSEEN`].
     pub of_light: Arc<[u32]>,
-    /// By set of instances, the same.
+    /// By instance set, the same.
     pub of_set: Arc<[u32]>,
     /// Sums there are.
     pub count: usize,

@@ -1,4 +1,4 @@
-//! Compiled materials.
+//! Compiled materials: closures, mixes of closures, and the shading programs that compute their parameters.
 
 use crate::graph::{OutputColumns, Program};
 use crate::tables::shader_passes::ShaderOutputs;
@@ -6,7 +6,7 @@ use gonio_bsdf::{ParameterValues, parameter::COUNT};
 use gonio_bsdf::{Surface, parameter};
 use gonio_simd::{F, Lanes};
 
-/// One compiled closure: what a path meets at a hit.
+/// One compiled closure: a BSDF whose parameters are constants or outputs of a shading program.
 #[derive(Clone, Debug)]
 pub struct SurfaceMaterial {
     /// Constants, model and lobes.

@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The tables of a compiled scene.
 #[derive(Debug)]
 pub struct Tables {
-    /// Two-level tree; instances of light shapes follow those of meshes.
+    /// TLAS over the BLASes of all meshes; instances of light shapes follow those of meshes.
     pub bvh: Tlas,
     /// Meshes and instances.
     pub geometry: GeometryTable,
@@ -33,7 +33,7 @@ pub struct Tables {
     pub instance_light: Vec<u32>,
     /// First light of each mesh instance whose triangles are lights, or [`crate::geometry::NONE`]; empty if there is none.
     pub triangle_lights: Vec<u32>,
-    /// 1 for lights that paths among catchers alone do not know; empty if there is none.
+    /// 1 for lights on objects, which are absent for paths among shadow catchers alone; empty if there is none.
     pub object_lights: Vec<u32>,
     /// Lights by group.
     pub groups: LightGroups,

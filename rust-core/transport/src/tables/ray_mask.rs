@@ -1,8 +1,8 @@
-//! Visibility bits of rays.
+//! Visibility bits of rays by their kind (Cycles' ray visibility). An instance is seen where its mask shares a bit.
 
 /// Rays from the camera.
 pub const CAMERA: u8 = 1;
-/// Rays to lights.
+/// Shadow rays.
 pub const SHADOW: u8 = 2;
 /// Diffusely scattered rays.
 pub const DIFFUSE: u8 = 4;
@@ -10,7 +10,7 @@ pub const DIFFUSE: u8 = 4;
 pub const GLOSSY: u8 = 8;
 /// Rays of transmission.
 pub const TRANSMISSION: u8 = 16;
-/// Rays to lights that see shadow catchers alone.
+/// Shadow rays that see shadow catchers alone.
 pub const CATCHER_SHADOW: u8 = 32;
 /// Scattered rays that see shadow catchers alone.
 pub const CATCHER_SCATTERED: u8 = 64;

@@ -1,4 +1,4 @@
-//! Shader AOVs: what materials compute for passes of their own.
+//! Shader AOVs (Cycles' AOV Output node): what materials compute for passes of their own.
 
 use crate::graph::{Program, Source};
 use std::{ops::Range, sync::Arc};

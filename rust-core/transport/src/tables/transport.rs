@@ -1,4 +1,4 @@
-//! What does not change during a render.
+//! Settings of a view that stages read: bounce limits, clamps, wanted passes, seed. Nothing changes them during a render.
 
 use crate::graph::CHUNK;
 use crate::state::shadow_rays::SHADOW_ROOM;
@@ -8,12 +8,12 @@ use gonio_light::{FixedLightSample, LightCache};
 use gonio_simd::{Execution, PADDING};
 use std::sync::Arc;
 
-/// What does not change during a render.
+/// Settings of a view that stages read, as pbrt's integrators hold them.
 #[derive(Clone, Debug)]
 pub struct Transport {
     /// How kernels run.
     pub execution: Execution,
-    /// Scatterings after the first surface.
+    /// Most bounces: scatterings after the first surface.
     pub max_bounces: u32,
     /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
     pub kind_bounces: [u32; 4],
@@ -21,7 +21,7 @@ pub struct Transport {
     pub shows_environment: bool,
     /// Whether they cover the background.
     pub environment_covers: bool,
-    /// What passes want to know of first surfaces.
+    /// Which passes (AOVs) of first surfaces are wanted.
     pub passes: FirstPasses,
     /// Whether illuminance is measured.
     pub measure: bool,
@@ -37,25 +37,25 @@ pub struct Transport {
     pub samples: u32,
     /// The learned light cache, if there is one: which lights arrive where.
     pub light_cache: Option<Arc<LightCache>>,
-    /// Which light counts of what paths meet.
+    /// Which light counts, by the path that found it.
     pub path_filter: PathFilter,
-    /// How every point is lit, where paths are trees of sharp rays instead.
+    /// The light samples that every point takes where trees of rays (Whitted) stand in for paths; `None` for path tracing.
     pub fixed_samples: Option<Arc<[FixedLightSample]>>,
 }
 
-/// Which light counts of what paths meet: a camera sees it sharply where there are mirrors and smooth glass alone between.
+/// Which light counts, by the path that found it. A path is specular while it has met nothing but mirrors and smooth glass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PathFilter {
     /// All of it.
     #[default]
     All,
-    /// What is seen sharply; paths end at other surfaces.
+    /// Light on specular paths; paths end at other surfaces.
     SpecularOnly,
-    /// What is not.
+    /// Light on all other paths.
     ExceptSpecular,
 }
 
-/// What passes want to know of first surfaces beyond the usual.
+/// Which passes (AOVs) of first surfaces are wanted, beyond those that are always summed.
 #[derive(Clone, Debug, Default)]
 pub struct FirstPasses {
     /// Depth, normal, position and albedo.
@@ -86,7 +86,7 @@ pub struct Mist {
 }
 
 impl Transport {
-    /// The limit of contributions at a depth.
+    /// The clamp of contributions at a depth (Cycles' clamping): direct up to depth 1, indirect beyond.
     #[inline(always)]
     pub(crate) fn clamp(&self, depth: u32) -> f32 {
         self.clamps[usize::from(depth > 1)]
@@ -97,7 +97,7 @@ impl Transport {
         self.fixed_samples.as_ref().map_or(1, |samples| samples.len().max(1))
     }
 
-    /// Hits that are lit together, whole registers: no more than a chunk, and no more than there is room for their shadow rays.
+    /// Most hits that are lit together, whole registers: at most a chunk, and as many as have room for their shadow rays.
     pub(crate) fn hits_together(&self) -> usize {
         ((SHADOW_ROOM - PADDING) / self.rays_per_hit() / PADDING * PADDING).clamp(PADDING, CHUNK)
     }
