@@ -1,4 +1,4 @@
-//! Adding lanes to sums by slot.
+//! Adding lanes to sums by slot, and which light pass (direct, indirect, emission) a contribution belongs to.
 
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
@@ -25,7 +25,7 @@ pub(crate) fn add_rgb<L: Lanes>(sums: &mut [Column; 3], slot: U<L>, value: Rgb<L
     }
 }
 
-/// Adds to the radiance, and to the passes of light what they want of it.
+/// Adds light that a path found to the radiance and to its light pass, if any is wanted.
 #[inline(always)]
 pub(crate) fn add_light<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>, value: Rgb<L>, chosen: M<L>) {
     add_rgb(&mut sums.radiance, slot, value, chosen);
@@ -34,7 +34,7 @@ pub(crate) fn add_light<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>, v
     }
 }
 
-/// Adds light from a sampled light. Where passes of light want it, `shares` tells the diffuse and the glossy share of what first surfaces
+/// Adds light of next event estimation. Where light passes are wanted, `shares` is the diffuse and the glossy share of what first surfaces
 /// scatter; the rest is transmitted.
 #[inline(always)]
 pub(crate) fn add_sampled<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>, value: Rgb<L>, shares: Option<[Rgb<L>; 2]>, chosen: M<L>) {
@@ -49,7 +49,7 @@ pub(crate) fn add_sampled<L: Lanes>(sums: &mut TileSums, code: U<L>, slot: U<L>,
     }
 }
 
-/// What light that a path finds counts as: `seen` if the camera sees it, direct after one scattering, indirect after more.
+/// The light pass of light that a path finds: `seen` if the camera sees it, direct after one scattering, indirect after more.
 #[inline(always)]
 pub(crate) fn code_of<L: Lanes>(flags: U<L>, seen: u32) -> U<L> {
     let bounces = flags >> flag::BOUNCE_SHIFT;
@@ -58,7 +58,7 @@ pub(crate) fn code_of<L: Lanes>(flags: U<L>, seen: u32) -> U<L> {
     bounces.eq(0).select(first.lanes().u(seen), scattered)
 }
 
-/// What light from a sampled light counts as.
+/// The light pass of light from next event estimation.
 #[inline(always)]
 pub(crate) fn code_of_sampled<L: Lanes>(flags: U<L>) -> U<L> {
     let first = (flags >> flag::FIRST_SHIFT) & 3;

@@ -1,10 +1,10 @@
-//! What lights brought and what they did not, noted down where somebody learns from it.
+//! What the learned light cache learns from: which lights' shadow rays arrived where, and which were blocked.
 
 use crate::state::workspace::Workspace;
 use gonio_light::Arrival;
 use gonio_simd::{Lanes, M, Vec3};
 
-/// Notes the points at which the light drawn brings nothing, whatever stands between.
+/// Notes the points at which the sampled light brings nothing even unblocked.
 #[inline(always)]
 pub(crate) fn note_lost<L: Lanes>(position: Vec3<L>, lost: M<L>, ws: &mut Workspace) {
     let Some(arrivals) = &mut ws.arrivals else { return };
@@ -14,7 +14,7 @@ pub(crate) fn note_lost<L: Lanes>(position: Vec3<L>, lost: M<L>, ws: &mut Worksp
     arrivals.extend(lanes.map(|lane| Arrival::nothing(columns.map(|column| column[lane]))));
 }
 
-/// Notes what the shadow rays brought, and where they were blocked.
+/// Notes the contributions of shadow rays that arrived, and where others were blocked.
 pub(crate) fn note_arrivals(ws: &mut Workspace) {
     let Some(arrivals) = &mut ws.arrivals else { return };
     let rays = &ws.shadows;

@@ -1,6 +1,7 @@
-//! What tells denoisers noise from detail: albedo and normal of the first surface that is not a mirror or smooth glass, seen in mirrors
-//! and through glass, and the light that the camera sees as sharply. Camera rays of their own find it, more than samples where these are
-//! few: they end where light would have to be sampled, and are followed on all sharp ways, so that they cost little and agree.
+//! Guides of denoisers: albedo and normal of the first surface that is not specular, seen in mirrors and through smooth glass.
+//!
+//! With them goes the light on specular paths. Camera rays of their own find both (`schedule/guides.rs`), more than samples where these are
+//! few. They follow all specular ways and end where light would have to be sampled. So they cost little and have hardly any noise.
 //!
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
@@ -13,7 +14,7 @@ use gonio_bsdf::Lobes;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Lanes, M, Rgb, U};
 
-/// Adds what the paths of a pixel meet first that scatters more than sharply; colours of what is on the way count.
+/// Adds albedo and normal of the first surfaces that are not specular, times the throughput of the specular path to them.
 #[inline(always)]
 pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, lobes: &Lobes<'_, L>, present: M<L>, ws: &mut Workspace) {
     if !stage.transport.passes.guides || stage.transport.path_filter == PathFilter::ExceptSpecular {
@@ -28,14 +29,14 @@ pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, lobes: &
     add_rgb(normal, point.slot, (point.frame.z * point.throughput.max_component()).into(), seen);
 }
 
-/// Keeps what is seen sharply of the light that paths have met, and gives where it counts.
+/// Keeps the light that arrives on specular paths apart, and returns the lanes whose light counts under the path filter.
 #[inline(always)]
 pub(crate) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, value: Rgb<L>, arrives: M<L>, ws: &mut Workspace) -> M<L> {
     if !transport.passes.guides {
         return arrives;
     }
     let sharp = arrives & is_specular_path(flags, slot);
-    // Of what samples find by themselves, trees of rays alone have no noise.
+    // Light on the specular paths of samples is noisy, that of trees of rays is not.
     if transport.fixed_samples.is_some() {
         add_rgb(&mut ws.sums.sharp, slot, value, sharp);
     }

@@ -6,7 +6,7 @@ use crate::state::workspace::Workspace;
 use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use gonio_simd::{Lanes, M, Rgb, U};
 
-/// Adds light of sampled or met lights to the sums of their groups.
+/// Adds light of lights that were sampled (NEE) or hit to the sums of their groups.
 #[inline(always)]
 pub(crate) fn add_of_lights<L: Lanes>(
     l: L,

@@ -1,10 +1,10 @@
-//! Radiance by where it comes from, for the passes of light.
+//! Light passes (Cycles' diffuse direct, glossy indirect, emission, environment): radiance by where it comes from.
 
 use crate::state::columns::{add_scaled, columns3};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Column, Lanes, M, Rgb, U};
 
-/// What a contribution counts as. 0 to 2 are direct light by the kind of the first scattering.
+/// Which light pass a contribution counts for. 0 to 2 are direct light by the kind of the first scattering.
 pub mod code {
     /// From here on: indirect light by the kind of the first scattering.
     pub const INDIRECT: u32 = 3;

@@ -1,4 +1,7 @@
-//! Adding light and AOVs to the sums of a block of samples.
+//! Adding light and AOVs to the sums of a sample block.
+//!
+//! In go registers of contributions with their slots, out come [`tile_sums::TileSums`], which the film takes. The other files hold what a
+//! kind of pass needs: light passes, light groups, shader AOVs, guides of denoisers, shadow catchers.
 
 pub(crate) mod add;
 pub(crate) mod arrivals;

@@ -1,4 +1,4 @@
-//! Shader passes: what materials compute for passes of their own, summed where the camera sees them first.
+//! Shader AOVs: what materials compute for passes of their own, summed where the camera sees them first.
 
 use crate::accumulate::add::add;
 use crate::graph::Program;

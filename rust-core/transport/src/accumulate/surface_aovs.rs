@@ -1,11 +1,11 @@
-//! What is kept of the first surface a camera ray meets, and limits on contributions.
+//! AOVs of the first surface that a camera ray meets, and the clamp of contributions.
 
 use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
 
-/// A contribution held to the user's limit for fireflies; zero means no limit.
+/// A contribution clamped to the user's limit against fireflies; zero means no limit.
 #[inline(always)]
 pub(crate) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
     if limit > 0.0 {
@@ -22,7 +22,7 @@ pub(crate) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FirstSurface<L: Lanes> {
     pub(crate) slot: U<L>,
-    /// How much of the camera ray's sample it is.
+    /// Share of the camera ray's sample that it is.
     pub(crate) share: F<L>,
     /// Whether it hides what is behind it.
     pub(crate) covers: M<L>,

@@ -1,4 +1,4 @@
-//! Sums of what the camera sees first.
+//! The sums of a sample block by slot: radiance, coverage, AOVs, light passes, light groups, shader AOVs, shadow catchers.
 
 use crate::accumulate::catcher_sums::CatcherSums;
 use crate::accumulate::light_sums::LightSums;
@@ -8,7 +8,7 @@ use crate::tables::transport::FirstPasses;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::Column;
 
-/// What the camera sees first, by pixel slot; sums over the samples of a block. Columns that no pass wants are empty.
+/// Sums over the samples of a block, by pixel slot. Columns that no pass wants are empty.
 #[derive(Debug)]
 pub struct TileSums {
     /// Radiance: of the pixel in the first `BATCH` entries, the measured irradiance in the second, then that of shadow catchers.
@@ -33,15 +33,15 @@ pub struct TileSums {
     pub material_index: Column<u32>,
     /// Texture coordinates.
     pub uv: Columns3,
-    /// What the mist leaves.
+    /// Mist pass: the share of light that the mist lets through.
     pub clearness: Column,
     /// Camera rays, of pixels that have a number of their own.
     pub rays: Column,
-    /// What of the radiance the camera sees sharply: straight, in mirrors and through smooth glass.
+    /// The radiance on specular paths: seen directly, in mirrors and through smooth glass.
     pub sharp: Columns3,
-    /// Light by where it comes from.
+    /// Light passes.
     pub lights: LightSums,
-    /// Light by its group.
+    /// Light groups.
     pub groups: LightSums,
     /// What materials show in passes of their own.
     pub shader: ShaderSums,
@@ -110,7 +110,7 @@ impl TileSums {
         (self.alpha[slot], self.rays[slot]) = (coverage, rays as f32);
     }
 
-    /// Takes what other camera rays saw sharply, of which each counts as `factor` of one.
+    /// Adds the sums of trees of specular rays, each ray counting as `factor` of a sample.
     pub(crate) fn add_sharp(&mut self, rays: &Self, factor: f32) {
         add_scaled(&mut self.radiance, &rays.radiance, factor);
         add_scaled(&mut self.sharp, &rays.sharp, factor);
