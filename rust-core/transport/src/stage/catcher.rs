@@ -1,7 +1,7 @@
 //! Shadow catchers. A path whose camera ray meets one splits: one half goes through the scene as it is, the other through a scene of catchers
-//! alone. The film compares what both bring. Both draw the same numbers, so that they differ by what the objects do and by little else.
+//! alone. The film compares what both bring. Both use the same random numbers, so that they differ by what the objects do and by little else.
 //!
-//! Slots tell the halves apart from there on: behind those of pixels and of measured points lie those of either half.
+//! From there on slots tell the halves apart: slots of pixels come first, then measured points, then either half.
 
 use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::surface_aovs::clamped;
@@ -74,7 +74,7 @@ pub(crate) fn set_masks(tables: &Tables, paths: &mut Paths) {
     }
 }
 
-/// The same for rays to lights.
+/// The same for shadow rays.
 pub(crate) fn set_shadow_masks(tables: &Tables, shadows: &mut ShadowRays) {
     if !tables.geometry.set_catcher.is_empty() {
         let mask = |slot: u32| if slot >= CATCHERS_ONLY { ray_mask::CATCHER_SHADOW } else { ray_mask::SHADOW };
@@ -82,7 +82,7 @@ pub(crate) fn set_shadow_masks(tables: &Tables, shadows: &mut ShadowRays) {
     }
 }
 
-/// Whether points know a light: among catchers alone there are no objects that shine.
+/// Whether paths may sample a light: among catchers alone, lights on objects are absent.
 #[inline(always)]
 pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) -> M<L> {
     if tables.object_lights.is_empty() {
@@ -91,8 +91,8 @@ pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) ->
     slot.lt(CATCHERS_ONLY) | l.gather_integers(&tables.object_lights, light).eq(0)
 }
 
-/// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on their paths are as if
-/// they had come from anywhere.
+/// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on the halves are no
+/// camera paths any more.
 #[inline(always)]
 pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Vertex<L>, present: M<L>, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, .. } = *stage;

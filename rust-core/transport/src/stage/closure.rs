@@ -1,4 +1,4 @@
-//! The stage before shading: materials that are sums of closures take one of them at each hit, by its weight.
+//! Closure selection: where a material is a weighted sum of closures, each hit takes one of them at random, by its weight.
 //!
 //! The throughput becomes the weight over the probability, so every sum comes out right on average while a hit runs one graph and one set of
 //! lobes. Closures that are transparent or emit are chosen like all others.

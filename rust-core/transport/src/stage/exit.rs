@@ -1,4 +1,4 @@
-//! Where walks under surfaces come out: lit and scattered as by a white Lambertian surface.
+//! Exit of subsurface random walks: the point is lit (NEE) and scatters as a white Lambertian surface.
 
 use crate::stage::nee::light;
 use crate::stage::scatter::scatter;
@@ -8,7 +8,7 @@ use gonio_bsdf::subsurface;
 use gonio_camera::sampler::dimension;
 use gonio_simd::{Lanes, Vec3};
 
-/// Lights and scatters what comes out from under a surface, as a white Lambertian surface does; `base` is the first dimension of its numbers.
+/// Lights and scatters walks that come out, as a white Lambertian surface; `base` is the first sampler dimension that it uses.
 #[inline(always)]
 pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, base: u32, ws: &mut Workspace) {
     let Stage { l, tables, context, .. } = *stage;

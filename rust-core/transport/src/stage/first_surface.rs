@@ -1,4 +1,4 @@
-//! What is kept of the first surface that a camera ray meets, and holdouts, which hide it.
+//! First-surface AOVs: depth, normal, albedo, mist and indices where camera rays land; and holdouts, which hide them.
 
 use crate::accumulate::shader_passes;
 use crate::accumulate::surface_aovs::{FirstSurface, SurfaceLook};
@@ -36,7 +36,7 @@ pub(crate) fn covered<L: Lanes>(
     present.and_not(hole & camera)
 }
 
-/// Keeps what camera rays met first.
+/// Records the AOVs of first surfaces.
 #[inline(always)]
 pub(crate) fn record_first<L: Lanes>(
     stage: &Stage<'_, L>,

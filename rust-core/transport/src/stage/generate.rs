@@ -1,4 +1,4 @@
-//! The first stage: a camera ray for every pixel of a tile.
+//! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
 use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths};

@@ -1,4 +1,6 @@
-//! The second stage: tracing, and sorting what was hit into light, surface and nothing.
+//! Intersection: closest hits of all paths by packets or ray streams, told apart into light, surface and escaped.
+//!
+//! Light of shapes and infinite lights is added here, weighted by MIS (multiple importance sampling). Out come the materials of surface hits.
 
 use crate::accumulate::add::{add, add_light, code_of};
 use crate::accumulate::guides;
@@ -76,7 +78,7 @@ fn classify<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
     }
 }
 
-/// Adds what the shapes of lights send to the paths that met them.
+/// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
 #[inline(always)]
 fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     let count = ws.at_lights.len();
@@ -102,7 +104,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32
     ws.at_lights.truncate(count);
 }
 
-/// Goes on behind the shapes of lights, which shine and block nothing: to what is known to be there, or what tracing finds.
+/// Takes paths on behind the shapes of lights, which block nothing. With loose lights the hit behind was found before; else it is traced.
 fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
     for path in &ws.at_lights {
         let i = *path as usize;
@@ -142,7 +144,7 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, ws: &mut Workspac
     ws.at_lights = waiting;
 }
 
-/// Adds what infinite lights send to the paths that escaped.
+/// Adds the light of infinite lights to paths that escaped, weighted by MIS against next event estimation.
 #[inline(always)]
 fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, depth: u32, ws: &mut Workspace) {
     let count = ws.escaped.len();

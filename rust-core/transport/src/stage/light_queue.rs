@@ -1,6 +1,6 @@
-//! The lights that a chunk of hits is lit by, drawn for all of them before the first is lit: draws of one light go together.
+//! Next event estimation (NEE) for a whole chunk: lights are selected for all hits first, then sampled light by light.
 //!
-//! A register of neighbouring hits draws lights of many kinds, and each kind's sampling would run for the few lanes that drew it.
+//! A register of neighbouring hits selects lights of many kinds, and each kind's sampling would run for the few lanes that selected it.
 
 use crate::state::columns::load3;
 use crate::state::vertex::Stage;
@@ -9,7 +9,7 @@ use gonio_camera::sampler::dimension;
 use gonio_light::LightSample;
 use gonio_simd::{F, Lanes, Vec3};
 
-/// The light drawn for each of a register of hits; with the chunk's first come the draws of all hits behind.
+/// The light samples of a register of hits; the chunk's first call samples for all later hits too.
 #[inline(always)]
 pub(crate) fn sample<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) -> LightSample<L> {
     if !ws.light_queue.made {
@@ -18,7 +18,7 @@ pub(crate) fn sample<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspa
     ws.light_queue.load(stage.l, at)
 }
 
-/// Draws a light and a place on it for all hits of the chunk from a register's beginning on.
+/// Selects and samples lights for all hits of the chunk from a register's beginning on.
 #[inline(always)]
 pub(crate) fn draw_chunk<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut Workspace) {
     let end = stage.hits.len();
@@ -32,7 +32,7 @@ pub(crate) fn draw_chunk<L: Lanes>(stage: &Stage<'_, L>, first: usize, ws: &mut 
     ws.light_queue.made = true;
 }
 
-/// Chooses the lights of a register of hits.
+/// Light selection for a register of hits.
 #[inline(always)]
 fn choose<L: Lanes>(stage: &Stage<'_, L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, ref hits, .. } = *stage;

@@ -1,4 +1,4 @@
-//! Illuminance: the measured points are lit and scatter like white Lambertian surfaces, π times over.
+//! Illuminance: measured points are lit (NEE with MIS) and scatter like white Lambertian surfaces, π times over.
 //!
 //! Irradiance E = ∫ L cosθ dω equals π times the radiance that a white Lambertian surface sends out, so the same estimators serve.
 
@@ -99,7 +99,7 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, ws: &Workspace) -> Point<L
     }
 }
 
-/// Queues the shadow ray to a light's sample, which counts by its `share` in the mean of several, or by what paths leave to it.
+/// Queues the shadow ray to a light sample. Its weight is its `share` in the mean of several fixed samples, or else its MIS weight.
 #[inline(always)]
 fn light<L: Lanes>(l: L, point: &Point<L>, sample: &LightSample<L>, share: Option<f32>, ws: &mut Workspace) {
     let cosine = point.frame.z.dot(sample.wi).max(0.0);

@@ -1,4 +1,15 @@
-//! The wavefront stages: each takes a batch one step further.
+//! The wavefront stages. Each takes a batch one step further: it reads and writes columns of [`crate::state::workspace::Workspace`].
+//!
+//! In the order in which `schedule/path.rs` calls them:
+//!
+//! - [`generate`] starts camera paths, [`sensors`] those of meters.
+//! - [`intersect`] traces them, adds the light of lights they hit, and forks at shadow catchers ([`catcher`]).
+//! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
+//! - [`surface`] computes the surface points of a chunk.
+//! - [`shade`] runs emission, AOVs ([`first_surface`]), next event estimation ([`nee`], [`light_queue`]) and BSDF sampling ([`scatter`]).
+//! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
+//! - [`measure`] lights points whose illuminance is wanted.
+//! - [`shadow`] traces shadow rays and adds what arrives.
 
 pub(crate) mod catcher;
 pub(crate) mod closure;

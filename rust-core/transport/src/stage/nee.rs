@@ -1,4 +1,4 @@
-//! Next event estimation (NEE): a light sampled at each hit, and the shadow ray to it.
+//! Next event estimation (NEE): a light sampled at each hit, its MIS weight (power heuristic), and the shadow ray to it.
 
 use crate::accumulate::add::{add_sampled, code_of_sampled};
 use crate::accumulate::arrivals::note_lost;
@@ -30,7 +30,7 @@ pub(crate) fn light<L: Lanes>(
     send(stage, point, wo, lobes, &sample, None, present, ws);
 }
 
-/// Queues the shadow ray to a light's sample. It counts by its `share` in the mean of several, or else by what BSDF samples leave to it.
+/// Queues the shadow ray to a light sample. Its weight is its `share` in the mean of several fixed samples, or else its MIS weight.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "a surface and a light")]
 pub(crate) fn send<L: Lanes>(

@@ -1,4 +1,4 @@
-//! Where paths go from a surface: on, straight through, or under it.
+//! BSDF sampling and Russian roulette: paths go on from a surface, straight through it, or start a random walk under it.
 
 use crate::geometry::offset_ray_origin;
 use crate::kernels;
@@ -11,12 +11,12 @@ use crate::tables::transport::Transport;
 use gonio_bsdf::{Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// Surfaces after which Russian roulette may end a path that leaves diffusely, and any path: highlights and glass show more of what comes later.
+/// First depths of Russian roulette, for paths that leave diffusely and for any path: highlights and glass show more of what comes later.
 const ROULETTE_FROM: [u32; 2] = [1, 5];
 /// A path survives with this times the root of its throughput: measured on the scenes of `tests/peers/render`, the least variance times seconds.
 const ROULETTE_SHARE: f32 = 1.25;
 
-/// Whether all counts of scatterings are within their limits.
+/// Whether the bounces of each kind are within their limits.
 #[inline(always)]
 pub(crate) fn within<L: Lanes>(counts: U<L>, limits: [u32; 4]) -> M<L> {
     let at = |kind: u32| (counts >> (kind * 8)) & 255;
@@ -29,7 +29,7 @@ pub(crate) fn straight_left<L: Lanes>(counts: U<L>, transport: &Transport) -> M<
     (counts >> 24).lt(transport.kind_bounces[3])
 }
 
-/// Sends paths on that go through a surface which is not there: nothing about them changes but where they start.
+/// Sends paths straight on through a cut-out: only the ray's origin and the count of ways straight through change.
 #[inline(always)]
 pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Vertex<L>, chosen: M<L>, ws: &mut Workspace) {
     if !chosen.any() {
@@ -56,7 +56,7 @@ pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Vertex<L>, chosen: M<L>, ws:
     ws.next.append(&state, chosen);
 }
 
-/// Starts walks under the surface.
+/// Starts subsurface random walks.
 #[inline(always)]
 fn enter<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
     if !chosen.any() {
@@ -89,8 +89,8 @@ fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -
     if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
 }
 
-/// Samples the next direction and appends the paths that go on; of those that do not scatter any more what goes straight through, as the light
-/// that was sampled before does.
+/// Samples the BSDF and appends the paths that go on, after Russian roulette. `ending` paths have no bounce left: only what goes straight
+/// through goes on, as the NEE before counted on it.
 #[inline(always)]
 pub(crate) fn scatter<L: Lanes>(
     stage: &Stage<'_, L>,

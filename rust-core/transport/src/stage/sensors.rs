@@ -1,4 +1,4 @@
-//! The first stage of measuring without a camera: sensors at points, many places of a tile for each.
+//! Ray generation without a camera: the sensors of meters, with a block of a tile's pixels for each.
 //!
 //! A sensor owns a square block of pixels. Pixels of a block follow one another along the Morton curve, so that their samples together are one
 //! net of the sampler's sequence and the lanes of a register lie side by side.
@@ -94,7 +94,7 @@ impl SensorTable {
     }
 }
 
-/// Lists the points that the tile's sensors measure this time, and starts the paths of those that look.
+/// Queues the points that the tile's sensors measure in this batch, and starts the paths of those that measure luminance.
 #[inline(always)]
 pub(crate) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, runs: &Runs, ws: &mut Workspace) {
     (ws.paths.count, ws.next.count, ws.measure.count) = (0, 0, 0);

@@ -1,4 +1,7 @@
-//! The fourth stage: a chunk of hits of one material emits, is lit, and scatters.
+//! Shading: a chunk of hits of one material, whose surface points and parameters are ready.
+//!
+//! A register of hits at a time: absorption, BSDF lobes, cut-outs, emission with MIS (multiple importance sampling), AOVs, next event
+//! estimation, BSDF sampling. Out come contributions, shadow rays, the next rays of paths, and subsurface random walks.
 
 use crate::accumulate::add::{add_light, code_of};
 use crate::accumulate::guides;
@@ -151,7 +154,7 @@ fn shade_lanes<L: Lanes>(
     scatter(stage, point, wo, lobes, [u_lobe, u, v, u_roulette], [going_on, ending], ws);
 }
 
-/// Tells mirrors from other surfaces, which guide denoisers and are measured; gives where lights can be sampled, and which paths go on.
+/// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.
 #[inline(always)]
 pub(crate) fn meet<L: Lanes>(
     stage: &Stage<'_, L>,
@@ -164,7 +167,7 @@ pub(crate) fn meet<L: Lanes>(
     let [smooth, all_delta] = lobes.smoothness(stage.l);
     point.all_delta = all_delta;
     guides::record(stage, point, lobes, present, ws);
-    // Beyond the last bounce a path still sees what emits, as the other half of the light sampling before.
+    // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
     let going_on = present & point.bounces.lt(transport.max_bounces + 1) & within(point.counts, transport.kind_bounces);
     if transport.measure {
         let measured = going_on.and_not(all_delta) & guides::is_specular_path(point.flags, point.slot);
@@ -173,7 +176,7 @@ pub(crate) fn meet<L: Lanes>(
     [smooth, going_on]
 }
 
-/// Adds what the surface emits and keeps what the camera sees of it; gives what is there, holdouts left out.
+/// Adds emission and records first-surface AOVs; returns the lanes that are there, holdouts left out.
 #[inline(always)]
 pub(crate) fn show<L: Lanes>(
     stage: &Stage<'_, L>,
@@ -203,7 +206,7 @@ pub(crate) fn show<L: Lanes>(
     present
 }
 
-/// Adds what the surface emits, weighted where the triangle is a light that could have been sampled.
+/// Adds emission, weighted by MIS where the triangle is a light that next event estimation could have sampled.
 #[inline(always)]
 fn add_emission<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, emission: Rgb<L>, present: M<L>, at: usize, ws: &mut Workspace) {
     let Stage { l, tables, transport, context, .. } = *stage;

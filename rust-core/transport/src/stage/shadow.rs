@@ -1,4 +1,6 @@
-//! The fifth stage: shadow rays, through cut-outs up to the first opaque surface, and adding what arrives.
+//! Shadow rays of next event estimation (NEE): any-hit tracing, transmittance of cut-outs, and adding what arrives.
+//!
+//! In goes the queue [`ShadowRays`], out go contributions to the sums. A ray passes transparent surfaces up to the first opaque one.
 
 use crate::accumulate::add::add_sampled;
 use crate::accumulate::arrivals::note_arrivals;
@@ -18,7 +20,7 @@ use gonio_accel::{RayBatch, TransparentHit};
 use gonio_bsdf::parameter::OPACITY;
 use gonio_simd::{Frame, Lanes, PADDING, Rgb, dispatch};
 
-/// Traces what is queued if the shadow rays of some more hits have no room.
+/// Traces the queue if the shadow rays of some more hits would not fit into it.
 pub(crate) fn make_room(tables: &Tables, transport: &Transport, coherent: bool, hits: usize, ws: &mut Workspace) {
     if ws.shadows.count + hits * transport.rays_per_hit() > SHADOW_ROOM - PADDING {
         trace_shadows(tables, transport, coherent, ws);

@@ -1,4 +1,4 @@
-//! Hits in the order of their materials.
+//! Material sort: hits in the order of their materials (pbrt's material queues), so that a chunk runs one program and one set of lobes.
 
 use crate::state::workspace::Workspace;
 use crate::tables::Tables;

@@ -1,6 +1,6 @@
-//! Light under surfaces: walks from where paths entered to where they come out again, and what they do there.
+//! Subsurface random walks: from where paths entered a surface to where they come out again, are lit and scatter.
 //!
-//! All walks of a batch take their steps together: a flight each, a ray within the same instance, then out or scattered. Chiang, Kutz, Burley:
+//! All walks of a batch step together: sample a free flight, trace it within the instance, then exit or scatter. Chiang, Kutz, Burley:
 //! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
 
 use crate::graph::{CHUNK, Program};

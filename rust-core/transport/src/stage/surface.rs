@@ -1,4 +1,6 @@
-//! The third stage: surface points of a chunk of hits, gathered from the geometry tables.
+//! Surface points of a chunk of hits: positions with error bounds, normals, tangents and ray footprints.
+//!
+//! In go hits and rays (with ray cones), out come [`SurfaceColumns`], gathered from the geometry tables. The shading program runs on them.
 
 use crate::graph::{Program, SurfaceColumns};
 use crate::state::columns::{Columns3, gather3};
