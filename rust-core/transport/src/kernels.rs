@@ -1,10 +1,10 @@
-//! The large kernels as functions of their own.
+//! The large kernels as functions of their own, never inlined: BSDF sampling, light sampling, surface points, shading programs.
 //!
 //! Inlined at every call they would make stages of a hundred thousand instructions, which compile for minutes and run no faster: a call costs
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.
 //!
 //! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
-//! Points that many branches read go by reference down to them: as values they would be stored once more for all branches together.
+//! Points that many branches read are passed by reference. By value they would be stored once more before the branches.
 
 use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
@@ -81,7 +81,7 @@ pub fn sample_li<L: Lanes>(
     )
 }
 
-/// A point on a light that a ray met.
+/// A point on a light that a ray hit, and the previous vertex (`from`, `normal`), from which MIS asks for the pdf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightHit<L: Lanes> {
     pub(crate) light: U<L>,
@@ -125,7 +125,7 @@ pub(crate) fn eval_escaped<L: Lanes>(
     )
 }
 
-/// [`super::surface::surface_chunk`].
+/// [`surface_chunk`].
 #[inline(never)]
 pub(crate) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
     l: L,

@@ -22,11 +22,11 @@ pub struct LaneCount {
 /// Counts for benchmarks and progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Statistics {
-    /// Rays that looked for their first hit.
+    /// Rays that looked for their closest hit.
     pub rays: u64,
     /// Shadow rays.
     pub shadow_rays: u64,
-    /// Rays that paths of the camera started with: samples.
+    /// Camera rays: samples.
     pub camera_rays: u64,
     /// Lanes by bounce, in the order of [`LANE_STAGES`].
     pub lanes: [[LaneCount; LANE_STAGES.len()]; LANE_BOUNCES],

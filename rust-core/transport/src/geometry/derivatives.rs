@@ -1,4 +1,4 @@
-//! How positions, texture coordinates and primvars change over the hit triangles, on lanes.
+//! Derivatives at hits: how positions, texture coordinates and primvars change over the triangle, for ray footprints and tangents, on lanes.
 
 use super::{GeometryTable, HitLanes};
 use gonio_simd::{F, Lanes, Vec3};

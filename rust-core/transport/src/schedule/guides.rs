@@ -1,4 +1,4 @@
-//! Camera rays of their own that find what mirrors and smooth glass show, for denoisers.
+//! Guides of denoisers: trees of specular rays find what mirrors and smooth glass show. `accumulate/guides.rs` sums it.
 
 use crate::schedule::path::Tracer;
 use crate::state::workspace::Workspace;
@@ -6,12 +6,12 @@ use crate::tables::transport::{FirstPasses, PathFilter, Transport};
 use gonio_camera::sampler::Runs;
 use std::ops::Range;
 
-/// What makes the random numbers of sharp rays others than those of samples.
+/// Makes the random numbers of specular rays differ from those of samples.
 const SEED: u32 = 0x5f35_6495;
 
 impl Tracer<'_> {
-    /// Adds what more camera rays see sharply, so many for each of the samples of some zones (see [`Runs::batches`]); the samples
-    /// themselves must have been traced with [`PathFilter::ExceptSpecular`].
+    /// Adds light and guides of specular paths by camera rays of their own, `rays` for each sample of some zones (see [`Runs::batches`]).
+    /// The samples themselves must have been traced with [`PathFilter::ExceptSpecular`].
     pub fn trace_sharp(
         &self,
         [min, max]: [[u32; 2]; 2],

@@ -1,4 +1,6 @@
-//! The order of stages: path tracing, trees of rays, and the rays that guide denoisers.
+//! The integrators: in which order the wavefront stages run.
+//!
+//! [`path`] is the path tracer, [`whitted`] traces trees of rays, [`guides`] traces the rays that guide denoisers.
 
 pub(crate) mod guides;
 pub(crate) mod path;

@@ -1,4 +1,6 @@
-//! The path tracer: a sample of every pixel of a tile, stage by stage.
+//! The path tracer: the wavefront schedule, stage by stage and bounce by bounce (pbrt's `WavefrontPathIntegrator::Render`).
+//!
+//! In go a tile's pixels and the samples of a batch, out come the sums of the [`Workspace`]. Stages are in `stage`, one file each.
 
 use crate::kernels;
 use crate::schedule::whitted;
@@ -26,7 +28,7 @@ use gonio_camera::sampler::Sampler;
 use gonio_simd::{Lanes, dispatch};
 use std::time::Instant;
 
-/// Surfaces seen through in a row before a path ends; a guard against endless stacks of cut-outs.
+/// Most surfaces of a path, those that it went straight through included: a guard against endless stacks of cut-outs.
 pub(crate) const MOST_DEPTH: u32 = 256;
 
 /// Where paths start.
@@ -45,7 +47,7 @@ pub struct Tracer<'a> {
     pub tables: &'a Tables,
     /// Where paths start.
     pub start: Start<'a>,
-    /// What does not change.
+    /// Settings of the view.
     pub transport: Transport,
 }
 
@@ -79,7 +81,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Adds a sample at each of some places of the raster to the sums of its slot, all of them different; for cameras and trees of rays.
+    /// Adds a sample at each of some raster positions to the sums of its slot; slots differ. For cameras and trees of rays (Whitted).
     ///
     /// There are at most [`gonio_camera::sampler::BATCH`] of them; consecutive sixteen are a packet.
     pub fn trace_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
@@ -88,7 +90,7 @@ impl Tracer<'_> {
         whitted::follow(self, Sampler::new(self.transport.seed, [0; 2], 1), &Runs::whole(0), 0, ws, cancelled);
     }
 
-    /// Finds what the camera sees at each of some places of the raster: [`Workspace::hits_by_slot`].
+    /// Finds the closest hits of camera rays at some raster positions: [`Workspace::hits_by_slot`].
     pub fn first_hits_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
         self.start_at(places, slots, ws);
         find_first(self.tables, &self.transport, true, ws);

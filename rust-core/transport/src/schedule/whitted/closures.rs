@@ -16,7 +16,7 @@ pub(crate) fn most(tables: &Tables) -> usize {
     tables.materials.mixes.iter().map(|mix| mix.count).max().unwrap_or(1).max(1)
 }
 
-/// Keeps what telling the closures apart will change.
+/// Saves material numbers and throughputs, which [`select`] overwrites.
 pub(crate) fn keep(tables: &Tables, ws: &mut Workspace) {
     if tables.materials.mixes.is_empty() {
         return;
@@ -26,7 +26,7 @@ pub(crate) fn keep(tables: &Tables, ws: &mut Workspace) {
     undivided.carried.clone_from(&ws.paths.carried);
 }
 
-/// Lets each hit on a mix be on the closure of this number, each other hit on its surface the first time alone.
+/// Puts each hit on a mix onto its closure of this number. Other hits are on their surface for closure 0, and nowhere after.
 pub(crate) fn select(tables: &Tables, transport: &Transport, closure: usize, ws: &mut Workspace) {
     if tables.materials.mixes.is_empty() {
         return;

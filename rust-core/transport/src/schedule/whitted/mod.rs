@@ -1,10 +1,11 @@
-//! Trees of rays in the place of paths (Whitted 1980, and the renderer of the paper that gonio descends from): every point is lit by every light at
-//! fixed places, and all that is mirrored, refracted or goes straight through sharply is followed. Nothing is drawn at random but the place in the
-//! pixel and on the lens, so neighbouring rays have no noise between them.
+//! Whitted ray tracing: trees of rays in the place of paths (Whitted 1980, and the renderer of the paper that gonio descends from).
 //!
-//! A batch holds rays of one way alone, at most one for each slot: what one generation mirrors, refracts and lets straight on are batches of their own,
-//! and so are the closures of a mix. So rays of a batch lie side by side, room is never short, and a slot's light is added up in the same order
-//! for registers of any width.
+//! Every point is lit by fixed samples of every light. All that is mirrored, refracted or goes straight through is followed. Only the places in
+//! the pixel and on the lens are random, so neighbouring rays have no noise between them.
+//!
+//! A batch holds the rays of one specular way, at most one for each slot: each way out of a generation is a batch of its own, and so is each
+//! closure of a mix. So rays of a batch lie side by side, room is never short, and a slot's light is added in the same order for registers of
+//! any width.
 
 mod closures;
 mod surface;

@@ -1,4 +1,4 @@
-//! Shading the points of a tree: lit by all fixed samples, and left on all sharp ways.
+//! Whitted shading: every point takes all fixed light samples, and sends rays on all specular ways.
 
 use crate::geometry::offset_ray_origin;
 use crate::kernels;
@@ -16,9 +16,9 @@ use gonio_camera::sampler::dimension;
 use gonio_light::FixedLightSample;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
-/// Rays that would bring less than this share of what they find end: half an 8-bit step of white at most.
+/// Rays with less throughput than this end: half an 8-bit step of white at most.
 const LEAST_THROUGHPUT: f32 = 1.0 / 512.0;
-/// The same where rays that bring less end by chance and others stand for them.
+/// Below this throughput Russian roulette decides, where rays guide denoisers.
 const LEAST_SHARP: f32 = 1.0 / 16.0;
 
 /// A ray that leaves a point.
@@ -26,11 +26,11 @@ struct Branch<L: Lanes> {
     way: Way,
     wi: Vec3<L>,
     throughput: Rgb<L>,
-    /// How much of a camera ray's sample it stands for, where the camera still sees what it meets.
+    /// Share of a camera ray's sample that it stands for, while the camera sees what it meets.
     share: F<L>,
 }
 
-/// Lights a register of points and sends their sharp rays.
+/// Lights a register of points and sends their specular rays.
 #[expect(clippy::too_many_arguments, reason = "a surface and what lights it")]
 #[inline(always)]
 pub(crate) fn shade_lanes<L: Lanes>(
@@ -70,7 +70,7 @@ pub(crate) fn shade_lanes<L: Lanes>(
     branch(stage, point, &straight, straight_left(point.counts, transport), ws);
 }
 
-/// Parts what opacity leaves open from what is there, and tells where something is.
+/// Splits throughput and share by opacity between the surface and the ray straight on; returns where there is a surface.
 #[inline(always)]
 fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Vertex<L>, lobes: &Lobes<'_, L>, open: &mut Branch<L>) -> M<L> {
     let opacity = threshold(lobes.opacity(), material.opacity_threshold).saturate();
@@ -143,8 +143,8 @@ fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, ray: &Branch<L>, go
     ws.branches.ways[way as usize].append(&state, alive);
 }
 
-/// Where a ray is worth following, and with which throughput: light that is seen sharply may be bright, so rays that would bring little of
-/// it stand for others like them by chance.
+/// Which rays are followed, and with which throughput. For guides of denoisers Russian roulette decides: a lamp on a faint specular path may
+/// be bright. Other trees drop faint rays.
 #[inline(always)]
 fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
     let Stage { l, transport, context, .. } = *stage;
@@ -159,7 +159,7 @@ fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, way: Way, throughput
     (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
 }
 
-/// What a ray has met once it has gone this way.
+/// The path flags of a ray that went this way.
 #[inline(always)]
 fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -> U<L> {
     let all_sharp = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
