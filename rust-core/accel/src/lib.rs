@@ -1,10 +1,13 @@
-//! Ray tracing acceleration: two levels of 8-wide bounding volume hierarchies.
+//! Ray tracing acceleration: TLAS and BLASes, two levels of 8-wide bounding volume hierarchies (BVH).
 //!
 //! A [`Blas`] (bottom-level acceleration structure) holds the triangles of one mesh, a [`Tlas`] (top-level acceleration structure) the instances of
-//! many. Incoherent rays traverse the tree alone, eight boxes or triangles at a time, or as a stream of many rays (`stream.rs`) where that is
-//! measured to be faster (`stream_tuner.rs`). Coherent rays traverse it in packets of sixteen. All are watertight and find the same nearest hit:
-//! boxes are widened by a bound on the rounding errors (`prepared.rs`), triangles are tested by edge functions whose signs are never wrong
-//! (`triangle_block.rs`), and equal distances are settled by the lower instance and primitive number.
+//! many. In goes a [`RayBatch`], out come [`Hits`] ([`Tlas::first_hit`]) or which rays are blocked ([`Tlas::occluded`]).
+//!
+//! Coherent rays go in packets of sixteen. Incoherent rays go alone, eight boxes or triangles at a time, or in ray streams
+//! (`traverse/stream.rs`) where these are measured to be faster (`traverse/stream_tuner.rs`).
+//!
+//! All are watertight and find the same closest hit. Boxes are widened by a bound on the rounding errors (`intersect/prepared.rs`). The edge
+//! functions of triangles never have a wrong sign (`intersect/triangle_block.rs`). Equal distances go to the lower instance and primitive number.
 
 mod build;
 mod cancelled;

@@ -1,4 +1,4 @@
-//! Traversal by single rays, packets and streams, and the queries that choose among them.
+//! Traversal by single rays, packets and ray streams, and the queries that choose among them.
 
 mod packet;
 mod packet_query;

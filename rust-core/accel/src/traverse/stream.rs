@@ -1,4 +1,4 @@
-//! Stream traversal: thirty-two incoherent rays under way at once, each a step at a time.
+//! Ray streams: traversal by thirty-two incoherent rays at once, each a step at a time.
 //!
 //! A single ray waits for memory, and for branches that no predictor knows: what it meets next is as good as random. Here every kind of step (test
 //! a node's boxes, test a block of triangles, enter an instance, end) has a queue of rays. The rays of a queue take their step one after the other,

@@ -1,4 +1,4 @@
-//! Stream or single rays: which of the two is faster for incoherent rays depends on the scene and on the machine's caches, so both are timed.
+//! Ray streams or single rays: which is faster for incoherent rays depends on the scene and on the machine's caches, so both are timed.
 //!
 //! The first long batches, and a few later ones, are traced in both modes. Each mode takes every other stretch of rays. Hits are the same in either;
 //! only time is won.
