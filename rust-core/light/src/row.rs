@@ -1,4 +1,4 @@
-//! The table's rows: what is known of one light, read lane by lane.
+//! Rows of the light table: the words of one light, read lane by lane.
 
 use super::light_kind::LightKind;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};

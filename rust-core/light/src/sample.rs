@@ -1,4 +1,4 @@
-//! Next event estimation (NEE): sampling a light and a direction towards it.
+//! Next event estimation (NEE): sampling a light and a direction towards it; the power heuristic of MIS (multiple importance sampling).
 
 use super::emitter::Aim;
 use super::facing_disk;

@@ -1,4 +1,4 @@
-//! Fills the learned light cache: which lights arrive where, from light that did.
+//! Fills the learned light cache from the arrivals of the pilot pass: which lights arrive in which cells.
 
 use super::light_cache::{LightCache, MOST, WORDS, place};
 use super::{LightTree, NONE};

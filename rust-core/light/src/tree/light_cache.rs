@@ -1,8 +1,8 @@
 //! The learned light cache (light guiding): lights that are known to arrive in a part of space. Importance alone does not see the walls
 //! that keep the others out.
 //!
-//! Space is divided into cells, and a few paths before the render tell which lights arrive in each. There most draws are among those, and
-//! the others among all lights by the tree, which lose what is in the cache already: each light is drawn in one way, and its probability is simple.
+//! Space is divided into cells, and a pilot pass tells which lights arrive in each. There most selections are among those. The others are
+//! among all lights by the light tree, less those in the cache. So each light is selected in one way, and its probability is simple.
 
 use super::{Below, LightTree, NONE, Node, below_one, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
