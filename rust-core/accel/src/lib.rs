@@ -6,7 +6,7 @@
 //! Coherent rays go in packets of sixteen. Incoherent rays go alone, eight boxes or triangles at a time, or in ray streams
 //! (`traverse/stream.rs`) where these are measured to be faster (`traverse/stream_tuner.rs`).
 //!
-//! All are watertight and find the same closest hit. Boxes are widened by a bound on the rounding errors (`intersect/prepared.rs`). The edge
+//! All are watertight and find the same nearest hit (closest hit). Boxes are widened by a bound on the rounding errors (`intersect/prepared.rs`). The edge
 //! functions of triangles never have a wrong sign (`intersect/triangle_block.rs`). Equal distances go to the lower instance and primitive number.
 
 mod build;

@@ -1,4 +1,4 @@
-//! A ray in a stream: its traversal state and its steps. Each step returns the number of the next queue, so that no step branches on it.
+//! A ray in a ray stream: its traversal state and its steps. Each step returns the number of the next queue, so no step branches on it.
 
 use crate::hit_callback::{HitCallback, RayQuery};
 use crate::intersect::lanes8::Lanes8;

@@ -18,7 +18,7 @@ const OUTLINE: usize = 32;
 /// Points that a mesh's extent is taken from.
 const SAMPLES: usize = 1 << 16;
 
-/// Bottom-level tree: the triangles of one mesh in its own space. Share it between scenes by `Arc`.
+/// Bottom level (BLAS): the tree over the triangles of one mesh in object space. Share it between scenes by `Arc`.
 #[derive(Debug)]
 pub struct Blas {
     pub(crate) nodes: Vec<Node>,

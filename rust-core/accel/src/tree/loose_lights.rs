@@ -1,4 +1,4 @@
-//! Loose lights: the shapes of lights that stand beside the tree, few and seen by no shadow ray.
+//! Loose lights: shapes of lights that stand beside the TLAS, where they are few. No shadow ray sees them.
 //!
 //! A register of rays is tested against a ball around each, which costs less than what the tree would take. Rays that meet the ball are tested
 //! against the shape.
@@ -53,12 +53,12 @@ fn reach(axes: &[[f64; 3]]) -> f64 {
 }
 
 impl Tlas {
-    /// Whether shapes stand beside the tree: then all shapes of lights do.
+    /// Whether there are loose lights: then all shapes of lights are.
     pub fn has_loose_lights(&self) -> bool {
         !self.loose_lights.is_empty()
     }
 
-    /// The nearest hit of every ray on shapes that stand beside the tree, or else what is known of what is behind: an entry a ray.
+    /// The nearest hit of every ray on loose lights, or else its hit in the tree from the query before: `behind`, an entry a ray.
     pub fn first_hit_before(&self, execution: Execution, rays: &RayBatch, behind: &[Covered], hits: &mut Hits) {
         hits.resize(rays.len());
         for (i, covered) in behind[..rays.len()].iter().enumerate() {
@@ -67,7 +67,7 @@ impl Tlas {
         self.intersect_loose_lights(execution, rays, hits);
     }
 
-    /// Replaces hits by nearer ones on the shapes that stand beside the tree.
+    /// Replaces hits by nearer ones on loose lights.
     pub(crate) fn intersect_loose_lights(&self, execution: Execution, rays: &RayBatch, hits: &mut Hits) {
         hits.covered.clear();
         if self.has_loose_lights() {

@@ -1,4 +1,4 @@
-//! The tree of a mesh whose points moved, fitted to them rather than built anew.
+//! Refitting a BLAS: the tree of a mesh whose points moved, fitted to them rather than built anew.
 
 use super::blas::{Blas, corners, outline, sah_cost, triangle_bounds};
 use super::node::{Bounds, ChildRef, Node, WIDTH};

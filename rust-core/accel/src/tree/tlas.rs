@@ -16,22 +16,22 @@ use gonio_simd::prefetch;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Two-level tree of a scene: instances over shared meshes and analytic shapes.
+/// Top level (TLAS) of a scene's tree: instances over shared meshes (BLASes) and analytic shapes.
 #[derive(Clone, Debug)]
 pub struct Tlas {
     pub(crate) nodes: Vec<Node>,
     pub(crate) records: Vec<InstanceRecord>,
     /// Record of each instance by its number, [`NONE`] for those left out.
     pub(crate) record_of: Vec<u32>,
-    /// Triangles that stand in the top level themselves, in world space, and whose they are.
+    /// World-space leaves: triangles that stand in the top level themselves, and the instances that they belong to.
     pub(crate) blocks: Vec<TriangleBlock>,
     pub(crate) owners: Vec<Owner>,
     pub(crate) meshes: Vec<Arc<Blas>>,
     /// Shapes of lights that are not in the tree.
     pub(crate) loose_lights: Vec<LooseLight>,
-    /// So large that incoherent rays may gain from streams.
+    /// Whether the tree is so large that incoherent rays may gain from ray streams.
     pub(crate) is_large: bool,
-    /// Whether streams of rays are faster.
+    /// Whether ray streams are faster than single rays, as measured.
     pub(crate) tuners: StreamTuners,
 }
 
