@@ -1,4 +1,4 @@
-//! From records to rows.
+//! Building the light table: from light records to rows.
 
 use super::beam::{fill_shaping, fill_spot, fill_spread};
 use super::light_kind::LightKind;

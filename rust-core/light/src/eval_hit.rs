@@ -1,4 +1,4 @@
-//! Light of a finite emitter that a ray hit, and its density of sampling for MIS (multiple importance sampling).
+//! Light of a finite emitter that a ray hit, and the pdf with which NEE samples it, for MIS (multiple importance sampling).
 
 use super::cylinder::Cylinder;
 use super::disk::Disk;
@@ -14,8 +14,8 @@ use super::triangle::Triangle;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 impl LightTable {
-    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the density with which [`Self::sample_li`] at `from` with
-    /// normal `n` would have drawn it. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
+    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the pdf per solid angle with which
+    /// [`Self::sample_li`] at `from` with normal `n` would have sampled it. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
     pub fn eval_hit<L: Lanes>(

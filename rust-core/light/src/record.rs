@@ -1,4 +1,4 @@
-//! What the compile step says about each light: plain data, one record per light.
+//! Light records: what the compile step says about each light, in plain data.
 
 use super::light_kind::LightKind;
 use super::projected_area::ProjectedArea;

@@ -8,16 +8,16 @@ use super::{LightTree, NONE};
 pub struct Arrival {
     /// The surface's place, rebased world space.
     pub position: [f32; 3],
-    /// The way it came, metres.
+    /// Distance from the light, metres.
     pub distance: f32,
-    /// The light; none where the one that was drawn did not arrive.
+    /// The light; `None` where the one that was selected did not arrive.
     pub light: Option<u32>,
-    /// What it brought to the picture.
+    /// Its contribution, summed over channels.
     pub value: f32,
 }
 
 impl Arrival {
-    /// A light was drawn and did not arrive.
+    /// A light was selected and did not arrive.
     pub fn nothing(position: [f32; 3]) -> Self {
         Self { position, distance: 0.0, light: None, value: 0.0 }
     }
@@ -25,9 +25,9 @@ impl Arrival {
 
 /// A cell is this part of the way to the lights wide, in the median.
 const CELL: f32 = 0.3;
-/// Most draws that are among known lights, however sure: the others find what was overlooked.
+/// Largest share of selections among a cell's lights, however sure: the others find what was overlooked.
 const MOST_CERTAIN: f32 = 0.99;
-/// Most draws that are given up in a cell where none has arrived: one that was overlooked weighs no more than ten.
+/// Largest share of selections given up in a cell where no light arrived: an overlooked light then weighs at most ten times as much.
 const MOST_DARK: f32 = 0.9;
 /// After so many arrivals half of what they tell is trusted.
 const DOUBTS: f32 = 2.0;
@@ -49,7 +49,7 @@ struct Entry {
 }
 
 impl LightCache {
-    /// What arrivals tell, and draws in vain; none if no light of the tree arrived anywhere.
+    /// Learns from arrivals and from blocked samples; `None` if no light of the tree arrived anywhere.
     pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
         let of_light = |light: u32| tree.leaves.get(light as usize).map_or(FAR, |leaf| (*leaf).min(FAR));
         let leaf = |arrival: &Arrival| arrival.light.map_or(NONE, of_light);
@@ -87,13 +87,13 @@ impl LightCache {
     }
 }
 
-/// Writes a cell's words: the lights that brought most, and how much of the draws is theirs. Where none brought anything, it is draws given up.
+/// Writes a cell's words: the lights that brought most, and their share of selections. Where none brought anything, that share is given up.
 ///
 /// What none of the arrivals has told of is as likely as lights that one alone has told of (Good, The Population Frequencies of Species and the
 /// Estimation of Population Parameters, Biometrika 40, 1953).
 fn fill(entries: &[Entry], words: &mut [f32]) {
     let sum = |entries: &[Entry]| entries.iter().map(|entry| entry.value).sum::<f32>();
-    // Draws in vain stand behind all leaves.
+    // Samples that did not arrive stand behind all leaves.
     let arrived = &entries[..entries.partition_point(|entry| entry.leaf != NONE)];
     let by_light = || arrived.chunk_by(|a, b| a.leaf == b.leaf);
     let mut lights: Vec<(u32, f32)> = by_light().map(|entries| (entries[0].leaf, sum(entries))).filter(|light| light.0 != FAR).collect();
@@ -112,7 +112,7 @@ fn fill(entries: &[Entry], words: &mut [f32]) {
     words[3..].iter_mut().zip(&lights).for_each(|(word, light)| *word = f32::from_bits(light.0));
 }
 
-/// How far so many draws are trusted.
+/// How far so many samples are trusted.
 fn trust(count: usize) -> f32 {
     count as f32 / (count as f32 + DOUBTS)
 }

@@ -34,7 +34,7 @@ pub struct LightCache {
 struct Cell<L: Lanes> {
     leaves: [U<L>; MOST],
     count: U<L>,
-    /// Of the draws that are among these lights.
+    /// Share of selections that are among these lights.
     share: F<L>,
 }
 
@@ -77,7 +77,7 @@ impl LightCache {
         Cell { leaves, count, share }
     }
 
-    /// Selects a light for each point and gives its probability: 0 where no light can arrive, and where the draw is lost.
+    /// Selects a light for each point and gives its probability: 0 where no light can arrive, and where the selection is given up.
     #[inline(always)]
     pub(crate) fn sample_light<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
         let cell = self.cell(l, p);
@@ -106,7 +106,7 @@ impl LightCache {
         (in_cache.select(light, other), in_cache.select(probability, chance))
     }
 
-    /// Probability that [`Self::sample_light`] draws `light` at a point.
+    /// Probability that [`Self::sample_light`] selects `light` at a point.
     #[inline(always)]
     pub(crate) fn probability<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         let cell = self.cell(l, p);

@@ -112,7 +112,7 @@ impl LightTree {
         (far.select(light, near), far.select(drawn.probability * share, probability))
     }
 
-    /// Probability that [`Self::sample_light`] draws `light` at a point.
+    /// Probability that [`Self::sample_light`] selects `light` at a point.
     #[inline(always)]
     pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
         let receiver = Receiver { l, p, n };
@@ -145,7 +145,7 @@ impl LightTree {
         (weights, total)
     }
 
-    /// From a node at the top down to a light, and the probability of all draws.
+    /// From a node at the top down to a light, and the probability of all selections on the way.
     #[inline(always)]
     fn descend<L: Lanes>(&self, receiver: Receiver<L>, top: Drawn<L>, near: M<L>) -> (U<L>, F<L>) {
         let l = receiver.l;
@@ -169,7 +169,7 @@ impl LightTree {
         }
     }
 
-    /// From a leaf up to the top, and the probability of its being drawn from there.
+    /// From a leaf up to the top, and the probability of its being selected from there, for MIS.
     #[inline(always)]
     fn climb<L: Lanes>(&self, receiver: Receiver<L>, leaf: U<L>, near: M<L>) -> (U<L>, F<L>) {
         let Receiver { l, p, n } = receiver;
