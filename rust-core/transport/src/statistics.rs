@@ -1,4 +1,4 @@
-//! Counts and times of stages, for benchmarks and progress.
+//! Counts and times of the wavefront stages, for benchmarks and progress.
 
 use std::time::Instant;
 
@@ -22,7 +22,7 @@ pub struct LaneCount {
 /// Counts for benchmarks and progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Statistics {
-    /// Rays that looked for their closest hit.
+    /// Rays that looked for their nearest hit.
     pub rays: u64,
     /// Shadow rays.
     pub shadow_rays: u64,

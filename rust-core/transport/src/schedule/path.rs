@@ -90,7 +90,7 @@ impl Tracer<'_> {
         whitted::follow(self, Sampler::new(self.transport.seed, [0; 2], 1), &Runs::whole(0), 0, ws, cancelled);
     }
 
-    /// Finds the closest hits of camera rays at some raster positions: [`Workspace::hits_by_slot`].
+    /// Finds the nearest hits of camera rays at some raster positions: [`Workspace::hits_by_slot`].
     pub fn first_hits_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
         self.start_at(places, slots, ws);
         find_first(self.tables, &self.transport, true, ws);

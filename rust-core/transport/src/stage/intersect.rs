@@ -1,4 +1,4 @@
-//! Intersection: closest hits of all paths by packets or ray streams, told apart into light, surface and escaped.
+//! Intersection: nearest hits of all paths by packets or ray streams, told apart into light, surface and escaped.
 //!
 //! Light of shapes and infinite lights is added here, weighted by MIS (multiple importance sampling). Out come the materials of surface hits.
 
