@@ -14,8 +14,8 @@ use super::triangle::Triangle;
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 impl LightTable {
-    /// Radiance towards `from` of the light's point `hit` that a ray along unit `wi` met, and the pdf per solid angle with which
-    /// [`Self::sample_li`] at `from` with normal `n` would have sampled it. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
+    /// Radiance towards `from` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
+    /// [`Self::sample_li`] at `from` with normal `n` would have sampled that point. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
     pub fn eval_hit<L: Lanes>(

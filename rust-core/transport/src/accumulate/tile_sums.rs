@@ -35,7 +35,7 @@ pub struct TileSums {
     pub uv: Columns3,
     /// Mist pass: the share of light that the mist lets through.
     pub clearness: Column,
-    /// Camera rays, of pixels that have a number of their own.
+    /// Number of camera rays, for pixels whose number is not that of the block's samples.
     pub rays: Column,
     /// The radiance on specular paths: seen directly, in mirrors and through smooth glass.
     pub sharp: Columns3,

@@ -1,7 +1,7 @@
 //! Closure selection: where a material is a weighted sum of closures, each hit takes one of them at random, by its weight.
 //!
-//! The throughput becomes the weight over the probability, so every sum comes out right on average while a hit runs one graph and one set of
-//! lobes. Closures that are transparent or emit are chosen like all others.
+//! The throughput is multiplied by the weight over the probability, so every sum comes out right on average. A hit runs one graph and one set
+//! of lobes. Closures that are transparent or emit are chosen like all others.
 
 use crate::graph::{CHUNK, OutputColumns};
 use crate::kernels;

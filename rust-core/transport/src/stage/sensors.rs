@@ -1,7 +1,7 @@
 //! Ray generation without a camera: the sensors of meters, with a block of a tile's pixels for each.
 //!
-//! A sensor owns a square block of pixels. Pixels of a block follow one another along the Morton curve, so that their samples together are one
-//! net of the sampler's sequence and the lanes of a register lie side by side.
+//! A sensor owns a square block of pixels, which follow one another along the Morton curve. So their samples together are one net of the
+//! sampler's sequence, and the lanes of a register lie side by side.
 
 use crate::stage::generate::TileArea;
 use crate::state::columns::{append3, gather3};

@@ -15,16 +15,20 @@ pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
 pub(crate) struct Vertex<L: Lanes> {
     pub(crate) alive: M<L>,
     pub(crate) path: U<L>,
+    /// World space, rebased, and a bound on its error, metres.
     pub(crate) position: Vec3<L>,
     pub(crate) error: F<L>,
+    /// Geometric normal on the side of `wo`; the frame's z is the shading normal.
     pub(crate) geometric: Vec3<L>,
     pub(crate) frame: Frame<L>,
     pub(crate) wo: Vec3<L>,
     pub(crate) throughput: Rgb<L>,
+    /// As in [`crate::state::paths::TrackLanes`].
     pub(crate) flags: U<L>,
     pub(crate) counts: U<L>,
     pub(crate) slot: U<L>,
     pub(crate) instance: U<L>,
+    /// Ray cone: width here, metres, and growth a metre.
     pub(crate) width: F<L>,
     pub(crate) spread: F<L>,
     pub(crate) bounces: U<L>,

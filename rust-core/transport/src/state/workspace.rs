@@ -20,17 +20,22 @@ use gonio_light::Arrival;
 /// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
 #[derive(Debug, Default)]
 pub struct Workspace {
+    /// Paths of this bounce, and those that its stages send on to the next.
     pub(crate) paths: Paths,
     pub(crate) next: Paths,
     pub(crate) branches: Branches,
+    /// Nearest hits of `paths`, an entry a path.
     pub(crate) hits: Hits,
+    /// Hits behind the shapes of lights.
     pub(crate) retraced: Hits,
     pub(crate) retraced_rays: RetracedRays,
+    /// NEE of the chunk under way.
     pub(crate) light_queue: LightSampleQueue,
     pub(crate) shadows: ShadowRays,
     pub(crate) shadow_order: ShadowOrder,
     /// Lights that arrived and where, for the learned light cache; `None` where nothing learns.
     pub arrivals: Option<Vec<Arrival>>,
+    /// By shadow ray, 1 where something opaque blocks it; hits on the transparent surfaces that it passes.
     pub(crate) blocked: Vec<u8>,
     pub(crate) passed: Vec<TransparentHit>,
     pub(crate) measure: MeasurePoints,
@@ -42,13 +47,16 @@ pub struct Workspace {
     pub(crate) order: Vec<u32>,
     pub(crate) material_start: Vec<u32>,
     pub(crate) material_end: Vec<u32>,
+    /// By path, the material number of its hit.
     pub(crate) material_of: Vec<u32>,
     /// Mixes and the paths at them.
     pub(crate) mixed: Vec<(u32, u32)>,
     /// Weights of a mix over a chunk, three channels a closure.
     pub(crate) weights: Vec<f32>,
+    /// Numbers of paths that escaped, and of those that hit the shape of a light.
     pub(crate) escaped: Vec<u32>,
     pub(crate) at_lights: Vec<u32>,
+    /// Surface points of the chunk, and what the shading program computes there.
     pub(crate) surface: SurfaceColumns,
     pub(crate) scratch: GraphScratch,
     pub(crate) outputs: OutputColumns,

@@ -29,7 +29,7 @@ pub struct Transport {
     pub clamps: [f32; 2],
     /// The camera's position and viewing direction, rebased world space.
     pub eye: [f32; 3],
-    /// See `eye`.
+    /// The camera's viewing direction, see `eye`.
     pub forward: [f32; 3],
     /// Seed of the random numbers.
     pub seed: u32,
@@ -77,11 +77,11 @@ pub struct FirstPasses {
 /// The mist pass: metres at which it starts, metres until it is full, exponent.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mist {
-    /// Metres.
+    /// Metres from the camera at which it starts.
     pub start: f32,
-    /// Metres.
+    /// Metres from there until it is full.
     pub depth: f32,
-    /// Exponent.
+    /// Exponent of the share of the way.
     pub falloff: f32,
 }
 

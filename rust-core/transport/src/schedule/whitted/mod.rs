@@ -4,7 +4,7 @@
 //! the pixel and on the lens are random, so neighbouring rays have no noise between them.
 //!
 //! A batch holds the rays of one specular way, at most one for each slot: each way out of a generation is a batch of its own, and so is each
-//! closure of a mix. So rays of a batch lie side by side, room is never short, and a slot's light is added in the same order for registers of
+//! closure of a mix. So rays of a batch lie side by side, and room is never short. A slot's light is added in the same order for registers of
 //! any width.
 
 mod closures;
