@@ -1,7 +1,7 @@
 //! Batches of samples through the kernels at any level.
 
-use crate::{LightCache, LightKind, LightRecord, LightTable};
-use gonio_simd::{Column, Execution, F, Lanes, Rgb, Vec3, dispatch, padded};
+use crate::{LightCache, LightKind, LightRecord, LightSample, LightTable};
+use gonio_simd::{Column, Execution, F, Lanes, M, Rgb, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
 #[derive(Default)]
@@ -44,6 +44,41 @@ pub(super) fn numbers(seed: u64, count: usize) -> [Column; 3] {
     columns
 }
 
+/// [`LightTable::sample_li`] as a function of its own: all kinds of lights in one function with evaluation compile for minutes.
+#[inline(never)]
+fn sample_li<L: Lanes>(
+    l: L,
+    table: &LightTable,
+    light_cache: Option<&LightCache>,
+    p: &Vec3<L>,
+    n: &Vec3<L>,
+    u: &[F<L>; 3],
+) -> LightSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || table.sample_li(l, light_cache, p, n, u[0], &[u[1], u[2]]),
+    )
+}
+
+/// [`LightTable::eval_hit`] likewise.
+#[inline(never)]
+fn eval_hit<L: Lanes>(
+    l: L,
+    table: &LightTable,
+    light_cache: Option<&LightCache>,
+    sample: &LightSample<L>,
+    vertex: &[Vec3<L>; 2],
+    placed: M<L>,
+) -> (Rgb<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || {
+            let hit = sample.wi.mul_add(sample.distance, vertex[0]);
+            table.eval_hit(l, light_cache, sample.light, vertex[0], vertex[1], sample.wi, hit, placed)
+        },
+    )
+}
+
 #[inline(always)]
 fn kernel<L: Lanes>(
     l: L,
@@ -57,7 +92,7 @@ fn kernel<L: Lanes>(
     let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, n));
     for at in (0..u[0].len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, light_cache, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = sample_li(l, table, light_cache, &p, &n, &numbers);
         let [x, y, z] = &mut drawn.wi;
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
@@ -66,8 +101,7 @@ fn kernel<L: Lanes>(
         s.pdf.store(&mut drawn.pdf, at);
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
-        let hit = s.wi.mul_add(s.distance, p);
-        let (radiance, pdf): (Rgb<L>, F<L>) = table.eval_hit(l, light_cache, s.light, p, n, s.wi, hit, placed);
+        let (radiance, pdf) = eval_hit(l, table, light_cache, &s, &[p, n], placed);
         let [r, g, b] = &mut drawn.eval_radiance;
         radiance.store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);
