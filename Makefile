@@ -38,8 +38,8 @@ test-quick:
 
 render: build
 	mkdir -p out
-	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 64 --exposure 0.7
-	@echo "The picture is out/office.png; radiance, luminance (cd/m2) and illuminance (lx) are in out/office.exr."
+	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 16 --denoise --exposure 0.7
+	@echo "The picture is out/office.png, denoised; radiance, and luminance (cd/m2) and illuminance (lx) as rendered, are in out/office.exr."
 
 # A linker that knows old C libraries.
 $(VENV)/zig: $(VENV)/ready
