@@ -19,6 +19,7 @@ fn own_level() {
         fearless_simd::Level::Sse4_2(_) => "sse4.2",
         _ => return,
     };
+    println!("cargo::rustc-cfg=only_level");
     println!("cargo::rustc-cfg=only_level=\"{level}\"");
 }
 
