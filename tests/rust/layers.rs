@@ -45,7 +45,7 @@ const CRATES: [(&str, &[&str]); 12] = [
     ("table", &["simd"]),
     ("camera", &["simd"]),
     ("bsdf", &["simd", "formats", "table"]),
-    ("light", &["simd", "formats", "image", "table"]),
+    ("light", &["simd", "image", "table"]),
     ("scene", &["formats", "image"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera"]),
     ("engine", &["simd", "formats", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "scene", "transport"]),

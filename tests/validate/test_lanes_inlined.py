@@ -16,7 +16,7 @@ OPERATION = re.compile(r"simd_trait::Simd>::(\w+)::kernel::")
 
 def built() -> str:
     """The program of `cargo bench`, which has all kernels."""
-    command = ["cargo", "bench", "--quiet", "--package", "gonio", "--bench", "stages", "--no-run", "--message-format", "json"]
+    command = ["cargo", "bench", "--quiet", "--package", "gonio-bench", "--bench", "stages", "--no-run", "--message-format", "json"]
     lines = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
     programs = [message["executable"] for message in map(json.loads, lines) if message.get("executable")]
     assert len(programs) == 1, programs

@@ -1,4 +1,4 @@
-//! Recomputes the directional-albedo tables of `bsdf/tables`: `cargo run --release --example energy_tables -- <folder>`.
+//! Recomputes the directional-albedo tables of `bsdf/tables`: `cargo run --release -p gonio-bsdf --example energy_tables -- <folder>`.
 //!
 //! Each node is an integral over visible normals (Heitz 2018) by a midpoint rule in f64, written apart from the lanes code so that it also
 //! serves as its oracle. Axes are uniform from 0 to 1: roughness `r` (alpha = r²), cosine `mu`, and for indices z = F0^(1/4).
