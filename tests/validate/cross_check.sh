@@ -12,8 +12,8 @@ if [ ! -x "$tools/usr/bin/rustc" ]; then
     mkdir -p "$tools/packages"
     # The newest version that has the sources of its standard library beside it.
     version=$(apt-cache madison rust-web-src | awk 'NR == 1 { print $3 }')
-    llvm=$(apt-cache show "rustc-web=$version" | grep -o 'libllvm[0-9]*' | head -n 1)
-    library=$(apt-cache show "libstd-rust-web-dev=$version" | grep -o 'libstd-rust-web-[0-9.]*' | grep -v dev | head -n 1)
+    library=libstd-rust-web-$(echo "$version" | grep -o '^[0-9]*[.][0-9]*')
+    llvm=$(apt-cache show "$library=$version" | grep -o -m 1 'libllvm[0-9]*')
     (cd "$tools/packages" && apt-get download -q "rustc-web=$version" "libstd-rust-web-dev=$version" "rust-web-src=$version" "$library=$version" "$llvm")
     for package in "$tools"/packages/*.deb; do dpkg -x "$package" "$tools"; done
 fi
