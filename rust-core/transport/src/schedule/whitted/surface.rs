@@ -147,12 +147,8 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         Way::Straight => 1 << 24,
     };
     let state = PathLanes {
-        origin: point.at.ray_origin(wi),
-        direction: wi,
-        t_min: l.f(0.0),
-        t_max: l.f(f32::MAX),
-        vertex: point.at.position,
-        normal: point.at.frame.z,
+        ray: point.at.spawn_ray(wi),
+        from: point.at.as_previous(),
         throughput,
         pdf: share,
         width: point.width,

@@ -1,9 +1,8 @@
 //! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
 
-use crate::geometry::ShadowSegment;
 use crate::graph::CHUNK;
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::rays::Rays;
+use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, Lanes, M, PADDING, Rgb, U, padded};
@@ -19,7 +18,7 @@ pub(crate) fn hits_together(rays_per_hit: usize) -> usize {
 /// One register of shadow rays, to be appended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadowLanes<L: Lanes> {
-    pub(crate) segment: ShadowSegment<L>,
+    pub(crate) ray: RayLanes<L>,
     pub(crate) contribution: Rgb<L>,
     pub(crate) slot: U<L>,
     pub(crate) code: U<L>,
@@ -67,8 +66,7 @@ impl ShadowRays {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        self.rays.append(ray.segment.origin, ray.segment.direction, chosen, n);
-        ray.segment.t_max.append(chosen, &mut self.rays.t_max, n);
+        self.rays.append(&ray.ray, chosen, n);
         append3(ray.contribution.into(), chosen, &mut self.contribution, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);

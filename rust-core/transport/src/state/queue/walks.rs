@@ -1,12 +1,12 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
-use crate::state::rays::Rays;
+use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -60,9 +60,8 @@ pub(crate) struct WalkHits {
 /// One register of walks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WalkLanes<L: Lanes> {
-    pub(crate) origin: Vec3<L>,
-    pub(crate) direction: Vec3<L>,
-    pub(crate) t_min: F<L>,
+    /// The flight under way.
+    pub(crate) ray: RayLanes<L>,
     pub(crate) throughput: Rgb<L>,
     pub(crate) medium: Medium<L>,
     pub(crate) instance: U<L>,
@@ -76,8 +75,7 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;
-        self.rays.append(w.origin, w.direction, chosen, n);
-        w.t_min.append(chosen, &mut self.rays.t_min, n);
+        self.rays.append(&w.ray, chosen, n);
         append3(w.throughput.into(), chosen, &mut self.throughput, n);
         append3(w.medium.albedo.into(), chosen, &mut self.albedo, n);
         append3(w.medium.extinction.into(), chosen, &mut self.extinction, n);
@@ -93,9 +91,7 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
         WalkLanes {
-            origin: load3(l, &self.rays.origin, at),
-            direction: load3(l, &self.rays.direction, at),
-            t_min: l.load(&self.rays.t_min, at),
+            ray: self.rays.load(l, at),
             throughput: load3(l, &self.throughput, at).into(),
             medium: Medium {
                 albedo: load3(l, &self.albedo, at).into(),
