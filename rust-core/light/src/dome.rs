@@ -18,7 +18,12 @@ pub(crate) struct DomeDistribution {
     distribution: Distribution2D,
     /// Mean luminance over the sphere.
     pub(crate) mean_luminance: f64,
+    /// The part of the light that light sampling is to bring: what is above the mean, and the floor.
+    pub(crate) sampled_part: f64,
 }
+
+/// The same of a dome without an image.
+pub(crate) const EVEN_SAMPLED_PART: f64 = FLOOR;
 
 /// Luminance of each cell: the mean over its pixels and their neighbours.
 fn cells(image: &LightTexture, [width, height]: [usize; 2]) -> Vec<f64> {
@@ -55,7 +60,9 @@ impl DomeDistribution {
         let mean = weighted / sines;
         let above = |v: f64| (v - mean).max(0.0) + FLOOR * mean;
         let weights: Vec<f32> = luminance.iter().enumerate().map(|(i, v)| (above(*v) * sine(i / size[0])) as f32).collect();
-        Self { distribution: Distribution2D::new(&weights, size[0]), mean_luminance: mean }
+        let sampled: f64 = weights.iter().map(|weight| f64::from(*weight)).sum();
+        let sampled_part = if weighted > 0.0 { (sampled / weighted).min(1.0) } else { 1.0 };
+        Self { distribution: Distribution2D::new(&weights, size[0]), mean_luminance: mean, sampled_part }
     }
     /// A direction in the dome's frame, its density and its place in the image.
     #[inline(always)]

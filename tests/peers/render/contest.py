@@ -35,6 +35,8 @@ CONTESTS = [
     on("glass", "cycles"),
     on("car", "cycles"),
     on("field", "cycles"),
+    on("crowd", "cycles"),
+    on("street", "cycles"),
     on("diffuse_room", *MITSUBA),
     # 10,000 lights against the ten that matter.
     Contest("hall", (Entrant("gonio", "hall"), Entrant("gonio", "hall.bay"))),

@@ -151,3 +151,22 @@ fn escaped_rays_and_samples_add_up_to_the_illuminance() {
         assert!((mean - expected).abs() < 4.9 * error + 2e-3 * expected, "{}: {mean} ± {error} for {expected}", execution.name());
     }
 }
+
+#[test]
+fn skies_are_selected_by_what_light_samples_bring() {
+    let sun = LightRecord { angle: 0.01, ..LightRecord::new(LightKind::Distant) };
+    let even = image(64, 32, |_, _| [1.0; 3]);
+    let peak = image(64, 32, |x, y| if (20..24).contains(&x) && (6..10).contains(&y) { [500.0; 3] } else { [0.1; 3] });
+    let selected = |textures: &[LightTexture]| {
+        let mut record = dome((!textures.is_empty()).then_some(0));
+        // As bright in the mean as without an image.
+        let mean: f32 = textures.iter().map(|image| image.rgb.iter().sum::<f32>() / image.rgb.len() as f32).sum();
+        record.radiance = [if textures.is_empty() { 1.0 } else { 1.0 / mean }; 3];
+        let table = LightTable::build(&[record, LightRecord { radiance: [4e4; 3], ..sun.clone() }], textures, &[]);
+        let (towards_sun, origin) = (Vec3::splat(One, [0.0, 0.0, 1.0]), Vec3::splat(One, [0.0; 3]));
+        table.light_pmf(One, None, origin, towards_sun, One.u(0)).to_array()[0]
+    };
+    let [bare, even, peak] = [selected(&[]), selected(&[even]), selected(&[peak])];
+    assert!(bare > 0.0 && bare < 0.2 && (bare - even).abs() < 0.02, "even skies: {bare} and {even}");
+    assert!(peak > 2.0 * even, "a sky with a bright spot: {peak}, an even one: {even}");
+}
