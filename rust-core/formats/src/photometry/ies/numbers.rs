@@ -110,6 +110,7 @@ impl<'a> Numbers<'a> {
                 continue;
             }
             let (piece, after) = rest.split_at(rest.find(blank).unwrap_or(rest.len()));
+            let piece = piece.trim_end_matches(',');
             let is_doubtful = is_decimal(piece);
             if is_doubtful {
                 self.doubtful = self.doubtful.or(Some((piece, self.line())));
@@ -125,12 +126,12 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// Whether a piece of text between blanks may be one number with a decimal comma: digits to both sides of a single comma, and no point.
+/// Whether a piece of text between blanks may be meant as one number with a decimal comma: digits to both sides of a single comma, and no point
+/// behind it.
 fn is_decimal(piece: &str) -> bool {
     piece.split_once(',').is_some_and(|(whole, fraction)| {
         whole.ends_with(|c: char| c.is_ascii_digit())
             && fraction.starts_with(|c: char| c.is_ascii_digit())
-            && !fraction.contains(',')
-            && !piece.contains('.')
+            && !fraction.contains([',', '.'])
     })
 }
