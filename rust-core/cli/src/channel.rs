@@ -7,7 +7,7 @@ use gonio::{
 };
 use std::path::Path;
 
-/// The longest Radiance picture in bytes: 16 bits of pixels to each side, plain.
+/// The longest Radiance picture in bytes: 65,536 pixels to each side, not compressed.
 const LONGEST: u64 = 16 << 30;
 
 /// The channels of a file, with width and height, and the place of the one that was asked for.
