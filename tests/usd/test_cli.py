@@ -43,7 +43,7 @@ def test_wrong_usage_is_status_two(run, arguments):
 def test_info_as_text(run, room):
     done = run("info", room)
     assert done.returncode == 0 and done.stderr == ""
-    for words in ("1 m a unit", "1 Mesh", "1 SphereLight", "camera /Cam", "light /Lamp: sphere of radius 0.2", "400 cd/m²", "materials"):
+    for words in ("1 m a unit", "1 Mesh", "1 SphereLight", "camera /Cam", "light /Lamp: sphere 0.4 m across", "400 cd/m²", "materials"):
         assert words in done.stdout, words
     assert "emissive" not in done.stdout
 

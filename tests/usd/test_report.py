@@ -1,6 +1,7 @@
 """`gonio report`: the page's figures against closed forms, that it holds everything itself, and its errors."""
 
 import base64
+import datetime
 import html.parser
 import math
 import re
@@ -159,7 +160,7 @@ def test_grids_and_meters_have_their_figures(page):
     _, reader, _ = page
     names, row = reader.table("grid")
     row = dict(zip(names, row, strict=True))
-    assert (row["grid"], row["points"], row["spacing, m"]) == ("/Floor", "21", "0.500 × 0.500")
+    assert (row["grid"], row["points"], row["spacing, m"]) == ("/Floor", "21", "0.50 × 0.50")
     average, least = float(row["average"].split()[0]), float(row["least"].split()[0])
     assert float(row["U0"]) == pytest.approx(least / average, abs=0.01)
     _, meter = reader.table("meter")
@@ -187,6 +188,40 @@ def test_pictures_drawings_and_notes_stand_in_the_page(page):
     # Nothing is fetched from elsewhere.
     assert not re.search(r"(?:src|href)=\"(?!data:)", text) and "@import" not in text and "<script" not in text
     assert "A<b>ME" not in text
+
+
+def test_the_head_says_what_where_and_when(run, stage, tmp_path):
+    sun = ("--sun", "48.21,16.37,2025-06-21T13:00+02:00", "--sky", "overcast")
+    about = ("--project", "Hall <b>", "--place", "Vienna", "--date", "1 May 2025")
+    _, reader, _ = written(run, tmp_path / "head.html", stage, "--no-pictures", *about, *sun)
+    words = [word.strip() for word in reader.words]
+    for fact in ("hall", "Hall <b>", "Vienna", "1 May 2025", "2025-06-21T13:00+02:00, overcast sky", "hall.usda"):
+        assert fact in words, fact
+    text, reader, _ = written(run, tmp_path / "plain.html", stage, "--no-pictures", *sun)
+    words = [word.strip() for word in reader.words]
+    assert "48.21° north, 16.37° east" in words and datetime.date.today().isoformat() in words
+    assert "@media print" in text and "@page" in text
+
+
+def test_values_are_round_and_in_metres(run, stage, tmp_path):
+    path = tmp_path / "hall.usda"
+    size = "float inputs:width = 0.6000001\n    float inputs:height = 1.2"
+    path.write_text(path.read_text() + f'def RectLight "Old" {{\n    float inputs:intensity = 3199.9998\n    {size}\n}}\n')
+    text, reader, _ = written(run, tmp_path / "round.html", path, "--no-pictures")
+    assert any(row[0] == "rectangle 0.6 × 1.2 m, 3200 cd/m²" for row in reader.table("type"))
+    assert "units" not in text and "3199" not in text
+    for cell in reader.table("grid")[1][4:7]:
+        # Both have the same places, four digits at most.
+        value, error = re.fullmatch(r"([\d.]+) ± ([\d.]+) lx", cell).groups()
+        assert len(value.replace(".", "")) <= 4 and len(value.partition(".")[2]) == len(error.partition(".")[2]) and float(error) > 0
+
+
+def test_pictures_are_denoised_where_that_is_possible(run, stage, tmp_path):
+    pytest.importorskip("pyoidn")
+    denoised, reader, _ = written(run, tmp_path / "a.html", stage, "--camera", "Eye")
+    noisy, other, _ = written(run, tmp_path / "b.html", stage, "--camera", "Eye", "--no-denoise")
+    assert "4 samples a pixel, denoised" in denoised and "denoised" not in noisy
+    assert reader.pictures[0] != other.pictures[0] and reader.pictures[1] != other.pictures[1]
 
 
 def test_one_camera_or_none(run, stage, tmp_path):

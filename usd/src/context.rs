@@ -58,6 +58,7 @@ pub struct Context<'a, 'py> {
     /// Prims met, by type.
     pub prim_counts: HashMap<String, usize>,
     diagnostics: Vec<Diagnostic>,
+    refused: Option<Error>,
     tallies: HashMap<(&'static str, String), Tally>,
     cancel: &'a AtomicBool,
 }
@@ -86,6 +87,7 @@ impl<'a, 'py> Context<'a, 'py> {
             luminaires: Vec::new(),
             prim_counts: HashMap::new(),
             diagnostics: Vec::new(),
+            refused: None,
             tallies: HashMap::new(),
             cancel,
         }
@@ -107,6 +109,23 @@ impl<'a, 'py> Context<'a, 'py> {
     /// Reports something that changes the picture.
     pub fn warn(&mut self, origin: &Origin, message: impl Into<String>) {
         self.diagnostics.push(Diagnostic::warning(origin, message));
+    }
+
+    /// Reports something that ends the reading unless it is to be lenient: what is done `instead` is then a warning.
+    pub fn refuse(&mut self, origin: &Origin, problem: &str, instead: &str) {
+        if self.options.lenient {
+            self.warn(origin, format!("{problem}; {instead}"));
+        } else if self.refused.is_none() {
+            self.refused = Some(Error::scene(origin, format!("{problem}; with --lenient {instead}")));
+        }
+    }
+
+    /// Fails where something was met that ends the reading.
+    ///
+    /// # Errors
+    /// The first of what [`Context::refuse`] was told.
+    pub fn check_refused(&mut self) -> Result<()> {
+        self.refused.take().map_or(Ok(()), Err)
     }
 
     /// Reports something worth knowing.

@@ -35,8 +35,8 @@ pub(crate) struct Request {
     pub(crate) normalized: bool,
 }
 
-/// The goniogram that a light's file holds, the same one for all lights that ask the same of it; `None`, with a warning that names the prim and
-/// the file, where there is none.
+/// The goniogram that a light's file holds, the same one for all lights that ask the same of it; `None` where there is none, which is told with the
+/// prim and the file.
 pub(crate) fn goniogram<'py>(
     context: &mut Context<'_, 'py>,
     prim: &Prim<'py>,
@@ -44,7 +44,7 @@ pub(crate) fn goniogram<'py>(
     request: Request,
 ) -> Option<Arc<Goniogram>> {
     let asked = format!("{}\n{}", request.angle_scale.to_bits(), request.normalized);
-    known_or_read(context, prim, path, &asked, |context, origin, found| {
+    known_or_read(context, prim, path, &asked, "the light shines as without a distribution", |context, origin, found| {
         let goniogram = requested(context, origin, &found, request);
         (found, goniogram)
     })
@@ -59,16 +59,17 @@ pub(crate) struct Lamping {
     pub(crate) tilt_deg: f64,
 }
 
-/// The goniogram of a luminaire's file in candela, the same one for all lights that ask the same of it; `None`, with a warning, where there is
-/// none. What the file has not is a warning, and the luminaire is as the file has it.
+/// The goniogram of a luminaire's file in candela, the same one for all lights that ask the same of it; `None` where there is none, and what is done
+/// `instead` is told. What the file has not is a warning, and the luminaire is as the file has it.
 pub(crate) fn absolute<'py>(
     context: &mut Context<'_, 'py>,
     prim: &Prim<'py>,
     path: &AssetPath,
     lamping: Lamping,
+    instead: &str,
 ) -> Option<Arc<Goniogram>> {
     let asked = format!("absolute {:?} {}", lamping.lamp_set, lamping.tilt_deg.to_bits());
-    known_or_read(context, prim, path, &asked, |context, origin, found| {
+    known_or_read(context, prim, path, &asked, instead, |context, origin, found| {
         let found = lamped(context, origin, path, found, lamping);
         let goniogram = Goniogram::from(&found);
         (found, goniogram)
@@ -81,6 +82,7 @@ fn known_or_read<'py>(
     prim: &Prim<'py>,
     path: &AssetPath,
     asked: &str,
+    instead: &str,
     make: impl FnOnce(&mut Context<'_, 'py>, &Origin, photometry::Goniogram) -> (photometry::Goniogram, Goniogram),
 ) -> Option<Arc<Goniogram>> {
     let key = format!("{}\n{}\n{asked}", path.authored, path.resolved);
@@ -88,7 +90,7 @@ fn known_or_read<'py>(
         return known.clone();
     }
     let origin = prim.origin();
-    let read = read(context, path, &origin).map(|found| {
+    let read = read(context, path, &origin, instead).map(|found| {
         let (photometry, goniogram) = make(context, &origin, found);
         let goniogram = Arc::new(goniogram);
         context.luminaires.push(LuminaireFile { path: path.authored.clone(), photometry, goniogram: goniogram.clone() });
@@ -117,18 +119,18 @@ fn or_warn<T>(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath, 
     result?.inspect_err(failed).ok()
 }
 
-fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin) -> Option<photometry::Goniogram> {
+fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin, instead: &str) -> Option<photometry::Goniogram> {
     let py = context.py;
     let reader = |bytes: &[u8], name: &str| photometry::read_with(bytes, name, &mut |tilt| asset::beside(py, name, tilt));
     match asset::read(py, path, "light distribution", reader) {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {
-                context.note(origin, Error::in_file(&path.resolved, warning).to_string());
+                context.warn(origin, Error::in_file(&path.resolved, warning).to_string());
             }
             Some(goniogram)
         }
         Err(problem) => {
-            context.warn(origin, format!("{problem}; the light counts as uniform"));
+            context.refuse(origin, &problem, instead);
             None
         }
     }

@@ -118,6 +118,8 @@ pub struct StageOptions {
     pub render_settings: Option<String>,
     /// Whether warnings end the reading.
     pub strict: bool,
+    /// Whether the reading goes on where a light's photometric file cannot be read, with a warning and a stand-in.
+    pub lenient: bool,
 }
 
 impl Default for StageOptions {
@@ -133,6 +135,7 @@ impl Default for StageOptions {
             material_binding_purposes: None,
             render_settings: None,
             strict: false,
+            lenient: true,
         }
     }
 }

@@ -41,10 +41,11 @@ pub(crate) fn photometry<'py>(
     if shape.is_at_infinity() && prim.has_authored(&format!("{PREFIX}file")) {
         context.unsupported(&format!("{PREFIX}file of lights at infinity"), &prim.origin());
     }
-    let goniogram = if shape.is_at_infinity() { None } else { file(context, prim) };
+    let path = if shape.is_at_infinity() { None } else { file(context, prim) };
+    let quantity = quantity(context, prim).or(path.is_some().then_some(LightQuantity::Measured));
+    let goniogram = path.and_then(|path| goniogram(context, prim, &path, quantity));
     let opening = opening(context, prim, shape, goniogram.as_deref());
     let is_luminaire = opening.is_some();
-    let quantity = quantity(context, prim).or(is_luminaire.then_some(LightQuantity::Measured));
     let dimming = dimming(context, prim);
     let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
     let placed = is_luminaire.then(|| luminaire_place(transform, context.metres_per_unit, rotation));
@@ -64,13 +65,22 @@ pub(crate) fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> 
     factor("dimming") * factor("maintenanceFactor")
 }
 
-fn file<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<Goniogram>> {
-    let path: AssetPath = attribute(context, prim, "file")?;
-    if path.authored.is_empty() {
-        return None;
-    }
+/// The luminaire's file that a prim names.
+fn file<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<AssetPath> {
+    attribute(context, prim, "file").filter(|path: &AssetPath| !path.authored.is_empty())
+}
+
+/// The file's candela. Without them a light whose quantity stands for itself has it evenly, and others nobody knows the strength of.
+fn goniogram<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    path: &AssetPath,
+    quantity: Option<LightQuantity>,
+) -> Option<Arc<Goniogram>> {
     let lamping = Lamping { lamp_set: attribute(context, prim, "lampSet"), tilt_deg: attribute(context, prim, "tilt").unwrap_or(0.0) };
-    goniogram::absolute(context, prim, &path, lamping)
+    let needs_file = matches!(quantity, None | Some(LightQuantity::Measured | LightQuantity::LampLumens(_)));
+    let instead = if needs_file { "the light stays dark" } else { "its quantity leaves its own shape evenly" };
+    goniogram::absolute(context, prim, path, lamping, instead)
 }
 
 /// The emitter of a luminaire's file: its own opening, a point, or the light's shape.

@@ -97,7 +97,8 @@ impl Stage {
     /// Reads the stage at a time. `cancel` is looked at once a prim and inside subdivision.
     ///
     /// # Errors
-    /// Cancellation, settings that do not exist, a stage with more instances than 2²⁵, and with `strict` any warning.
+    /// Cancellation, settings that do not exist, a stage with more instances than 2²⁵, photometric files that cannot be read unless `lenient` is
+    /// set, and with `strict` any warning.
     pub fn load(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
         let trap = Trap::set(py);
         let result = self.read(py, options, cancel);
@@ -131,6 +132,7 @@ impl Stage {
         let walker = Walker::new(&mut context).map_err(unreadable)?;
         let (world, failed) = walker.world()?;
         place::place_world(&mut context, &world, failed)?;
+        context.check_refused()?;
         if let Some(settings) = &settings {
             settings.apply(&mut context.scene);
         }

@@ -1,15 +1,21 @@
-//! One quantity of an EXR file.
+//! One quantity of an EXR file or a Radiance picture.
 
+use super::{file, radiance};
 use gonio::{
     Error, Result,
     output::{Channels, read_exr},
 };
 use std::path::Path;
 
+/// The longest Radiance picture in bytes: 65,536 pixels to each side, not compressed.
+const LONGEST: u64 = 16 << 30;
+
 /// The channels of a file, with width and height, and the place of the one that was asked for.
 pub(super) struct Picture {
     pub(super) channels: Channels,
     pub(super) size: [usize; 2],
+    /// How it was taken, in Radiance's words; EXR files do not say.
+    pub(super) view: Option<String>,
     chosen: usize,
 }
 
@@ -17,7 +23,7 @@ impl Picture {
     /// Reads a file. A channel is found by its whole name, or by a part of it between points that no other has: Blender's files call it
     /// `ViewLayer.Luminance.X`.
     pub(super) fn read(path: &Path, quantity: &str) -> Result<Self> {
-        let (channels, size) = read_exr(path)?;
+        let (channels, size, view) = channels_of(path)?;
         let by_name = channels.iter().position(|(name, _)| name == quantity);
         let has_part = |index: &usize| channels[*index].0.split('.').any(|part| part.eq_ignore_ascii_case(quantity));
         let by_part: Vec<usize> = (0..channels.len()).filter(has_part).collect();
@@ -28,7 +34,7 @@ impl Picture {
             (None, []) => {
                 let known = names(&(0..channels.len()).collect::<Vec<_>>());
                 let problem =
-                    format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity}); the file has {known}");
+                    format!("there is no channel '{quantity}' (gonio render writes it with --aov {quantity} to EXR); the file has {known}");
                 return Err(Error::Format { path: path.to_owned(), line: None, problem });
             }
             (None, several) => {
@@ -36,7 +42,7 @@ impl Picture {
                 return Err(Error::setting("quantity", problem));
             }
         };
-        Ok(Self { channels, size, chosen })
+        Ok(Self { channels, size, view, chosen })
     }
 
     /// The channel that was asked for.
@@ -52,4 +58,12 @@ impl Picture {
             _ => "",
         }
     }
+}
+
+/// A file's channels, width and height, and view.
+fn channels_of(path: &Path) -> Result<(Channels, [usize; 2], Option<String>)> {
+    if radiance::is_radiance(&file::start(path, 2)?) {
+        return radiance::read(path, file::read(path, LONGEST, "picture")?);
+    }
+    read_exr(path).map(|(channels, size)| (channels, size, None))
 }

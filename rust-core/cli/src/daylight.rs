@@ -2,17 +2,23 @@
 
 use super::{arguments::DaylightArguments, file, say};
 use gonio::sky::{DEFAULT_ROWS, Daylight, Frame, Irradiance, Moment, Place, SkyModel};
-use gonio::{Error, Result};
+use gonio::{Diagnostic, Error, Result, scene::Origin};
 use gonio_formats::weather;
 use gonio_usd::{Loaded, daylight::up_axis};
+use std::path::Path;
 
 /// The longest weather file in bytes: ten times a year in steps of a minute.
 const LONGEST: u64 = 1 << 30;
 
-/// Adds the sun and the sky that were asked for, and says how bright they are.
-pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_quiet: bool) -> Result<()> {
+/// Adds the sun and the sky that were asked for, and says how bright they are; what is doubtful goes to the diagnostics, or is an error.
+pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_strict: bool, is_quiet: bool) -> Result<()> {
     let Some(text) = &arguments.sun else { return Ok(()) };
-    let daylight = read(arguments, text)?;
+    let (daylight, doubts) = read(arguments, text)?;
+    let origin = Origin { name: "--weather".into(), file: arguments.weather.as_deref().unwrap_or(Path::new("")).to_string_lossy().into() };
+    if let Some(doubt) = doubts.first().filter(|_| is_strict) {
+        return Err(Error::scene(&origin, doubt.clone()));
+    }
+    loaded.diagnostics.extend(doubts.into_iter().map(|doubt| Diagnostic::warning(&origin, doubt)));
     if !arguments.north.is_finite() {
         return Err(Error::setting("north", format!("{} was found, expected degrees", arguments.north)));
     }
@@ -30,7 +36,8 @@ pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_quiet: 
     Ok(())
 }
 
-fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
+/// What was asked for, and what makes one doubt it.
+fn read(arguments: &DaylightArguments, text: &str) -> Result<(Daylight, Vec<String>)> {
     let parts: Vec<&str> = text.splitn(3, ',').collect();
     let [latitude, longitude, time] = parts[..] else {
         return Err(Error::setting("sun", format!("'{text}' was found, expected latitude, longitude and time, separated by commas")));
@@ -42,6 +49,7 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
     daylight.turbidity = arguments.turbidity;
     daylight.ground = arguments.ground;
     daylight.is_coloured = !arguments.white_daylight;
+    let mut doubts = Vec::new();
     if let Some(text) = &arguments.irradiance {
         let problem = || {
             Error::setting(
@@ -57,8 +65,9 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<Daylight> {
         let bytes = file::read(path, LONGEST, "weather file")?;
         let found = weather::read(&bytes).map_err(|error| Error::in_file(path, &error))?;
         daylight.take_weather(&found).map_err(|error| Error::Format { path: path.clone(), line: None, problem: error.to_string() })?;
+        doubts = daylight.doubts_about(&found)?;
     }
-    Ok(daylight)
+    Ok((daylight, doubts))
 }
 
 /// A finite number of an option.

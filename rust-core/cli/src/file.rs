@@ -15,6 +15,14 @@ pub(super) fn read(path: &Path, longest: u64, what: &str) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The first bytes of a file, fewer where it has fewer.
+pub(super) fn start(path: &Path, count: u64) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| Error::io(path, error))?;
+    file.take(count).read_to_end(&mut bytes).map_err(|error| Error::io(path, error))?;
+    Ok(bytes)
+}
+
 /// What a file's name ends with after the last dot, in small letters.
 pub(super) fn ending(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()

@@ -1,6 +1,6 @@
 //! `gonio glare`.
 
-use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print};
+use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print, radiance};
 use gonio::{
     Error, Result,
     measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions, GlareSource, Threshold},
@@ -16,12 +16,9 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     if let Some(path) = &options.output {
         check_ending("output", path, &["png"])?;
     }
-    let projection = FisheyeProjection::by_name(&options.projection).ok_or_else(|| {
-        let expected = FisheyeProjection::NAMES.map(|(_, name)| name).join(", ");
-        Error::setting("projection", format!("'{}' was found, expected one of {expected}", options.projection))
-    })?;
     let picture = Picture::read(&options.image, &options.quantity)?;
-    let view = FisheyeView::new(projection, options.fov, picture.size)?;
+    let (projection, fov) = projection(options, &picture)?;
+    let view = FisheyeView::new(projection, fov, picture.size)?;
     let found = Glare::new(picture.values(), &view, &glare_options(options))?;
     if let Some(path) = &options.output {
         write(path, &drawn(&picture, &found)?)?;
@@ -32,6 +29,24 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
         as_text(&found).iter().for_each(|line| print(line));
     }
     Ok(0)
+}
+
+/// How the picture was taken: as the options say, else as the picture does, else an even half of the world.
+fn projection(options: &GlareArguments, picture: &Picture) -> Result<(FisheyeProjection, f64)> {
+    let asked = options.projection.as_ref().map(|name| {
+        FisheyeProjection::by_name(name).ok_or_else(|| {
+            let expected = FisheyeProjection::NAMES.map(|(_, name)| name).join(", ");
+            Error::setting("projection", format!("'{name}' was found, expected one of {expected}"))
+        })
+    });
+    let asked = asked.transpose()?;
+    let own = match &picture.view {
+        Some(view) if asked.is_none() || options.fov.is_none() => radiance::fisheye(view).map(Some),
+        _ => Ok(None),
+    };
+    let own = own.or_else(|problem| if asked.is_some() { Ok(None) } else { Err(Error::setting("projection", problem)) })?;
+    let (projection, fov) = own.unwrap_or((FisheyeProjection::Equidistant, 180.0));
+    Ok((asked.unwrap_or(projection), options.fov.unwrap_or(fov)))
 }
 
 fn glare_options(options: &GlareArguments) -> GlareOptions {

@@ -14,6 +14,8 @@ use std::sync::atomic::AtomicBool;
 /// Reads the stage, lays it out, and says what would be rendered.
 pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBool) -> Result<i32> {
     let mut stage_options = stage_options(&options.stage)?;
+    // What is wrong is what is asked for here.
+    stage_options.lenient = true;
     if let Some(frame) = options.frame {
         stage_options.time = SampleTime::Code(frame);
     }

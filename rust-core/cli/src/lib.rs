@@ -22,6 +22,7 @@ mod merge;
 mod output;
 mod photometry;
 mod progress;
+mod radiance;
 mod relight;
 mod render;
 mod report;

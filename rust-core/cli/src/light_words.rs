@@ -1,57 +1,119 @@
 //! Lights in words.
 
 use gonio::colour::luminance_of_pixel;
-use gonio::scene::{Light, LightQuantity, LightShape, Opening};
+use gonio::scene::{Light, LightQuantity, LightShape, Opening, OpeningShape};
+use gonio_formats::short_number;
+use std::f64::consts::PI;
 
-/// A light in words, with units.
+/// A light in words, with its lengths in metres in the world and its strength in units of light, rounded.
 pub(super) fn describe(light: &Light) -> String {
-    let y = luminance_of_pixel(light.emission.radiance);
+    let extents = extents(light);
+    let [x, y, z] = extents.map(short_number);
     let shape = match light.shape {
-        LightShape::Rectangle { width, height } => format!("rectangle {} x {} units", short(width), short(height)),
-        LightShape::Disk { radius } => format!("disk of radius {} units", short(radius)),
-        LightShape::Ellipse { width, height } => format!("ellipse {} x {} units", short(width), short(height)),
-        LightShape::Sphere { radius } => format!("sphere of radius {} units", short(radius)),
-        LightShape::FacingDisk { radius } => format!("facing disk of radius {} units", short(radius)),
+        LightShape::Rectangle { .. } => format!("rectangle {x} × {y} m"),
+        LightShape::Ellipse { .. } => format!("ellipse {x} × {y} m"),
+        LightShape::Disk { .. } => format!("disk {x} m across"),
+        LightShape::Sphere { .. } => format!("sphere {x} m across"),
+        LightShape::FacingDisk { .. } => format!("facing disk {x} m across"),
+        LightShape::Cylinder { .. } => format!("cylinder {x} m long, {y} m across"),
         LightShape::Point => "point".to_owned(),
-        LightShape::Opening(Opening { shape, size: [x, y, z], .. }) => {
-            let [x, y, z] = [x, y, z].map(short);
-            format!("luminaire's opening, {shape:?} {x} x {y} x {z} units")
-        }
-        LightShape::Cylinder { radius, length } => {
-            format!("cylinder of radius {}, length {} units", short(radius), short(length))
-        }
-        LightShape::Distant { angle_deg } => format!("distant, {angle_deg} degrees"),
+        LightShape::Opening(Opening { shape: OpeningShape::Point, .. }) => "luminaire without extent".to_owned(),
+        LightShape::Opening(Opening { shape, .. }) => format!("luminaire's opening, {} {x} × {y} × {z} m", name_of(shape)),
+        LightShape::Distant { angle_deg } => format!("distant, {} degrees", short_number(angle_deg)),
         LightShape::Dome { .. } => "dome".to_owned(),
     };
     let textured = if light.texture.is_some() { ", textured" } else { "" };
-    if let Some(quantity) = light.quantity {
-        return format!("{shape}, {}{textured}", strength(quantity));
-    }
+    let strength = light.quantity.map_or_else(|| emitted(light, extents), strength);
+    format!("{shape}, {strength}{textured}")
+}
+
+/// What the schema's intensity amounts to.
+fn emitted(light: &Light, extents: [f64; 3]) -> String {
+    let strength = f64::from(luminance_of_pixel(light.emission.radiance));
     let unit = match (light.emission.normalized, light.shape) {
         (true, LightShape::Distant { .. }) => "lx on a facing surface",
         (_, LightShape::Point | LightShape::Opening(_)) => "cd",
-        (true, LightShape::Dome { .. }) | (false, _) => "cd/m²",
-        (true, _) => "cd/m² times its area in square units",
+        _ => "cd/m²",
     };
-    format!("{shape}, {y} {unit}{textured}")
+    let factor = if light.emission.normalized { area(light.shape, extents) / light.emission.metres_per_unit.powi(2) } else { 1.0 };
+    format!("{} {unit}", short_number(if factor > 0.0 { strength / factor } else { strength }))
 }
 
-/// A length to six digits: stages keep them in single precision.
-fn short(length: f64) -> f64 {
-    let scale = 10f64.powi(5 - length.abs().max(f64::MIN_POSITIVE).log10().floor() as i32);
-    let rounded = (length * scale).round() / scale;
-    if rounded.is_finite() { rounded } else { length }
+/// Lengths in metres in the world along the shape's own axes; a radius counts as a diameter.
+fn extents(light: &Light) -> [f64; 3] {
+    let own = match light.shape {
+        LightShape::Rectangle { width, height } | LightShape::Ellipse { width, height } => [width, height, 0.0],
+        LightShape::Disk { radius } | LightShape::Sphere { radius } | LightShape::FacingDisk { radius } => [2.0 * radius; 3],
+        LightShape::Cylinder { radius, length } => [length, 2.0 * radius, 2.0 * radius],
+        LightShape::Opening(Opening { size, .. }) => size,
+        LightShape::Point | LightShape::Distant { .. } | LightShape::Dome { .. } => [0.0; 3],
+    };
+    let scale = |axis: usize| light.transform.columns[axis].iter().map(|x| x * x).sum::<f64>().sqrt();
+    [0, 1, 2].map(|axis| own[axis] * scale(axis))
+}
+
+/// Square metres that shine, as UsdLux counts them; 1 for what it does not divide by.
+fn area(shape: LightShape, [x, y, _]: [f64; 3]) -> f64 {
+    match shape {
+        LightShape::Rectangle { .. } => x * y,
+        LightShape::Disk { .. } | LightShape::Ellipse { .. } | LightShape::FacingDisk { .. } => 0.25 * PI * x * y,
+        LightShape::Sphere { .. } => PI * x * x,
+        LightShape::Cylinder { .. } => PI * y * x,
+        _ => 1.0,
+    }
+}
+
+/// An opening's shape in words.
+fn name_of(shape: OpeningShape) -> &'static str {
+    match shape {
+        OpeningShape::Point => "point",
+        OpeningShape::Rectangle => "rectangle",
+        OpeningShape::Box => "box",
+        OpeningShape::Disk | OpeningShape::DiskFacingX | OpeningShape::DiskFacingY => "disk",
+        OpeningShape::VerticalCylinder | OpeningShape::CylinderAlongX | OpeningShape::CylinderAlongY => "cylinder",
+        OpeningShape::Ellipsoid => "ellipsoid",
+    }
 }
 
 /// A light's quantity with its unit.
 fn strength(quantity: LightQuantity) -> String {
+    let short = short_number;
     match quantity {
-        LightQuantity::Lumens(flux) => format!("{flux} lm"),
-        LightQuantity::LampLumens(flux) => format!("lamps of {flux} lm"),
-        LightQuantity::Candela(intensity) => format!("{intensity} cd"),
-        LightQuantity::Lux { illuminance, distance } => format!("{illuminance} lx at {distance} m"),
-        LightQuantity::Nits(luminance) => format!("{luminance} cd/m²"),
-        LightQuantity::Watts(watts) => format!("{watts} W"),
+        LightQuantity::Lumens(flux) => format!("{} lm", short(flux)),
+        LightQuantity::LampLumens(flux) => format!("lamps of {} lm", short(flux)),
+        LightQuantity::Candela(intensity) => format!("{} cd", short(intensity)),
+        LightQuantity::Lux { illuminance, distance } => format!("{} lx at {} m", short(illuminance), short(distance)),
+        LightQuantity::Nits(luminance) => format!("{} cd/m²", short(luminance)),
+        LightQuantity::Watts(watts) => format!("{} W", short(watts)),
         LightQuantity::Measured => "as measured".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gonio::scene::{Emission, Origin, Transform};
+
+    fn light(shape: LightShape, scale: f64, emission: Emission) -> String {
+        describe(&Light { emission, ..Light::new(Origin::new("light"), shape, Transform::scale(scale)) })
+    }
+
+    #[test]
+    fn lengths_are_metres_and_strengths_are_round() {
+        let plain = |y: f32| Emission { radiance: [y; 3], ..Emission::default() };
+        assert_eq!(
+            light(LightShape::Rectangle { width: 120.0, height: 60.0 }, 0.01, plain(3199.9998)),
+            "rectangle 1.2 × 0.6 m, 3200 cd/m²"
+        );
+        assert_eq!(light(LightShape::Sphere { radius: 5.0 }, 0.01, plain(0.5)), "sphere 0.1 m across, 0.5 cd/m²");
+        assert_eq!(
+            light(LightShape::Cylinder { radius: 0.013, length: 1.2 }, 1.0, plain(1e4)),
+            "cylinder 1.2 m long, 0.026 m across, 10000 cd/m²"
+        );
+        // Normalized lights are divided by their area in square units of the stage: 120 × 60.
+        let normalized = Emission { normalized: true, metres_per_unit: 0.01, ..plain(7200.0) };
+        assert_eq!(light(LightShape::Rectangle { width: 120.0, height: 60.0 }, 0.01, normalized), "rectangle 1.2 × 0.6 m, 1 cd/m²");
+        let sun = Emission { normalized: true, ..plain(100_000.2) };
+        assert_eq!(light(LightShape::Distant { angle_deg: 0.53 }, 1.0, sun), "distant, 0.53 degrees, 100000 lx on a facing surface");
     }
 }

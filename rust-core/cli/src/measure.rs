@@ -39,7 +39,13 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
     author_grids(py, &stage, &options.grids, measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    loaded.scene.meters.extend(points(options, measurand, loaded.info.up_axis)?);
+    let points = points(options, measurand, loaded.info.up_axis)?;
+    if !points.is_empty() {
+        // Who asks for a point has not asked for what the stage would measure besides.
+        loaded.scene.meters.clear();
+        loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
+    }
+    loaded.scene.meters.extend(points);
     py.detach(|| run(options, loaded, interrupted))
 }
 
@@ -51,10 +57,10 @@ pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments,
 
 fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
     let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
+    daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
     if !options.quiet {
         list(&loaded.diagnostics, most);
     }
-    daylight::add(&options.daylight, &mut loaded, options.quiet)?;
     apply_settings(options, &mut loaded.scene);
     let scene = &loaded.scene;
     if scene.meters.is_empty() && scene.grids.is_empty() {

@@ -114,13 +114,14 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         session_layer: arguments.session_layer.clone(),
         render_settings: arguments.settings.clone(),
         strict: arguments.strict,
+        lenient: arguments.lenient,
         ..StageOptions::default()
     })
 }
 
 /// What the command line adds to a stage: daylight, view and settings.
 pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
-    daylight::add(&options.daylight, loaded, options.quiet)?;
+    daylight::add(&options.daylight, loaded, options.stage.strict, options.quiet)?;
     Job::apply_settings(options, loaded)
 }
 
@@ -150,10 +151,10 @@ struct Job<'a> {
 impl Job<'_> {
     /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
     fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
+        complete_scene(self.options, &mut loaded)?;
         if !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
-        complete_scene(self.options, &mut loaded)?;
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;

@@ -205,6 +205,8 @@ mod tests {
         assert_eq!((root.name.as_str(), root.attribute("x"), root.attribute("y")), ("a", Some("1 < 2"), Some("A")));
         assert_eq!(root.children.len(), 2);
         assert_eq!(root.children[1].attribute("z"), Some("3"));
+        let logged = parse(&format!("exported: 2 materials\n{text}")).expect("text before the document is skipped");
+        assert_eq!(logged, root);
     }
 
     #[test]

@@ -60,7 +60,7 @@ impl MeasuredBsdf {
         let scattering = scattering(measured, &sampler).ok_or(PROBLEM)?;
         let scatters = PAIRS.map(|pairs| pairs.map(|pair| measured.has(pair)));
         let albedos = Albedos::new(measured, &sampler).ok_or(PROBLEM)?;
-        let is_one_sided = scatters == [[true, false], [false, false]];
+        let is_one_sided = scatters == [[true, false], [false, false]] && measured.unseen().is_empty();
         Ok(Self { scattering, scatters, albedos, is_isotropic, is_one_sided })
     }
 

@@ -3,7 +3,7 @@
 
 use super::angles::sine;
 use core::f32::consts::TAU;
-use gonio_formats::bsdf::{Band, Basis, Channels, Hemispheres, Matrix, Patches};
+use gonio_formats::bsdf::{Band, Basis, Channels, Matrix, Patches};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// The matrices for a view at the front and at the back: reflection and transmission, where there are.
@@ -92,7 +92,8 @@ impl PatchMatrices {
         let mut matrices = [[None, None], [None, None]];
         for (side, pairs) in matrices.iter_mut().zip(super::PAIRS) {
             for (place, pair) in side.iter_mut().zip(pairs) {
-                if let Some(main) = main(found, pair) {
+                // What the eye does not see says nothing of what it sees.
+                if let Some(main) = found.matrix(pair, Band::Visible) {
                     *place = Some(PatchMatrix::new(found, main)?);
                 }
             }
@@ -199,10 +200,4 @@ impl PatchMatrix {
         }
         self.incident.direction(l, patch, u)
     }
-}
-
-/// The matrix that light is seen and sampled by: the visible one, else the solar one, else the only one there is.
-fn main(found: &Patches, pair: Hemispheres) -> Option<&Matrix> {
-    let known = [Band::Visible, Band::Solar].into_iter().find_map(|band| found.matrix(pair, band));
-    known.or_else(|| found.matrices().iter().find(|matrix| matrix.hemispheres == pair))
 }

@@ -41,9 +41,8 @@ impl ColourTree {
     /// The trees for light between two sides, from those of the opposite sense if there are no others; none if there are neither.
     pub(super) fn new(found: &TensorTree, pair: Hemispheres) -> Option<Self> {
         for (pair, reversed) in [(pair, false), (pair.reversed(), true)] {
-            let main = [Band::Visible, Band::Solar, Band::Nir].into_iter().find_map(|band| Some((band, found.tree(pair, band)?)));
-            let Some((band, main)) = main else { continue };
-            let coloured = *found.channels() == Channels::Xyz && band == Band::Visible;
+            let Some(main) = found.tree(pair, Band::Visible) else { continue };
+            let coloured = *found.channels() == Channels::Xyz;
             let both = |bands: [Band; 2]| {
                 let [a, b] = bands.map(|band| found.tree(pair, band).filter(|_| coloured));
                 Some(Box::new([LaneTree::new(a?), LaneTree::new(b?)]))

@@ -9,7 +9,7 @@ pub(super) const BSDF_EXAMPLES: &str = "Examples:
   gonio bsdf gold.binary --lobes gold.svg       lobes in the plane of incidence
   gonio bsdf blind.xml -o blind.gbsdf --text    as a table to read and edit
   gonio bsdf gold.binary --fit --material gold.usda
-                                                the nearest OpenPBR surface, for a renderer that takes no measurements";
+                                                the measurement, and the nearest OpenPBR surface for renderers that take none";
 
 #[derive(Args, Debug)]
 pub(crate) struct BsdfOptions {
@@ -36,7 +36,7 @@ pub(crate) struct BsdfOptions {
     /// Fit an OpenPBR surface to the front's reflection: colour, metalness, roughness, anisotropy, index, and the residual.
     #[arg(long)]
     pub(crate) fit: bool,
-    /// Write the fitted surface as a USD material.
+    /// Write a USD material: the measurement itself for gonio, by a path to this file, and the fitted surface for all other renderers.
     #[arg(long, value_name = "FILE.usda")]
     pub(crate) material: Option<PathBuf>,
 }

@@ -20,7 +20,7 @@ pub(crate) struct ScaleArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct FalsecolorOptions {
-    /// The EXR file.
+    /// The EXR file, or a calibrated Radiance picture (.hdr).
     pub(crate) image: PathBuf,
     /// The picture to write.
     #[arg(long, short = 'o', value_name = "FILE.png")]

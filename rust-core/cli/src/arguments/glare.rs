@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct GlareArguments {
-    /// The fisheye picture: an EXR file with luminances in cd/m², seen from the eye along its line of sight.
+    /// The fisheye picture, seen from the eye along its line of sight: an EXR file with luminances in cd/m², or a calibrated Radiance picture (.hdr).
     pub(crate) image: PathBuf,
-    /// How the picture was projected: equidistant, equisolid, hemispherical.
-    #[arg(long, value_name = "PROJECTION", default_value = "equidistant")]
-    pub(crate) projection: String,
-    /// Full field of view in degrees; the circle touches the picture's edges.
-    #[arg(long, value_name = "DEGREES", default_value_t = 180.0)]
-    pub(crate) fov: f64,
+    /// How the picture was projected: equidistant, equisolid, hemispherical; without it as a Radiance picture's VIEW says, else equidistant.
+    #[arg(long, value_name = "PROJECTION")]
+    pub(crate) projection: Option<String>,
+    /// Full field of view in degrees; the circle touches the picture's edges. Without it as a Radiance picture's VIEW says, else 180.
+    #[arg(long, value_name = "DEGREES")]
+    pub(crate) fov: Option<f64>,
     /// The channel that holds the luminances.
     #[arg(long, value_name = "QUANTITY", default_value = "luminance")]
     pub(crate) quantity: String,

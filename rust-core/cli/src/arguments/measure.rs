@@ -37,7 +37,7 @@ pub(crate) struct MeasureOptions {
     pub(crate) frame: Option<f64>,
     #[command(flatten)]
     pub(crate) grids: GridArguments,
-    /// Measure at this point of the world, in metres; may be given several times.
+    /// Measure at this point of the world, in metres, and nothing that the stage asks for besides; may be given several times.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub(crate) at: Vec<String>,
     /// The normal of the plane that these points measure, or the axis of their cylinders; without it up.

@@ -71,10 +71,11 @@ pub(super) enum Command {
     Bsdf(BsdfOptions),
     /// Measure light at points and on calculation grids of a USD stage, in lux, cd/m² or per cent of the daylight outside.
     ///
-    /// Measures what the stage's gonio:grid and gonio:meter attributes ask for, the prims that --grid names, and the points of --at.
+    /// Measures what the stage's gonio:grid and gonio:meter attributes ask for and the prims that --grid names; with --at its points and those prims
+    /// alone.
     #[command(after_long_help = MEASURE_EXAMPLES)]
     Measure(Box<MeasureOptions>),
-    /// Draw the luminance or the illuminance of an EXR file in fixed steps with a legend, or as isolines over the picture.
+    /// Draw the luminance or the illuminance of an EXR file or a Radiance picture in fixed steps with a legend, or as isolines over the picture.
     Falsecolor(FalsecolorOptions),
     /// Put a stage's light on one page: luminaires with flux and watts, pictures, calculation grids, polar diagrams.
     ///

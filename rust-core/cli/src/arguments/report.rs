@@ -7,13 +7,15 @@ use std::path::PathBuf;
 /// The end of `gonio report --help`.
 pub(super) const REPORT_EXAMPLES: &str = "Examples:
   gonio report office.usda -o office.html
+  gonio report office.usda -o office.html --project 'Town hall' --place Vienna
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
   gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
 
 What stands in it:
+  head            title, project, place, date, and the sun and the sky of --sun
   luminaires      count, flux as lit (dimming included), power by the file, efficacy, file and maker of each type, and totals
   power density   W/m² and W/m² per 100 lx over the largest grid that measures illuminance, all luminaires of the stage counted
-  pictures        what each camera sees, and its luminance in false colour; the glare of fisheye cameras of 180° or more
+  pictures        what each camera sees, denoised, and its luminance in false colour; the glare of fisheye cameras of 180° or more
   grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
   files           the polar diagram and the figures of each IES or EULUMDAT file
   notes           what the stage asks for and was not done";
@@ -25,9 +27,18 @@ pub(crate) struct ReportOptions {
     /// The page to write; it takes its name when it is complete.
     #[arg(long, short = 'o', value_name = "FILE.html")]
     pub(crate) output: PathBuf,
-    /// The page's title; without it the stage's file name.
+    /// The page's title; without it the stage's file name without its ending.
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
+    /// The project that stands at the top.
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) project: Option<String>,
+    /// The place that stands at the top; without it that of --sun.
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) place: Option<String>,
+    /// The date that stands at the top; without it today.
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) date: Option<String>,
     /// The frame to report on.
     #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
     pub(crate) frame: Option<f64>,
@@ -37,6 +48,9 @@ pub(crate) struct ReportOptions {
     /// No pictures of cameras.
     #[arg(long = "no-pictures", conflicts_with = "camera")]
     pub(crate) no_pictures: bool,
+    /// Leave the pictures' noise in them; glare and figures are those of the noisy picture anyway.
+    #[arg(long = "no-denoise")]
+    pub(crate) no_denoise: bool,
     /// Width of the pictures in pixels; the height follows the camera's shape.
     #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) image_width: u32,

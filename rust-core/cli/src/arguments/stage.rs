@@ -26,6 +26,9 @@ pub(crate) struct StageArguments {
     /// The RenderSettings prim to follow.
     #[arg(long, short = 's', alias = "renderSettingsPrimPath", value_name = "PRIMPATH")]
     pub(crate) settings: Option<String>,
+    /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
+    #[arg(long, conflicts_with = "strict")]
+    pub(crate) lenient: bool,
     /// Treat every warning as an error.
     #[arg(long)]
     pub(crate) strict: bool,

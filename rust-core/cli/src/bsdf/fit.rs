@@ -1,7 +1,9 @@
 //! A fitted OpenPBR surface, as numbers, as text and as a USD material.
 
+use gonio::{Error, Result};
 use gonio_formats::bsdf::{Fit, FittedAlbedo};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// The parameters by their names in OpenPBR, the residual, and albedos beside the measured ones.
 pub(super) fn as_json(fit: &Fit) -> Value {
@@ -47,11 +49,26 @@ pub(super) fn as_text(fit: &Value) -> Vec<String> {
     lines
 }
 
-/// A layer with the material: an OpenPBR surface of MaterialX.
-pub(super) fn as_usda(fit: &Fit, name: &str) -> String {
+/// The path of a file as a layer at another path names it: relative where both lie in one folder or below it.
+///
+/// # Errors
+/// One of them has no absolute path.
+pub(super) fn asset_path(layer: &Path, file: &Path) -> Result<String> {
+    let absolute = |path: &Path| std::path::absolute(path).map_err(|error| Error::io(path, error));
+    let (layer, file) = (absolute(layer)?, absolute(file)?);
+    let relative = layer.parent().and_then(|folder| file.strip_prefix(folder).ok());
+    // USD's paths have slashes on every system.
+    let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
+    Ok(relative.map_or_else(|| text(&file), |relative| format!("./{}", text(relative))))
+}
+
+/// A layer with the material: the measurement at `asset` for gonio, and an OpenPBR surface of MaterialX.
+pub(super) fn as_usda(fit: &Fit, name: &str, asset: &str) -> String {
     let [r, g, b] = fit.base_color;
-    // A name cannot end the comment that it stands in.
-    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    // A name cannot end the comment or the path that it stands in.
+    let plain = |text: &str| text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>();
+    let quotes = if asset.contains('@') { "@@@" } else { "@" };
+    let (name, asset) = (plain(name), plain(asset));
     let turned = if fit.specular_roughness_anisotropy > 0.0 {
         format!("# The wider way of the lobe is {:.1} degrees from the tangent.\n", fit.rotation_deg)
     } else {
@@ -60,7 +77,11 @@ pub(super) fn as_usda(fit: &Fit, name: &str) -> String {
     format!(
         "#usda 1.0\n(\n    defaultPrim = \"Fitted\"\n)\n\n\
          # Fitted to {name}; residual {:.1} % (RMS of cube roots of BSDF x cosine).\n{turned}\
-         def Material \"Fitted\"\n{{\n    token outputs:mtlx:surface.connect = </Fitted/Surface.outputs:out>\n\n    \
+         def Material \"Fitted\"\n{{\n    token outputs:gonio:surface.connect = </Fitted/Measured.outputs:surface>\n    \
+         token outputs:mtlx:surface.connect = </Fitted/Surface.outputs:out>\n\n    \
+         def Shader \"Measured\"\n    {{\n        uniform token info:id = \"gonio:MeasuredBSDF\"\n        \
+         asset inputs:file = {quotes}{asset}{quotes}\n        \
+         token outputs:surface\n    }}\n\n    \
          def Shader \"Surface\"\n    {{\n        uniform token info:id = \"ND_open_pbr_surface_surfaceshader\"\n        \
          color3f inputs:base_color = ({r:.5}, {g:.5}, {b:.5})\n        \
          float inputs:base_metalness = {:.5}\n        \
@@ -74,4 +95,28 @@ pub(super) fn as_usda(fit: &Fit, name: &str) -> String {
         fit.specular_roughness_anisotropy,
         fit.specular_ior,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_below_the_layer_are_named_from_there() {
+        let path = |layer: &str, file: &str| asset_path(Path::new(layer), Path::new(file)).expect("absolute paths");
+        assert_eq!(path("/a/gold.usda", "/a/gold.binary"), "./gold.binary");
+        assert_eq!(path("/a/gold.usda", "/a/measured/gold.binary"), "./measured/gold.binary");
+        assert_eq!(path("/a/b/gold.usda", "/a/gold.binary"), "/a/gold.binary");
+        let fit = Fit {
+            base_color: [0.5; 3],
+            base_metalness: 0.0,
+            specular_roughness: 0.3,
+            specular_roughness_anisotropy: 0.0,
+            specular_ior: 1.5,
+            rotation_deg: 0.0,
+            residual: 0.0,
+            albedo: Vec::new(),
+        };
+        assert!(as_usda(&fit, "a", "./me@home.bsdf").contains("inputs:file = @@@./me@home.bsdf@@@"));
+    }
 }

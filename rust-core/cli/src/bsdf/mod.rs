@@ -51,7 +51,7 @@ pub(super) fn bsdf(options: &BsdfOptions) -> Result<i32> {
     if options.fit || options.material.is_some() {
         let found = loaded.measured.fit().map_err(|error| Error::in_file(&options.file, &error))?;
         if let Some(path) = &options.material {
-            write(path, fit::as_usda(&found, &name).as_bytes())?;
+            write(path, fit::as_usda(&found, &name, &fit::asset_path(path, &options.file)?).as_bytes())?;
         }
         description["fit"] = fit::as_json(&found);
     }

@@ -1,10 +1,10 @@
 //! The figures and pictures of calculation grids and meters, and the installed power over them.
 
-use super::{html::Page, schedule::Schedule};
+use super::{html::Page, numbers::with_error, schedule::Schedule};
 use crate::{arguments::ReportOptions, falsecolor};
 use gonio::{
     Result,
-    measure::{GridReading, MeterReading, Reading, value_picture},
+    measure::{GridReading, MeterReading, value_picture},
     output::FalseColour,
     scene::Measurand,
 };
@@ -19,7 +19,10 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], schedu
     let names = ["grid", "quantity", "points", "spacing, m", "average", "least", "greatest", "U0", "Ud"];
     let rows: Vec<Vec<String>> = grids.iter().map(row).collect();
     page.table(&names, &rows, &[]);
-    page.note(&format!("{} samples a point; U0 is least over average, Ud least over greatest.", options.point_spp));
+    page.note(&format!(
+        "± is the standard error, of {} samples a point. U0 is least over average, Ud least over greatest.",
+        options.point_spp
+    ));
     if let Some(line) = power_density(grids, schedule) {
         page.paragraph(&line);
     }
@@ -33,7 +36,7 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], schedu
             legend: true,
         };
         let picture = falsecolor::encoded(&options.output, &value_picture(grid, &style))?;
-        page.picture("png", &picture, &format!("{}: {} {unit}", grid.origin, grid.measurand.name()));
+        page.wide_picture("png", &picture, &format!("{}: {} {unit}", grid.origin, grid.measurand.name()));
     }
     Ok(())
 }
@@ -45,19 +48,13 @@ fn row(grid: &GridReading) -> Vec<String> {
         grid.origin.to_string(),
         grid.measurand.name().into(),
         summary.points.to_string(),
-        format!("{along:.3} × {across:.3}"),
+        format!("{along:.2} × {across:.2}"),
         with_error(&summary.average, unit),
         with_error(&summary.min, unit),
         with_error(&summary.max, unit),
-        format!("{:.3}", summary.uniformity()),
-        format!("{:.3}", summary.diversity()),
+        format!("{:.2}", summary.uniformity()),
+        format!("{:.2}", summary.diversity()),
     ]
-}
-
-/// A value, its standard error and unit.
-fn with_error(reading: &Reading, unit: &str) -> String {
-    let text = format!("{} ± {}", short_number(reading.value), short_number(reading.standard_error));
-    format!("{text} {unit}").trim_end().to_owned()
 }
 
 /// Installed power over the area of the largest grid of illuminance, and for each 100 lx there; none without such a grid or power.
@@ -88,7 +85,7 @@ pub(super) fn write_meters(meters: &[MeterReading], page: &mut Page) {
     page.section("Meters");
     let row = |found: &MeterReading| {
         let (meter, [x, y, z]) = (&found.meter, found.meter.position);
-        let place = format!("{x:.3}, {y:.3}, {z:.3}");
+        let place = format!("{x:.2}, {y:.2}, {z:.2}");
         vec![meter.origin.to_string(), meter.measurand.name().into(), place, with_error(&found.reading, meter.measurand.unit())]
     };
     page.table(&["meter", "quantity", "at, m", "value"], &meters.iter().map(row).collect::<Vec<_>>(), &[]);

@@ -1,15 +1,10 @@
 //! One HTML page that needs nothing beside itself.
 
-use super::base64;
+use super::{base64, head::Head};
 use gonio_formats::escape;
 
-/// How the page looks; plain enough to be printed.
-const STYLE: &str = "body{font:15px/1.45 sans-serif;color:#222;max-width:60rem;margin:2rem auto;padding:0 1rem}\
-h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.2rem;border-bottom:1px solid #ccc}h3{font-size:1rem;margin-bottom:.3rem}\
-table{border-collapse:collapse;margin:.6rem 0;width:100%}th,td{padding:.25rem .6rem;border-bottom:1px solid #ddd;text-align:right}\
-th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #888}tfoot td{font-weight:bold}\
-figure{display:inline-block;margin:.5rem .8rem .5rem 0;vertical-align:top}img,svg{max-width:100%;height:auto}\
-figcaption{color:#555;font-size:.85rem}.note{color:#555}@media print{h2,h3,figcaption{break-after:avoid}figure,table{break-inside:avoid}}";
+/// How the page looks, on a screen and on paper.
+const STYLE: &str = include_str!("style.css");
 
 /// A page that grows; texts that are handed in stand in it as they are, whatever signs they hold.
 #[derive(Debug)]
@@ -18,10 +13,12 @@ pub(super) struct Page {
 }
 
 impl Page {
-    pub(super) fn new(title: &str) -> Self {
+    pub(super) fn new(Head { title, facts }: &Head) -> Self {
         let title = escaped(title);
-        let head = format!("<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>{STYLE}</style>");
-        Self { text: format!("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}\n</head>\n<body>\n<h1>{title}</h1>\n") }
+        let head = format!("<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n{STYLE}</style>");
+        let facts: String = facts.iter().map(|(name, fact)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact))).collect();
+        let top = format!("<header>\n<h1>{title}</h1>\n<dl>\n{facts}</dl>\n</header>");
+        Self { text: format!("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}\n</head>\n<body>\n{top}\n") }
     }
 
     fn element(&mut self, tag: &str, content: &str) {
@@ -63,9 +60,18 @@ impl Page {
 
     /// A picture's file in the page itself; `format` as in `png`.
     pub(super) fn picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
+        self.figure("", format, bytes, caption);
+    }
+
+    /// The same over the whole width of the page.
+    pub(super) fn wide_picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
+        self.figure(" class=\"grid\"", format, bytes, caption);
+    }
+
+    fn figure(&mut self, class: &str, format: &str, bytes: &[u8], caption: &str) {
         let (data, caption) = (base64::encoded(bytes), escaped(caption));
         let image = format!("<img alt=\"{caption}\" src=\"data:image/{format};base64,{data}\">");
-        self.element("figure", &format!("{image}<figcaption>{caption}</figcaption>"));
+        self.text.push_str(&format!("<figure{class}>{image}<figcaption>{caption}</figcaption></figure>\n"));
     }
 
     /// A drawing as `gonio_formats` makes it, whose own texts are escaped already.
@@ -91,7 +97,7 @@ mod tests {
     #[test]
     fn texts_cannot_leave_their_element() {
         assert_eq!(escaped("a<b>&\u{1}\"'"), "a&lt;b&gt;&amp; &quot;&#39;");
-        let mut page = Page::new("</title><script>");
+        let mut page = Page::new(&Head { title: "</title><script>".into(), facts: vec![("Place", "<script>".into())] });
         page.table(&["name"], &[vec!["<i>".into()]], &[]);
         page.picture("png", b"", "\" onload=\"");
         let text = page.finish();

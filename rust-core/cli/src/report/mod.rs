@@ -2,28 +2,34 @@
 
 mod base64;
 mod grids;
+mod head;
 mod html;
+mod numbers;
 mod pictures;
 mod schedule;
 
 use super::{
     arguments::{ReportOptions, ScaleArguments},
-    daylight, falsecolor,
+    daylight,
+    denoise::Denoiser,
+    falsecolor,
     file::{check_ending, make_folder},
     list,
     measure::{author_grids, evaluated},
     print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    say,
 };
 use gonio::{
-    Diagnostic, Result, Severity,
+    Diagnostic, Error, Result, Severity,
     compile::CompiledScene,
     measure::{MOST_BOUNCES, Measurements},
     output::{FalseColourScale, write_atomically},
     scene::{Integrator, Measurand},
 };
 use gonio_usd::{Loaded, SampleTime, Stage, camera::choose};
+use head::Head;
 use html::Page;
 use pyo3::prelude::*;
 use schedule::Schedule;
@@ -41,20 +47,39 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
     author_grids(py, &stage, &options.grids, Measurand::Illuminance)?;
     let loaded = stage.load(py, &stage_options, interrupted)?;
-    py.detach(|| run(options, loaded, interrupted))
+    let today = head::today(py).map_err(|error| Error::Internal(error.to_string()))?;
+    let denoiser = denoiser(options);
+    py.detach(|| run(options, loaded, today, denoiser.as_ref(), interrupted))
 }
 
-fn run(options: &ReportOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
-    daylight::add(&options.daylight, &mut loaded, options.quiet)?;
+/// What takes the noise out of the pictures, unless that is not wanted or not to be had, which is told.
+fn denoiser(options: &ReportOptions) -> Option<Denoiser> {
+    let found = (!options.no_denoise && !options.no_pictures).then(Denoiser::new)?;
+    let tell = |error: &Error| {
+        if !options.quiet {
+            say(&format!("the pictures keep their noise: {error}"));
+        }
+    };
+    found.inspect_err(tell).ok()
+}
+
+fn run(
+    options: &ReportOptions,
+    mut loaded: Loaded,
+    today: String,
+    denoiser: Option<&Denoiser>,
+    interrupted: &'static AtomicBool,
+) -> Result<i32> {
+    daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
     let cameras = cameras(options, &loaded)?;
     let mut diagnostics = loaded.diagnostics.clone();
-    let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, interrupted, &mut diagnostics)?;
+    let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, denoiser, interrupted, &mut diagnostics)?;
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
     if !options.quiet {
         list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
     }
     let schedule = Schedule::new(&loaded);
-    let mut page = Page::new(&title(options));
+    let mut page = Page::new(&Head::new(options, today));
     schedule.write(&mut page);
     pictures::write(&pictures, &mut page);
     grids::write_grids(options, &measured.grids, &schedule, &mut page)?;
@@ -67,11 +92,6 @@ fn run(options: &ReportOptions, mut loaded: Loaded, interrupted: &'static Atomic
         print(&options.output.display().to_string());
     }
     Ok(0)
-}
-
-fn title(options: &ReportOptions) -> String {
-    let name = || options.stage.stage.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    options.title.clone().unwrap_or_else(name)
 }
 
 /// The paths of the cameras whose pictures are wanted; a nameless one sees everything of a stage without cameras.
@@ -117,7 +137,6 @@ fn write_notes(diagnostics: &[Diagnostic], page: &mut Page) {
         page.section("What is not as the stage asks");
         page.list(&warnings);
     }
-    page.note(&format!("Made by gonio {}.", env!("CARGO_PKG_VERSION")));
 }
 
 /// Steps up to what was asked for, or to a round number that nearly all values stay below; even ones, or even in the logarithm over so many decades.

@@ -1,9 +1,10 @@
 //! What a stage's cameras see, as it looks and in false colour.
 
 use super::html::Page;
-use crate::{arguments::ReportOptions, falsecolor, glare, render::drive};
+use crate::{arguments::ReportOptions, denoise::Denoiser, falsecolor, glare, render::drive};
 use gonio::{
     Diagnostic, Error, Result,
+    colour::luminance_of_pixel,
     compile::{CompiledScene, compile},
     film::Image,
     measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions},
@@ -33,6 +34,7 @@ pub(super) struct Picture {
     /// Mean and greatest, cd/m².
     figures: [f64; 2],
     samples: u32,
+    denoised: bool,
     /// What an eye in the camera's place would say, if it sees enough.
     glare: Vec<String>,
 }
@@ -42,6 +44,7 @@ pub(super) fn pictures(
     options: &ReportOptions,
     loaded: &mut Loaded,
     cameras: &[Option<String>],
+    denoiser: Option<&Denoiser>,
     interrupted: &'static AtomicBool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(Vec<Picture>, Option<Arc<CompiledScene>>)> {
@@ -53,11 +56,14 @@ pub(super) fn pictures(
         let (resolution, camera) = (Resolution::Width(options.image_width), camera.clone());
         complete(loaded, "", &ViewOptions { camera, resolution, neutral_dome: false, ..ViewOptions::default() })?;
         apply_settings(options, loaded);
+        if denoiser.is_some() {
+            Denoiser::ask_for_guides(&mut loaded.scene.settings);
+        }
         let compiled = Arc::new(compile(&loaded.scene, previous.as_deref(), interrupted)?);
         if previous.is_none() {
             diagnostics.extend(compiled.diagnostics.iter().cloned());
         }
-        found.push(picture(options, loaded, &compiled, interrupted)?);
+        found.push(picture(options, loaded, &compiled, denoiser, interrupted)?);
         previous = Some(compiled);
         (loaded.scene.cameras, loaded.scene.settings) = (known, settings);
     }
@@ -74,17 +80,30 @@ fn apply_settings(options: &ReportOptions, loaded: &mut Loaded) {
     settings.aovs = vec![Aov::Color, Aov::Luminance];
 }
 
-fn picture(options: &ReportOptions, loaded: &Loaded, compiled: &Arc<CompiledScene>, interrupted: &'static AtomicBool) -> Result<Picture> {
+fn picture(
+    options: &ReportOptions,
+    loaded: &Loaded,
+    compiled: &Arc<CompiledScene>,
+    denoiser: Option<&Denoiser>,
+    interrupted: &'static AtomicBool,
+) -> Result<Picture> {
     let execution = Execution::detect();
     let scene = &loaded.scene;
     let mut render = Render::start(compiled.clone(), &scene.settings, execution)?;
     drive(&mut render, options.quiet, interrupted, |_| ())?;
     render.finish()?;
-    let image = render.film().develop();
+    let mut image = render.film().develop();
     let camera = &scene.cameras[scene.settings.camera as usize];
-    let values = image.layer(Aov::Luminance).map_or(&[][..], |layer| &layer.values);
+    let values = image.layer(Aov::Luminance).map_or_else(Vec::new, |layer| layer.values.clone());
+    let shown = match denoiser {
+        Some(denoiser) => {
+            denoiser.run(&mut image)?;
+            luminances(&image, camera.exposure.0)
+        }
+        None => values.clone(),
+    };
     let style = FalseColour {
-        scale: super::scale(options, options.max_luminance, Some(DECADES), values)?,
+        scale: super::scale(options, options.max_luminance, Some(DECADES), &shown)?,
         unit: "cd/m²".into(),
         contours: false,
         smoothing: 0,
@@ -95,10 +114,19 @@ fn picture(options: &ReportOptions, loaded: &Loaded, compiled: &Arc<CompiledScen
     Ok(Picture {
         camera: camera.origin.name.to_string(),
         colour: as_jpeg(&image, options, execution)?,
-        luminance: falsecolor::encoded(&options.output, &style.draw(values, image.size()))?,
+        luminance: falsecolor::encoded(&options.output, &style.draw(&shown, image.size()))?,
         figures: [sum / values.len().max(1) as f64, f64::from(greatest)],
         samples: image.samples,
-        glare: rating(camera.projection, values, image.size())?,
+        denoised: denoiser.is_some(),
+        glare: rating(camera.projection, &values, image.size())?,
+    })
+}
+
+/// Luminances in cd/m² of the colour pass, which was multiplied by the camera's exposure.
+fn luminances(image: &Image, exposure: f32) -> Vec<f32> {
+    let scale = if exposure > 0.0 { 1.0 / exposure } else { 1.0 };
+    image.layer(Aov::Color).map_or_else(Vec::new, |layer| {
+        layer.values.chunks_exact(layer.channels).map(|pixel| scale * luminance_of_pixel([pixel[0], pixel[1], pixel[2]])).collect()
     })
 }
 
@@ -127,7 +155,8 @@ pub(super) fn write(pictures: &[Picture], page: &mut Page) {
     page.section("Pictures");
     for picture in pictures {
         page.part(&picture.camera);
-        page.picture("jpeg", &picture.colour, &format!("{}, {} samples a pixel", picture.camera, picture.samples));
+        let denoised = if picture.denoised { ", denoised" } else { "" };
+        page.picture("jpeg", &picture.colour, &format!("as the eye sees it; {} samples a pixel{denoised}", picture.samples));
         let [mean, greatest] = picture.figures.map(short_number);
         page.picture("png", &picture.luminance, &format!("luminance: mean {mean} cd/m², greatest {greatest} cd/m²"));
         if !picture.glare.is_empty() {

@@ -64,6 +64,8 @@ fn laid_out(measured: &scene::MeasuredBsdf, known: [&CompiledMeasured; 2], diagn
             return None;
         }
     };
+    let unseen = measured.data.unseen().into_iter().map(|problem| Diagnostic::warning(&measured.origin, problem));
+    diagnostics.extend(unseen);
     let (albedo, angle) = laid_out.peak_albedo();
     if albedo > MOST_ALBEDO {
         let message = format!(

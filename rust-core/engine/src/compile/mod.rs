@@ -14,6 +14,7 @@ mod luminaires;
 mod materials;
 mod measured;
 mod openings;
+mod oversized;
 mod primvars;
 mod quantity;
 mod samples;
@@ -101,6 +102,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let built = start.elapsed().as_secs_f64();
     let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
+    oversized::report(scene, &bounds, &mut diagnostics);
     let origin = bounds.rebase_origin();
     let mut geometry = geometry::tables(scene, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);

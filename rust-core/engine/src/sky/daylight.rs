@@ -12,6 +12,10 @@ use std::f64::consts::PI;
 pub const SUN_ANGLE_DEG: f64 = 0.533;
 /// Dew point of two centimetres of water in the air, °C: Perez's usual value.
 const USUAL_DEW_POINT_C: f64 = 10.97;
+/// Kilometres within which a weather station stands for a place.
+const FAR_KM: f64 = 100.0;
+/// Degrees that the sun moves in an hour, at most.
+const LOWEST_SUN_DEG: f64 = 15.0;
 /// Usual turbidity of the country.
 const USUAL_TURBIDITY: f64 = 3.0;
 
@@ -57,14 +61,45 @@ impl Daylight {
     /// Takes irradiances and dew point of the hour from a weather file; its year does not matter.
     ///
     /// # Errors
-    /// The file does not have the day.
+    /// The file has no record within an hour of the moment.
     pub fn take_weather(&mut self, weather: &Weather) -> Result<()> {
         let Moment { month, day, hour, .. } = self.moment.checked()?.with_offset(weather.utc_offset_h);
-        let found =
-            weather.at(month, day, hour).ok_or_else(|| Error::setting("weather", format!("there is no hour of the {day}.{month}.")))?;
+        let nothing = || Error::setting("weather", format!("there is no record within an hour of {} on the {day}.{month}.", clock(hour)));
+        let found = weather.at(month, day, hour).ok_or_else(nothing)?;
         self.irradiance = Some(Irradiance { direct_normal: found.direct_normal, diffuse_horizontal: found.diffuse_horizontal });
         self.dew_point_c = found.dew_point_c.unwrap_or(USUAL_DEW_POINT_C);
         Ok(())
+    }
+
+    /// What makes one doubt that a weather file, whose hour was taken, is of this place, one sentence each.
+    ///
+    /// # Errors
+    /// As [`sun_position`].
+    pub fn doubts_about(&self, weather: &Weather) -> Result<Vec<String>> {
+        let at = |latitude_deg: f64, longitude_deg: f64| Place { latitude_deg, longitude_deg, ..self.place };
+        let station = at(weather.latitude_deg, weather.longitude_deg);
+        let distance = self.place.distance_km(&station);
+        let mut doubts = Vec::new();
+        if distance > FAR_KM {
+            let name = if weather.place.is_empty() { "a station" } else { &weather.place };
+            let is_mirrored = |[north, east]: [f64; 2]| at(north, east).distance_km(&station) <= FAR_KM;
+            let Place { latitude_deg, longitude_deg, .. } = self.place;
+            let mirrored = [[latitude_deg, -longitude_deg], [-latitude_deg, longitude_deg], [-latitude_deg, -longitude_deg]];
+            let hint = if mirrored.into_iter().any(is_mirrored) { "; north and east are positive" } else { "" };
+            doubts.push(format!(
+                "the weather is that of {name} at {:.2}, {:.2}, {distance:.0} km from {latitude_deg:.2}, {longitude_deg:.2}{hint}",
+                station.latitude_deg, station.longitude_deg
+            ));
+        }
+        let (sun, direct) = (self.sun()?, self.irradiance.unwrap_or_default().direct_normal);
+        // An hour's mean has some sun where the sun stands below the horizon for a part of it.
+        if sun.elevation_deg < -LOWEST_SUN_DEG && direct > 0.0 {
+            doubts.push(format!(
+                "the weather has {direct:.0} W/m² of sun, which is {:.0}° below the horizon here; is the offset from UTC right?",
+                -sun.elevation_deg
+            ));
+        }
+        Ok(doubts)
     }
 
     /// Where the sun stands.
@@ -159,6 +194,12 @@ impl Daylight {
         }
         Ok(())
     }
+}
+
+/// Hours since midnight as a clock shows them.
+fn clock(hour: f64) -> String {
+    let minutes = (hour * 60.0).round() as i64;
+    format!("{}:{:02}", minutes / 60, minutes % 60)
 }
 
 /// Sun and sky with their luminances. Below the horizon there is no sun and no light: twilight is not modelled.

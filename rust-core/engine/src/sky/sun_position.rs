@@ -27,6 +27,14 @@ impl Place {
         Ok(self)
     }
 
+    /// Kilometres to another place along the ground, by the haversine formula on a sphere of 6371 km.
+    pub fn distance_km(&self, other: &Self) -> f64 {
+        let [north, east] = [other.latitude_deg - self.latitude_deg, other.longitude_deg - self.longitude_deg];
+        let half = |degrees: f64| (0.5 * degrees.to_radians()).sin().powi(2);
+        let chord = half(north) + self.latitude_deg.to_radians().cos() * other.latitude_deg.to_radians().cos() * half(east);
+        2.0 * 6371.0 * chord.clamp(0.0, 1.0).sqrt().asin()
+    }
+
     /// Pressure of the standard atmosphere at this elevation, hPa (ISO 2533).
     pub fn standard_pressure_hpa(&self) -> f64 {
         1013.25 * (1.0 - 2.255_77e-5 * self.elevation_m).powf(5.255_88)

@@ -80,10 +80,24 @@ impl Measured {
                 let last = rgl.theta_knots().last().copied().unwrap_or(0.0);
                 problems.extend(coverage("reflection-front", "theta_o", f64::from(last)));
             }
-            Self::Patches(patches) => problems.extend(invisible(patches.matrices().iter().map(|matrix| matrix.band))),
-            Self::Tree(tree) => problems.extend(invisible(tree.components().iter().map(|component| component.band))),
+            Self::Patches(_) | Self::Tree(_) => problems.extend(self.unseen()),
         }
         Figures { albedo, reciprocity, problems }
+    }
+
+    /// Where the file has what the eye does not see alone, one sentence for each such pair of sides: nothing scatters there.
+    pub fn unseen(&self) -> Vec<String> {
+        let found: Vec<(Hemispheres, Band)> = match self {
+            Self::Patches(patches) => patches.matrices().iter().map(|matrix| (matrix.hemispheres, matrix.band)).collect(),
+            Self::Tree(tree) => tree.components().iter().map(|component| (component.hemispheres, component.band)).collect(),
+            Self::Tables(_) | Self::Rgl(_) => Vec::new(),
+        };
+        let told = |pair: &Hemispheres| {
+            let bands: Vec<String> = found.iter().filter(|(of, _)| of == pair).map(|(_, band)| format!("{band:?}")).collect();
+            let missing = !bands.is_empty() && !self.has(*pair);
+            missing.then(|| format!("{}: there is {} alone and nothing visible; nothing scatters there", pair.name(), bands.join(", ")))
+        };
+        Hemispheres::ALL.iter().filter_map(told).collect()
     }
 
     /// Albedo of light from both sides at fixed angles.
@@ -168,10 +182,4 @@ fn below_horizon(layout: &Layout) -> usize {
 fn coverage(side: &str, axis: &str, last: f64) -> Option<String> {
     let last = degrees(last);
     (last < LEAST_LAST_DEG).then(|| format!("{side}: {axis} ends at {last:.1}°; what was measured there holds up to 90°"))
-}
-
-/// That no matrix or tree is for what the eye sees.
-fn invisible(bands: impl Iterator<Item = Band>) -> Option<String> {
-    let mut bands = bands;
-    (!bands.any(|band| band == Band::Visible)).then(|| "no visible band: another part of the spectrum is shown as grey".into())
 }

@@ -1,7 +1,7 @@
 //! Which of the formats a file has.
 
 use super::tensor_file::{self, TensorFile};
-use super::{gbsdf, merl, utia, zemax};
+use super::{gbsdf, merl, utia, xml, zemax};
 
 /// The formats of measured materials that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,8 +39,7 @@ impl Format {
         if bytes.len() == utia::SIZE {
             return Some(Self::Utia);
         }
-        let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-        if start.starts_with(b"<") {
+        if xml::starts_in(bytes).is_some() {
             return Some(Self::Xml);
         }
         match core::str::from_utf8(bytes) {

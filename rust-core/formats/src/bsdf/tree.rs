@@ -108,7 +108,7 @@ impl TensorTree {
     /// Whether there is light from the one side to the other, measured or by reciprocity.
     pub(crate) fn has(&self, hemispheres: Hemispheres) -> bool {
         let fits = |c: &Component| c.hemispheres == hemispheres || c.hemispheres == hemispheres.reversed();
-        self.components.iter().any(|c| fits(c) && !matches!(c.band, Band::CieU | Band::CieV))
+        self.components.iter().any(|c| fits(c) && c.band == Band::Visible)
     }
 
     /// The BSDF in 1/sr for each channel. Transmission that only the other side has is taken from there by reciprocity.
@@ -116,11 +116,11 @@ impl TensorTree {
         out.fill(0.0);
         let (up_wi, up_wo) = hemispheres.to_front(wi, wo);
         for (pair, wi, wo) in [(hemispheres, up_wi, up_wo), (hemispheres.reversed(), up_wo, up_wi)] {
-            let bands = [Band::Visible, Band::Solar, Band::Nir];
-            let Some((band, main)) = bands.into_iter().find_map(|band| Some((band, self.tree(pair, band)?))) else { continue };
+            // What the eye does not see says nothing of what it sees.
+            let Some(main) = self.tree(pair, Band::Visible) else { continue };
             let luminance = scattering(main, wi, wo);
             out.fill(luminance);
-            if self.channels == Channels::Xyz && band == Band::Visible {
+            if self.channels == Channels::Xyz {
                 self.colour(pair, wi, wo, out);
             }
             return;

@@ -22,6 +22,7 @@ mod grid;
 mod lookup;
 mod modify;
 mod opening;
+mod plausible;
 mod polar;
 mod symmetry;
 pub(crate) mod text;

@@ -70,6 +70,15 @@ pub(crate) fn parse(token: &str) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value + 0.0)
 }
 
+/// A number with a decimal point or comma.
+pub(crate) fn decimal(token: &str) -> Option<f64> {
+    if !token.contains(',') {
+        return parse(token);
+    }
+    // A point beside a comma would leave open which of them groups thousands.
+    if token.contains('.') { None } else { parse(&token.replacen(',', ".", 1)) }
+}
+
 /// A piece of a file for a message, short and in one line.
 pub(crate) fn quote(token: &str) -> String {
     let mut text: String = token.chars().take(QUOTED).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();

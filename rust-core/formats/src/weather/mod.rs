@@ -46,10 +46,10 @@ pub struct Hour {
 }
 
 impl Weather {
-    /// The record of a day that is nearest to an hour; `None` if the file does not have the day.
+    /// The record of a day that is nearest to an hour; `None` if the file has none within an hour of it.
     pub fn at(&self, month: u32, day: u32, hour: f64) -> Option<&Hour> {
-        let of_day = self.hours.iter().filter(|record| (record.month, record.day) == (month, day));
-        of_day.min_by(|a, b| (a.hour - hour).abs().total_cmp(&(b.hour - hour).abs()))
+        let is_near = |record: &&Hour| (record.month, record.day) == (month, day) && (record.hour - hour).abs() <= 1.0;
+        self.hours.iter().filter(is_near).min_by(|a, b| (a.hour - hour).abs().total_cmp(&(b.hour - hour).abs()))
     }
 }
 

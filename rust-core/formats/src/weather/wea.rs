@@ -1,4 +1,7 @@
 //! WEA: six lines of header, then month, day, hour and two irradiances a line (Radiance's `epw2wea` and `gendaymtx`).
+//!
+//! Hours are the middles of their intervals, as Daysim has them. Some programs count whole hours instead: from 0 where they begin, or up to 24 where
+//! they end.
 
 use super::{Hour, MOST_IRRADIANCE, Weather, number, whole};
 use crate::error::{FormatError, Result};
@@ -26,12 +29,25 @@ pub(super) fn read(lines: Lines<'_>) -> Result<Weather> {
     };
     let (line, units) = header("weather_data_file_units")?;
     if units != "1" {
-        return Err(FormatError::line(line, format!("weather_data_file_units is {}, expected 1 (irradiances in W/m²)", quote(units))));
+        let problem = format!("weather_data_file_units is {}, expected 1 (direct normal and diffuse horizontal in W/m²)", quote(units));
+        return Err(FormatError::line(line, problem));
     }
     for (line, text) in lines {
         weather.push(line, hour(line, text)?)?;
     }
+    let shift = to_middle(&weather.hours);
+    weather.hours.iter_mut().for_each(|record| record.hour += shift);
     Ok(weather)
+}
+
+/// From the hours that a file counts to the middles of their intervals.
+fn to_middle(hours: &[Hour]) -> f64 {
+    let has = |hour: f64| hours.iter().any(|record| record.hour == hour);
+    match (hours.iter().all(|record| record.hour.fract() == 0.0), has(0.0), has(24.0)) {
+        (true, true, false) => 0.5,
+        (true, false, true) => -0.5,
+        _ => 0.0,
+    }
 }
 
 fn hour(line: u64, text: &str) -> Result<Hour> {

@@ -26,7 +26,7 @@ impl Text {
         let mut lines: Vec<String> =
             vec!["company".into(), "1".into(), self.symmetry.to_string(), self.planes.len().to_string(), "30".into()];
         lines.extend([gammas.len().to_string(), "15".into()]);
-        lines.extend(["report", "name", "number", "file", "date", "100", "100", "50"].map(String::from));
+        lines.extend(["report", "name", "number", "file", "date", "1250", "310", "50"].map(String::from));
         lines.extend(self.area.iter().chain(&self.ratios).map(ToString::to_string));
         lines.extend(["0".to_owned(), self.sets.len().to_string()]);
         lines.extend(self.sets.iter().flatten().map(ToString::to_string));

@@ -6,6 +6,7 @@ mod data;
 mod diagrams;
 mod ies;
 mod ldt;
+mod plausible;
 mod quantities;
 mod round_trip;
 

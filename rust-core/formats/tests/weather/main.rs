@@ -29,6 +29,34 @@ fn a_wea_file_is_read() {
 }
 
 #[test]
+fn whole_hours_begin_or_end_their_intervals() {
+    let day = |hours: std::ops::Range<u32>| {
+        let header = WEA.split("6 21").next().unwrap();
+        let lines: String = hours.map(|hour| format!("6 21 {hour} {} 10\n", 10 * hour)).collect();
+        read((header.to_owned() + &lines).as_bytes()).unwrap().hours
+    };
+    let at = |hours: &[Hour], index: usize| (hours[index].hour, hours[index].direct_normal);
+    assert_eq!(at(&day(0..24), 12), (12.5, 120.0));
+    assert_eq!(at(&day(1..25), 12), (12.5, 130.0));
+    // Whether they begin or end nobody can tell.
+    assert_eq!(at(&day(8..18), 4), (12.0, 120.0));
+}
+
+#[test]
+fn what_is_far_from_every_record_has_none() {
+    let weather = read(WEA.as_bytes()).unwrap();
+    assert!(weather.at(6, 21, 13.4).is_some() && weather.at(6, 21, 13.6).is_none() && weather.at(6, 21, 20.0).is_none());
+}
+
+#[test]
+fn decimal_commas_are_refused_by_their_line() {
+    let wea = |from: &str, to: &str| read(WEA.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
+    assert!(wea("37.72", "37,72").starts_with("line 2: latitude is '37,72'"));
+    assert!(wea("11.500", "11,500").starts_with("line 7: the hour is '11,500'"));
+    assert!(wea(" 90.5", " 90,5").starts_with("line 8: the diffuse horizontal irradiance is '90,5'"));
+}
+
+#[test]
 fn an_epw_file_is_read() {
     let weather = read(epw().as_bytes()).unwrap();
     assert_eq!((weather.latitude_deg, weather.longitude_deg, weather.utc_offset_h, weather.elevation_m), (37.72, -122.22, -8.0, 2.0));

@@ -24,7 +24,7 @@ mod wrap;
 mod tests;
 
 pub use error::{TextureError, TextureErrorKind};
-pub use format::decode;
+pub use format::{RadianceHeader, decode};
 pub use image::{Image, Texels};
 pub use lat_long::{DomeFormat, LatLong};
 pub use load::{Source, TextureRequest, load, load_image, load_set};

@@ -1,7 +1,8 @@
 //! What is out of its range is told by name.
 
 use super::somewhere;
-use crate::sky::{Daylight, HosekWilkie, Irradiance, SkyModel};
+use crate::sky::{Daylight, HosekWilkie, Irradiance, Moment, Place, SkyModel};
+use gonio_formats::weather::{Hour, Weather};
 
 #[test]
 fn numbers_out_of_range_are_named() {
@@ -27,6 +28,35 @@ fn numbers_out_of_range_are_named() {
     for rows in [0, 1, 3, 4098, u32::MAX] {
         assert!(somewhere().sky().expect("a sky").image(rows).is_err(), "{rows}");
     }
+}
+
+#[test]
+fn weather_of_elsewhere_and_of_another_clock_is_doubted() {
+    let vienna = Place { latitude_deg: 48.21, longitude_deg: 16.37, elevation_m: 190.0 };
+    let noon = Moment::parse("2025-06-21T12:00+01:00").expect("a moment");
+    let station = |latitude_deg, longitude_deg| {
+        let record = Hour { month: 6, day: 21, hour: 12.5, direct_normal: 700.0, diffuse_horizontal: 100.0, dew_point_c: None };
+        Weather { place: "Station".into(), latitude_deg, longitude_deg, utc_offset_h: 1.0, hours: vec![record], ..Weather::default() }
+    };
+    let doubts = |place: Place, weather: &Weather, moment: Moment| {
+        let mut day = Daylight::new(place, moment);
+        day.take_weather(weather).expect("an hour");
+        day.doubts_about(weather).expect("a sun")
+    };
+    assert_eq!(doubts(vienna, &station(48.12, 16.57), noon), Vec::<String>::new());
+    let berlin = doubts(vienna, &station(52.47, 13.40), noon);
+    // The great circle between the two is 518 km long.
+    assert!(berlin.len() == 1 && berlin[0].contains("Station at 52.47, 13.40, 518 km"), "{berlin:?}");
+    let mirrored = doubts(Place { longitude_deg: -16.37, ..vienna }, &station(48.12, 16.57), noon);
+    assert!(mirrored[0].ends_with("north and east are positive") && mirrored.len() == 1, "{mirrored:?}");
+    // A file whose clock is twelve hours off.
+    let mut other = station(48.12, 16.57);
+    other.utc_offset_h = -11.0;
+    let night = doubts(vienna, &other, Moment::parse("2025-06-22T00:30+01:00").expect("a moment"));
+    assert!(night.len() == 1 && night[0].contains("700 W/m² of sun") && night[0].contains("below the horizon"), "{night:?}");
+    let mut day = Daylight::new(vienna, Moment::parse("2025-06-21T18:00+01:00").expect("a moment"));
+    let missing = day.take_weather(&station(48.12, 16.57)).expect_err("no record").to_string();
+    assert!(missing.contains("within an hour of 18:00 on the 21.6."), "{missing}");
 }
 
 #[test]

@@ -107,10 +107,9 @@ impl Patches {
         self.matrices.iter().find(|m| m.hemispheres == hemispheres && m.band == band)
     }
 
-    /// The matrix that light is seen and sampled by: the visible one, else the solar one, else the only one there is.
+    /// The matrix that light is seen and sampled by: what the eye does not see says nothing of it.
     pub(crate) fn main(&self, hemispheres: Hemispheres) -> Option<&Matrix> {
-        let found = [Band::Visible, Band::Solar].into_iter().find_map(|band| self.matrix(hemispheres, band));
-        found.or_else(|| self.matrices.iter().find(|m| m.hemispheres == hemispheres))
+        self.matrix(hemispheres, Band::Visible)
     }
 
     /// The BSDF in 1/sr for each channel.

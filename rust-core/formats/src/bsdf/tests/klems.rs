@@ -126,7 +126,13 @@ fn windows_front_is_our_back() {
     assert!((front.eval_luminance(through(steep), through(flat)) - 3.0).abs() < 1e-9);
     let back = open("Rows", "Reflection Back");
     assert!((back.eval_luminance(steep, flat) - 2.0).abs() < 1e-9);
+    // What the sun sends beside light says nothing of light.
     let solar = read(file("Columns", "Transmission Front", "Solar", "1 2 3 4").as_bytes(), "").unwrap();
-    assert!((solar.eval_luminance(through(steep), flat) - 3.0).abs() < 1e-9);
+    assert_eq!(solar.eval_luminance(through(steep), flat), 0.0);
+    assert!(Hemispheres::ALL.iter().all(|pair| !solar.has(*pair)));
+    let unseen = solar.unseen();
+    assert_eq!(unseen.len(), 2, "{unseen:?}");
+    assert!(unseen[1].starts_with("transmission-back: there is Solar alone"), "{unseen:?}");
+    assert!(solar.figures().problems.contains(&unseen[0]));
     assert_eq!(solar.channels(), &Channels::Luminance);
 }

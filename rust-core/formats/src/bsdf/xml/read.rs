@@ -7,7 +7,7 @@ use super::super::hemispheres::Hemispheres;
 use super::super::patches::{Band, Basis, Matrix, Patches};
 use super::super::text::{Words, shown};
 use super::super::tree::{Component, TensorTree};
-use super::{BANDS, DIRECTIONS, SHIRLEY_CHIU, tree};
+use super::{BANDS, DIRECTIONS, SHIRLEY_CHIU, starts_in, tree};
 use crate::error::{FormatError, Place, Result};
 
 /// More elements than that no such file has; each takes memory several times its text.
@@ -26,9 +26,9 @@ struct Block<'a, 'input> {
 /// When it is not XML, an element that is needed is absent, a basis is not known, or numbers are not as many as the bases say, are not
 /// numbers, or negative.
 pub fn read(bytes: &[u8]) -> Result<Measured> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = document_text(bytes);
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text.trim_start_matches('\u{feff}'), options)
+    let document = Document::parse_with_options(&text, options)
         .map_err(|error| FormatError::line(error.pos().row.into(), format!("not XML: {error}")))?;
     let root = document.root_element();
     let layer = descend(root, "Optical").and_then(|optical| descend(optical, "Layer"));
@@ -42,6 +42,16 @@ pub fn read(bytes: &[u8]) -> Result<Measured> {
         name if name.eq_ignore_ascii_case("TensorTree4") => trees(layer, 4),
         name => Err(at(structure, format!("\"{}\", expected Columns, Rows, TensorTree3 or TensorTree4", shown(name)))),
     }
+}
+
+/// The document without its declaration and what stands before it, whose lines stay as empty ones, so that all others keep their numbers.
+fn document_text(bytes: &[u8]) -> String {
+    let start = starts_in(bytes).unwrap_or(0);
+    let declaration = bytes[start..].starts_with(b"<?xml").then(|| bytes[start..].windows(2).position(|pair| pair == b"?>"));
+    let start = declaration.flatten().map_or(start, |end| start + end + 2);
+    let (before, document) = bytes.split_at(start);
+    let lines = before.iter().filter(|byte| **byte == b'\n').count();
+    "\n".repeat(lines) + &String::from_utf8_lossy(document)
 }
 
 /// Matrices; `rows` says that a row of the text is one incident patch.

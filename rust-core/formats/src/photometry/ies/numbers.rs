@@ -1,18 +1,60 @@
-//! The numbers of an IES file: separated by blanks or commas, wrapped wherever their writer liked.
+//! The numbers of an IES file: separated by blanks or commas, wrapped wherever their writer liked, some with decimal commas.
 
 use crate::error::{FormatError, Result};
 use crate::photometry::axis::Axis;
-use crate::photometry::text::{Lines, parse, quote};
+use crate::photometry::text::{Lines, decimal, parse, quote};
+
+/// What a comma between two digits is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Comma {
+    /// The end of a number.
+    Separator,
+    /// The decimal sign.
+    Decimal,
+}
 
 #[derive(Debug)]
 pub(super) struct Numbers<'a> {
     lines: Lines<'a>,
     rest: &'a str,
+    comma: Comma,
+    /// The first piece of text whose comma may be either, and its line.
+    doubtful: Option<(&'a str, u64)>,
+}
+
+/// Reads `lines` with commas as separators, and where the numbers then are not as many as counted, with decimal commas. Gives what was read and
+/// a warning about what stands behind the `last` number, or about the commas.
+///
+/// # Errors
+/// What `read` says with separators, or that neither reading fits, with the line.
+pub(super) fn by_comma<'a, T>(
+    lines: &Lines<'a>,
+    last: &str,
+    mut read: impl FnMut(&mut Numbers<'a>) -> Result<T>,
+) -> Result<(T, Option<FormatError>)> {
+    let mut numbers = Numbers::new(lines.clone(), Comma::Separator);
+    let separated = read(&mut numbers);
+    let left = numbers.token().map(|token| (token, numbers.line()));
+    let Some((token, line)) = numbers.doubtful.filter(|_| separated.is_err() || left.is_some()) else {
+        let warning = |(token, line)| FormatError::line(line, format!("{} was found after the last {last}: not read", quote(token)));
+        return separated.map(|found| (found, left.map(warning)));
+    };
+    let mut numbers = Numbers::new(lines.clone(), Comma::Decimal);
+    match read(&mut numbers) {
+        Ok(found) if numbers.token().is_none() => {
+            Ok((found, Some(FormatError::line(line, format!("{} was found: decimal commas are read as points", quote(token))))))
+        }
+        _ => {
+            separated?;
+            let problem = format!("{} was found: its comma fits the counts neither as a separator nor as a decimal sign", quote(token));
+            Err(FormatError::line(line, problem))
+        }
+    }
 }
 
 impl<'a> Numbers<'a> {
-    pub(super) fn new(lines: Lines<'a>) -> Self {
-        Self { lines, rest: "" }
+    fn new(lines: Lines<'a>, comma: Comma) -> Self {
+        Self { lines, rest: "", comma, doubtful: None }
     }
 
     /// The line of the number given last.
@@ -25,7 +67,8 @@ impl<'a> Numbers<'a> {
         match self.token() {
             None => Err(FormatError::line(self.line(), format!("the file ends, expected {what}"))),
             Some(token) => {
-                parse(token).ok_or_else(|| FormatError::line(self.line(), format!("{} was found, expected {what}", quote(token))))
+                let value = if self.comma == Comma::Decimal { decimal(token) } else { parse(token) };
+                value.ok_or_else(|| FormatError::line(self.line(), format!("{} was found, expected {what}", quote(token))))
             }
         }
     }
@@ -59,15 +102,36 @@ impl<'a> Numbers<'a> {
 
     /// The next piece of text, whatever it is.
     pub(super) fn token(&mut self) -> Option<&'a str> {
-        let separator = |c: char| c.is_whitespace() || c == ',' || c == '\u{1a}';
+        let blank = |c: char| c.is_whitespace() || c == '\u{1a}';
         loop {
-            let rest = self.rest.trim_start_matches(separator);
-            if !rest.is_empty() {
-                let (token, rest) = rest.split_at(rest.find(separator).unwrap_or(rest.len()));
-                self.rest = rest;
-                return Some(token);
+            let rest = self.rest.trim_start_matches(|c| blank(c) || c == ',');
+            if rest.is_empty() {
+                self.rest = self.lines.next()?.1;
+                continue;
             }
-            self.rest = self.lines.next()?.1;
+            let (piece, after) = rest.split_at(rest.find(blank).unwrap_or(rest.len()));
+            let piece = piece.trim_end_matches(',');
+            let is_doubtful = is_decimal(piece);
+            if is_doubtful {
+                self.doubtful = self.doubtful.or(Some((piece, self.line())));
+            }
+            if is_doubtful && self.comma == Comma::Decimal {
+                self.rest = after;
+                return Some(piece);
+            }
+            let (token, rest) = rest.split_at(piece.find(',').unwrap_or(piece.len()));
+            self.rest = rest;
+            return Some(token);
         }
     }
+}
+
+/// Whether a piece of text between blanks may be meant as one number with a decimal comma: digits to both sides of a single comma, and no point
+/// behind it.
+fn is_decimal(piece: &str) -> bool {
+    piece.split_once(',').is_some_and(|(whole, fraction)| {
+        whole.ends_with(|c: char| c.is_ascii_digit())
+            && fraction.starts_with(|c: char| c.is_ascii_digit())
+            && !fraction.contains([',', '.'])
+    })
 }

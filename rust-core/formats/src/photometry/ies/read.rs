@@ -1,6 +1,6 @@
 //! The reader.
 
-use super::numbers::Numbers;
+use super::numbers::{Numbers, by_comma};
 use super::opening::opening;
 use super::tilt::tilt;
 use super::{Version, tilt_of};
@@ -9,7 +9,8 @@ use crate::photometry::arrange::arrange;
 use crate::photometry::axis::Table;
 use crate::photometry::beside::{Beside, nothing_beside};
 use crate::photometry::check::Least;
-use crate::photometry::text::{LARGEST, Lines, decode, number, quote};
+use crate::photometry::plausible;
+use crate::photometry::text::{LARGEST, Lines, decode, number};
 use crate::photometry::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated};
 
 /// Metres in a foot.
@@ -25,8 +26,11 @@ struct Head {
     factor: f64,
     counts: [usize; 2],
     photometric_type: PhotometricType,
+    /// The opening's width, length and height with their signs, in metres.
     dimensions: [f64; 3],
     dimensions_line: u64,
+    /// Metres in the file's unit.
+    unit: f64,
     watts: f64,
 }
 
@@ -49,14 +53,19 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
 pub fn read_with(bytes: &[u8], beside: &mut Beside<'_>) -> Result<Goniogram> {
     let text = decode(bytes)?;
     let mut lines = Lines::new(&text);
-    let mut warnings = Vec::new();
     let (version, header, tilt_word) = header(&mut lines)?;
-    let mut numbers = Numbers::new(lines);
-    let tilt = tilt(tilt_word, &mut numbers, beside, &mut warnings)?;
-    let head = head(version, &mut numbers, &mut warnings)?;
-    let mut table = table(&head, &mut numbers, &mut warnings)?;
+    let read = |numbers: &mut Numbers<'_>| {
+        let mut warnings = Vec::new();
+        let tilt = tilt(tilt_word, numbers, beside, &mut warnings)?;
+        let head = head(version, numbers, &mut warnings)?;
+        let table = table(&head, numbers, &mut warnings)?;
+        Ok((tilt, head, table, warnings))
+    };
+    let ((tilt, mut head, mut table, mut warnings), more) = by_comma(&lines, "candela value", read)?;
+    warnings.extend(more);
     table.order(&mut warnings)?;
     let symmetry = arrange(&mut table, head.photometric_type, &mut warnings)?;
+    warnings.extend(head.mend_dimensions());
     let (opening, own) = opening(head.dimensions, version);
     if !own {
         let dimensions = head.dimensions.map(number).join(", ");
@@ -133,7 +142,25 @@ fn head(version: Version, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatEr
     if watts < 0.0 {
         warnings.push(FormatError::line(numbers.line(), format!("the input watts are {}: not used", number(watts))));
     }
-    Ok(Head { lamps, lumens, factor, counts, photometric_type, dimensions, dimensions_line, watts: watts.max(0.0) })
+    Ok(Head { lamps, lumens, factor, counts, photometric_type, dimensions, dimensions_line, unit, watts: watts.max(0.0) })
+}
+
+impl Head {
+    /// Takes millimetres, or no opening, for what is too long for a luminaire in the file's unit; a warning then.
+    fn mend_dimensions(&mut self) -> Option<FormatError> {
+        let millimetres = plausible::from_millimetres(self.dimensions.map(|d| d / self.unit));
+        let largest = self.dimensions.map(f64::abs).into_iter().fold(0.0, f64::max);
+        if largest <= plausible::LONGEST {
+            return None;
+        }
+        let found = format!("the opening is {} m long", number(largest));
+        let (dimensions, taken) = match millimetres {
+            Some(metres) => (metres, "its numbers are taken as millimetres"),
+            None => ([0.0; 3], "no luminaire is: a point is taken"),
+        };
+        self.dimensions = dimensions;
+        Some(FormatError::line(self.dimensions_line, format!("{found}; {taken}")))
+    }
 }
 
 /// A factor; one that is not positive counts as 1.
@@ -190,10 +217,6 @@ fn table(head: &Head, numbers: &mut Numbers<'_>, warnings: &mut Vec<FormatError>
         }
         least.see(value * head.factor, numbers.line());
         intensities.push(value * head.factor);
-    }
-    if let Some(token) = numbers.token() {
-        let problem = format!("{} was found after the last candela value: not read", quote(token));
-        warnings.push(FormatError::line(numbers.line(), problem));
     }
     least.repair(&mut intensities, warnings)?;
     Ok(Table { horizontal, vertical, intensities })

@@ -1,6 +1,6 @@
 //! The lamp's flux by the luminaire's tilt: in the file itself (`TILT=INCLUDE`), or in one beside it (`TILT=` and its name).
 
-use super::numbers::Numbers;
+use super::numbers::{Numbers, by_comma};
 use crate::error::{FormatError, Result};
 use crate::photometry::Tilt;
 use crate::photometry::beside::Beside;
@@ -37,8 +37,9 @@ fn file_name(word: &str) -> Option<&str> {
 /// The factors of a file that holds what `TILT=INCLUDE` would have here; a problem continues a sentence that names the file.
 fn from_file(name: &str, beside: &mut Beside<'_>) -> std::result::Result<Tilt, String> {
     let bytes = beside(name).map_err(|problem| format!(" cannot be read: {problem}"))?;
-    let read = || factors(&mut Numbers::new(Lines::new(&decode(&bytes)?)));
-    read().map_err(|error| format!(", {error}"))
+    let read = || -> Result<(Tilt, Option<FormatError>)> { by_comma(&Lines::new(&decode(&bytes)?), "tilt factor", factors) };
+    // What stands behind the factors is no part of them.
+    read().map(|(tilt, _)| tilt).map_err(|error| format!(", {error}"))
 }
 
 fn factors(numbers: &mut Numbers<'_>) -> Result<Tilt> {

@@ -2,7 +2,7 @@
 
 use crate::error::{FormatError, Result};
 use crate::photometry::axis::Axis;
-use crate::photometry::text::{Lines, number, parse, quote};
+use crate::photometry::text::{Lines, decimal, number, quote};
 
 /// Warnings that are told one by one.
 const MOST_WARNINGS: usize = 50;
@@ -106,13 +106,4 @@ impl<'a> Fields<'a> {
             self.rest = self.lines.next()?.1;
         }
     }
-}
-
-/// A number with a decimal point or comma.
-fn decimal(token: &str) -> Option<f64> {
-    if !token.contains(',') {
-        return parse(token);
-    }
-    // A point beside a comma would leave open which of them groups thousands.
-    if token.contains('.') { None } else { parse(&token.replacen(',', ".", 1)) }
 }

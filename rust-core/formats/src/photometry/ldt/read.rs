@@ -1,10 +1,11 @@
 //! The reader.
 
 use super::fields::Fields;
-use crate::error::Result;
+use crate::error::{FormatError, Result};
 use crate::photometry::arrange::check_vertical;
 use crate::photometry::axis::{Axis, Table};
 use crate::photometry::check::Least;
+use crate::photometry::plausible::within_body;
 use crate::photometry::text::{LARGEST, decode, number, quote};
 use crate::photometry::{Goniogram, HeaderLine, LampSet, Opening, PhotometricType, Stated, Symmetry};
 
@@ -46,7 +47,10 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
     header.extend(texts(&mut fields, &rest)?);
     let [length, width, height] = millimetres(&mut fields, ["length", "width", "height"].map(|of| format!("the luminaire's {of}")))?;
     let area = millimetres(&mut fields, ["length", "width"].map(|of| format!("the luminous area's {of}")))?;
+    let area_line = fields.line();
     let heights = millimetres(&mut fields, ["C0", "C90", "C180", "C270"].map(|at| format!("the luminous area's height at {at}")))?;
+    let (opening, problem) = within_body(Opening::from_eulumdat(area, heights), [length, width, height]);
+    fields.warnings.extend(problem.map(|problem| FormatError::line(area_line, problem)));
     let mut stated = Stated {
         downward_fraction: Some(fields.number("the downward flux fraction")? / 100.0),
         light_output_ratio: Some(fields.number("the light output ratio")? / 100.0).filter(|ratio| *ratio > 0.0),
@@ -64,7 +68,7 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
         horizontal: table.horizontal.angles,
         vertical: table.vertical.angles,
         intensities: table.intensities,
-        opening: Opening::from_eulumdat(area, heights),
+        opening,
         body: [length, width, height],
         lamp_sets,
         lamp_set: 0,

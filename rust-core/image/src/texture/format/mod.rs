@@ -4,6 +4,8 @@ mod bitmap;
 mod exr;
 mod hdr;
 
+pub use hdr::RadianceHeader;
+
 use super::error::{TextureError, TextureErrorKind};
 use super::image::Image;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -2,7 +2,7 @@
 
 use super::made::{Random, bytes, hdr, jpeg, png};
 use crate::colour::{ColourSpace, Gamut, Primaries};
-use crate::texture::{DomeFormat, Image, LatLong, TexelFormat, Texels, decode};
+use crate::texture::{DomeFormat, Image, LatLong, RadianceHeader, TexelFormat, Texels, decode};
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, write::WritableImage};
 use exr::math::Vec2;
 use exr::meta::attribute::{Chromaticities, IntegerBounds};
@@ -91,6 +91,73 @@ fn radiance_xyze_and_primaries() {
     let primaries = Primaries { red: [0.7, 0.3], green: [0.2, 0.7], blue: [0.1, 0.1], white: [0.3333, 0.3333] };
     assert_eq!(decode(&stated).unwrap().primaries, Some(primaries));
     assert_eq!(decode(&file).unwrap().primaries, None);
+}
+
+/// A picture of 3 × 2 texels, each of another value, with lines in its header, in an order of scan lines.
+fn radiance(lines: &str, resolution: &str, order: [usize; 6]) -> Vec<u8> {
+    let mut file = format!("#?RADIANCE\nSOFTWARE=test\n{lines}FORMAT=32-bit_rle_rgbe\n\n{resolution}\n").into_bytes();
+    // 2^(129 − 128) · (16 i + 16) / 256: 0.125, 0.25, …
+    order.iter().for_each(|i| file.extend([16 * *i as u8 + 16, 8, 4, 129]));
+    file
+}
+
+#[test]
+fn radiance_pictures_are_as_before_their_exposure() {
+    let reds = |lines: &str| {
+        let image = decode(&radiance(lines, "-Y 2 +X 3", [0, 1, 2, 3, 4, 5])).unwrap();
+        (image.rgba(1)[0], image.rgba(1)[1])
+    };
+    let plain = reds("");
+    assert_eq!(plain, (0.25, 0.0625));
+    assert_eq!(reds("EXPOSURE=2\n"), (0.125, 0.03125));
+    // Lines count together; those of pictures that this one was made of are indented.
+    assert_eq!(reds("EXPOSURE=   4.0e0\nEXPOSURE=0.5\n\tEXPOSURE=100\n EXPOSURE=100\n"), (0.125, 0.03125));
+    assert_eq!(reds("COLORCORR= 0.5 2 1\nEXPOSURE=1\n"), (0.5, 0.03125));
+    for (lines, words) in [
+        ("EXPOSURE=0\n", "line 3: 'EXPOSURE=0'"),
+        ("EXPOSURE=bright\n", "line 3: "),
+        ("COLORCORR=1 2\n", "line 3: "),
+        ("PRIMARIES=1 2 3\n", "line 3: "),
+        ("EXPOSURE=1,5\n", "line 3: 'EXPOSURE=1,5'"),
+    ] {
+        let error = decode(&radiance(lines, "-Y 2 +X 3", [0; 6])).unwrap_err();
+        assert!(error.what.starts_with(words), "{lines}: {error}");
+    }
+}
+
+#[test]
+fn radiance_scan_lines_go_any_way() {
+    let upright = [0, 1, 2, 3, 4, 5];
+    let expected = decode(&radiance("", "-Y 2 +X 3", upright)).unwrap();
+    for (resolution, order) in [
+        ("+Y 2 +X 3", [3, 4, 5, 0, 1, 2]),
+        ("-Y 2 -X 3", [2, 1, 0, 5, 4, 3]),
+        ("+Y 2 -X 3", [5, 4, 3, 2, 1, 0]),
+        ("+X 3 -Y 2", [0, 3, 1, 4, 2, 5]),
+        ("-X 3 +Y 2", [5, 2, 4, 1, 3, 0]),
+    ] {
+        assert_eq!(decode(&radiance("", resolution, order)).unwrap(), expected, "{resolution}");
+    }
+    for broken in ["-Y 2", "-Y 2 +Y 3", "-Y 0 +X 3", "-Y x +X 3", ""] {
+        assert!(decode(&radiance("", broken, upright)).is_err(), "{broken}");
+    }
+}
+
+#[test]
+fn radiance_luminances_by_primaries() {
+    let weights = |lines: &str, from: &str, to: &str| {
+        let file = String::from_utf8_lossy(&radiance(lines, "-Y 2 +X 3", [0; 6])).replace(from, to).into_bytes();
+        RadianceHeader::read(&file).unwrap().luminance_weights()
+    };
+    // Ward's figures for the usual primaries.
+    for (found, expected) in weights("", "", "").iter().zip([0.265, 0.670, 0.065]) {
+        assert!((found / 179.0 - expected).abs() < 1e-3, "{found}");
+    }
+    let rec709 = weights("PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n", "", "");
+    for (found, expected) in rec709.iter().zip([0.2126, 0.7152, 0.0722]) {
+        assert!((found / 179.0 - expected).abs() < 1e-3, "{found}");
+    }
+    assert_eq!(weights("", "rle_rgbe", "rle_xyze"), [0.0, 1.0, 0.0]);
 }
 
 pub(super) struct Exr {
