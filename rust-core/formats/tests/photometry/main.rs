@@ -8,6 +8,8 @@ mod ies;
 mod ldt;
 mod quantities;
 mod round_trip;
+mod ugr;
+mod zones;
 
 use gonio_formats::photometry::{Goniogram, Symmetry, ies as ies_format};
 
