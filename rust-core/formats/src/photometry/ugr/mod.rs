@@ -60,7 +60,8 @@ impl Goniogram {
         let mut values = [[None; 10]; 19];
         for (row, room) in values.iter_mut().zip(ROOMS) {
             let layout = Layout::new(room, spacing);
-            let background = REFLECTANCES.map(|reflectances| mean.background(&layout, reflectances));
+            let arriving = mean.arriving(&layout);
+            let background = REFLECTANCES.map(|reflectances| layout.background(arriving, reflectances));
             for (direction, turn) in [0.0, 90.0].into_iter().enumerate() {
                 let sum = self.glare(&layout, turn);
                 for (k, background) in background.iter().enumerate() {
@@ -71,7 +72,7 @@ impl Goniogram {
         Ok(UgrTable { spacing, values })
     }
 
-    /// Σ L² ω / p² of the luminaires, seen from the plane C(`turn`); heights are 1 m.
+    /// Σ L² ω / p² of the luminaires, seen from the plane C(`turn`); heights are 1 m, since background and sum fall alike with height.
     fn glare(&self, layout: &Layout, turn: f64) -> f64 {
         let luminaire = |[aside, ahead]: [f64; 2]| {
             let Ok(index) = position_index([aside, 1.0, ahead]) else { return 0.0 };
@@ -85,13 +86,10 @@ impl Goniogram {
         layout.places().map(luminaire).sum()
     }
 
-    /// Luminance in cd/m² of what the eye has around the luminaires: the walls' mean illuminance by reflection over π. For a rotational goniogram.
-    fn background(&self, layout: &Layout, reflectances: [f64; 3]) -> f64 {
-        let [x, y] = layout.room;
+    /// Flux in lm that each luminaire sends straight to ceiling, walls and reference plane, for a rotational goniogram.
+    fn arriving(&self, layout: &Layout) -> [f64; 3] {
         let (down, on_plane) = (self.flux_below(), layout.on_plane(self));
-        let [of_ceiling, of_walls, of_plane] = room::transfer(layout.room, reflectances);
-        let reflected = (self.flux() - down) * of_ceiling + (down - on_plane).max(0.0) * of_walls + on_plane * of_plane;
-        layout.number() * reflected / (2.0 * (x + y)) / PI
+        [self.flux() - down, (down - on_plane).max(0.0), on_plane]
     }
 }
 
@@ -109,6 +107,14 @@ impl Layout {
 
     fn number(&self) -> f64 {
         (self.count[0] * self.count[1]) as f64
+    }
+
+    /// Luminance in cd/m² of what the eye has around the luminaires, by the light that arrives at ceiling, walls and plane: the walls' mean illuminance by
+    /// reflection over π.
+    fn background(&self, arriving: [f64; 3], reflectances: [f64; 3]) -> f64 {
+        let factors = room::transfer(self.room, reflectances);
+        let reflected: f64 = arriving.iter().zip(factors).map(|(flux, factor)| flux * factor).sum();
+        self.number() * reflected / (2.0 * (self.room[0] + self.room[1])) / PI
     }
 
     /// Each luminaire's place to the side and ahead of the eye.
