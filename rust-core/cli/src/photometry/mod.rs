@@ -1,5 +1,7 @@
 //! `gonio photometry`.
 
+pub(super) mod ugr;
+
 use super::{
     arguments::{PhotometryOptions, SymmetryName},
     drawing,
@@ -8,8 +10,8 @@ use super::{
 };
 use gonio::{Error, Result, output::write_atomically};
 use gonio_formats::photometry::{
-    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, Spread, Symmetry, Tilt, beside, cone_diagram, ies, ldt,
-    polar_diagram, read_with,
+    Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, PolarUnit, SPACINGS, Spread, Symmetry, Tilt, UgrTable, beside,
+    cone_diagram, ies, ldt, polar_diagram, read_with,
 };
 use serde_json::{Value, json};
 use std::io::Write;
@@ -34,12 +36,22 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
         };
         write_atomically(path, true, |file| file.write_all(&bytes))?;
     }
+    let table = options.ugr_table.then(|| ugr_table(&goniogram, options)).transpose()?;
     if options.json {
-        print(&as_json(options, &goniogram, &figures).to_string());
+        print(&as_json(options, &goniogram, &figures, table.as_ref()).to_string());
+    } else if let Some(table) = table {
+        ugr::as_text(&goniogram, &table).iter().for_each(|line| print(line));
     } else {
-        as_text(&goniogram, &figures).iter().for_each(|line| print(line));
+        as_text(&goniogram, &figures, options.front).iter().for_each(|line| print(line));
     }
     Ok(0)
+}
+
+fn ugr_table(goniogram: &Goniogram, options: &PhotometryOptions) -> Result<UgrTable> {
+    goniogram.ugr_table(options.shr).map_err(|error| {
+        let is_spacing = !(SPACINGS[0]..=SPACINGS[1]).contains(&options.shr);
+        if is_spacing { Error::Setting { name: "shr".into(), problem: error.problem } } else { Error::in_file(&options.file, &error) }
+    })
 }
 
 /// The files asked for, with their option and the endings it takes.
@@ -86,7 +98,9 @@ impl From<SymmetryName> for Symmetry {
     }
 }
 
-fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures) -> Value {
+fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures, table: Option<&UgrTable>) -> Value {
+    let front = options.front.unwrap_or_else(|| goniogram.street_side());
+    let zones = goniogram.zones(front);
     json!({
         "file": options.file.to_string_lossy(),
         "photometric_type": type_name(goniogram.photometric_type),
@@ -103,6 +117,10 @@ fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figures: &Figures
         "peak_direction_deg": figures.peak_direction,
         "beam_angle_deg": figures.beam.map(|spread| spread.angle()),
         "field_angle_deg": figures.field.map(|spread| spread.angle()),
+        "cie_flux_codes": goniogram.flux_codes().map(percents),
+        "bug": zones.rating(goniogram.is_square()).to_string(),
+        "zones_lm": json!({ "forward": zones.forward, "back": zones.back, "up": zones.up, "front_deg": front }),
+        "ugr_table": table.map(ugr::as_json),
         "opening": json!({
             "shape": shape_name(goniogram.opening.shape),
             "size_m": goniogram.opening.size,
@@ -132,8 +150,24 @@ fn lamps_json(set: &LampSet) -> Value {
     })
 }
 
-/// What a file says, line by line.
-pub(super) fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
+/// CIE flux codes as they are written: whole per cent.
+fn percents(codes: [f64; 5]) -> [i64; 5] {
+    codes.map(|code| (100.0 * code).round() as i64)
+}
+
+/// Flux codes, and the rating as an outdoor luminaire with the street on its side C(`front`).
+fn classes(goniogram: &Goniogram, front: Option<f64>) -> Vec<String> {
+    let Some(codes) = goniogram.flux_codes() else { return Vec::new() };
+    let front = front.unwrap_or_else(|| goniogram.street_side());
+    let rating = goniogram.zones(front).rating(goniogram.is_square());
+    vec![
+        format!("CIE flux codes: {}", percents(codes).map(|code| code.to_string()).join(" ")),
+        format!("BUG rating outdoors (IES TM-15-11): {rating}, with the street at C{front}"),
+    ]
+}
+
+/// What a file says, line by line; `front` is the C plane that faces a street, the format's own without it.
+pub(super) fn as_text(goniogram: &Goniogram, figures: &Figures, front: Option<f64>) -> Vec<String> {
     let mut lines = Vec::new();
     for (keyword, name) in
         [("MANUFAC", "manufacturer"), ("LUMINAIRE", "luminaire"), ("LUMCAT", "number"), ("TEST", "test"), ("DATE", "date")]
@@ -157,6 +191,7 @@ pub(super) fn as_text(goniogram: &Goniogram, figures: &Figures) -> Vec<String> {
     lines.push(format!("peak: {:.1} cd at C {c}°, γ {gamma}°", figures.peak));
     lines.push(format!("beam angle (50 %): {}", spreads(&figures.beam)));
     lines.push(format!("field angle (10 %): {}", spreads(&figures.field)));
+    lines.extend(classes(goniogram, front));
     lines.push(format!("opening: {}", opening(&goniogram.opening)));
     for (index, set) in goniogram.lamp_sets.iter().enumerate() {
         let here = if index == goniogram.lamp_set && goniogram.lamp_sets.len() > 1 { " (in use)" } else { "" };
