@@ -118,4 +118,14 @@ def grid_lines(reading) -> tuple[str, ...]:
     figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
     lines = [" ".join(f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}".split()) for name, figure in figures]
     columns, rows = reading.size
-    return (*lines, f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points")
+    lines += [f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points", *_left_out(reading.coverage)]
+    return tuple(lines)
+
+
+def _left_out(coverage) -> list[str]:
+    """What glare ratings leave out, since CIE 117 has no position index for it."""
+    points = [point for point in coverage if point.left_out]
+    if not points:
+        return []
+    most, share = max(point.left_out for point in points), max(point.share_left_out for point in points)
+    return [f"Left out (CIE 117) at {len(points)} points:", f"up to {most} sources, {100 * share:.0f} % of their light"]

@@ -1,7 +1,7 @@
 //! The glare of luminaires at observers' eyes against CIE 117 by hand.
 
 use gonio::{
-    measure::{Reading, Watch, measure},
+    measure::{MeterReading, Reading, Watch, glare::cie_position_index, measure},
     scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, Meter, Origin, Scene, Transform},
 };
 use gonio_simd::Execution;
@@ -24,19 +24,19 @@ fn eye() -> Meter {
     Meter { measurand: Measurand::Ugr, normal: [0.0, 1.0, 0.0], facing: [0.0, 0.0, -1.0], ..Meter::default() }
 }
 
-fn rated(scene: &Scene) -> Reading {
+fn found(scene: &Scene) -> MeterReading {
     let mut watch = Watch { previous: None, cancel: &AtomicBool::new(false), progress: &mut |_| true };
     let scene = Scene { meters: vec![eye()], ..scene.clone() };
-    measure(&scene, Execution::best(), &mut watch).expect("a rating").meters[0].reading
+    measure(&scene, Execution::best(), &mut watch).expect("a rating").meters.remove(0)
 }
 
-/// Guth's index as CIE 117's references state it, of a place so far ahead, to the side and up; 16 at most, where its table ends.
-fn guth(ahead: f64, side: f64, up: f64) -> f64 {
-    let tau = side.abs().atan2(up).to_degrees();
-    let sigma = side.hypot(up).atan2(ahead).to_degrees();
-    let first = 35.2 - 0.31889 * tau - 1.22 * (-2.0 * tau / 9.0).exp();
-    let second = 21.0 + 0.26667 * tau - 0.002963 * tau * tau;
-    (first * 1e-3 * sigma + second * 1e-5 * sigma * sigma).exp().min(16.0)
+fn rated(scene: &Scene) -> Reading {
+    found(scene).reading
+}
+
+/// 1 / p² of a place so far ahead, to the side and up; 0 where CIE 117's table has none.
+fn weight(ahead: f64, side: f64, up: f64) -> f64 {
+    cie_position_index([side, up, ahead]).map_or(0.0, |index| index.powi(-2))
 }
 
 /// By Σ L² ω / p² before the sky alone.
@@ -54,7 +54,7 @@ fn assert_rated(found: Reading, sum: f64) {
 fn of_face(luminance: f64, points: impl Iterator<Item = [f64; 3]>, area: f64) -> f64 {
     let part = |[x, y, z]: [f64; 3]| {
         let square = x * x + y * y + z * z;
-        luminance * luminance * area * (y / square.sqrt()) / square / guth(-z, x, y).powi(2)
+        luminance * luminance * area * (y / square.sqrt()) / square * weight(-z, x, y)
     };
     points.map(part).sum()
 }
@@ -87,9 +87,9 @@ fn flat_luminaires_glare_by_luminance_solid_angle_and_place() {
     scene.lights.extend(places.map(lamp));
     // Behind the eye, and seen from above, which is its dark side.
     scene.lights.extend([lamp([0.0, 5.4, 9.0]), lamp([0.0, -1.0, -3.0])]);
-    // So small that one place stands for the whole.
-    let term = |place| of_face(luminance, [place].into_iter(), PI * radius * radius);
-    assert_rated(rated(&scene), places.map(term).iter().sum());
+    assert_rated(rated(&scene), places.map(|place| of_disk(luminance, place, radius)).iter().sum());
+    let coverage = found(&scene).coverage.expect("what was rated");
+    assert_eq!((coverage.sources, coverage.left_out(), coverage.note()), (3, 0, None));
 }
 
 #[test]
@@ -102,11 +102,34 @@ fn large_luminaires_glare_part_by_part() {
     assert_rated(rated(&scene), of_rectangle(luminance, place, sides));
     scene.lights[1] = light(LightShape::Disk { radius: 0.5 }, facing_down(place), [luminance as f32; 3]);
     assert_rated(rated(&scene), of_disk(luminance, place, 0.5));
-    // Its centre stands above the eye, so that half of it is ahead.
-    let overhead = [0.0, 1.2, 0.0];
-    scene.lights[1] = light(panel, facing_down(overhead), [luminance as f32; 3]);
-    let ahead = of_rectangle(luminance, [0.0, 1.2, -0.25 * sides[1]], [sides[0], 0.5 * sides[1]]);
-    assert_rated(rated(&scene), ahead);
+    // Nearer, the first half of it is too high for a position index.
+    let near = [0.0, 1.2, -0.7];
+    scene.lights[1] = light(panel, facing_down(near), [luminance as f32; 3]);
+    let (expected, whole) = (rating_of(of_rectangle(luminance, near, sides)), found(&scene));
+    // The border falls between two of 16 rows of parts.
+    assert!((whole.reading.value - expected).abs() < 0.3, "{whole:?} instead of {expected}");
+    let coverage = whole.coverage.expect("what was rated");
+    assert_eq!((coverage.sources, coverage.high), (1, 1));
+    assert!(coverage.share_left_out() > 0.2 && coverage.share_left_out() < 0.8, "{coverage:?}");
+    // Above the eye nothing of it is rated.
+    scene.lights[1] = light(panel, facing_down([0.0, 1.2, 0.0]), [luminance as f32; 3]);
+    assert_eq!(rated(&scene), Reading::default());
+}
+
+#[test]
+fn luminaires_without_a_position_index_are_left_out_and_told() {
+    let mut scene = under_sky();
+    let lamp = |place| light(LightShape::Sphere { radius: 0.1 }, Transform::translation(place), [5000.0; 3]);
+    scene.lights.push(lamp([0.4, 1.2, -2.0]));
+    let alone = rated(&scene);
+    // Too high, too far aside, below the line of sight, and behind, which is not told.
+    scene.lights.extend([lamp([0.0, 2.0, -0.8]), lamp([3.5, 0.3, -1.0]), lamp([0.5, -0.6, -2.0]), lamp([0.0, 1.0, 2.0])]);
+    let all = found(&scene);
+    // Their light that the sky's background lets through differs by noise alone.
+    assert!((all.reading.value - alone.value).abs() < 0.1, "{all:?} instead of {alone:?}");
+    let coverage = all.coverage.expect("what was rated");
+    assert_eq!((coverage.sources, coverage.high, coverage.aside, coverage.below), (4, 1, 1, 1));
+    assert!(coverage.note().expect("a note").starts_with("3 of 4 sources left out"), "{coverage:?}");
 }
 
 #[test]
@@ -132,7 +155,7 @@ fn small_sources_and_points_count_as_fifty_square_centimetres() {
     // 200 I² / (r² p²), 0.05 m above the eye's height.
     let place = [0.4, 0.9, -2.5];
     let [x, y, z] = place;
-    let sum = 200.0 * 800f64.powi(2) / ((x * x + y * y + z * z) * guth(-z, x, y).powi(2));
+    let sum = 200.0 * 800f64.powi(2) / (x * x + y * y + z * z) * weight(-z, x, y);
     let mut scene = under_sky();
     scene.lights.push(light(LightShape::Point, Transform::translation(place), [800.0; 3]));
     assert_rated(rated(&scene), sum);

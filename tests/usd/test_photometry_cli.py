@@ -2,6 +2,7 @@
 
 import json
 import math
+import pathlib
 import xml.etree.ElementTree as ET
 
 import pictures
@@ -150,3 +151,44 @@ def test_tilt_factors_are_read_from_the_file_beside(run, tmp_path):
 def test_a_tilt_that_no_file_tells_of_is_refused(run, luminaire):
     ended = run("photometry", luminaire, "--tilt", 10, check=False)
     assert ended.returncode == 1 and "no tilt factors" in ended.stderr
+
+
+UGR = pathlib.Path(__file__).resolve().parents[2] / "rust-core/formats/tests/data/ugr-table"
+
+
+def test_the_ugr_table_is_that_of_lighting_programs(run):
+    for number in ("02", "07"):
+        table = facts(run, UGR / f"s{number}.ldt", "--ugr-table")["ugr_table"]
+        assert table["spacing_to_height"] == 0.25 and table["rooms"][5] == [2, 12]
+        found = [a + b for a, b in zip(table["crosswise"], table["endwise"], strict=True)]
+        printed = [
+            [[float(x) for x in line.split(",")] for line in (UGR / f"{number}.{program}.csv").read_text().split("\n")]
+            for program in ("Dialux", "Relux")
+        ]
+        for row, *others in zip(found, *printed, strict=True):
+            for value, a, b in zip(row, *others, strict=True):
+                assert min(a, b) - 0.3 <= value <= max(a, b) + 0.3
+
+
+def test_the_ugr_table_as_text(run):
+    lines = run("photometry", UGR / "s07.ldt", "--ugr-table").stdout.splitlines()
+    assert lines[0].startswith("sample_07: UGR (CIE 117, CIE 190), luminaires 0.25 times")
+    assert len(lines) == 5 + 19 and lines[5].startswith("2H × 2H") and len(lines[5].split()) == 3 + 10
+    wide = run("photometry", UGR / "s07.ldt", "--ugr-table", "--shr", 1)
+    assert wide.returncode == 0 and wide.stdout != "\n".join(lines)
+    wrong = run("photometry", UGR / "s07.ldt", "--ugr-table", "--shr", 9)
+    assert wrong.returncode == 1 and "expected 0.1 to 2" in wrong.stderr
+
+
+def test_flux_codes_and_bug_rating(run, luminaire, tmp_path):
+    found = facts(run, luminaire)
+    # A cosine: 7/16, 3/4, 15/16 of the flux down; half of the lamps' flux.
+    assert found["cie_flux_codes"] == [44, 75, 94, 100, 50]
+    assert found["bug"] == "B0 U0 G0" and found["zones_lm"]["front_deg"] == 90
+    assert sum(found["zones_lm"]["forward"]) == pytest.approx(LAMBERTIAN_LM / 2, rel=2e-3)
+    assert "CIE flux codes: 44 75 94 100 50" in run("photometry", luminaire).stdout
+    point = tmp_path / "point.ies"
+    point.write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n")
+    assert facts(run, point)["beam_angle_deg"] == [180, 180]
+    wrong = run("photometry", point, "--ugr-table")
+    assert wrong.returncode == 1 and "no luminous opening" in wrong.stderr

@@ -168,7 +168,9 @@ def test_grids_and_meters_have_their_figures(page):
     globes = 100 / 4 * 0.5 + 2 * 100 * 2 / 5**1.5
     assert float(meter[3].split()[0]) == pytest.approx(globes + 300 / (math.pi * 9), rel=0.02)
     words = " ".join(reader.words)
-    density = re.search(r"36 W over 8.00 m² of /Floor are 4.50 W/m², ([\d.]+) W/m² per 100 lx; the power of 1 lights is unknown", words)
+    # Under an open sky the grid's area stands for a room's, and the page says so.
+    figures = r"36 W of 3 lights over 8.00 m² of the grid /Floor \(there is no closed room about it\) are 4.50 W/m², ([\d.]+) W/m² per 100 lx"
+    density = re.search(figures + "; the power of 1 lights is unknown", words)
     assert float(density[1]) == pytest.approx(450 / average, abs=0.02)
 
 
@@ -260,3 +262,60 @@ def test_a_stage_without_lights_cameras_and_grids(run, tmp_path):
     _, reader, _ = written(run, tmp_path / "bare.html", bare)
     assert "The stage has no lights with a place." in reader.words
     assert len(reader.pictures) == 2
+
+
+def walls(y0, y1, doors=()):
+    """Points of upright rectangles along x at y0 and y1, and along y at 0 and 6 m, 2.8 m high; doors are holes of 0.9 by 2.1 m at y1."""
+    def along_x(y, x0, x1, z0=0):
+        return [(x0, y, z0), (x1, y, z0), (x1, y, 2.8), (x0, y, 2.8)]
+
+    found = along_x(y0, 0, 6) + [(x, y, z) for x in (0, 6) for y, z in ((y0, 0), (y1, 0), (y1, 2.8), (y0, 2.8))]
+    start = 0
+    for door in doors:
+        found += along_x(y1, start, door) + along_x(y1, door, door + 0.9, 2.1)
+        start = door + 0.9
+    return found + along_x(y1, start, 6)
+
+
+def test_power_density_is_the_rooms(run, tmp_path):
+    """An office of 6 by 4.5 m with two luminaires, and through a door a corridor with a third: the grid covers 5 by 3.5 m of the office."""
+    (tmp_path / "globe.ies").write_text(LUMINAIRE)
+    points = [(x, y, z) for z in (0, 2.8) for x, y in ((0, 0), (6, 0), (6, 6.3), (0, 6.3))]
+    points += walls(0, 4.5, doors=[4.6]) + walls(4.5, 6.3)[4:]
+    counts = ", ".join(["4"] * (len(points) // 4))
+    indices = ", ".join(str(k) for k in range(len(points)))
+    corners = ", ".join(str(tuple(map(float, point))) for point in points)
+    lamp = 'def SphereLight "L{}" (inherits = </Globe>) {{\n    double3 xformOp:translate = {}\n}}\n'
+    lamps = "".join(lamp.format(k, place) for k, place in enumerate([(1, 1, 2.5), (5, 3, 2.5), (3, 5.4, 2.5)]))
+    stage = tmp_path / "office.usda"
+    stage.write_text(f"""#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "Office" {{
+    int[] faceVertexCounts = [{counts}]
+    int[] faceVertexIndices = [{indices}]
+    point3f[] points = [{corners}]
+    uniform token subdivisionScheme = "none"
+    uniform bool doubleSided = 1
+}}
+def Xform "Plane" {{
+    token gonio:grid:quantity = "illuminance"
+    double2 gonio:grid:size = (5, 3.5)
+    double gonio:grid:spacing = 0.5
+    double3 xformOp:translate = (3, 2.25, 0.75)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+{lamps}
+class "Globe" {{
+    asset gonio:photometry:file = @globe.ies@
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+""")
+    _, reader, _ = written(run, tmp_path / "office.html", stage, "--no-pictures", "--grid-density")
+    words = " ".join(reader.words)
+    assert re.search(r"24 W of 2 lights over 27\.00 m² of the room about /Plane are 0\.89 W/m²", words), words
+    assert re.search(r"36 W of 3 lights over 17\.50 m² of the grid /Plane are 2\.06 W/m²", words), words
+    _, reader, _ = written(run, tmp_path / "room.html", stage, "--no-pictures")
+    assert "of the grid" not in " ".join(reader.words)

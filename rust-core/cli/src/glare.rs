@@ -3,7 +3,7 @@
 use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print, radiance};
 use gonio::{
     Error, Result,
-    measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions, GlareSource, Threshold},
+    measure::glare::{Coverage, FisheyeProjection, FisheyeView, Glare, GlareOptions, GlareSource, Threshold},
     output::{Canvas, FalseColourScale},
 };
 use serde_json::{Value, json};
@@ -66,12 +66,14 @@ fn as_json(glare: &Glare) -> Value {
             "luminance_cd_m2": source.luminance,
             "solid_angle_sr": source.solid_angle,
             "position_index": source.position_index,
+            "cie_position_index": source.cie_position_index(),
             "eye_illuminance_lx": source.illuminance,
             "direction_deg": angles(source),
         })
     };
     json!({
         "ugr": glare.ugr(),
+        "ugr_coverage": coverage_json(&glare.coverage()),
         "dgp": glare.dgp(),
         "dgp_low_light": glare.dgp_low_light(),
         "eye_illuminance_lx": glare.eye_illuminance,
@@ -82,14 +84,28 @@ fn as_json(glare: &Glare) -> Value {
     })
 }
 
-/// The rating, or why there is none.
+/// What a rating leaves out, for machines.
+pub(super) fn coverage_json(coverage: &Coverage) -> Value {
+    json!({
+        "sources": coverage.sources,
+        "left_out": coverage.left_out(),
+        "too_high": coverage.high,
+        "too_far_aside": coverage.aside,
+        "below": coverage.below,
+        "larger_than_0_1_sr": coverage.large,
+        "share_left_out": coverage.share_left_out(),
+    })
+}
+
+/// The rating, or why there is none, and what it leaves out.
 fn ugr_line(glare: &Glare) -> String {
-    let is_ahead = |source: &GlareSource| source.direction[2] > 0.0;
-    match glare.ugr() {
+    let coverage = glare.coverage();
+    let rating = match glare.ugr() {
         Some(ugr) => format!("UGR: {ugr:.1}"),
-        None if glare.sources.iter().any(is_ahead) => "UGR: not defined, the background is black".to_owned(),
+        None if coverage.sources > coverage.left_out() => "UGR: not defined, the background is black".to_owned(),
         None => "UGR: no source of glare ahead".to_owned(),
-    }
+    };
+    coverage.note().map_or(rating.clone(), |note| format!("{rating} ({note})"))
 }
 
 /// The rating, line by line.
@@ -104,7 +120,8 @@ pub(super) fn as_text(glare: &Glare) -> Vec<String> {
     lines.extend(glare.sources.iter().map(|source| {
         let [right, up] = angles(source);
         let (luminance, solid_angle, index) = (source.luminance, source.solid_angle, source.position_index);
-        format!("  {luminance:.0} cd/m², {solid_angle:.5} sr, {right:.1}° right, {up:.1}° up, position index {index:.2}")
+        let of_ugr = source.cie_position_index().map_or("left out of UGR".to_owned(), |index| format!("UGR's {index:.2}"));
+        format!("  {luminance:.0} cd/m², {solid_angle:.5} sr, {right:.1}° right, {up:.1}° up, position index {index:.2} ({of_ugr})")
     }));
     lines
 }

@@ -4,6 +4,7 @@ use super::{
     arguments::{GridArguments, MeasureOptions},
     daylight, falsecolor,
     file::check_ending,
+    glare::coverage_json,
     list, print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
@@ -162,7 +163,8 @@ fn meter_line(meter: &MeterReading) -> String {
     let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
     let Reading { value, standard_error } = meter.reading;
     let (name, unit) = (measurand.name(), spaced(measurand));
-    format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m", meter.meter.origin)
+    let note = meter.coverage.and_then(|coverage| coverage.note()).map_or(String::new(), |note| format!("; {note}"));
+    format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
 }
 
 /// The unit's sign with a blank before it; nothing where there is none.
@@ -176,7 +178,7 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     let [columns, rows] = grid.size;
     let [along, across] = grid.spacing;
     let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2}{unit} ± {:.2}", reading.value, reading.standard_error);
-    vec![
+    let mut lines = vec![
         format!(
             "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
             grid.origin,
@@ -188,7 +190,9 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
         figure("greatest", &summary.max),
         format!("  U0 (least / average): {:.3}", summary.uniformity()),
         format!("  Ud (least / greatest): {:.3}", summary.diversity()),
-    ]
+    ];
+    lines.extend(grid.coverage_note().map(|note| format!("  {note}")));
+    lines
 }
 
 fn as_json(found: &Measurements) -> Value {
@@ -201,6 +205,7 @@ fn as_json(found: &Measurements) -> Value {
             "position_m": meter.meter.position,
             "value": meter.reading.value,
             "standard_error": meter.reading.standard_error,
+            "ugr_coverage": meter.coverage.as_ref().map(coverage_json),
         })
     };
     let grid = |grid: &GridReading| {
@@ -218,6 +223,7 @@ fn as_json(found: &Measurements) -> Value {
             "max": reading(&grid.summary.max),
             "uniformity_u0": grid.summary.uniformity(),
             "diversity_ud": grid.summary.diversity(),
+            "ugr_coverage": grid.coverage.iter().map(coverage_json).collect::<Vec<_>>(),
             "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
         })
     };

@@ -8,6 +8,42 @@ use crate::{
 use gonio::measure::glare::{self as engine, FisheyeProjection, FisheyeView, GlareOptions, Threshold};
 use pyo3::prelude::*;
 
+/// The sources ahead of an eye that sees them, and those that a unified glare rating leaves out, since CIE 117 has no position index for them.
+#[pyclass(frozen, get_all, module = "gonio")]
+pub(crate) struct Coverage {
+    /// All that are ahead and seen.
+    sources: usize,
+    /// Those of them that are left out.
+    left_out: usize,
+    /// Left out: H/R above 1.9.
+    high: usize,
+    /// Left out: |T/R| above 3.
+    aside: usize,
+    /// Left out: below the line of sight.
+    below: usize,
+    /// Rated, but larger than 0.1 sr, for which the rating was not made.
+    large: usize,
+    /// Share of the sources' illuminance at the eye that is left out, 0 to 1.
+    share_left_out: f64,
+    /// The same in words; None where all is rated.
+    note: Option<String>,
+}
+
+impl Coverage {
+    pub(crate) fn of(coverage: &engine::Coverage) -> Self {
+        Self {
+            sources: coverage.sources,
+            left_out: coverage.left_out(),
+            high: coverage.high,
+            aside: coverage.aside,
+            below: coverage.below,
+            large: coverage.large,
+            share_left_out: coverage.share_left_out(),
+            note: coverage.note(),
+        }
+    }
+}
+
 /// A source of glare.
 #[pyclass(frozen, get_all, module = "gonio")]
 pub(crate) struct GlareSource {
@@ -17,8 +53,10 @@ pub(crate) struct GlareSource {
     solid_angle: f64,
     /// Unit vector from the eye: right, up, ahead.
     direction: (f64, f64, f64),
-    /// Guth's above the line of sight, Iwata's below.
+    /// Of daylight glare: Guth's above the line of sight, Iwata's below.
     position_index: f64,
+    /// Of the unified glare rating (CIE 117); None where it leaves the source out.
+    cie_position_index: Option<f64>,
     /// What it brings to the eye, lx.
     illuminance: f64,
 }
@@ -35,6 +73,11 @@ impl Glare {
     #[getter]
     fn ugr(&self) -> Option<f64> {
         self.found.ugr()
+    }
+    /// What the unified glare rating leaves out.
+    #[getter]
+    fn coverage(&self) -> Coverage {
+        Coverage::of(&self.found.coverage())
     }
     /// Daylight glare probability.
     #[getter]
@@ -69,6 +112,7 @@ impl Glare {
             solid_angle: source.solid_angle,
             direction: source.direction.into(),
             position_index: source.position_index,
+            cie_position_index: source.cie_position_index(),
             illuminance: source.illuminance,
         };
         self.found.sources.iter().map(source).collect()

@@ -40,7 +40,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::film::Film;
     #[pymodule_export]
-    use crate::glare::{Glare, GlareSource, glare};
+    use crate::glare::{Coverage, Glare, GlareSource, glare};
     #[pymodule_export]
     use crate::light::blackbody_rgb;
     #[pymodule_export]
@@ -50,7 +50,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]
-    use crate::photometry::{goniogram_figures, read_goniogram};
+    use crate::photometry::{goniogram_figures, read_goniogram, ugr_table};
     #[pymodule_export]
     use crate::picture::{Picture, false_colour};
     #[pymodule_export]

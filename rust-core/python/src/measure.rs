@@ -3,6 +3,7 @@
 use crate::{
     array::Array,
     error::exception,
+    glare::Coverage,
     picture::{self, Picture},
     render::Render,
     scene::Scene,
@@ -16,27 +17,40 @@ use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A value with its standard error, in the quantity's unit.
-#[pyclass(frozen, get_all, module = "gonio")]
+#[pyclass(frozen, module = "gonio")]
 pub(crate) struct Reading {
-    /// The mean of all samples.
-    value: f64,
-    /// By the spread of parts of the samples; an upper estimate.
-    standard_error: f64,
+    reading: measure::Reading,
+    coverage: Option<measure::glare::Coverage>,
 }
 
 impl Reading {
     fn of(reading: measure::Reading) -> Self {
-        Self { value: reading.value, standard_error: reading.standard_error }
+        Self { reading, coverage: None }
     }
 }
 
 #[pymethods]
 impl Reading {
+    /// The mean of all samples.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.reading.value
+    }
+    /// By the spread of parts of the samples; an upper estimate.
+    #[getter]
+    fn standard_error(&self) -> f64 {
+        self.reading.standard_error
+    }
+    /// What a meter's glare rating leaves out; None of other quantities.
+    #[getter]
+    fn coverage(&self) -> Option<Coverage> {
+        self.coverage.as_ref().map(Coverage::of)
+    }
     fn __float__(&self) -> f64 {
-        self.value
+        self.reading.value
     }
     fn __repr__(&self) -> String {
-        format!("<gonio.Reading: {} ± {}>", self.value, self.standard_error)
+        format!("<gonio.Reading: {} ± {}>", self.reading.value, self.reading.standard_error)
     }
 }
 
@@ -103,6 +117,16 @@ impl GridReading {
     fn max(&self) -> Reading {
         Reading::of(self.summary().max)
     }
+    /// What the glare ratings leave out at each point that was measured; empty of other quantities.
+    #[getter]
+    fn coverage(&self) -> Vec<Coverage> {
+        self.grid.coverage.iter().map(Coverage::of).collect()
+    }
+    /// The same in words for all points; None where all is rated.
+    #[getter]
+    fn coverage_note(&self) -> Option<String> {
+        self.grid.coverage_note()
+    }
     /// U₀: least over average.
     #[getter]
     fn uniformity(&self) -> f64 {
@@ -147,7 +171,7 @@ impl Measurements {
     /// Readings of the meters, in the scene's order.
     #[getter]
     fn meters(&self) -> Vec<Reading> {
-        self.found.meters.iter().map(|meter| Reading::of(meter.reading)).collect()
+        self.found.meters.iter().map(|meter| Reading { reading: meter.reading, coverage: meter.coverage }).collect()
     }
     /// Readings of the grids, in the scene's order.
     #[getter]

@@ -59,6 +59,34 @@ pub(crate) fn goniogram_figures<'py>(
     described.set_item("peak_cd", figures.peak)?;
     described.set_item("beam_angle_deg", figures.beam.map(|spread| spread.angle()))?;
     described.set_item("field_angle_deg", figures.field.map(|spread| spread.angle()))?;
+    let percents = |codes: [f64; 5]| codes.map(|code| (100.0 * code).round() as i64);
+    described.set_item("cie_flux_codes", found.flux_codes().map(percents))?;
+    described.set_item("bug", found.zones(found.street_side()).rating(found.is_square()).to_string())?;
     described.set_item("cuts", [found.cut(0.0), found.cut(90.0)])?;
+    Ok(described)
+}
+
+/// The UGR table of an IES or EULUMDAT file's luminaire (CIE 190): `rooms` as (across, along) the line of sight in heights H above the eye, `reflectances` of
+/// ceiling, walls and plane, and the ratings `crosswise` (along C0–C180) and `endwise`, a row for each room; None where nothing glares.
+/// spacing: distance of the luminaires over H.
+#[pyfunction]
+#[pyo3(signature = (data, name, *, spacing = photometry::CATALOGUE_SPACING, lamp_set = None, tilt = 0.0))]
+pub(crate) fn ugr_table<'py>(
+    py: Python<'py>,
+    data: &[u8],
+    name: &str,
+    spacing: f64,
+    lamp_set: Option<usize>,
+    tilt: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = read(data, name, lamp_set, tilt)?;
+    let table = py.detach(|| found.ugr_table(spacing)).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    let half = |from: usize| table.values.iter().map(|row| row[from..from + 5].to_vec()).collect::<Vec<_>>();
+    let described = PyDict::new(py);
+    described.set_item("spacing", table.spacing)?;
+    described.set_item("rooms", photometry::ROOMS.map(|[across, along]| (across, along)))?;
+    described.set_item("reflectances", photometry::REFLECTANCES.map(|[ceiling, walls, plane]| (ceiling, walls, plane)))?;
+    described.set_item("crosswise", half(0))?;
+    described.set_item("endwise", half(5))?;
     Ok(described)
 }

@@ -1,6 +1,7 @@
 //! What `gonio photometry` takes.
 
 use clap::{Args, ValueEnum};
+use gonio_formats::photometry::CATALOGUE_SPACING;
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -10,6 +11,15 @@ pub(crate) struct PhotometryOptions {
     /// For machines.
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print the UGR table (CIE 190) in the place of the figures: 19 rooms, 5 sets of reflectances, crosswise and endwise.
+    #[arg(long = "ugr-table")]
+    pub(crate) ugr_table: bool,
+    /// Distance of the UGR table's luminaires over their height above the eye; catalogues have 0.25.
+    #[arg(long, value_name = "RATIO", default_value_t = CATALOGUE_SPACING, requires = "ugr_table")]
+    pub(crate) shr: f64,
+    /// The C plane that faces the street, for the BUG rating; without it C90 of EULUMDAT files and C0 of others.
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    pub(crate) front: Option<f64>,
     /// Draw the polar diagram, in cd/klm.
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub(crate) polar: Option<PathBuf>,

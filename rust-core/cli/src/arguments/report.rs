@@ -14,10 +14,11 @@ pub(super) const REPORT_EXAMPLES: &str = "Examples:
 What stands in it:
   head            title, project, place, date, and the sun and the sky of --sun
   luminaires      count, flux as lit (dimming included), power by the file, efficacy, file and maker of each type, and totals
-  power density   W/m² and W/m² per 100 lx over the largest grid that measures illuminance, all luminaires of the stage counted
+  power density   W/m² and W/m² per 100 lx of the room about the largest grid that measures illuminance, its luminaires counted;
+                  over the grid itself where there is no closed room
   pictures        what each camera sees, denoised, and its luminance in false colour; the glare of fisheye cameras of 180° or more
   grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
-  files           the polar diagram and the figures of each IES or EULUMDAT file
+  files           the polar diagram, the figures and the UGR table of each IES or EULUMDAT file
   notes           what the stage asks for and was not done";
 
 #[derive(Args, Debug)]
@@ -72,6 +73,9 @@ pub(crate) struct ReportOptions {
     /// Steps of the false colours.
     #[arg(long, value_name = "COUNT", default_value_t = 10)]
     pub(crate) steps: u32,
+    /// Power density over the largest grid's area too, all luminaires counted.
+    #[arg(long = "grid-density")]
+    pub(crate) grid_density: bool,
     /// Limit of the bounces of pictures, grids and meters; without one that of the stage for pictures, and none for the others.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(crate) max_bounces: Option<u32>,

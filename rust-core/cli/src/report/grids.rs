@@ -1,17 +1,15 @@
-//! The figures and pictures of calculation grids and meters, and the installed power over them.
+//! The figures and pictures of calculation grids and meters.
 
-use super::{html::Page, numbers::with_error, schedule::Schedule};
+use super::{html::Page, numbers::with_error};
 use crate::{arguments::ReportOptions, falsecolor};
 use gonio::{
     Result,
     measure::{GridReading, MeterReading, value_picture},
     output::FalseColour,
-    scene::Measurand,
 };
-use gonio_formats::short_number;
 
 /// The grids' figures, then each with its picture.
-pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], schedule: &Schedule<'_>, page: &mut Page) -> Result<()> {
+pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], power: &[String], page: &mut Page) -> Result<()> {
     if grids.is_empty() {
         return Ok(());
     }
@@ -23,9 +21,12 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], schedu
         "± is the standard error, of {} samples a point. U0 is least over average, Ud least over greatest.",
         options.point_spp
     ));
-    if let Some(line) = power_density(grids, schedule) {
-        page.paragraph(&line);
+    for grid in grids {
+        if let Some(note) = grid.coverage_note() {
+            page.note(&format!("{}: {note}.", grid.origin));
+        }
     }
+    power.iter().for_each(|line| page.paragraph(line));
     for grid in grids {
         let unit = grid.measurand.unit();
         let style = FalseColour {
@@ -57,26 +58,6 @@ fn row(grid: &GridReading) -> Vec<String> {
     ]
 }
 
-/// Installed power over the area of the largest grid of illuminance, and for each 100 lx there; none without such a grid or power.
-fn power_density(grids: &[GridReading], schedule: &Schedule<'_>) -> Option<String> {
-    let measures_illuminance = |grid: &&GridReading| grid.measurand == Measurand::Illuminance;
-    let largest = grids.iter().filter(measures_illuminance).max_by(|a, b| a.area.total_cmp(&b.area))?;
-    let (watts, unknown) = schedule.installed_power();
-    if watts <= 0.0 || largest.area <= 0.0 {
-        return None;
-    }
-    let density = watts / largest.area;
-    let average = largest.summary.average.value;
-    let of_light = if average > 0.0 { format!(", {:.2} W/m² per 100 lx", density * 100.0 / average) } else { String::new() };
-    let without = if unknown > 0 { format!("; the power of {unknown} lights is unknown and not counted") } else { String::new() };
-    Some(format!(
-        "Installed power density: {} W over {:.2} m² of {} are {density:.2} W/m²{of_light}{without}.",
-        short_number(watts),
-        largest.area,
-        largest.origin
-    ))
-}
-
 /// What meters show.
 pub(super) fn write_meters(meters: &[MeterReading], page: &mut Page) {
     if meters.is_empty() {
@@ -89,4 +70,9 @@ pub(super) fn write_meters(meters: &[MeterReading], page: &mut Page) {
         vec![meter.origin.to_string(), meter.measurand.name().into(), place, with_error(&found.reading, meter.measurand.unit())]
     };
     page.table(&["meter", "quantity", "at, m", "value"], &meters.iter().map(row).collect::<Vec<_>>(), &[]);
+    for found in meters {
+        if let Some(note) = found.coverage.and_then(|coverage| coverage.note()) {
+            page.note(&format!("{}: {note}.", found.meter.origin));
+        }
+    }
 }

@@ -6,6 +6,7 @@ mod head;
 mod html;
 mod numbers;
 mod pictures;
+mod power;
 mod schedule;
 
 use super::{
@@ -23,17 +24,20 @@ use super::{
 };
 use gonio::{
     Diagnostic, Error, Result, Severity,
-    compile::CompiledScene,
+    compile::{CompiledScene, compile},
     measure::{MOST_BOUNCES, Measurements},
     output::{FalseColourScale, write_atomically},
     scene::{Integrator, Measurand},
 };
-use gonio_usd::{Loaded, SampleTime, Stage, camera::choose};
+use gonio_usd::{Loaded, SampleTime, Stage, camera::choose, meter::axes};
 use head::Head;
 use html::Page;
 use pyo3::prelude::*;
 use schedule::Schedule;
-use std::{io::Write, sync::atomic::AtomicBool};
+use std::{
+    io::Write,
+    sync::{Arc, atomic::AtomicBool},
+};
 
 /// Writes the page.
 pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -75,6 +79,7 @@ fn run(
     let mut diagnostics = loaded.diagnostics.clone();
     let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, denoiser, interrupted, &mut diagnostics)?;
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
+    let power = power(options, &loaded, compiled, &measured, interrupted)?;
     if !options.quiet {
         list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
     }
@@ -82,7 +87,7 @@ fn run(
     let mut page = Page::new(&Head::new(options, today));
     schedule.write(&mut page);
     pictures::write(&pictures, &mut page);
-    grids::write_grids(options, &measured.grids, &schedule, &mut page)?;
+    grids::write_grids(options, &measured.grids, &power, &mut page)?;
     grids::write_meters(&measured.meters, &mut page);
     schedule.write_files(&mut page);
     write_notes(&diagnostics, &mut page);
@@ -127,6 +132,22 @@ fn measured(
     let found = evaluated(scene, previous, Reporter::new(options.quiet), interrupted)?;
     diagnostics.extend(found.diagnostics.iter().filter(|new| !diagnostics.contains(new)).cloned().collect::<Vec<_>>());
     Ok(found)
+}
+
+/// The lines of the installed power density, of a scene that may have been compiled for its pictures.
+fn power(
+    options: &ReportOptions,
+    loaded: &Loaded,
+    compiled: Option<Arc<CompiledScene>>,
+    measured: &Measurements,
+    interrupted: &'static AtomicBool,
+) -> Result<Vec<String>> {
+    if measured.grids.is_empty() {
+        return Ok(Vec::new());
+    }
+    let scene = compiled.map_or_else(|| compile(&loaded.scene, None, interrupted).map(Arc::new), Ok)?;
+    let [up, _] = axes(loaded.info.up_axis);
+    Ok(power::density(&measured.grids, &Schedule::new(loaded), &scene, up, options.grid_density))
 }
 
 /// What the stage asks for and is not as asked.

@@ -1,10 +1,13 @@
 //! The luminaire schedule: a scene's lights by type, with flux and power.
 
 use super::html::Page;
-use crate::{light_words::describe, photometry};
+use crate::{
+    light_words::describe,
+    photometry::{self, ugr},
+};
 use gonio::{compile::luminous_fluxes, scene::Light};
 use gonio_formats::{
-    photometry::{PolarUnit, polar_diagram},
+    photometry::{CATALOGUE_SPACING, Goniogram, PolarUnit, polar_diagram},
     short_number,
 };
 use gonio_usd::{Loaded, LuminaireFile, view::shines};
@@ -30,6 +33,8 @@ struct Kind {
 pub(super) struct Schedule<'a> {
     /// Those with a place.
     kinds: Vec<Kind>,
+    /// Where each of them is, in metres, and its power in W where its file states it.
+    places: Vec<([f64; 3], Option<f64>)>,
     /// Sun, sky and other light from infinity, in words.
     far: Vec<String>,
     /// Materials that shine by themselves.
@@ -41,6 +46,7 @@ impl<'a> Schedule<'a> {
     pub(super) fn new(loaded: &'a Loaded) -> Self {
         let scene = &loaded.scene;
         let mut kinds: Vec<Kind> = Vec::new();
+        let mut places = Vec::new();
         let mut far = Vec::new();
         for (light, flux) in scene.lights.iter().zip(luminous_fluxes(scene)).filter(|(light, _)| !light.portal) {
             if light.shape.is_at_infinity() {
@@ -48,6 +54,7 @@ impl<'a> Schedule<'a> {
                 continue;
             }
             let file = loaded.luminaires.iter().find(|file| file.is_of(light));
+            places.push((light.transform.point([0.0; 3]), file.and_then(watts)));
             let key = format!("{:?} {} {} {flux:.2?}", file.map(|file| &file.path), describe(light), light.dimming);
             match kinds.iter_mut().find(|kind| kind.key == key) {
                 Some(known) => known.count += 1,
@@ -56,14 +63,14 @@ impl<'a> Schedule<'a> {
         }
         let is_lit = |file: &&LuminaireFile| scene.lights.iter().any(|light| file.is_of(light));
         let files = loaded.luminaires.iter().filter(is_lit).collect();
-        Self { kinds, far, shining: scene.materials.iter().filter(|material| shines(material)).count(), files }
+        Self { kinds, places, far, shining: scene.materials.iter().filter(|material| shines(material)).count(), files }
     }
 
-    /// Power in W of all luminaires whose files state it, and how many lights have none stated.
-    pub(super) fn installed_power(&self) -> (f64, usize) {
-        let watts = self.kinds.iter().filter_map(|kind| Some(kind.watts? * kind.count as f64)).sum();
-        let unknown = self.kinds.iter().filter(|kind| kind.watts.is_none()).map(|kind| kind.count).sum();
-        (watts, unknown)
+    /// Power in W of the lights at certain places whose files state it, how many these are, and how many have none stated.
+    pub(super) fn installed_power(&self, counts: impl Fn([f64; 3]) -> bool) -> (f64, usize, usize) {
+        let inside: Vec<Option<f64>> = self.places.iter().filter(|(place, _)| counts(*place)).map(|(_, watts)| *watts).collect();
+        let known = inside.iter().flatten().count();
+        (inside.iter().flatten().sum(), known, inside.len() - known)
     }
 
     /// The table with its totals, and what does not stand in it.
@@ -117,10 +124,28 @@ impl<'a> Schedule<'a> {
                 shown.push(&file.path);
                 page.part(&file.path);
                 page.drawing(&polar_diagram(&file.photometry, PolarUnit::CandelaPerKilolumen), &file.path);
-                page.list(&photometry::as_text(&file.photometry, &file.photometry.figures()));
+                page.list(&photometry::as_text(&file.photometry, &file.photometry.figures(), None));
+                write_ugr_table(&file.photometry, page);
             }
         }
     }
+}
+
+/// The UGR table of a file's luminaire, or why there is none.
+fn write_ugr_table(goniogram: &Goniogram, page: &mut Page) {
+    match goniogram.ugr_table(CATALOGUE_SPACING) {
+        Ok(table) => {
+            let names = ugr::names();
+            page.table(&names.iter().map(String::as_str).collect::<Vec<_>>(), &ugr::rows(&table), &[]);
+            page.note(&format!("{}. Columns are the reflectances of ceiling, walls and plane in per cent.", ugr::caption(&table)));
+        }
+        Err(error) => page.note(&error.problem),
+    }
+}
+
+/// Power in W that a file states.
+fn watts(file: &LuminaireFile) -> Option<f64> {
+    file.photometry.figures().watts
 }
 
 fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f64>) -> Kind {
@@ -132,7 +157,7 @@ fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f
         file: file.map_or("–".into(), |file| file.path.clone()),
         count: 1,
         flux,
-        watts: file.and_then(|file| file.photometry.figures().watts),
+        watts: file.and_then(watts),
         dimming: light.dimming,
     }
 }

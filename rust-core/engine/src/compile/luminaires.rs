@@ -32,6 +32,8 @@ pub(crate) struct Luminaire {
     pub(crate) centre: [f64; 3],
     /// What shines of it, each part in a table of its own.
     pub(crate) emitters: Vec<LightTable>,
+    /// Whether a maker's file describes it: then it is one source, wherever its parts lie.
+    pub(crate) is_one: bool,
     /// Whether things hide it.
     pub(crate) casts_shadow: bool,
 }
@@ -44,7 +46,7 @@ pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
         let records = records(light, origin, &mut goniograms, &mut far_fields);
         let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
         let emitters = records.into_iter().map(alone).collect();
-        Luminaire { centre: light.transform.point([0.0; 3]), emitters, casts_shadow: light.casts_shadow }
+        Luminaire { centre: light.transform.point([0.0; 3]), emitters, is_one: light.goniogram.is_some(), casts_shadow: light.casts_shadow }
     };
     scene.lights.iter().filter(|light| is_luminaire(light)).map(luminaire).collect()
 }

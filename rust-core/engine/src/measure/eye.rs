@@ -1,7 +1,7 @@
 //! What an observer's eye sees of luminaires.
 
 use super::{
-    glare::position_index,
+    glare::{Coverage, is_below, weight},
     vector::{Vector, cross, dot, subtract, unit},
 };
 use crate::{
@@ -12,6 +12,7 @@ use crate::{
     scene::Meter,
     transport::ray_mask,
 };
+use gonio_formats::photometry::NoIndex;
 use gonio_simd::{Execution, Lanes, One, Vec3};
 
 /// Square metres of luminous area below which a source counts as small (CIE 147).
@@ -35,10 +36,14 @@ struct Part {
     /// Unit, from the eye, and the way in metres.
     direction: [f32; 3],
     distance: f32,
-    /// L² ω / p²; 0 of what is dark or not ahead.
-    glare: f64,
+    /// L² ω; 0 of what is dark.
+    strength: f64,
+    /// At the eye, lx; 0 of what is not ahead.
+    illuminance: f64,
     /// In sr; 0 of points.
     solid_angle: f64,
+    /// 1 / p², or why the part has no position index.
+    weight: Result<f64, NoIndex>,
 }
 
 impl Eye {
@@ -53,19 +58,36 @@ impl Eye {
         Ok(Self { position: meter.position, axes: found().ok_or_else(|| Error::scene(&meter.origin, problem))? })
     }
 
-    /// Σ L² ω / p² over the parts of a luminaire that nothing opaque hides: L is the luminance towards the eye, p the position index of the part.
-    /// What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too.
-    pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene) -> f64 {
+    /// Σ L² ω / p² over the parts of a luminaire that nothing opaque hides: L is the luminance towards the eye, p the position index. A luminaire of a
+    /// maker's file is one source with its centre's index (CIE 117); other lights, of any size, are rated part by part. What has no index is left out, and
+    /// counted. What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too.
+    pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene, coverage: &mut Coverage) -> f64 {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
         let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
         let way = subtract(luminaire.centre, self.position);
-        let area = parts.iter().map(|part| part.solid_angle).sum::<f64>() * dot(way, way);
-        parts.retain(|part| part.glare > 0.0);
+        let solid_angle = |parts: &[Part]| parts.iter().map(|part| part.solid_angle).sum::<f64>();
+        let middle = self.in_view(way);
+        if is_below(middle, solid_angle(&parts)) {
+            parts.iter_mut().filter(|part| part.weight != Err(NoIndex::Behind)).for_each(|part| part.weight = Err(NoIndex::Below));
+        } else if luminaire.is_one {
+            let weight = weight(middle);
+            parts.iter_mut().for_each(|part| part.weight = weight);
+        }
+        let area = solid_angle(&parts) * dot(way, way);
+        parts.retain(|part| part.strength > 0.0 && part.weight != Err(NoIndex::Behind));
         if luminaire.casts_shadow {
             retain_seen(&mut parts, place, scene);
         }
-        let seen: f64 = parts.iter().map(|part| part.glare).sum();
+        let Some(brightest) = parts.iter().max_by(|a, b| a.light_left_out().total_cmp(&b.light_left_out())) else { return 0.0 };
+        coverage.count(brightest.weight.err(), solid_angle(&parts));
+        parts.iter().for_each(|part| coverage.add_light(part.weight.err(), part.illuminance));
+        let seen: f64 = parts.iter().map(|part| part.strength * part.weight.unwrap_or(0.0)).sum();
         if area > 0.0 { seen * (area / SMALL).min(1.0) } else { seen }
+    }
+
+    /// A direction to the right, up and ahead.
+    fn in_view(&self, direction: Vector) -> Vector {
+        self.axes.map(|axis| dot(axis, direction))
     }
 
     /// An emitter in parts of like solid angles.
@@ -85,18 +107,27 @@ impl Eye {
     fn part(&self, sample: &LightSample<One>, count: f64) -> Part {
         let direction = [sample.wi.x.0, sample.wi.y.0, sample.wi.z.0];
         let [luminance, pdf, distance] = [sample.radiance.luminance().0, sample.pdf.0, sample.distance.0].map(f64::from);
-        let dark = Part { direction, distance: sample.distance.0, glare: 0.0, solid_angle: 0.0 };
+        let in_view = self.in_view(direction.map(f64::from));
+        let cosine = in_view[2].max(0.0);
+        let dark =
+            Part { direction, distance: sample.distance.0, strength: 0.0, illuminance: 0.0, solid_angle: 0.0, weight: weight(in_view) };
         if pdf <= 0.0 {
             return dark;
         }
-        let in_view = self.axes.map(|axis| dot(axis, direction.map(f64::from)));
-        let weight = if in_view[2] > 0.0 { position_index(in_view).powi(-2) } else { 0.0 };
         if sample.delta.0 {
             // Its illuminance is I / r².
-            return Part { glare: (luminance * distance).powi(2) / SMALL * weight, ..dark };
+            return Part { strength: (luminance * distance).powi(2) / SMALL, illuminance: luminance * cosine, ..dark };
         }
         let solid_angle = 1.0 / (pdf * count);
-        Part { glare: luminance * luminance * solid_angle * weight, solid_angle, ..dark }
+        let light = luminance * solid_angle;
+        Part { strength: luminance * light, illuminance: light * cosine, solid_angle, ..dark }
+    }
+}
+
+impl Part {
+    /// Its illuminance if it is left out.
+    fn light_left_out(&self) -> f64 {
+        if self.weight.is_err() { self.illuminance } else { 0.0 }
     }
 }
 

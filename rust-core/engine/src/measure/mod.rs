@@ -8,6 +8,7 @@ mod outline;
 mod picture;
 mod points;
 mod reading;
+mod room;
 mod sense;
 mod ugr;
 mod vector;
@@ -19,6 +20,7 @@ pub use csv::csv;
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
 pub use reading::{GridReading, MeterReading, Reading, Summary};
+pub use room::Room;
 
 use crate::{
     compile::{CompiledScene, compile},
@@ -27,6 +29,7 @@ use crate::{
     scene::{Measurand, Meter, Scene},
 };
 use daylight_factor::{ExteriorSky, under_domes};
+use glare::Coverage;
 use gonio_simd::Execution;
 use sense::Probe;
 use std::sync::{Arc, atomic::AtomicBool};
@@ -90,7 +93,9 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     let mut diagnostics = Vec::new();
     let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;
     let (single, mut rest) = readings.split_at(scene.meters.len());
-    let meters = scene.meters.iter().zip(single).map(|(meter, reading)| MeterReading { meter: meter.clone(), reading: *reading }).collect();
+    let of_meter =
+        |(meter, (reading, coverage)): (&Meter, &Found)| MeterReading { meter: meter.clone(), reading: *reading, coverage: *coverage };
+    let meters = scene.meters.iter().zip(single).map(of_meter).collect();
     let mut of_grid = |(grid, points): (&crate::scene::Grid, GridPoints)| {
         let (own, others) = rest.split_at(points.known().count());
         rest = others;
@@ -100,6 +105,9 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     Ok(Measurements { meters, grids, diagnostics })
 }
 
+/// A reading, and of a glare rating what it leaves out.
+type Found = (Reading, Option<Coverage>);
+
 /// Readings of all meters: those under all lights in one go, daylight factors and glare in others.
 fn read(
     scene: &Scene,
@@ -107,8 +115,8 @@ fn read(
     execution: Execution,
     watch: &mut Watch<'_>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Vec<Reading>> {
-    let mut readings = vec![Reading::default(); meters.len()];
+) -> Result<Vec<Found>> {
+    let mut readings = vec![Found::default(); meters.len()];
     let of = |measurand: Measurand| (0..meters.len()).filter(move |i| meters[*i].measurand == measurand);
     let (daylit, rated): (Vec<usize>, Vec<usize>) = (of(Measurand::DaylightFactor).collect(), of(Measurand::Ugr).collect());
     let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr);
@@ -122,7 +130,7 @@ fn read(
     };
     if !lit.is_empty() {
         let values = sense(scene, &lit_probes, diagnostics)?;
-        lit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading);
+        lit.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading);
     }
     if let Some(first) = daylit.first() {
         let sky = under_domes(scene, &meters[*first].origin)?;
@@ -132,12 +140,12 @@ fn read(
             return Err(Error::scene(&meters[*first].origin, "a daylight factor wants a sky that shines; the scene's domes are dark"));
         }
         let values = sense(&sky, &daylit_probes, diagnostics)?;
-        daylit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.percent_of(&outside));
+        daylit.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading.percent_of(&outside));
     }
     if !rated.is_empty() {
         let observers: Vec<&Meter> = rated.iter().map(|i| &meters[*i]).collect();
         let values = ugr::ratings(scene, &observers, execution, watch, diagnostics)?;
-        rated.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading);
+        rated.iter().zip(values).for_each(|(i, (reading, coverage))| readings[*i] = (reading, Some(coverage)));
     }
     Ok(readings)
 }

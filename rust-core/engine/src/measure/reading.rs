@@ -1,6 +1,6 @@
 //! What meters and grids show.
 
-use super::{points::GridPoints, vector::Vector};
+use super::{glare::Coverage, points::GridPoints, vector::Vector};
 use crate::scene::{Grid, Measurand, Meter, Origin};
 
 /// A value with its standard error, in the measurand's unit.
@@ -36,6 +36,8 @@ pub struct MeterReading {
     pub meter: Meter,
     /// Its reading.
     pub reading: Reading,
+    /// What a glare rating leaves out; none of other quantities.
+    pub coverage: Option<Coverage>,
 }
 
 /// The figures of a grid. Least and greatest are those of noisy points: noise moves them outwards.
@@ -100,11 +102,14 @@ pub struct GridReading {
     pub points: Vec<Option<(Vector, Reading)>>,
     /// The figures.
     pub summary: Summary,
+    /// What the glare ratings leave out, by point in the order of those that were measured; empty of other quantities.
+    pub coverage: Vec<Coverage>,
 }
 
 impl GridReading {
-    pub(super) fn new(grid: &Grid, points: GridPoints, readings: &[Reading]) -> Self {
-        let mut next = readings.iter().copied();
+    pub(super) fn new(grid: &Grid, points: GridPoints, found: &[(Reading, Option<Coverage>)]) -> Self {
+        let readings = || found.iter().map(|(reading, _)| *reading);
+        let mut next = readings();
         let placed = points.positions.iter().map(|position| position.and_then(|position| Some((position, next.next()?)))).collect();
         Self {
             origin: grid.origin.clone(),
@@ -114,8 +119,21 @@ impl GridReading {
             normal: points.normal,
             area: points.area,
             points: placed,
-            summary: Summary::new(readings.iter().copied()),
+            summary: Summary::new(readings()),
+            coverage: found.iter().filter_map(|(_, coverage)| *coverage).collect(),
         }
+    }
+
+    /// In words what the ratings leave out; none where all is rated.
+    pub fn coverage_note(&self) -> Option<String> {
+        let out: Vec<&Coverage> = self.coverage.iter().filter(|coverage| coverage.left_out() > 0).collect();
+        let share = out.iter().map(|coverage| coverage.share_left_out()).fold(0.0, f64::max);
+        let most = out.iter().map(|coverage| coverage.left_out()).max()?;
+        let points = format!("{} of {} points", out.len(), self.coverage.len());
+        Some(format!(
+            "sources left out (CIE 117) at {points}: {most} at most, up to {:.0} % of the sources' light at the eye",
+            100.0 * share
+        ))
     }
 
     /// The values row by row; not a number where the area does not reach.

@@ -1,12 +1,13 @@
 //! The Unified Glare Rating of a scene's luminaires at observers' places (CIE 117).
 //!
 //! UGR = 8 log₁₀(0.25 / L_b · Σ L² ω / p²), summed over the luminous parts that the eye sees: L is the luminance towards the eye, ω the solid angle,
-//! p Guth's position index. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
+//! p Guth's position index as CIE 117 tabulates it; what is not in its table is left out. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
 
 use super::{
     Watch,
     daylight_factor::without_emission,
     eye::Eye,
+    glare::Coverage,
     reading::Reading,
     sense::{Probe, sense},
 };
@@ -18,14 +19,14 @@ use crate::{
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc};
 
-/// Ratings at all observers. 0 where no luminaire is seen or the rating is below; infinite where the luminaires stand before utter darkness.
+/// Ratings at all observers with what they leave out. 0 where no luminaire is seen or the rating is below; infinite where the luminaires stand before utter darkness.
 pub(super) fn ratings(
     scene: &Scene,
     meters: &[&Meter],
     execution: Execution,
     watch: &mut Watch<'_>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Vec<Reading>> {
+) -> Result<Vec<(Reading, Coverage)>> {
     let eyes = meters.iter().map(|meter| Eye::new(meter)).collect::<Result<Vec<_>>>()?;
     let probes = meters.iter().map(|meter| Probe::new(meter)).collect::<Result<Vec<_>>>()?;
     let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
@@ -38,7 +39,9 @@ pub(super) fn ratings(
     let rated = eyes.iter().zip(all.iter().zip(&direct)).map(|(eye, (all, direct))| {
         let background =
             Reading { value: (all.value - direct.value).max(0.0), standard_error: all.standard_error.hypot(direct.standard_error) };
-        rating(luminaires.iter().map(|luminaire| eye.glare(luminaire, &compiled)).sum(), &background)
+        let mut coverage = Coverage::default();
+        let sum = luminaires.iter().map(|luminaire| eye.glare(luminaire, &compiled, &mut coverage)).sum();
+        (rating(sum, &background), coverage)
     });
     Ok(rated.collect())
 }

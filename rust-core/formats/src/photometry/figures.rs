@@ -56,7 +56,7 @@ impl Goniogram {
         let flux = self.flux();
         let lamps = self.lamps();
         let watts = lamps.map(|lamps| lamps.watts).filter(|watts| *watts > 0.0);
-        let [c0, c90] = [self.cut(0.0), self.cut(90.0)];
+        let [c0, c90] = [0.0, 90.0].map(|c| self.cut_with_horizon(c));
         Figures {
             flux,
             downward_fraction: if flux > 0.0 { self.flux_below() / flux } else { 0.0 },
@@ -85,9 +85,29 @@ impl Goniogram {
     /// Intensities in cd in the plane through C(c) and the one across from it, with γ in degrees, negative in the latter; in increasing
     /// order.
     pub fn cut(&self, c: f64) -> Vec<[f64; 2]> {
-        let own = self.photometric_type == PhotometricType::C;
+        self.cut_at(c, &self.cut_angles())
+    }
+
+    /// γ in degrees at which a plane is cut: the file's own of type C.
+    fn cut_angles(&self) -> Vec<f64> {
         let count = (180.0 / CUT_STEP) as usize;
-        let angles = if own { self.vertical.clone() } else { (0..=count).map(|index| index as f64 * CUT_STEP).collect() };
+        let own = self.photometric_type == PhotometricType::C;
+        if own { self.vertical.clone() } else { (0..=count).map(|index| index as f64 * CUT_STEP).collect() }
+    }
+
+    /// The cut that a spread is taken of: with the horizon, where a hemisphere ends whether or not the file has an angle there.
+    fn cut_with_horizon(&self, c: f64) -> Vec<[f64; 2]> {
+        let mut angles = self.cut_angles();
+        let within = angles.first().is_some_and(|first| *first < 90.0) && angles.last().is_some_and(|last| *last > 90.0);
+        if within && !angles.contains(&90.0) {
+            angles.push(90.0);
+            angles.sort_by(f64::total_cmp);
+        }
+        self.cut_at(c, &angles)
+    }
+
+    fn cut_at(&self, c: f64, angles: &[f64]) -> Vec<[f64; 2]> {
+        let own = self.photometric_type == PhotometricType::C;
         let at = |c: f64, gamma: f64| {
             if own { self.intensity_at(c, gamma) } else { self.intensity(PhotometricType::C.direction(c, gamma)) }
         };

@@ -26,6 +26,20 @@ impl Goniogram {
         }
     }
 
+    /// The flux in lm between two γ in degrees; type C.
+    pub(crate) fn flux_between(&self, vertical: [f64; 2]) -> f64 {
+        self.flux_within(ALL, vertical)
+    }
+
+    /// The same in ranges of C from 0 to 360 degrees, of a goniogram without symmetry that stores both ends.
+    pub(crate) fn flux_of_sides(&self, sides: &[[f64; 2]], vertical: [f64; 2]) -> f64 {
+        let down = polar_weights(&self.vertical, vertical, 0.0);
+        let plane = |h: usize| self.plane(h).iter().zip(&down).map(|(intensity, weight)| intensity * weight).sum::<f64>();
+        let of_side =
+            |side: &[f64; 2]| flat_weights(&self.horizontal, *side).iter().enumerate().map(|(h, weight)| weight * plane(h)).sum::<f64>();
+        sides.iter().map(of_side).sum()
+    }
+
     /// The flux in lm of the directions whose stored angles lie in two ranges, in degrees.
     fn flux_within(&self, horizontal: [f64; 2], vertical: [f64; 2]) -> f64 {
         let (along, down) = match self.photometric_type {

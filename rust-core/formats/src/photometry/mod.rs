@@ -26,6 +26,8 @@ mod plausible;
 mod polar;
 mod symmetry;
 pub(crate) mod text;
+mod ugr;
+mod zones;
 
 pub use beside::{Beside, beside};
 pub use cone::cone_diagram;
@@ -34,6 +36,8 @@ pub use goniogram::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Sym
 pub use grid::Grid;
 pub use opening::{Opening, OpeningShape};
 pub use polar::{PolarUnit, polar_diagram};
+pub use ugr::{CATALOGUE_SPACING, NoIndex, REFLECTANCES, ROOMS, SPACINGS, UgrTable, position_index};
+pub use zones::{Bug, Zones};
 
 use crate::error::{FormatError, Result};
 

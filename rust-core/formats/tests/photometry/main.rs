@@ -9,6 +9,8 @@ mod ldt;
 mod plausible;
 mod quantities;
 mod round_trip;
+mod ugr;
+mod zones;
 
 use gonio_formats::photometry::{Goniogram, Symmetry, ies as ies_format};
 

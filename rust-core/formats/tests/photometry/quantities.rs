@@ -180,3 +180,23 @@ fn figures_of_a_known_curve() {
     close(from, 10.0, 1e-12);
     close(to, 30.0, 1e-12);
 }
+
+#[test]
+fn hemispheres_end_at_the_horizon_whatever_the_files_angles() {
+    let beam = |vertical: &[f64], candela: &[f64]| {
+        let at = |_: f64, gamma: f64| candela[vertical.iter().position(|angle| *angle == gamma).unwrap()];
+        type_c(vertical, &[0.0], at).figures().beam[0].angle()
+    };
+    // Globes, with angles at the poles alone and with a horizon.
+    close(beam(&[0.0, 180.0], &[100.0; 2]), 180.0, 1e-12);
+    close(beam(&[0.0, 45.0, 90.0, 135.0, 180.0], &[100.0, 95.0, 90.0, 80.0, 50.0]), 180.0, 1e-12);
+    // A post lamp whose angles go from 84° to 91°.
+    let steps: Vec<f64> = (0..16).map(|k| f64::from(k) * 7.0).collect();
+    let post: Vec<f64> = (0..16).map(|k| [80.0, 40.0, 0.0].get(usize::wrapping_sub(k, 13)).copied().unwrap_or(100.0)).collect();
+    close(beam(&steps, &post), 180.0, 1e-12);
+    // Half of 100 at 60°; 20 of 100 where the curve falls from 50 at 60° to 17 at 80°, not at a node.
+    let curve = ([0.0, 20.0, 40.0, 60.0, 80.0, 100.0], [100.0, 94.0, 77.0, 50.0, 17.0, 0.0]);
+    close(beam(&curve.0, &curve.1), 120.0, 1e-12);
+    // Brighter above: half of the horizon's 75 to the zenith's 100.
+    close(beam(&[0.0, 60.0, 120.0, 180.0], &[10.0, 50.0, 100.0, 100.0]), 180.0, 1e-12);
+}

@@ -3,6 +3,7 @@
 from ._gonio import (
     Array,
     Cancelled,
+    Coverage,
     Daylight,
     Error,
     Film,
@@ -33,6 +34,7 @@ from ._gonio import (
     read_goniogram,
     read_weather,
     simd_level,
+    ugr_table,
 )
 from .oidn import denoise
 from .scene import Scene
@@ -40,6 +42,7 @@ from .scene import Scene
 __all__ = [
     "Array",
     "Cancelled",
+    "Coverage",
     "Daylight",
     "Error",
     "Film",
@@ -72,4 +75,5 @@ __all__ = [
     "read_goniogram",
     "read_weather",
     "simd_level",
+    "ugr_table",
 ]

@@ -1,5 +1,6 @@
 //! Glare from a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
 
+mod coverage;
 mod position;
 mod source;
 mod view;
@@ -7,9 +8,13 @@ mod view;
 #[cfg(test)]
 mod tests;
 
+pub use coverage::{Coverage, LARGEST};
+pub use gonio_formats::photometry::position_index as cie_position_index;
 pub use position::position_index;
 pub use source::{GlareSource, Threshold};
 pub use view::{FisheyeProjection, FisheyeView, PixelView};
+
+pub(crate) use coverage::{is_below, weight};
 
 use crate::error::{Error, Result};
 use std::f64::consts::PI;
@@ -101,11 +106,23 @@ impl Glare {
         Ok(Self { sources, source_of, threshold, mean_luminance, eye_illuminance, background_luminance })
     }
 
-    /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources ahead. None without sources, or where all but them is
-    /// black.
+    /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources that have a position index there. None without such sources, or where
+    /// all but the sources is black.
     pub fn ugr(&self) -> Option<f64> {
-        let sum = self.weighted_sum();
+        let rated = self.sources.iter().filter_map(|source| Some(source.strength() * source.weight().ok()?));
+        let sum: f64 = rated.sum();
         (sum > 0.0 && self.background_luminance > 0.0).then(|| 8.0 * (0.25 / self.background_luminance * sum).log10())
+    }
+
+    /// What the unified glare rating leaves out.
+    pub fn coverage(&self) -> Coverage {
+        let mut coverage = Coverage::default();
+        for source in &self.sources {
+            let left_out = source.weight().err();
+            coverage.count(left_out, source.solid_angle);
+            coverage.add_light(left_out, source.illuminance);
+        }
+        coverage
     }
 
     /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1.
@@ -124,6 +141,6 @@ impl Glare {
     /// Σ L² ω / P² over the sources before the eye.
     fn weighted_sum(&self) -> f64 {
         let ahead = self.sources.iter().filter(|source| source.direction[2] > 0.0);
-        ahead.map(|source| source.luminance.powi(2) * source.solid_angle / source.position_index.powi(2)).sum()
+        ahead.map(|source| source.strength() / source.position_index.powi(2)).sum()
     }
 }

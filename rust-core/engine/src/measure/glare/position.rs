@@ -1,20 +1,20 @@
-//! The position index: how much less a source disturbs the farther it lies from the line of sight.
+//! The position index of daylight glare: how much less a source disturbs the farther it lies from the line of sight.
 
-/// Greatest index, and the greatest distance below the line of sight in distances ahead that it grows to, as evalglare has them.
+/// Greatest index, as evalglare has it.
 const MOST: f64 = 16.0;
-const MOST_BELOW: f64 = 3.0;
 
-/// By direction in the eye's frame (right, up, ahead; unit). Above the line of sight Guth's index in the form of the IESNA handbook; below it that of
-/// Iwata and others: 1 + 0.8 R/D up to R = 0.6 D, 1 + 1.2 R/D beyond.
+/// By direction in the eye's frame (right, up, ahead; unit), as evalglare has it since version 2. Above the line of sight Guth's index in the form of the
+/// IESNA handbook. Below it that of Iwata and Tokura in Kikuchi's coordinates: tan β = tan σ √(1 + 0.3225 cos² τ), ln P = 6.49·10⁻³ β + 21·10⁻⁵ β².
+/// Unified glare ratings have CIE 117's table instead ([`super::cie_position_index`]).
 pub fn position_index([right, up, ahead]: [f64; 3]) -> f64 {
     if ahead <= 0.0 {
         return MOST;
     }
     let across = right.hypot(up);
     if up < 0.0 {
-        let away = (across / ahead).min(MOST_BELOW);
-        let growth = if away < 0.6 { 0.8 } else { 1.2 };
-        return (1.0 + growth * away).min(MOST);
+        // cos τ is up / across.
+        let beta = across.hypot(0.3225f64.sqrt() * up).atan2(ahead).to_degrees();
+        return (6.49e-3 * beta + 21e-5 * beta * beta).exp().min(MOST);
     }
     // Degrees between the vertical and the plane of source and line of sight, and between source and line of sight.
     let tau = right.abs().atan2(up).to_degrees();

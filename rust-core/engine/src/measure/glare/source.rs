@@ -1,6 +1,11 @@
 //! Finding what glares: pixels above a threshold, gathered into sources.
 
-use super::{position::position_index, view::FisheyeView};
+use super::{
+    coverage::{is_below, weight},
+    position::position_index,
+    view::FisheyeView,
+};
+use gonio_formats::photometry::NoIndex;
 use std::collections::HashMap;
 
 /// From which luminance on a pixel glares.
@@ -21,10 +26,30 @@ pub struct GlareSource {
     pub solid_angle: f64,
     /// Unit vector to its middle by light: right, up, ahead.
     pub direction: [f64; 3],
-    /// Of its middle.
+    /// Of its middle, for daylight glare.
     pub position_index: f64,
     /// What it brings to the eye, lx on the plane across the line of sight.
     pub illuminance: f64,
+}
+
+impl GlareSource {
+    /// L² ω.
+    pub(crate) fn strength(&self) -> f64 {
+        self.luminance.powi(2) * self.solid_angle
+    }
+
+    /// CIE 117's weight 1 / p², or why there is none.
+    pub(crate) fn weight(&self) -> Result<f64, NoIndex> {
+        if self.direction[2] > 0.0 && is_below(self.direction, self.solid_angle) {
+            return Err(NoIndex::Below);
+        }
+        weight(self.direction)
+    }
+
+    /// CIE 117's position index, for the unified glare rating; none where the rating leaves the source out.
+    pub fn cie_position_index(&self) -> Option<f64> {
+        self.weight().ok().map(|weight| weight.sqrt().recip())
+    }
 }
 
 /// Sums over the pixels of a source.

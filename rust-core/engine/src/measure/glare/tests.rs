@@ -58,8 +58,13 @@ fn a_disk_ahead_gives_the_hand_computed_ugr_and_dgp() {
         let eye = of_disk(bright - dim) + PI * dim;
         assert!((glare.eye_illuminance / eye - 1.0).abs() < 5e-3, "{}", glare.eye_illuminance);
         let background = (eye - of_disk(bright)) / PI;
-        let sum = bright * bright * solid_angle / (index * index);
-        let ugr = 8.0 * (0.25 / background * sum).log10();
+        let strength = bright * bright * solid_angle;
+        // CIE 117's table at T/R = 0, H/R = tan 20° = 0.364: between 1.90 and 2.35.
+        let cie = 1.9 + (20f64.to_radians().tan() - 0.3) * 4.5;
+        assert!((source.cie_position_index().expect("an index") / cie - 1.0).abs() < 2e-3);
+        let ugr = 8.0 * (0.25 / background * strength / (cie * cie)).log10();
+        assert_eq!(glare.coverage().note(), None);
+        let sum = strength / (index * index);
         assert!((glare.ugr().expect("a source") - ugr).abs() < 0.05, "{:?} instead of {ugr}", glare.ugr());
         let dgp = 5.87e-5 * eye + 0.0918 * (1.0 + sum / eye.powf(1.87)).log10() + 0.16;
         assert!((glare.dgp() - dgp).abs() < 1e-3, "{} instead of {dgp}", glare.dgp());
@@ -67,18 +72,56 @@ fn a_disk_ahead_gives_the_hand_computed_ugr_and_dgp() {
 }
 
 #[test]
-fn the_position_index_is_guths_above_and_iwatas_below() {
+fn the_position_index_of_daylight_is_evalglares() {
     assert!((position_index([0.0, 0.0, 1.0]) - 1.0).abs() < 1e-12);
     // To the side: τ = 90°, σ = 30°: (35.2 − 28.7001 − 0) 10⁻³ · 30 + (21 + 24.0003 − 24.0003) 10⁻⁵ · 900 = 0.194997 + 0.189.
     let side = [30f64.to_radians().sin(), 0.0, 30f64.to_radians().cos()];
     assert!((position_index(side) - 0.383_997f64.exp()).abs() < 1e-3, "{}", position_index(side));
-    // Below at R/D = 0.5 and 1.
-    let below = |distance: f64| {
-        let length = distance.hypot(1.0);
-        position_index([0.0, -distance / length, 1.0 / length])
+    // Below: what evalglare 3.06 prints, for τ and σ in degrees, of disks of a degree.
+    for (tau, sigma, printed) in [
+        (180.0, 10.0, 1.1076),
+        (180.0, 30.0, 1.5771),
+        (180.0, 50.0, 2.6148),
+        (180.0, 70.0, 4.8304),
+        (135.0, 40.0, 1.9129),
+        (100.0, 40.0, 1.8158),
+        (180.0, 85.0, 8.1859),
+        (60.0, 40.0, 2.8822),
+    ] {
+        let (t, s) = (f64::to_radians(tau), f64::to_radians(sigma));
+        let found = position_index([s.sin() * t.sin(), s.sin() * t.cos(), s.cos()]);
+        assert!((found / printed - 1.0).abs() < 7e-3, "{tau} {sigma}: {found} instead of {printed}");
+    }
+    // One curve at the horizon.
+    assert!((position_index([0.6, -1e-9, 0.8]) / position_index([0.6, 1e-9, 0.8]) - 1.0).abs() < 1e-3);
+    assert_eq!(position_index([0.0, -1.0, 0.0]), MOST_INDEX);
+}
+
+#[test]
+fn sources_beyond_the_table_are_left_out_of_ugr_and_told() {
+    let view = view(FisheyeProjection::Equidistant);
+    let places = [[0.0, 20.0], [0.0, 75.0], [80.0, 0.0], [0.0, -20.0]];
+    let mut all = vec![10.0f32; SIDE * SIDE];
+    for [right, up] in places.map(|place| place.map(f64::to_radians)) {
+        let middle = [right.sin() * up.cos(), up.sin(), right.cos() * up.cos()];
+        all.iter_mut().zip(picture(&view, middle, 3.0, 9000.0, 0.0)).for_each(|(a, b)| *a = a.max(b));
+    }
+    let options = GlareOptions { threshold: Threshold::Luminance(2000.0), ..GlareOptions::default() };
+    let glare = Glare::new(&all, &view, &options).expect("a picture");
+    let coverage = glare.coverage();
+    assert_eq!((coverage.sources, coverage.high, coverage.aside, coverage.below), (4, 1, 1, 1));
+    // By cosines: 0.94 rated of 0.94 + 0.26 + 0.17 + 0.94.
+    assert!((coverage.share_left_out() - 1.373 / 2.313).abs() < 0.02, "{coverage:?}");
+    let note = coverage.note().expect("a note");
+    assert!(note.starts_with("3 of 4 sources left out (CIE 117): 1 too high"), "{note}");
+    let [low] = glare.sources.iter().filter(|source| source.cie_position_index().is_some()).collect::<Vec<_>>()[..] else {
+        panic!("{:?}", glare.sources)
     };
-    assert!((below(0.5) - 1.4).abs() < 1e-9 && (below(1.0) - 2.2).abs() < 1e-9);
-    assert_eq!(position_index([0.0, 0.0, -1.0]), MOST_INDEX);
+    let sum = low.luminance.powi(2) * low.solid_angle / low.cie_position_index().expect("an index").powi(2);
+    let ugr = 8.0 * (0.25 / glare.background_luminance * sum).log10();
+    assert!((glare.ugr().expect("a rating") - ugr).abs() < 1e-9);
+    // Daylight glare knows them all.
+    assert!(glare.sources.iter().all(|source| source.position_index >= 1.0));
 }
 
 const MOST_INDEX: f64 = 16.0;

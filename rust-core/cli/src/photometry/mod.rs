@@ -1,0 +1,102 @@
+//! `gonio photometry`.
+
+mod json;
+mod text;
+pub(super) mod ugr;
+
+pub(super) use text::as_text;
+
+use super::{
+    arguments::{PhotometryOptions, SymmetryName},
+    drawing,
+    file::{self, check_ending, ending},
+    print,
+};
+use gonio::{Error, Result, output::write_atomically};
+use gonio_formats::photometry::{
+    Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_with,
+};
+use json::as_json;
+use std::io::Write;
+use std::path::Path;
+
+/// The longest file in bytes: hundreds of times the longest luminaire's.
+const LONGEST: u64 = 256 << 20;
+
+/// Reads the file, says what it holds, and writes what was asked for.
+pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
+    for (option, path, endings) in outputs(options) {
+        check_ending(option, path, endings)?;
+    }
+    let goniogram = load(options)?;
+    let figures = goniogram.figures();
+    for (option, path, _) in outputs(options) {
+        let bytes = match option {
+            "polar" => drawing::encoded(polar_diagram(&goniogram, PolarUnit::CandelaPerKilolumen), path)?,
+            "cone" => drawing::encoded(cone_diagram(&goniogram), path)?,
+            _ if ending(path) == "ldt" => ldt::write(&goniogram),
+            _ => ies::write(&goniogram),
+        };
+        write_atomically(path, true, |file| file.write_all(&bytes))?;
+    }
+    let table = options.ugr_table.then(|| ugr_table(&goniogram, options)).transpose()?;
+    if options.json {
+        print(&as_json(options, &goniogram, &figures, table.as_ref()).to_string());
+    } else if let Some(table) = table {
+        ugr::as_text(&goniogram, &table).iter().for_each(|line| print(line));
+    } else {
+        as_text(&goniogram, &figures, options.front).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+fn ugr_table(goniogram: &Goniogram, options: &PhotometryOptions) -> Result<UgrTable> {
+    goniogram.ugr_table(options.shr).map_err(|error| {
+        let is_spacing = !(SPACINGS[0]..=SPACINGS[1]).contains(&options.shr);
+        if is_spacing { Error::Setting { name: "shr".into(), problem: error.problem } } else { Error::in_file(&options.file, &error) }
+    })
+}
+
+/// The files asked for, with their option and the endings it takes.
+fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &Path, &'static [&'static str])> {
+    let all: [(_, _, &'static [&'static str]); 3] = [
+        ("polar", &options.polar, drawing::ENDINGS),
+        ("cone", &options.cone, drawing::ENDINGS),
+        ("convert", &options.convert, &["ies", "ldt"]),
+    ];
+    all.into_iter().filter_map(|(option, path, endings)| Some((option, path.as_deref()?, endings)))
+}
+
+/// The file's goniogram, for the lamps and with the turn that were asked for.
+fn load(options: &PhotometryOptions) -> Result<Goniogram> {
+    let path = &options.file;
+    let bytes = file::read(path, LONGEST, "luminaire's file")?;
+    let mut goniogram = read_with(&bytes, &path.to_string_lossy(), &mut beside(path)).map_err(|error| Error::in_file(path, &error))?;
+    if let Some(number) = options.lamp_set {
+        let chosen = goniogram.with_lamp_set(number as usize - 1);
+        goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;
+    }
+    goniogram = goniogram.tilted(options.tilt).map_err(|error| Error::Setting { name: "tilt".into(), problem: error.problem })?;
+    if let Some(degrees) = options.rotate {
+        if !degrees.is_finite() {
+            return Err(Error::Setting { name: "rotate".into(), problem: format!("{degrees} was found, expected degrees") });
+        }
+        goniogram = goniogram.rotated(degrees);
+    }
+    Ok(match options.symmetry {
+        Some(name) => goniogram.symmetrised(name.into()),
+        None => goniogram,
+    })
+}
+
+impl From<SymmetryName> for Symmetry {
+    fn from(name: SymmetryName) -> Self {
+        match name {
+            SymmetryName::None => Self::None,
+            SymmetryName::Rotational => Self::Rotational,
+            SymmetryName::C0 => Self::AboutC0,
+            SymmetryName::C90 => Self::AboutC90,
+            SymmetryName::Quadrants => Self::Quadrants,
+        }
+    }
+}
