@@ -3,8 +3,7 @@
 
 from dataclasses import dataclass
 
-import gonio
-
+from ..report import words_of
 from .material import translate
 
 
@@ -64,8 +63,9 @@ class Materials:
         try:
             translated = translate(material, self._images, self._measurements, self._report, shader_aovs=self.shader_aovs)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
-        except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
-            self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)
+        except Exception as problem:
+            name = "" if material is None else material.name
+            self._report.add("Material", name, f"{words_of(problem)}; a plain grey is used", severity="ERROR", material=name)
             translated = translate(None, self._images, self._measurements, self._report)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         return translated

@@ -9,6 +9,8 @@ from .vectors import radial_tangent
 
 # More closures than this in one material are left out: the surface would not be shaded in reasonable time.
 MOST_CLOSURES = 64
+# How nodes that are no surface begin.
+VOLUMES = "ShaderNodeVolume"
 DISTRIBUTIONS = {"MULTI_GGX": "MultiGgx", "GGX": "Ggx", "BECKMANN": "Beckmann", "ASHIKHMIN_SHIRLEY": "AshikhminShirley"}
 SUBSURFACE = {
     "BURLEY": "Burley",
@@ -22,12 +24,19 @@ def flatten(t, socket, context, weight):
     """Appends the closures that reach a shader input, their weights multiplied by `weight`."""
     if weight.is_zero():
         return
-    found = follow(socket, context)
-    if found is None or found[0] is None:
+    found, outside = follow(socket, context), context
+    if found is None:
         return
     node, output, context = found
+    if output.type != "SHADER":
+        # A colour or a value in the place of a shader shines.
+        colour = t.socket(socket, outside) * LUMENS_PER_WATT
+        t.closures.append({"weight": weight.input(), **closure(t.graph, "Emission", emission_color=colour)})
+        return
+    if node is None:
+        return
     if len(t.closures) >= MOST_CLOSURES:
-        t.say(node, context, f"more than {MOST_CLOSURES} shaders are mixed; the rest is left out")
+        t.tell("many closures", node, context)
         return
     if node.bl_idname == "ShaderNodeMixShader":
         share = t.input(node, "Fac", context, 0.5).clamp()
@@ -41,11 +50,7 @@ def flatten(t, socket, context, weight):
 
 
 def _append(t, node, output, context, weight):
-    handler = CLOSURES.get(node.bl_idname)
-    if handler is None:
-        t.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; a diffuse surface of its colour is used")
-        handler = _stand_in
-    closures = handler(t, node, context)
+    closures = _closures(t, node, context)
     if closures is None:
         inner = group_output(node, output, context)
         if inner is not None:
@@ -58,7 +63,26 @@ def _append(t, node, output, context, weight):
             t.closures.append({"weight": part.input(), **made})
 
 
+def _closures(t, node, context):
+    """The closures of a shader node; None for what stands inside a group."""
+    handler, label = CLOSURES.get(node.bl_idname), node.bl_label or node.bl_idname
+    if node.bl_idname.startswith(VOLUMES):
+        t.tell("volume as surface", node, context, f"{label} in a Surface socket")
+        return []
+    if handler is None:
+        t.tell("closure", node, context, label)
+        handler = _stand_in
+    try:
+        return handler(t, node, context)
+    except RecursionError:
+        raise
+    except Exception as problem:
+        t.fail(node, context, problem, "a diffuse grey is used")
+        return [closure(t.graph, "Diffuse", base_color=t.graph.colour((0.8, 0.8, 0.8)))]
+
+
 def _stand_in(t, node, context):
+    """A diffuse surface of the node's colour."""
     colour = next((socket for socket in node.inputs if socket.type == "RGBA"), None)
     return [closure(t.graph, "Diffuse", base_color=t.socket(colour, context) if colour else t.graph.colour((0.8, 0.8, 0.8)))]
 
@@ -134,7 +158,7 @@ def diffuse(t, node, context):
 def glossy(t, node, context):
     anisotropy = t.input(node, "Anisotropy", context)
     if node.distribution not in DISTRIBUTIONS:
-        t.say(node, context, f"distribution {node.distribution} is not supported; GGX is used")
+        t.tell("distribution", node, context, f"Distribution {node.distribution}")
     return [
         closure(
             t.graph,

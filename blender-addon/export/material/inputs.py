@@ -22,7 +22,7 @@ def constant(t, node, context, output):
 @value_node("ShaderNodeUVMap")
 def uv_map(t, node, context, output):
     if node.from_instancer:
-        t.say(node, context, "texture coordinates of the instancer are not supported; the mesh's own are used")
+        t.tell("instancer's coordinates", node, context)
     return t.primvar(node.uv_map or UV)
 
 
@@ -116,9 +116,7 @@ def attribute(t, node, context, output):
     if kind == "GEOMETRY":
         value = t.primvar(node.attribute_name or ACTIVE_COLOUR, kind="RGBA")
     else:
-        if kind == "INSTANCER":
-            t.say(node, context, "attributes of the instancer are not supported; the object's own is used")
-        value = t.instance_primvar(f"object {node.attribute_name}", "RGBA")
+        value = t.instance_primvar(f"{kind.lower()} {node.attribute_name}", "RGBA")
     if output.identifier == "Alpha":
         return value.component(3)
     # An attribute of one number fills all components, so its first is its value; a colour's value is the mean.
@@ -142,7 +140,7 @@ def light_path(t, node, context, output):
     }
     if name not in kinds:
         return None
-    t.say(node, context, f"{name} is not known while shading; camera rays are assumed")
+    t.tell("light path", node, context, f"Light Path: {name}")
     return t.graph.scalar(1.0 if name == "Is Camera Ray" else 0.0)
 
 
