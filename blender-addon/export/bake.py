@@ -4,19 +4,23 @@
 import numpy as np
 
 from .evaluate import evaluate, look_up, pixels_of
+from .material.textures import MISSING
 from .sky_texture import Picture
 
+# The pixels of a missing image.
+LOST = np.full((1, 1, 4), MISSING, dtype=np.float32)
 # Rows of a baked world without images; one with an image has the image's rows up to the limit.
 ROWS, MOST_ROWS = 512, 2048
 
 
 def bake(t, total, report):
     """(rows, 2 rows, 4) linear pixels, the top row (+Z) first, the middle column at +X."""
-    pictures = {node: image for node, (image, *_) in t.environments.items()}
-    rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image in pictures.values())]))
+    # An image that could not be had is without a number.
+    pictures = [(image, number is not None) for image, number, *_ in t.environments.values()]
+    rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image, _ in pictures)]))
     report.add("World", t.owner.name, f"its nodes were baked to {2 * rows} × {rows} directions", severity="INFO")
     values = []
-    loaded = {image.name: _pixels(image) for image in pictures.values()}
+    loaded = {image.name: _pixels(image) if is_there else LOST for image, is_there in pictures}
     for top in range(0, rows, 64):
         directions = _directions(rows, range(top, min(top + 64, rows)))
         values.append(evaluate(t.graph, total.input(), directions.shape, _leaves(t, directions, loaded)))

@@ -3,41 +3,48 @@
 
 from .gather import AS_MESH
 
-# By the owner of the setting: the entry of the table, where the setting stands, what it is where nothing is asked for, and its name.
+# By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
-    ("motion blur", "render.use_motion_blur", False, ""),
-    ("stereoscopy", "render.use_multiview", False, ""),
-    ("freestyle", "render.use_freestyle", False, ""),
-    ("transparent glass", "cycles.film_transparent_glass", False, ""),
-    ("fast gi", "cycles.use_fast_gi", False, ""),
-    ("no caustics", "cycles.caustics_reflective", True, "Reflective caustics that are switched off"),
-    ("no caustics", "cycles.caustics_refractive", True, "Refractive caustics that are switched off"),
-    ("filter glossy", "cycles.blur_glossy", 1.0, ""),
-    ("culling", "render.use_simplify and cycles.use_camera_cull", False, "Culling by camera"),
-    ("culling", "render.use_simplify and cycles.use_distance_cull", False, "Culling by distance"),
+    ("motion blur", "render.use_motion_blur", (False,), ""),
+    ("stereoscopy", "render.use_multiview", (False,), ""),
+    ("freestyle", "render.use_freestyle", (False,), ""),
+    ("transparent glass", "cycles.film_transparent_glass", (False,), ""),
+    ("fast gi", "cycles.use_fast_gi", (False,), ""),
+    ("no caustics", "cycles.caustics_reflective", (True,), "Reflective caustics that are switched off"),
+    ("no caustics", "cycles.caustics_refractive", (True,), "Refractive caustics that are switched off"),
+    ("filter glossy", "cycles.blur_glossy", (0.0, 1.0), ""),
+    ("sample subset", "cycles.use_sample_subset", (False,), ""),
+    ("culling", "render.use_simplify and cycles.use_camera_cull", (False,), "Culling by camera"),
+    ("culling", "render.use_simplify and cycles.use_distance_cull", (False,), "Culling by distance"),
 )
 LAYER = (
-    ("layer filter", "use_sky", True, "A view layer without Environment"),
-    ("layer filter", "use_solid", True, "A view layer without Surfaces"),
+    ("layer filter", "use_sky", (True,), "A view layer without Environment"),
+    ("layer filter", "use_solid", (True,), "A view layer without Surfaces"),
 )
 OBJECT = (
-    ("light linking", "light_linking.receiver_collection", None, "Light linking"),
-    ("light linking", "light_linking.blocker_collection", None, "Shadow linking"),
-    ("adaptive subdivision", "cycles.use_adaptive_subdivision", False, ""),
-    ("shadow caustics", "cycles.is_caustics_caster", False, ""),
-    ("shadow caustics", "cycles.is_caustics_receiver", False, ""),
-    ("shadow terminator", "shadow_terminator_shading_offset", 0.0, "Shadow terminator's shading offset"),
+    ("light linking", "light_linking.receiver_collection", (None,), "Light linking"),
+    ("light linking", "light_linking.blocker_collection", (None,), "Shadow linking"),
+    ("adaptive subdivision", "cycles.use_adaptive_subdivision", (False,), ""),
+    ("shadow caustics", "cycles.is_caustics_caster", (False,), ""),
+    ("shadow caustics", "cycles.is_caustics_receiver", (False,), ""),
+    ("shadow terminator", "shadow_terminator_shading_offset", (0.0,), "Shadow terminator's shading offset"),
 )
 LIGHT = (
-    ("shadow caustics", "cycles.is_caustics_light", False, ""),
-    ("lamp bounces", "cycles.max_bounces", 1024, "Most bounces of the light"),
+    ("shadow caustics", "cycles.is_caustics_light", (False,), ""),
+    ("lamp bounces", "cycles.max_bounces", (1024,), "Most bounces of the light"),
 )
 WORLD = (
-    ("shadow caustics", "cycles.is_caustics_light", False, ""),
-    ("lamp bounces", "cycles.max_bounces", 1024, "Most bounces of the world"),
+    ("shadow caustics", "cycles.is_caustics_light", (False,), ""),
+    ("lamp bounces", "cycles.max_bounces", (1024,), "Most bounces of the world"),
+)
+MATERIAL = (
+    ("opaque shadows", "use_transparent_shadow", (True,), ""),
+    ("bump correction", "cycles.use_bump_map_correction", (True,), ""),
 )
 # Switches of passes that mean no pass that could be missing.
 NO_PASSES = {"use_pass_cryptomatte_accurate"}
+# Passes whose switches are named otherwise.
+OTHER_PASSES = {"pass_render_time"}
 
 
 def of_scene(depsgraph, report):
@@ -55,8 +62,14 @@ def of_passes(layer, known, report):
     for owner in (layer, getattr(layer, "cycles", None)):
         for setting in owner.bl_rna.properties if owner is not None else ():
             name = setting.identifier
-            if name.startswith("use_pass_") and name not in known and name not in NO_PASSES and getattr(owner, name):
-                report.tell("pass", "View Layer", layer.name, f"{setting.name} pass")
+            is_pass = (name.startswith("use_pass_") or name in OTHER_PASSES) and name not in NO_PASSES
+            if is_pass and name not in known and getattr(owner, name):
+                report.tell("pass", "View Layer", layer.name, f"Pass {setting.name}")
+
+
+def of_material(material, report):
+    """Settings of a material that have no effect."""
+    _tell("Material", material, MATERIAL, report)
 
 
 def of_object(group, report):
@@ -69,6 +82,8 @@ def of_object(group, report):
             report.tell("catcher's lamp", "Object", name)
     elif group.kind != "MESH" and group.kind not in AS_MESH:
         report.tell("kind of object", "Object", name, f"{KINDS.get(group.kind, group.kind.capitalize())} objects")
+    if any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in source.modifiers):
+        report.tell("adaptive subdivision", "Object", name)
     for system in source.particle_systems:
         if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
             report.tell("hair strands", "Object", name, f"Hair strands ({system.name})")
@@ -81,7 +96,7 @@ def _tell(kind, owner, settings, report, name=""):
     for limit, path, usual, subject in settings:
         # Several settings count together, the last of them by its value.
         *switches, last = path.split(" and ")
-        if all(_value(owner, switch, False) for switch in switches) and _value(owner, last, usual) != usual:
+        if all(_value(owner, switch, False) for switch in switches) and _value(owner, last, usual[0]) not in usual:
             report.tell(limit, kind, name or owner.name, subject)
 
 

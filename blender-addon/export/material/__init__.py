@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
+from .. import limits
 from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
 from .closures import closure, flatten
 from .graph import Graph, renumber
@@ -49,8 +50,7 @@ def _rest(t, end, material):
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
     if t.linked(end, "Displacement", t.root):
         t.tell("displacement", end, t.root)
-    if not getattr(material, "use_transparent_shadow", True):
-        t.report.tell("opaque shadows", "Material", material.name, material=material.name)
+    limits.of_material(material, t.report)
 
 
 def _described(t, material, outputs):

@@ -3,7 +3,7 @@
 
 from ...units import LUMENS_PER_WATT
 from .inputs import hit
-from .sockets import follow, group_output, input_socket
+from .sockets import KINDS, follow, group_output, input_socket
 from .translator import CLOSURES, closure_node
 from .vectors import radial_tangent
 
@@ -24,13 +24,14 @@ def flatten(t, socket, context, weight):
     """Appends the closures that reach a shader input, their weights multiplied by `weight`."""
     if weight.is_zero():
         return
-    found, outside = follow(socket, context), context
+    found = follow(socket, context)
     if found is None:
         return
     node, output, context = found
     if output.type != "SHADER":
         # A colour or a value in the place of a shader shines.
-        colour = t.socket(socket, outside) * LUMENS_PER_WATT
+        value = t.output(node, output, context) if node is not None else t.default_of(output, KINDS.get(output.type, "RGBA"))
+        colour = value.as_kind("RGBA") * LUMENS_PER_WATT
         t.closures.append({"weight": weight.input(), **closure(t.graph, "Emission", emission_color=colour)})
         return
     if node is None:
