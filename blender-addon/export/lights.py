@@ -17,7 +17,7 @@ from .visibility import RAYS
 def describe(group, matrix, images, report):
     """The description of one lamp at one place."""
     lamp = group.data
-    colour, distribution = _colour(lamp, matrix, images, report)
+    colour, distribution = colour_of(lamp, matrix, images, report)
     strength = colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
@@ -47,7 +47,7 @@ def describe(group, matrix, images, report):
     return description
 
 
-def _colour(lamp, matrix, images, report):
+def colour_of(lamp, matrix, images, report):
     """The lamp's colour: its own, of its temperature, and of its nodes; and its goniogram."""
     colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
