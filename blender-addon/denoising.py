@@ -44,7 +44,9 @@ def _add(tree, scene, layer) -> None:
     layer.gonio.denoising_store_passes = True
     layer.update_render_passes()
     layers = _render_layers(tree, scene, layer)
-    denoise = next((link.to_node for link in tree.links if link.from_node == layers and link.to_node.bl_idname == "CompositorNodeDenoise"), None)
+    denoise = next(
+        (link.to_node for link in tree.links if link.from_node == layers and link.to_node.bl_idname == "CompositorNodeDenoise"), None
+    )
     if denoise is None:
         denoise = _insert(tree, layers)
     for name, source in GUIDES.items():

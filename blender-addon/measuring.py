@@ -11,7 +11,6 @@ from bpy.app.handlers import persistent
 from .export import Exporter
 from .report import Report
 
-
 # The least cosine between a level face's normal and the vertical.
 LEVEL = 0.999
 

@@ -36,7 +36,12 @@ class Diagnostic:
     @property
     def text(self) -> str:
         """Place first, then what was found."""
-        return f"{self.place}: {self.message}" if self.place else self.message
+        return f"{self.place}: {self.words}" if self.place else self.message
+
+    @property
+    def words(self) -> str:
+        """The message, without the node's name if it begins with that."""
+        return self.message.removeprefix(f"{self.node.rpartition('/')[2]}: ") if self.node else self.message
 
 
 @dataclass(frozen=True)
@@ -52,7 +57,7 @@ class Counted:
         line = self.first
         if self.count == 1:
             return line.text
-        return f"{line.place or line.kind} and {self.count - 1} more: {line.message}"
+        return f"{line.place or line.kind} and {self.count - 1} more: {line.words}"
 
 
 class Report:
@@ -71,9 +76,7 @@ class Report:
             self._lines[line] = None
             self._by_place.setdefault((kind, name), []).append(line)
 
-    def tell(
-        self, limit: str, kind: str, name: str, subject: str = "", *, material: str | None = None, node: str | None = None
-    ) -> None:
+    def tell(self, limit: str, kind: str, name: str, subject: str = "", *, material: str | None = None, node: str | None = None) -> None:
         """Adds the line of an entry of the table of limits; `subject` says more exactly what was asked for."""
         told = LIMITS[limit]
         self.add(kind, name, told.line(subject), severity=told.severity, material=material, node=node)

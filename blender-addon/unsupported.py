@@ -55,14 +55,18 @@ SCENES = {
         "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
-    "pass": Limit("Passes: Vector, Ambient Occlusion, Shadow, Cryptomatte, Render Time, subsurface and volume passes, Shadow Catcher", "absent"),
+    "pass": Limit(
+        "Passes: Vector, Ambient Occlusion, Shadow, Cryptomatte, Render Time, subsurface and volume passes, Shadow Catcher", "absent"
+    ),
     "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
     "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
     "kind of camera": Limit("Cameras of custom types", "a perspective one"),
     "tone map in animations": _untold(
         "*Tone Map in Gonio* in animations: an eye that adapts over the frames", "each frame by itself; *Fixed Exposure* for all alike"
     ),
-    "quick denoiser": _untold("The viewport's quick denoiser in false colour and in final renders", "the picture as it is; *Denoise* of *Sampling*"),
+    "quick denoiser": _untold(
+        "The viewport's quick denoiser in false colour and in final renders", "the picture as it is; *Denoise* of *Sampling*"
+    ),
 }
 
 LIGHTS = {
@@ -97,7 +101,8 @@ MATERIALS = {
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(
-        "Thin walls as Cycles has them, by the mean of both polarisations", "each polarisation by itself, as panes are; up to 3 % apart near 75°"
+        "Thin walls as Cycles has them, by the mean of both polarisations",
+        "each polarisation by itself, as panes are; up to 3 % apart near 75°",
     ),
     "light path": Limit("Light Path on surfaces: kinds of rays", "every ray counts as a camera ray"),
     "instancer's coordinates": Limit("Texture coordinates from the instancer", "the mesh's own"),

@@ -7,8 +7,10 @@ import numpy as np
 
 from .. import luminaire
 from ..units import LUMENS_PER_WATT
-from . import goniogram  # noqa: F401 (it registers its node)
-from . import photometry
+from . import (
+    goniogram,  # noqa: F401 (it registers its node)
+    photometry,
+)
 from .lamp_nodes import emission
 from .transforms import columns, without_scale
 from .visibility import RAYS

@@ -90,6 +90,20 @@ def test_every_kind_of_object_shows_in_edit_mode(tmp_path):
 
 
 @pytest.mark.blender
+def test_meshes_show_in_every_mode(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter
+
+    for mode in ("SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT"):
+        empty()
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.ops.object.mode_set(mode=mode)
+        made, report = exporter()
+        scene = made.sync(depsgraph())
+        assert len(scene.instances) == 1 and len(scene.meshes[0]["triangles"]) == 12 and not report.diagnostics, mode
+
+
+@pytest.mark.blender
 def test_two_objects_of_one_edited_mesh_both_show(tmp_path):
     import bpy
     from recorder import depsgraph, empty, exporter

@@ -49,7 +49,9 @@ def test_all_passes_are_in_the_file(tmp_path: Path):
     scene.gonio.max_bounces = 4
     layer = scene.view_layers[0]
     for name in layer.bl_rna.properties.keys():
-        if name.startswith("use_pass_") and not any(word in name for word in ("cryptomatte", "grease", "subsurface", "shadow", "occlusion", "vector")):
+        if name.startswith("use_pass_") and not any(
+            word in name for word in ("cryptomatte", "grease", "subsurface", "shadow", "occlusion", "vector")
+        ):
             setattr(layer, name, True)
     for name in layer.gonio.bl_rna.properties.keys():
         if name not in ("rna_type", "name"):

@@ -79,7 +79,13 @@ def test_settings_have_words_units_and_fixed_numbers():
 def test_blenders_own_panels_show():
     import bpy
 
-    for name in ("RENDER_PT_format", "RENDER_PT_color_management", "DATA_PT_lens", "DATA_PT_camera_dof", "EEVEE_MATERIAL_PT_context_material"):
+    for name in (
+        "RENDER_PT_format",
+        "RENDER_PT_color_management",
+        "DATA_PT_lens",
+        "DATA_PT_camera_dof",
+        "EEVEE_MATERIAL_PT_context_material",
+    ):
         assert _has_engine(getattr(bpy.types, name)), name
     for name in ("DATA_PT_light", "RENDER_PT_simplify", "RENDER_PT_freestyle", "VIEWLAYER_PT_layer_passes"):
         assert not _has_engine(getattr(bpy.types, name, None)), name

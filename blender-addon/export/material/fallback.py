@@ -4,6 +4,7 @@
 from ...unsupported import LIMITS, STAND_INS
 from .inputs import normal_of
 from .sockets import KINDS, input_socket
+from .textures import MISSING
 
 # Mean radiance of the upper half of Blender's default skies without the sun, by cosine, W/(m² sr); measured with Cycles.
 SKIES = {
@@ -26,6 +27,8 @@ def stand_in(translator, node, output, context):
         return graph.colour(SKIES.get(node.sky_type, SKIES["PREETHAM"])), LIMITS["sky elsewhere"].line(label)
     if node.bl_idname == "ShaderNodeTexIES":
         return translator.input(node, "Strength", context, 1.0), LIMITS["ies elsewhere"].line(label)
+    if node.bl_idname in ("ShaderNodeTexImage", "ShaderNodeTexEnvironment"):
+        return graph.colour(MISSING), f"{label}: not supported; the colour of missing images is used"
     if node.bl_idname == "ShaderNodeTexBrick":
         first, second = (translator.input(node, f"Color{n}", context) for n in (1, 2))
         value = first.mix(second, 0.5) if kind == "RGBA" else graph.scalar(0.1)

@@ -89,6 +89,10 @@ def geometry(t, node, context, output):
         return hit(t, simple[output.identifier])
     if output.identifier == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
+    if output.identifier == "Tangent":
+        from .vectors import radial_tangent
+
+        return radial_tangent(t)
     return None
 
 

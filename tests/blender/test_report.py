@@ -1,0 +1,56 @@
+"""What leaves a line in the report, how lines are counted, and which panels show."""
+
+import pytest
+
+
+@pytest.mark.blender
+def test_settings_and_passes_that_are_not_followed_leave_a_line(tmp_path):
+    import bpy
+    import scenes
+    from recorder import module
+
+    scene = scenes.lit_floor(width=8, height=8, samples=1)
+    layer = bpy.context.view_layer
+    scenes.render(tmp_path / "quiet.exr")
+    latest = module("report").latest
+    assert not latest().diagnostics, [line.text for line in latest().diagnostics]
+    scene.render.use_motion_blur = scene.render.use_multiview = True
+    layer.use_pass_vector = layer.use_pass_cryptomatte_object = layer.use_pass_ambient_occlusion = True
+    layer.use_pass_normal = True
+    wanted = {"Motion blur", "Stereoscopy", "Pass Vector", "Pass Cryptomatte Object", "Pass Ambient Occlusion"}
+    if hasattr(scene, "cycles"):
+        scene.cycles.film_transparent_glass = scene.cycles.use_fast_gi = True
+        scene.cycles.caustics_refractive = False
+        wanted |= {"Transparent Glass", "Fast GI Approximation", "Refractive caustics that are switched off"}
+    scene.render.use_multiview = False
+    wanted.discard("Stereoscopy")
+    scenes.render(tmp_path / "told.exr")
+    told = {line.message.split(":")[0] for line in latest().diagnostics}
+    assert told == wanted
+
+
+@pytest.mark.blender
+def test_equal_messages_are_counted(tmp_path):
+    from recorder import module
+
+    report = module("report").Report()
+    for name in ("A", "B", "C"):
+        report.tell("motion blur", "Object", name)
+    report.add("Object", "D", "dark", severity="ERROR")
+    assert [(line.text, line.count) for line in report.counted] == [
+        ("D: dark", 1),
+        ("A and 2 more: Motion blur: not supported; everything stands still at the frame", 3),
+    ]
+    assert report.summary() == "D: dark, and 1 more in the Gonio Report panel"
+    report.forget("Object", "A")
+    assert report.counted[1].text.startswith("B and 1 more: ")
+
+
+@pytest.mark.blender
+def test_no_panel_is_offered_in_vain(tmp_path):
+    import bpy
+
+    words = ("stereoscopy", "light_linking", "shadow_linking", "bake", "render_path", "freestyle", "gpencil", "output_views")
+    for panel in bpy.types.Panel.__subclasses__():
+        if "GONIO" in getattr(panel, "COMPAT_ENGINES", ()):
+            assert not any(word in panel.__name__ for word in words), panel.__name__
