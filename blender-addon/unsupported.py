@@ -97,7 +97,7 @@ MATERIALS = {
     "displacement": Limit("Displacement", "the surface stays as it is"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
-    "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of their colour"),
+    "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(

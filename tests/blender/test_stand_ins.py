@@ -87,6 +87,13 @@ def test_rays_pass_what_is_a_volume_alone(tmp_path):
         [closure] = description["closures"]
         assert closure["model"] == "Transparent" and constant(closure, "base_color")[:3] == [1.0] * 3
         assert len(lines) == 1 and lines[0].endswith("Volume: not supported; the inside stays empty; without a surface, rays pass")
+        # A mix that leads to nothing is no surface either.
+        mix = tree.nodes.new("ShaderNodeMixShader")
+        mix.inputs["Fac"].default_value = 0.0
+        tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], mix.inputs[2])
+        tree.links.new(mix.outputs[0], end.inputs["Surface"])
+        assert [each["model"] for each in translated(made)[0]["closures"]] == ["Transparent"]
+        tree.links.remove(end.inputs["Surface"].links[0])
         # As in Cycles, nothing at all is black, and so is a volume in the place of a surface.
         tree.links.remove(end.inputs["Volume"].links[0])
         assert not translated(made)[0]["closures"]

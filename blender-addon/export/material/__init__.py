@@ -46,7 +46,8 @@ def _rest(t, end, material):
     """What an output node has beside its surface; rays pass what is a volume alone."""
     if t.linked(end, "Volume", t.root):
         t.tell("volume", end, t.root, "Volume")
-        if not t.linked(end, "Surface", t.root):
+        # As in Cycles a surface that comes to nothing counts as none.
+        if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
     if t.linked(end, "Displacement", t.root):
         t.tell("displacement", end, t.root)
