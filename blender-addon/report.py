@@ -66,6 +66,8 @@ class Report:
     def __init__(self) -> None:
         self._lines: dict[Diagnostic, None] = {}
         self._by_place: dict[tuple[str, str], list[Diagnostic]] = {}
+        # Windows ask at every drawing.
+        self._counted: list[Counted] | None = None
 
     def add(
         self, kind: str, name: str, message: str, *, severity: str = "WARNING", material: str | None = None, node: str | None = None
@@ -73,7 +75,7 @@ class Report:
         """Adds a line; one that stands already is not added again."""
         line = Diagnostic(severity, kind, name, message, material, node)
         if line not in self._lines:
-            self._lines[line] = None
+            self._lines[line], self._counted = None, None
             self._by_place.setdefault((kind, name), []).append(line)
 
     def tell(self, limit: str, kind: str, name: str, subject: str = "", *, material: str | None = None, node: str | None = None) -> None:
@@ -90,7 +92,8 @@ class Report:
             self.add(kind, name, f"{words_of(problem)}; {consequence}", severity="ERROR", **place)
 
     def add_render(self, diagnostics: list[tuple[str, str]]) -> None:
-        """Adds what the renderer itself had to say, pairs of origin and message."""
+        """What the renderer itself has to say, pairs of origin and message, in the place of what it said before."""
+        self.forget_all("Render")
         for origin, message in diagnostics:
             self.add("Render", origin, message)
 
@@ -98,6 +101,7 @@ class Report:
         """Drops the lines of a data-block that is exported again."""
         for line in self._by_place.pop((kind, name), ()):
             del self._lines[line]
+            self._counted = None
 
     def forget_all(self, kind: str) -> None:
         """Drops the lines of all data-blocks of a kind."""
@@ -106,7 +110,7 @@ class Report:
 
     def clear(self) -> None:
         """Drops all lines."""
-        self._lines, self._by_place = {}, {}
+        self._lines, self._by_place, self._counted = {}, {}, None
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
@@ -116,10 +120,12 @@ class Report:
     @property
     def counted(self) -> list[Counted]:
         """Lines that say the same taken together, the most severe first."""
-        alike: dict[tuple[str, str, str], list[Diagnostic]] = {}
-        for line in self.diagnostics:
-            alike.setdefault((line.severity, line.kind, line.message), []).append(line)
-        return [Counted(lines[0], len(lines)) for lines in alike.values()]
+        if self._counted is None:
+            alike: dict[tuple[str, str, str], list[Diagnostic]] = {}
+            for line in self.diagnostics:
+                alike.setdefault((line.severity, line.kind, line.message), []).append(line)
+            self._counted = [Counted(lines[0], len(lines)) for lines in alike.values()]
+        return self._counted
 
     def summary(self) -> str:
         """One sentence for a status bar; empty when there is nothing to say."""

@@ -79,6 +79,7 @@ class Exporter:
     def set_view(self, depsgraph, space_view3d, region_3d, width, height):
         """Looks where a 3D view looks."""
         self._follows_view = True
+        self.report.forget_all("Camera")
         return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report))
 
     def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",)):
@@ -102,6 +103,7 @@ class Exporter:
         layer = depsgraph.view_layer_eval
         shown = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
         self._lights.domes([])
+        self.report.forget_all("World")
         if shown is not None:
             with self.report.guard("World", shown.name, "the world is black"):
                 self._lights.domes(world.domes(shown, self._images, self.report))
@@ -135,6 +137,7 @@ class Exporter:
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
         self._instances.write(entries)
+        self._materials.sweep()
         self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
         self._meshes.sweep()
         changes.geometry |= self._meshes.any_written
@@ -146,6 +149,7 @@ class Exporter:
         source = depsgraph.scene.camera
         if self._follows_view or source is None:
             return False
+        self.report.forget_all("Camera")
         render = depsgraph.scene.render
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a file asks for that is not shown: said once, never left out in silence."""
 
+from functools import lru_cache
+
 from .gather import AS_MESH
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
@@ -53,7 +55,7 @@ def of_scene(depsgraph, report):
     for kind, owner, settings in (("Scene", scene, SCENE), ("View Layer", layer, LAYER), ("World", scene.world, WORLD)):
         if owner is not None:
             if kind != "World":
-                report.forget(kind, owner.name)
+                report.forget_all(kind)
             _tell(kind, owner, settings, report)
 
 
@@ -94,16 +96,21 @@ KINDS = {"CURVES": "Hair curves", "POINTCLOUD": "Point cloud", "GREASEPENCIL": "
 
 def _tell(kind, owner, settings, report, name=""):
     for limit, path, usual, subject in settings:
-        # Several settings count together, the last of them by its value.
-        *switches, last = path.split(" and ")
+        *switches, last = _paths(path)
         if all(_value(owner, switch, False) for switch in switches) and _value(owner, last, usual[0]) not in usual:
             report.tell(limit, kind, name or owner.name, subject)
 
 
-def _value(owner, path, usual):
+@lru_cache(maxsize=None)
+def _paths(path):
+    """Several settings count together, the last of them by its value: each as its names from the owner on."""
+    return [part.split(".") for part in path.split(" and ")]
+
+
+def _value(owner, names, usual):
     """A setting by its path; `usual` where this Blender has none such."""
-    for part in path.split("."):
-        owner = getattr(owner, part, None)
+    for name in names:
+        owner = getattr(owner, name, None)
         if owner is None:
             return usual
     return owner

@@ -197,6 +197,33 @@ def test_the_viewport_follows_edits_in_edit_mode(tmp_path):
 
 
 @pytest.mark.blender
+def test_edits_of_curves_and_texts_reach_the_viewport(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter
+
+    def thicker():
+        bpy.context.object.data.bevel_depth = 0.5
+
+    def longer():
+        bpy.ops.font.text_insert(text="more")
+
+    for add, edit in ((bpy.ops.curve.primitive_bezier_circle_add, thicker), (bpy.ops.object.text_add, longer)):
+        empty()
+        add()
+        if bpy.context.object.type == "CURVE":
+            bpy.context.object.data.bevel_depth = 0.1
+        bpy.ops.object.mode_set(mode="EDIT")
+        made, report = exporter()
+        scene = made.sync(depsgraph())
+        before = scene.meshes[scene.instances[0]["mesh"]]["points"][:, 0].max()
+        bpy.app.handlers.depsgraph_update_post.append(lambda _, graph, made=made: made.update(graph))
+        edit()
+        bpy.context.view_layer.update()
+        bpy.app.handlers.depsgraph_update_post.clear()
+        assert scene.meshes[scene.instances[0]["mesh"]]["points"][:, 0].max() > before + 0.1 and not report.diagnostics
+
+
+@pytest.mark.blender
 def test_what_cannot_be_exported_is_named_and_all_else_is_rendered(tmp_path):
     import bpy
     from recorder import depsgraph, empty, exporter, link, module, quad

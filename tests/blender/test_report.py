@@ -54,3 +54,40 @@ def test_no_panel_is_offered_in_vain(tmp_path):
     for panel in bpy.types.Panel.__subclasses__():
         if "GONIO" in getattr(panel, "COMPAT_ENGINES", ()):
             assert not any(word in panel.__name__ for word in words), panel.__name__
+
+
+@pytest.mark.blender
+def test_what_is_gone_is_told_no_more(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, material, quad
+
+    empty()
+    scene = bpy.context.scene
+    made, tree, end = material("Fog")
+    tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], end.inputs["Volume"])
+    thing = link(bpy.data.objects.new("Box", quad()))
+    thing.data.materials.append(made)
+    lamp = bpy.data.lights.new("Lamp", "POINT")
+    lamp.use_nodes = True
+    lamp.node_tree.nodes.clear()
+    falloff, output = (lamp.node_tree.nodes.new(f"ShaderNode{name}") for name in ("LightFalloff", "OutputLight"))
+    lamp.node_tree.links.new(falloff.outputs["Constant"], output.inputs[0])
+    link(bpy.data.objects.new("Lamp", lamp))
+    scene.render.use_motion_blur = True
+    exported, report = exporter()
+    exported.sync(depsgraph())
+
+    def told():
+        return {line.message.partition(":")[0] for line in report.diagnostics}
+
+    assert told() == {"Volume", "Light Falloff", "Motion blur"}
+    bpy.app.handlers.depsgraph_update_post.append(lambda _, graph: exported.update(graph))
+    thing.data.materials[0] = bpy.data.materials.new("Plain")
+    bpy.context.view_layer.update()
+    assert told() == {"Light Falloff", "Motion blur"}
+    bpy.data.objects.remove(bpy.data.objects["Lamp"])
+    scene.render.use_motion_blur = False
+    scene.update_tag()
+    bpy.context.view_layer.update()
+    bpy.app.handlers.depsgraph_update_post.clear()
+    assert not told()
