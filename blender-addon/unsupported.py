@@ -72,6 +72,7 @@ SCENES = {
 LIGHTS = {
     "textured lamp": Limit("Textures and other values that vary over a lamp's light", "it shines evenly with their mean"),
     "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
+    "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
     "ies elsewhere": Limit("IES textures on surfaces, with a vector of their own, or more than one a lamp", "even light of the strength"),
     "shining meshes": _untold("Photometric units of meshes that shine", "emission in W/m², times 177.83 lm/W"),

@@ -84,3 +84,25 @@ def test_light_falloffs_pass_their_strength_on(tmp_path):
         made, report = exporter()
         assert np.divide(made.sync(depsgraph()).lights[0]["emission"]["radiance"], full) == pytest.approx([3.0] * 3)
         assert len(report.diagnostics) == lines, output
+
+
+@pytest.mark.blender
+def test_lamps_that_the_camera_shall_not_see_shine(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link
+
+    def hidden(tree, light):
+        path, part = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMath")
+        part.operation = "SUBTRACT"
+        part.inputs[0].default_value = 1.0
+        tree.links.new(path.outputs["Is Camera Ray"], part.inputs[1])
+        tree.links.new(part.outputs[0], light.inputs["Strength"])
+
+    empty()
+    lamp = bpy.data.lights.new("Lamp", "AREA")
+    link(bpy.data.objects.new("Lamp", lamp))
+    full = exporter()[0].sync(depsgraph()).lights[0]["emission"]["radiance"]
+    lit(lamp, hidden)
+    made, report = exporter()
+    assert made.sync(depsgraph()).lights[0]["emission"]["radiance"] == pytest.approx(full)
+    assert [line.message.partition(":")[0] for line in report.diagnostics] == ["Light Path"]

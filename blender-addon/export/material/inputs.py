@@ -144,6 +144,10 @@ def light_path(t, node, context, output):
     }
     if name not in kinds:
         return None
+    if t.kind == "Light":
+        # What lamps light is found by rays of no such kind.
+        t.tell("lamp's light path", node, context, f"Light Path: {name}")
+        return t.graph.scalar(0.0)
     t.tell("light path", node, context, f"Light Path: {name}")
     return t.graph.scalar(1.0 if name == "Is Camera Ray" else 0.0)
 
