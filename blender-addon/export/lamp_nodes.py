@@ -7,7 +7,7 @@ import numpy as np
 
 from ..units import LUMENS_PER_WATT
 from .evaluate import Pictures, evaluate
-from .material.closures import flatten
+from .material.flatten import flatten
 from .material.inputs import GENERATED, POSITION, UV
 from .material.sockets import active_output, input_socket
 from .material.translator import Translator, value_node

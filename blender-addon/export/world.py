@@ -13,7 +13,7 @@ from .bake import bake
 from .daylight import facing
 from .evaluate import Pictures
 from .light_description import at_infinity
-from .material.closures import flatten
+from .material.flatten import flatten
 from .material.graph import Value
 from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket

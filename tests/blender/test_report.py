@@ -91,3 +91,58 @@ def test_what_is_gone_is_told_no_more(tmp_path):
     bpy.context.view_layer.update()
     bpy.app.handlers.depsgraph_update_post.clear()
     assert not told()
+
+
+# Cycles' settings that need no line: of noise and speed alone, or of what has a line of its own.
+NEED_NO_LINE = {
+    "scene": (
+        *(
+            "rna_type",
+            "name",
+            "device",
+            "feature_set",
+            "shading_system",
+            "preview_pause",
+            "debug_*",
+            "use_auto_tile",
+            "tile_size",
+            "bake_type",
+        ),
+        *("denoiser", "denoising_*", "preview_denois*", "sampling_pattern", "*scrambling_distance", "use_layer_samples"),
+        *("light_sampling_threshold", "direct_light_sampling_type", "use_light_tree", "min_*_bounces", "*guiding*", "texture_limit*"),
+        *("sample_offset", "sample_subset_length", "volume_*", "*dicing*", "max_subdivisions", "film_transparent_roughness"),
+        *("*_cull_margin", "rolling_shutter_*", "fast_gi_method", "ao_bounces*"),
+    ),
+    "layer": ("rna_type", "name", "use_denoising", "use_pass_*", "pass_render_time"),
+    "object": ("rna_type", "name", "*motion*", "*_cull", "ao_distance", "dicing_rate", "shadow_terminator_*"),
+    "light": ("rna_type", "name", "use_multiple_importance_sampling"),
+    "world": ("rna_type", "name", "sampling_method", "sample_map_resolution", "volume_*", "homogeneous_volume"),
+    "material": ("rna_type", "name", "emission_sampling", "volume_*", "homogeneous_volume"),
+}
+
+
+@pytest.mark.blender
+def test_every_setting_of_cycles_is_followed_or_leaves_a_line(tmp_path):
+    import unittest
+    from fnmatch import fnmatch
+
+    import bpy
+    from recorder import module
+
+    scene = bpy.context.scene
+    if not hasattr(scene, "cycles"):
+        raise unittest.SkipTest("this bpy has no Cycles")
+    limits, taken = module("export.limits"), module("operators.from_cycles")
+    owners = {
+        "scene": (scene, taken.SCENE, limits.SCENE),
+        "layer": (bpy.context.view_layer, taken.VIEW_LAYER, limits.LAYER),
+        "object": (bpy.data.objects["Cube"], {}, limits.OBJECT),
+        "light": (bpy.data.lights[0], taken.LIGHT, limits.LIGHT),
+        "world": (bpy.data.worlds[0], {}, limits.WORLD),
+        "material": (bpy.data.materials[0], {}, limits.MATERIAL),
+    }
+    for kind, (owner, followed, told) in owners.items():
+        lines = {path.rpartition("cycles.")[2] for _, path, *_ in told}
+        for name in owner.cycles.bl_rna.properties.keys():  # noqa: SIM118
+            known = name in followed.values() or name in lines or any(fnmatch(name, pattern) for pattern in NEED_NO_LINE[kind])
+            assert known, f"{kind}: nothing says that {name} is not followed"

@@ -7,7 +7,8 @@ import bpy
 
 from .. import limits
 from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
-from .closures import closure, flatten
+from .closures import closure
+from .flatten import flatten
 from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
