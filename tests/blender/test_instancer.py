@@ -95,3 +95,40 @@ def test_instances_without_the_attribute_have_their_instancers_property(tmp_path
         for matrix, value in zip(entry["transforms"], entry["primvars"]["instancer tint"], strict=True):
             found[float(matrix[0, 3])] = float(value[0])
     assert found == {0.0: 0.25, 1.0: 0.75}
+
+
+@pytest.mark.blender
+def test_many_instances_and_instances_with_ids(tmp_path):
+    import time
+
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link, material, quad
+
+    empty()
+    made, tree, end = material()
+    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
+    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
+    tree.links.new(node.outputs["Color"], shader.inputs["Color"])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    thing = link(bpy.data.objects.new("Thing", quad()))
+    thing.data.materials.append(made)
+    points, count = bpy.data.meshes.new("Points"), 5000
+    points.from_pydata([(float(number), 0.0, 1.0) for number in range(count)], [], [])
+    # IDs run the other way.
+    points.attributes.new("id", "INT", "POINT").data.foreach_set("value", np.arange(count, 0, -1, dtype=np.int32))
+    holder = link(bpy.data.objects.new("Holder", points))
+    group, info = instances_with("tint", "INT", lambda tree: tree.nodes.new("GeometryNodeInputIndex").outputs[0])
+    holder.modifiers.new("Nodes", "NODES").node_group = group
+    info.inputs[0].default_value = thing
+    graph = depsgraph()
+    exported, report = exporter()
+    start = time.perf_counter()
+    scene = exported.sync(graph)
+    assert time.perf_counter() - start < 2.0
+    seen = 0
+    for entry in scene.instances:
+        placed = entry["transforms"][:, 2, 3] == 1.0
+        assert np.array_equal(entry["primvars"]["instancer tint"][placed, 0], entry["transforms"][placed, 0, 3])
+        seen += int(placed.sum())
+    assert seen == count and not report.diagnostics
