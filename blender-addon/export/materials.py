@@ -77,6 +77,8 @@ class Materials:
             name = "" if material is None else material.name
             self._report.add("Material", name, f"{words_of(problem)}; a plain grey is used", severity="ERROR", material=name)
             translated = translate(None, self._images, self._measurements, self._report)
+            # The scene may have refused it, and its place is free again.
+            number, _ = self._slots.take(_uid(material))
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         return translated
 

@@ -264,3 +264,44 @@ def test_what_cannot_be_exported_is_named_and_all_else_is_rendered(tmp_path):
     bpy.context.view_layer.update()
     bpy.app.handlers.depsgraph_update_post.clear()
     assert ("Object", "Bad mesh") not in {(line.kind, line.name) for line in report.diagnostics}
+
+
+@pytest.mark.blender
+def test_what_the_scene_refuses_leaves_all_else_in_its_place(tmp_path):
+    import bpy
+    import gonio
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    empty()
+    for number, name in enumerate(("First", "Bad", "Last")):
+        thing = link(bpy.data.objects.new(name, quad(name)))
+        thing.data.vertices[0].co.z = float(number)
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        texture = material.node_tree.nodes.new("ShaderNodeTexImage")
+        texture.image = bpy.data.images.new(name, 2, 2)
+        texture.image.generated_color = (0.25 * (number + 1), 0.0, 0.0, 1.0)
+        material.node_tree.links.new(texture.outputs[0], material.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+        thing.data.materials.append(material)
+    made, report = exporter()
+    for function in ("put_mesh", "put_material", "put_texture"):
+        usual = getattr(made.scene, function)
+
+        def refusing(*arguments, usual=usual, **keywords):
+            described = arguments[0]["origin"]["name"] if isinstance(arguments[0], dict) else keywords["name"]
+            if described == "Bad":
+                raise gonio.Error("refused")
+            return usual(*arguments, **keywords)
+
+        setattr(made.scene, function, refusing)
+    for _ in range(2):
+        scene = made.sync(depsgraph())
+        assert {entry["name"]: scene.meshes[entry["mesh"]]["points"][:, 2].max() for entry in scene.instances} == {
+            "First": 0.0,
+            "Last": 2.0,
+        }
+        for entry in scene.instances:
+            [number] = entry["materials"]
+            [lookup] = [node["operation"]["Image"] for node in scene.materials[number]["graph"]["nodes"] if "Image" in node["operation"]]
+            assert scene.textures[lookup["texture"]]["origin"]["name"] == entry["name"]
+        assert {(line.kind, line.name) for line in report.diagnostics} == {("Object", "Bad"), ("Material", "Bad")}
