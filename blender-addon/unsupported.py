@@ -107,7 +107,9 @@ MATERIALS = {
     ),
     "light path": Limit("Light Path on surfaces: kinds of rays", "every ray counts as a camera ray"),
     "instancer's coordinates": Limit("Texture coordinates from the instancer", "the mesh's own"),
-    "instancer's attribute": Limit("Attributes of instancers of collections and of nested instances", "the object's own, 0 if it has none"),
+    "instancer's attribute": Limit(
+        "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
+    ),
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
     "brick": Limit("Brick Texture", "the mean of its bricks"),

@@ -132,3 +132,36 @@ def test_many_instances_and_instances_with_ids(tmp_path):
         assert np.array_equal(entry["primvars"]["instancer tint"][placed, 0], entry["transforms"][placed, 0, 3])
         seen += int(placed.sum())
     assert seen == count and not report.diagnostics
+
+
+@pytest.mark.blender
+def test_objects_of_instanced_collections_have_the_attribute_of_their_instance(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, material, quad
+
+    empty()
+    made, tree, end = material()
+    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
+    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
+    tree.links.new(node.outputs["Color"], shader.inputs["Color"])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    inside = bpy.data.collections.new("Inside")
+    for number in range(2):
+        thing = bpy.data.objects.new(f"Thing {number}", quad())
+        thing.data.materials.append(made)
+        thing.location.y = 2.0 * number
+        inside.objects.link(thing)
+    points = bpy.data.meshes.new("Points")
+    points.from_pydata([(float(number), 0.0, 0.0) for number in range(3)], [], [])
+    holder = link(bpy.data.objects.new("Holder", points))
+    group, info = instances_with("tint", "INT", lambda tree: tree.nodes.new("GeometryNodeInputIndex").outputs[0])
+    collection = group.nodes.new("GeometryNodeCollectionInfo")
+    collection.inputs[0].default_value = inside
+    group.links.new(collection.outputs[0], next(link.to_socket for link in info.outputs["Geometry"].links))
+    holder.modifiers.new("Nodes", "NODES").node_group = group
+    exported, report = exporter()
+    found = {}
+    for entry in exported.sync(depsgraph()).instances:
+        for matrix, value in zip(entry["transforms"], entry["primvars"]["instancer tint"], strict=True):
+            found[tuple(float(x) for x in matrix[:2, 3])] = float(value[0])
+    assert found == {(float(x), y): float(x) for x in range(3) for y in (0.0, 2.0)} and not report.diagnostics
