@@ -99,6 +99,7 @@ MATERIALS = {
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
+    "ray portal": Limit("Ray Portal BSDF", "rays go straight on"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(

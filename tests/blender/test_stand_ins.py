@@ -102,6 +102,21 @@ def test_rays_pass_what_is_a_volume_alone(tmp_path):
 
 
 @pytest.mark.blender
+def test_rays_go_straight_on_through_portals(tmp_path):
+    from recorder import constant, empty, material, translated
+
+    empty()
+    made, tree, end = material()
+    portal = tree.nodes.new("ShaderNodeBsdfRayPortal")
+    portal.inputs["Color"].default_value = (0.5, 0.6, 0.7, 1.0)
+    tree.links.new(portal.outputs[0], end.inputs["Surface"])
+    description, lines = translated(made)
+    [closure] = description["closures"]
+    assert closure["model"] == "Transparent" and constant(closure, "base_color")[:3] == pytest.approx([0.5, 0.6, 0.7])
+    assert lines == ["Material > Ray Portal BSDF: not supported; rays go straight on"]
+
+
+@pytest.mark.blender
 def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
     import bpy
     from recorder import constant, empty, material, translated

@@ -154,6 +154,12 @@ def transparent(t, node, context):
     return [closure(t.graph, "Transparent", base_color=t.input(node, "Color", context))]
 
 
+@closure_node("ShaderNodeBsdfRayPortal")
+def ray_portal(t, node, context):
+    t.tell("ray portal", node, context)
+    return transparent(t, node, context)
+
+
 @closure_node("ShaderNodeBsdfTranslucent")
 def translucent(t, node, context):
     return [closure(t.graph, "Translucent", base_color=t.input(node, "Color", context), normal=normal_node(t, node, context))]
