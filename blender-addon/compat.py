@@ -28,6 +28,13 @@ def pass_name(name: str) -> str:
     return name if LONG_PASS_NAMES else _SHORT_PASS_NAMES.get(name, name)
 
 
+def existing_compositor_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
+    """The compositor's node tree of a scene, None if it has none."""
+    if hasattr(scene, "compositing_node_group"):
+        return scene.compositing_node_group
+    return scene.node_tree if scene.use_nodes else None
+
+
 def compositor_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree:
     """The compositor's node tree of a scene, made if there is none (since 5.0 a node group of its own)."""
     if not hasattr(scene, "compositing_node_group"):

@@ -11,6 +11,9 @@ from bpy.app.handlers import persistent
 from .export import Exporter
 from .report import Report
 
+# The least cosine between a level face's normal and the vertical.
+LEVEL = 0.999
+
 
 @dataclass
 class Readings:
@@ -78,6 +81,7 @@ class Meter:
         mesh = evaluated.to_mesh()
         try:
             points, triangles = _arrays(mesh)
+            triangles = work_plane(points, triangles, np.array(evaluated.matrix_world, dtype=float)[:3, :3])
         finally:
             evaluated.to_mesh_clear()
         number = self.scene.add_mesh(points, triangles, name=thing.name)
@@ -110,6 +114,26 @@ def _arrays(mesh):
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
     return points, triangles
+
+
+def work_plane(points, triangles, turn):
+    """What a grid lies on: all of a surface with one side; of furniture and other bodies their largest level top. `turn` leads to the world."""
+    corners = (points[triangles] @ turn.T).astype(float)
+    # Twice the triangles' areas along their normals.
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) * np.sign(np.linalg.det(turn))
+    mean = across.sum(axis=0)
+    if len(triangles) == 0 or (across @ mean > 0.0).all():
+        return triangles
+    area = np.linalg.norm(across, axis=1)
+    looks_up = across[:, 2] > LEVEL * np.maximum(area, 1e-30)
+    if not looks_up.any():
+        return triangles
+    height = corners[..., 2].mean(axis=1)
+    step = 1e-3 * max(float(np.ptp(corners.reshape(-1, 3), axis=0).max()), 1e-6)
+    storey = np.round(height / step).astype(int)
+    levels, inverse = np.unique(storey[looks_up], return_inverse=True)
+    largest = levels[np.bincount(inverse.ravel(), area[looks_up]).argmax()]
+    return triangles[looks_up & (np.abs(storey - largest) <= 1)]
 
 
 def grid_lines(reading) -> tuple[str, ...]:

@@ -8,6 +8,16 @@ import bpy
 PAUSE = 0.03
 
 
+def show_report(context) -> None:
+    """Has the places that show the report drawn again: the viewport's header, and the properties."""
+    for area in context.screen.areas:
+        if area.type == "PROPERTIES":
+            area.tag_redraw()
+    for region in context.area.regions:
+        if region.type == "HEADER":
+            region.tag_redraw()
+
+
 def start(engine) -> None:
     """Watches an engine's viewport session until the engine is gone or its session is closed."""
     reference = weakref.ref(engine)

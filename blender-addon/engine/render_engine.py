@@ -29,6 +29,8 @@ class GonioRenderEngine(bpy.types.RenderEngine):
     viewport: ViewportSession | None = None
     drawing = None
     has_failed = False
+    # Lines of the report when the viewport was drawn last.
+    told = 0
 
     def __init__(self, *arguments, **keywords) -> None:
         super().__init__(*arguments, **keywords)
@@ -90,6 +92,14 @@ class GonioRenderEngine(bpy.types.RenderEngine):
             if session.picture is not None:
                 self.drawing.draw(self, context, depsgraph.scene, session.picture)
             self.update_stats("", session.status)
+            self._show_report(context, len(session.report.counted))
+
+    def _show_report(self, context, count: int) -> None:
+        if count != self.told:
+            from ..draw import redraw
+
+            self.told = count
+            redraw.show_report(context)
 
     def _viewport(self) -> ViewportSession:
         if self.viewport is None:

@@ -7,6 +7,8 @@ from . import camera, collecting, limits, settings, view, world
 from .changes import Changes, touched
 from .gather import Walk, fill_random
 from .images import Images
+from .instancer import PREFIX as INSTANCER
+from .instancer import fill_instancer
 from .instances import Instances
 from .lights import Lights
 from .material.inputs import RANDOM
@@ -64,7 +66,9 @@ class Exporter:
         elif found.moved:
             self._moves(depsgraph, changes, found.moved)
         if found.world:
-            self._lights.domes(world.domes(_world(depsgraph), self._images, self.report))
+            self._world(depsgraph)
+        if found.world or found.placements:
+            limits.of_scene(depsgraph, self.report)
         self._lights.write()
         changes.lights = self._lights.any_written
         changes.world = found.world and self._lights.any_written
@@ -75,6 +79,7 @@ class Exporter:
     def set_view(self, depsgraph, space_view3d, region_3d, width, height):
         """Looks where a 3D view looks."""
         self._follows_view = True
+        self.report.forget_all("Camera")
         return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report))
 
     def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",)):
@@ -88,10 +93,20 @@ class Exporter:
     def _everything(self, depsgraph):
         self._materials.forget_all()
         self._placements(depsgraph, Changes(), keep_known=False)
-        self._lights.domes(world.domes(_world(depsgraph), self._images, self.report))
+        self._world(depsgraph)
         self._lights.write()
         self._scene_camera(depsgraph)
         limits.of_scene(depsgraph, self.report)
+
+    def _world(self, depsgraph):
+        """The world that the view layer shows; one that cannot be exported is black."""
+        layer = depsgraph.view_layer_eval
+        shown = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
+        self._lights.domes([])
+        self.report.forget_all("World")
+        if shown is not None:
+            with self.report.guard("World", shown.name, "the world is black"):
+                self._lights.domes(world.domes(shown, self._images, self.report))
 
     def _moves(self, depsgraph, changes, moved):
         """New places of objects; everything is walked over where they may take others along."""
@@ -105,19 +120,24 @@ class Exporter:
         """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
         self._meshes.begin(keep_known)
         self._materials.begin()
-        walk = Walk(depsgraph)
+        # All objects are looked at anew.
+        self.report.forget_all("Object")
+        walk = Walk(depsgraph, self.report)
         override = depsgraph.view_layer_eval.material_override
         entries = []
         for group in walk.groups:
-            if group.kind != "LIGHT":
-                materials = self._materials.of_slots(group.slots, walk.materials, override)
-                mesh = self._meshes.number(group, materials.primvars)
-                if mesh is not None:
-                    entries.append((group, mesh, materials.numbers, materials.placed))
+            with self.report.guard("Object", group.name, "it is left out"):
+                limits.of_object(group, self.report)
+                if group.kind != "LIGHT":
+                    materials = self._materials.of_slots(group.slots, walk.materials, override)
+                    mesh = self._meshes.number(group, materials.primvars)
+                    if mesh is not None:
+                        entries.append((group, mesh, materials.numbers, materials.placed))
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
+        given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
+        fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
         self._instances.write(entries)
-        for group in walk.groups:
-            limits.of_object(group.source.original, self.report)
+        self._materials.sweep()
         self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
         self._meshes.sweep()
         changes.geometry |= self._meshes.any_written
@@ -129,6 +149,7 @@ class Exporter:
         source = depsgraph.scene.camera
         if self._follows_view or source is None:
             return False
+        self.report.forget_all("Camera")
         render = depsgraph.scene.render
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
@@ -141,9 +162,3 @@ class Exporter:
         self.scene.put_camera(description, index=None if self._camera is None else 0)
         self._camera = description
         return True
-
-
-def _world(depsgraph):
-    """The world that the view layer shows."""
-    layer = depsgraph.view_layer_eval
-    return getattr(layer, "world_override", None) or depsgraph.scene_eval.world

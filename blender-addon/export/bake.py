@@ -3,24 +3,27 @@
 
 import numpy as np
 
-from .images import linear_pixels
-from .material.operations import compute
+from .evaluate import evaluate, look_up, pixels_of
+from .material.textures import MISSING
 from .sky_texture import Picture
 
+# The pixels of a missing image.
+LOST = np.full((1, 1, 4), MISSING, dtype=np.float32)
 # Rows of a baked world without images; one with an image has the image's rows up to the limit.
 ROWS, MOST_ROWS = 512, 2048
 
 
-def bake(t, total, images, report):
+def bake(t, total, report):
     """(rows, 2 rows, 4) linear pixels, the top row (+Z) first, the middle column at +X."""
-    pictures = {node: image for node, (image, *_) in t.environments.items()}
-    rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image in pictures.values())]))
+    # An image that could not be had is without a number.
+    pictures = [(image, number is not None) for image, number, *_ in t.environments.values()]
+    rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image, _ in pictures)]))
     report.add("World", t.owner.name, f"its nodes were baked to {2 * rows} × {rows} directions", severity="INFO")
     values = []
-    loaded = {image.name: _pixels(image) for image in pictures.values()}
+    loaded = {image.name: _pixels(image) if is_there else LOST for image, is_there in pictures}
     for top in range(0, rows, 64):
         directions = _directions(rows, range(top, min(top + 64, rows)))
-        values.append(_evaluate(t, total, directions, loaded))
+        values.append(evaluate(t.graph, total.input(), directions.shape, _leaves(t, directions, loaded)))
     pixels = np.concatenate(values, axis=0).astype(np.float32)
     pixels[..., :3] = np.nan_to_num(np.maximum(pixels[..., :3], 0.0), posinf=0.0)
     pixels[..., 3] = 1.0
@@ -35,53 +38,24 @@ def _directions(rows, numbers):
     return np.stack([flat * np.cos(longitude), flat * np.sin(longitude), np.sin(latitude), np.zeros_like(flat)], axis=-1)
 
 
-def _evaluate(t, total, directions, loaded):
-    shape, results = directions.shape, []
+def _leaves(t, directions, loaded):
+    """What a world's nodes know beside arithmetic: the direction, and pictures."""
 
-    def read(source):
-        if "Constant" in source:
-            return np.broadcast_to(np.array(source["Constant"]), shape)
-        value, channel = results[source["Node"][0]], source["Node"][1]
-        return value if channel == "Rgb" else np.repeat(value[..., "RGBA".index(channel), None], 4, axis=-1)
+    def leaf(operation, inputs):
+        if operation == "Direction":
+            return directions
+        if not isinstance(operation, dict):
+            return None
+        if "Image" in operation:
+            return t.images.look_up(operation["Image"], inputs[0])
+        if "Lookup" not in operation:
+            return None
+        fields = operation["Lookup"]
+        wrap = ("Repeat" if fields["repeat"] else "Clamp", "Clamp")
+        return look_up(loaded[fields["image"]], inputs[0], wrap, fields["closest"])
 
-    with np.errstate(all="ignore"):
-        for node in t.graph.nodes:
-            operation, inputs = node["operation"], [read(source) for source in node["inputs"]]
-            if operation == "Direction":
-                value = directions
-            elif isinstance(operation, dict) and ("Lookup" in operation or "Image" in operation):
-                value = _look_up(operation, inputs[0], loaded)
-            else:
-                value = compute(operation, inputs)
-            results.append(np.zeros(shape) if value is None else np.broadcast_to(value, shape))
-        return np.array(read(total.input()))
+    return leaf
 
 
 def _pixels(image):
-    if isinstance(image, Picture):
-        return image.pixels[::-1]
-    if not image.has_data and image.source in ("FILE", "SEQUENCE"):
-        image.pixels  # noqa: B018 (loads the file)
-    return linear_pixels(image) if image.size[0] else np.zeros((1, 1, 4), dtype=np.float32)
-
-
-def _look_up(operation, uv, loaded):
-    """Bilinear, u repeating, v held at the poles."""
-    fields = operation.get("Lookup")
-    pixels = loaded.get(fields["image"]) if fields else None
-    if pixels is None:
-        return np.zeros(uv.shape)
-    height, width = pixels.shape[:2]
-    x, y = uv[..., 0] * width - 0.5, uv[..., 1] * height - 0.5
-    if fields["closest"]:
-        x, y = np.floor(x + 0.5), np.floor(y + 0.5)
-    left, low = np.floor(x).astype(int), np.floor(y).astype(int)
-    right, high = (x - left)[..., None], (y - low)[..., None]
-
-    def texel(column, row):
-        column = column % width if fields["repeat"] else np.clip(column, 0, width - 1)
-        return pixels[np.clip(row, 0, height - 1), column]
-
-    lower = texel(left, low) * (1.0 - right) + texel(left + 1, low) * right
-    upper = texel(left, low + 1) * (1.0 - right) + texel(left + 1, low + 1) * right
-    return lower * (1.0 - high) + upper * high
+    return image.pixels[::-1] if isinstance(image, Picture) else pixels_of(image)

@@ -51,7 +51,7 @@ def _projection(lens, sensor, shape, name, report):
     if lens.type == "PANO":
         return panorama(lens, sensor, name, report), (1.0, 1.0), shift
     if lens.type != "PERSP":
-        report.add("Camera", name, f"cameras of type {lens.type.capitalize()} are not supported; a perspective one is used")
+        report.tell("kind of camera", "Camera", name, f"Cameras of type {lens.type.capitalize()}")
     return {"Perspective": {"focal_length": float(lens.lens)}}, sensor, shift * _fitted(lens, sensor, shape)
 
 
@@ -69,9 +69,7 @@ def panorama(lens, sensor, name, report):
         }
         return {"FisheyeEquisolid": fields}
     if kind != "EQUIRECTANGULAR":
-        report.add(
-            "Camera", name, f"panoramas of type {kind.replace('_', ' ').capitalize()} are not supported; an equirectangular one is used"
-        )
+        report.tell("panorama", "Camera", name, f"Panoramas of type {kind.replace('_', ' ').capitalize()}")
         return {"Equirectangular": {"longitude": [-np.pi, np.pi], "latitude": [-0.5 * np.pi, 0.5 * np.pi]}}
     longitude = [float(settings.longitude_min), float(settings.longitude_max)]
     return {"Equirectangular": {"longitude": longitude, "latitude": [float(settings.latitude_min), float(settings.latitude_max)]}}

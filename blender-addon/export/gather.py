@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One walk over everything that the depsgraph shows: placements grouped by what is placed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
@@ -37,12 +37,14 @@ class Group:
     # Which placements can be shown; None if all can.
     kept: np.ndarray | None = None
     random: np.ndarray | None = None
+    # What the instancer gives each placement, by name.
+    instancer: dict = field(default_factory=dict)
 
 
 class Walk:
     """What a depsgraph shows: the groups, with their matrices (N, 4, 4), and the materials of their slots by session_uid."""
 
-    def __init__(self, depsgraph):
+    def __init__(self, depsgraph, report):
         self.groups, self.materials = [], {}
         self._depsgraph, self._visibility = depsgraph, Visibility(depsgraph.view_layer)
         groups, parents, count = {}, None, 0
@@ -60,7 +62,9 @@ class Walk:
                     key, parent = (*key, uid), parents[uid]
             group = groups.get(key, self)
             if group is self:
-                groups[key] = self._group(item, thing, original, data, parent, row)
+                groups[key] = None
+                with report.guard("Object", original.name, "it is left out"):
+                    groups[key] = self._group(item, thing, original, data, parent, row)
             elif group is not None:
                 group.rows.append(row)
         self.groups = _once([group for group in groups.values() if group is not None])

@@ -7,6 +7,7 @@ import numpy as np
 
 from .gather import SILENT
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
+from .object_attribute import object_attribute
 from .transforms import usable
 
 # Names of attributes that are custom properties of the object.
@@ -59,20 +60,26 @@ class Instances:
     def write(self, entries):
         """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there."""
         self.any_written, self._single, number = False, {}, 0
-        for group, mesh, materials, wanted in entries:
-            self._report.forget("Object", group.name)
-            is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
-            self._single[group.object_uid] = number if is_single else None
-            if group.kept is not None and not self._leave_out(group):
-                continue
-            values = _values(group, wanted) if wanted else NO_VALUES
-            of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
-            self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
-            number += 1
+        for entry in entries:
+            with self._report.guard("Object", entry[0].name, "it is left out"):
+                number += self._write(number, *entry)
         if number < len(self._written):
             self.any_written = True
             self._scene.truncate("instances", number)
             del self._written[number:]
+
+    def _write(self, number, group, mesh, materials, wanted):
+        """Puts one entry; gives how many it became, 0 or 1."""
+        is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
+        self._single[group.object_uid] = None
+        if group.kept is not None and not self._leave_out(group):
+            return 0
+        values = _values(group, wanted) if wanted else NO_VALUES
+        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
+        self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
+        if is_single:
+            self._single[group.object_uid] = number
+        return 1
 
     def move(self, moved):
         """Moves the evaluated objects given by session_uid, of which nothing else has changed; False, with nothing written, where that may
@@ -106,6 +113,7 @@ class Instances:
         group.matrices = group.matrices[group.kept]
         if group.random is not None:
             group.random = group.random[group.kept]
+        group.instancer = {name: values[group.kept] for name, values in group.instancer.items()}
         return len(group.matrices) > 0
 
     def _put(self, number, entry):
@@ -139,7 +147,7 @@ def _values(group, wanted):
         values[RANDOM] = np.ascontiguousarray(group.random[:, None])
     if LOCATION in wanted:
         values[LOCATION] = _locations(group.matrices)
-    return values
+    return {**values, **group.instancer}
 
 
 def _locations(transforms):
@@ -160,18 +168,3 @@ def _of_object(source, pass_index, wanted, count):
         if value is not None:
             values[name] = np.tile(np.asarray(value, dtype=np.float32), (count, 1))
     return values
-
-
-def object_attribute(source, name):
-    """A property of an object, or of its data, by the path that Blender's Attribute node takes; as a colour."""
-    for thing in (source, source.data):
-        for path in (f'["{name}"]', name):
-            try:
-                value = thing.path_resolve(path)
-            except (ValueError, AttributeError):
-                continue
-            if isinstance(value, (int, float)):
-                return (float(value),) * 3 + (1.0,)
-            if hasattr(value, "__len__") and not isinstance(value, str) and 1 < len(value) <= 4:
-                return [*(float(x) for x in value), 0.0, 1.0][:3] + [float(value[3]) if len(value) == 4 else 1.0]
-    return None

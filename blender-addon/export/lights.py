@@ -7,11 +7,11 @@ import numpy as np
 
 from .. import luminaire
 from ..units import LUMENS_PER_WATT
-from . import goniogram  # noqa: F401 (it registers its node)
-from . import photometry
-from .material.closures import flatten
-from .material.sockets import active_output, input_socket
-from .material.translator import Translator
+from . import (
+    goniogram,  # noqa: F401 (it registers its node)
+    photometry,
+)
+from .lamp_nodes import emission
 from .transforms import columns, without_scale
 from .visibility import RAYS
 
@@ -19,7 +19,7 @@ from .visibility import RAYS
 def describe(group, matrix, images, report):
     """The description of one lamp at one place."""
     lamp = group.data
-    colour, distribution = _colour(lamp, images, report)
+    colour, distribution = colour_of(lamp, matrix, images, report)
     strength = colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
@@ -49,35 +49,15 @@ def describe(group, matrix, images, report):
     return description
 
 
-def _colour(lamp, images, report):
+def colour_of(lamp, matrix, images, report):
     """The lamp's colour: its own, of its temperature, and of its nodes; and its goniogram."""
     colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
         colour = colour * np.array(lamp.temperature_color, dtype=float)
     if lamp.use_nodes and lamp.node_tree is not None:
-        by_nodes, distribution = _nodes_colour(lamp, images, report)
+        by_nodes, distribution = emission(lamp, matrix, images, report)
         return colour * by_nodes, distribution
     return colour, None
-
-
-def _nodes_colour(lamp, images, report):
-    """What a lamp's nodes multiply its strength by: evenly, and by direction."""
-    report.forget("Light", lamp.name)
-    t = Translator(lamp, lamp.node_tree, images, report, kind="Light")
-    end = active_output(lamp.node_tree, "Light")
-    if end is None:
-        return np.zeros(3), None
-    flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
-    total = np.zeros(3)
-    for closure in t.closures:
-        if closure["model"] != "Emission":
-            continue
-        colour, weight = dict(closure["parameters"])["emission_color"], closure["weight"]
-        if "Node" in colour or "Node" in weight:
-            report.add("Light", lamp.name, "a texture or a value that varies drives the light; its strength is taken as even")
-            continue
-        total += np.array(colour["Constant"][:3]) * np.array(weight["Constant"][:3]) / LUMENS_PER_WATT
-    return total, t.goniogram
 
 
 def _is_normalized(lamp):
@@ -139,13 +119,21 @@ class Lights:
 
     def lamps(self, groups):
         """Describes the lamps anew."""
+        self._report.forget_all("Light")
         self._lamps = []
         for group in groups:
-            for matrix in group.matrices:
-                if np.isfinite(matrix).all():
-                    self._lamps.append(describe(group, matrix, self._images, self._report))
-                else:
-                    self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
+            with self._report.guard("Object", group.name, "the lamp is left out"):
+                self._lamps += self._described(group)
+
+    def _described(self, group):
+        """The descriptions of a lamp's placements."""
+        found = []
+        for matrix in group.matrices:
+            if np.isfinite(matrix).all():
+                found.append(describe(group, matrix, self._images, self._report))
+            else:
+                self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
+        return found
 
     def domes(self, descriptions):
         """Takes the world's descriptions."""
@@ -153,13 +141,16 @@ class Lights:
 
     def write(self):
         """Writes what differs."""
-        wanted = [*self._lamps, *self._domes]
-        self.any_written = len(wanted) != len(self._written)
-        for number, description in enumerate(wanted):
-            known = number < len(self._written)
-            if not known or self._written[number] != description:
-                self._scene.put_light(description, index=number if known else None)
-                self.any_written = True
-        if len(wanted) < len(self._written):
-            self._scene.truncate("lights", len(wanted))
-        self._written = wanted
+        before, self._written = self._written, []
+        self.any_written = False
+        for description in (*self._lamps, *self._domes):
+            with self._report.guard("Light", description["origin"]["name"], "the light is left out"):
+                number = len(self._written)
+                known = number < len(before)
+                if not known or before[number] != description:
+                    self._scene.put_light(description, index=number if known else None)
+                    self.any_written = True
+                self._written.append(description)
+        if len(self._written) < len(before):
+            self._scene.truncate("lights", len(self._written))
+            self.any_written = True

@@ -1,21 +1,116 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a file asks for that is not shown: said once, never left out in silence."""
 
+from functools import lru_cache
+
+from .gather import AS_MESH
+
+# By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
+SCENE = (
+    ("motion blur", "render.use_motion_blur", (False,), ""),
+    ("stereoscopy", "render.use_multiview", (False,), ""),
+    ("freestyle", "render.use_freestyle", (False,), ""),
+    ("transparent glass", "cycles.film_transparent_glass", (False,), ""),
+    ("fast gi", "cycles.use_fast_gi", (False,), ""),
+    ("no caustics", "cycles.caustics_reflective", (True,), "Reflective caustics that are switched off"),
+    ("no caustics", "cycles.caustics_refractive", (True,), "Refractive caustics that are switched off"),
+    ("filter glossy", "cycles.blur_glossy", (0.0, 1.0), ""),
+    ("sample subset", "cycles.use_sample_subset", (False,), ""),
+    ("culling", "render.use_simplify and cycles.use_camera_cull", (False,), "Culling by camera"),
+    ("culling", "render.use_simplify and cycles.use_distance_cull", (False,), "Culling by distance"),
+)
+LAYER = (
+    ("layer filter", "use_sky", (True,), "A view layer without Environment"),
+    ("layer filter", "use_solid", (True,), "A view layer without Surfaces"),
+)
+OBJECT = (
+    ("light linking", "light_linking.receiver_collection", (None,), "Light linking"),
+    ("light linking", "light_linking.blocker_collection", (None,), "Shadow linking"),
+    ("adaptive subdivision", "cycles.use_adaptive_subdivision", (False,), ""),
+    ("shadow caustics", "cycles.is_caustics_caster", (False,), ""),
+    ("shadow caustics", "cycles.is_caustics_receiver", (False,), ""),
+    ("shadow terminator", "shadow_terminator_shading_offset", (0.0,), "Shadow terminator's shading offset"),
+)
+LIGHT = (
+    ("shadow caustics", "cycles.is_caustics_light", (False,), ""),
+    ("lamp bounces", "cycles.max_bounces", (1024,), "Most bounces of the light"),
+)
+WORLD = (
+    ("shadow caustics", "cycles.is_caustics_light", (False,), ""),
+    ("lamp bounces", "cycles.max_bounces", (1024,), "Most bounces of the world"),
+)
+MATERIAL = (
+    ("opaque shadows", "use_transparent_shadow", (True,), ""),
+    ("bump correction", "cycles.use_bump_map_correction", (True,), ""),
+)
+# Switches of passes that mean no pass that could be missing.
+NO_PASSES = {"use_pass_cryptomatte_accurate"}
+# Passes whose switches are named otherwise.
+OTHER_PASSES = {"pass_render_time"}
+
 
 def of_scene(depsgraph, report):
-    """Settings of the scene that have no effect."""
-    scene = depsgraph.scene
-    if scene.render.use_motion_blur:
-        report.add("Scene", scene.name, "motion blur is not supported; everything stands still")
+    """Settings of the scene, its view layer and its world that have no effect."""
+    scene, layer = depsgraph.scene, depsgraph.view_layer
+    for kind, owner, settings in (("Scene", scene, SCENE), ("View Layer", layer, LAYER), ("World", scene.world, WORLD)):
+        if owner is not None:
+            if kind != "World":
+                report.forget_all(kind)
+            _tell(kind, owner, settings, report)
 
 
-def of_object(source, report):
-    """Settings of an object that have no effect."""
-    linking = getattr(source, "light_linking", None)
-    if linking is not None and (linking.receiver_collection or linking.blocker_collection):
-        report.add("Object", source.name, "light linking is not supported; it lights everything and everything blocks it")
-    if source.type == "LIGHT" and not source.is_shadow_catcher:
-        report.add("Object", source.name, "shadow catchers cannot leave its light out of account; it counts as all others", severity="INFO")
+def of_passes(layer, known, report):
+    """Passes that a view layer asks for in vain; `known` are the switches of those that there are."""
+    for owner in (layer, getattr(layer, "cycles", None)):
+        for setting in owner.bl_rna.properties if owner is not None else ():
+            name = setting.identifier
+            is_pass = (name.startswith("use_pass_") or name in OTHER_PASSES) and name not in NO_PASSES
+            if is_pass and name not in known and getattr(owner, name):
+                report.tell("pass", "View Layer", layer.name, f"Pass {setting.name}")
+
+
+def of_material(material, report):
+    """Settings of a material that have no effect."""
+    _tell("Material", material, MATERIAL, report)
+
+
+def of_object(group, report):
+    """Settings of an object, or of its lamp, that have no effect."""
+    source, name = group.source.original, group.name
+    _tell("Object", source, OBJECT, report, name)
+    if group.kind == "LIGHT":
+        _tell("Light", source.data, LIGHT, report)
+        if not source.is_shadow_catcher:
+            report.tell("catcher's lamp", "Object", name)
+    elif group.kind != "MESH" and group.kind not in AS_MESH:
+        report.tell("kind of object", "Object", name, f"{KINDS.get(group.kind, group.kind.capitalize())} objects")
+    if any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in source.modifiers):
+        report.tell("adaptive subdivision", "Object", name)
     for system in source.particle_systems:
         if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
-            report.add("Object", source.name, f"hair strands ({system.name}) are not supported; they are left out")
+            report.tell("hair strands", "Object", name, f"Hair strands ({system.name})")
+
+
+KINDS = {"CURVES": "Hair curves", "POINTCLOUD": "Point cloud", "GREASEPENCIL": "Grease pencil", "GPENCIL": "Grease pencil"}
+
+
+def _tell(kind, owner, settings, report, name=""):
+    for limit, path, usual, subject in settings:
+        *switches, last = _paths(path)
+        if all(_value(owner, switch, False) for switch in switches) and _value(owner, last, usual[0]) not in usual:
+            report.tell(limit, kind, name or owner.name, subject)
+
+
+@lru_cache(maxsize=None)
+def _paths(path):
+    """Several settings count together, the last of them by its value: each as its names from the owner on."""
+    return [part.split(".") for part in path.split(" and ")]
+
+
+def _value(owner, names, usual):
+    """A setting by its path; `usual` where this Blender has none such."""
+    for name in names:
+        owner = getattr(owner, name, None)
+        if owner is None:
+            return usual
+    return owner

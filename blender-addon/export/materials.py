@@ -3,8 +3,7 @@
 
 from dataclasses import dataclass
 
-import gonio
-
+from ..report import words_of
 from .material import translate
 
 
@@ -23,6 +22,8 @@ class Materials:
     def __init__(self, scene, slots, images, measurements, report):
         self._scene, self._slots, self._images, self._measurements, self._report = scene, slots, images, measurements, report
         self._translated, self.any_written = {}, False
+        # The names of materials that this pass shows, by session_uid.
+        self._shown, self._before = {}, {}
         # Within a pass: many objects have the same slots.
         self._slotted = {}
         # Names of the AOV Output nodes that passes show.
@@ -30,7 +31,14 @@ class Materials:
 
     def begin(self):
         """Starts a pass."""
-        self.any_written, self._slotted = False, {}
+        self.any_written, self._slotted, self._before, self._shown = False, {}, self._shown, {}
+
+    def sweep(self):
+        """Forgets materials that nothing shows any more, and what was said of them."""
+        for uid in self._before.keys() - self._shown.keys():
+            self._translated.pop(uid, None)
+            if (name := self._before[uid]) not in self._shown.values():
+                self._report.forget("Material", name)
 
     def forget_all(self):
         """Has every material translated again."""
@@ -52,6 +60,7 @@ class Materials:
     def _number(self, material):
         """The number of a material (None: the default one), translated and written where that is still to be done."""
         uid = _uid(material)
+        self._shown[uid] = "" if material is None else material.name
         number, _ = self._slots.take(uid)
         if uid not in self._translated:
             if material is not None:
@@ -64,9 +73,12 @@ class Materials:
         try:
             translated = translate(material, self._images, self._measurements, self._report, shader_aovs=self.shader_aovs)
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
-        except (gonio.Error, ValueError, TypeError, RecursionError) as problem:
-            self._report.add("Material", material.name, f"{problem}; a plain grey is used", severity="ERROR", material=material.name)
+        except Exception as problem:
+            name = "" if material is None else material.name
+            self._report.add("Material", name, f"{words_of(problem)}; a plain grey is used", severity="ERROR", material=name)
             translated = translate(None, self._images, self._measurements, self._report)
+            # The scene may have refused it, and its place is free again.
+            number, _ = self._slots.take(_uid(material))
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         return translated
 

@@ -179,7 +179,7 @@ def _wanted(mesh, points, primvars, spread):
             if attribute is not None and attribute.domain in ("POINT", "CORNER", "FACE") and attribute.name not in mesh.uv_layers:
                 values = read(attribute)
                 if values is not None:
-                    found[name] = _placed(mesh, attribute.domain, _as_shader_value(values), spread)
+                    found[name] = _placed(mesh, attribute.domain, as_shader_value(values), spread)
     return found
 
 
@@ -204,7 +204,7 @@ def _attribute(mesh, name):
     return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
 
 
-def _as_shader_value(values):
+def as_shader_value(values):
     """One number fills a colour with alpha 1, as Blender converts it."""
     values = np.ascontiguousarray(values, dtype=np.float32)
     if values.shape[1] == 1:

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from ..report import words_of
 from .gather import AS_MESH
 from .mesh import fingerprint, mesh_arguments, present
 
@@ -12,7 +13,7 @@ class Meshes:
 
     def __init__(self, scene, slots, report):
         self._scene, self._slots, self._report = scene, slots, report
-        # (object, data) -> (content, values wanted) as of the last time it was read
+        # (object, data) -> (content, values wanted, what went wrong) as of the last time it was read
         self._known, self._seen = {}, set()
         # (place in memory, values wanted) -> content, within a pass: many objects may show one mesh
         self._read_now = {}
@@ -30,26 +31,32 @@ class Meshes:
         self._known = {key: known for key, known in self._known.items() if key[0] not in uids and key[1] not in uids}
 
     def number(self, group, primvars):
-        """The number of a group's mesh; None if it has no faces."""
+        """The number of a group's mesh; None if it has no faces or cannot be read."""
         place = (group.object_uid, group.data_uid)
         self._seen.add(place)
         known = self._known.get(place)
         if known is None or known[1] != primvars:
-            known = self._known[place] = (self._read(group, primvars), primvars)
-        key = known[0]
-        if key is None:
-            return None
-        return self._slots.take(key)[0]
+            known = self._known[place] = self._known_now(group, primvars)
+        key, _, problem = known
+        if problem:
+            self._report.add("Object", group.name, problem, severity="ERROR")
+        return None if key is None else self._slots.take(key)[0]
+
+    def _known_now(self, group, primvars):
+        """What is known of a group's mesh once it was read; one that cannot be read is left out."""
+        try:
+            return self._read(group, primvars), primvars, ""
+        except Exception as problem:
+            return None, primvars, f"{words_of(problem)}; it is left out"
 
     def _read(self, group, primvars):
         """Reads a mesh and writes it to the scene if nothing like it is there; gives its key."""
-        if group.kind == "MESH":
+        if group.kind == "MESH" and not _is_being_edited(group):
             here = (group.data.as_pointer(), primvars)
             if here not in self._read_now:
                 self._read_now[here] = self._write(group, group.data, primvars)
             return self._read_now[here]
-        if group.kind not in AS_MESH:
-            self._report.add("Object", group.name, f"objects of type {group.kind.capitalize()} are not supported; it is left out")
+        if group.kind != "MESH" and group.kind not in AS_MESH:
             return None
         mesh = group.source.to_mesh()
         try:
@@ -78,3 +85,8 @@ class Meshes:
         for number in self._slots.sweep():
             nothing = np.zeros((0, 3), dtype=np.float32), np.zeros((0, 3), dtype=np.int32)
             self._slots.place(lambda index, nothing=nothing: self._scene.put_mesh(*nothing, name="nothing", index=index), number)
+
+
+def _is_being_edited(group):
+    """Whether a mesh is open in Edit Mode, where its data-block may hold nothing of what is seen."""
+    return group.data.is_editmode and group.source.type == "MESH"

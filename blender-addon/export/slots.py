@@ -31,10 +31,23 @@ class Slots:
         return True
 
     def place(self, write, number, *arguments, **keywords):
-        """Calls a function of the scene that adds or replaces."""
-        write(*arguments, index=number if number in self._written else None, **keywords)
+        """Calls a function of the scene that adds or replaces; a place whose thing it refuses is given back."""
+        try:
+            write(*arguments, index=number if number in self._written else None, **keywords)
+        except Exception:
+            self._give_back(number)
+            raise
         # What holds buffers cannot be compared cheaply; its key tells whether it changed.
         self._written[number] = None
+
+    def _give_back(self, number):
+        """Forgets who has a place: one that was never written is the last and not in the scene's list."""
+        for key in [key for key, value in self._numbers.items() if value == number]:
+            del self._numbers[key]
+        if number in self._written:
+            self._free.append(number)
+        else:
+            self._length = number
 
     def begin(self):
         """Starts a pass after which keys that were not taken are gone."""

@@ -11,8 +11,9 @@ from ..units import LUMENS_PER_WATT
 from . import daylight
 from .bake import bake
 from .daylight import facing
+from .evaluate import Pictures
 from .light_description import at_infinity
-from .material.closures import flatten
+from .material.flatten import flatten
 from .material.graph import Value
 from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket
@@ -115,15 +116,15 @@ def _with_visibility(world, descriptions):
 
 
 def _dome(world, tree, images, report, is_camera_ray):
-    t = WorldTranslator(world, tree, images, report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
+    t = WorldTranslator(world, tree, Pictures(images), report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
     end = active_output(tree, "World")
     if end is None:
         return [], t
     volume = input_socket(end, "Volume")
     if volume is not None and volume.is_linked:
-        t.say(end, t.root, "volume is not supported; the air stays clear")
+        t.tell("world volume", end, t.root)
     for node, context in outputs_of(t.root):
-        t.say(node, context, "shader AOVs of worlds are not supported; their passes show surfaces alone")
+        t.tell("world aov", node, context)
     flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
     total = t.graph.colour((0.0, 0.0, 0.0))
     for closure in t.closures:
@@ -150,8 +151,8 @@ def _described(world, t, total, images, report):
             dome = _dome_of(world, factor, orientation, number, "MirroredBall" if is_ball else "LatLong")
             return [dome, *_sun(world, image, factor, matrix)]
     if any(isinstance(image, Picture) and any(image.sun) for image, *_ in t.environments.values()):
-        t.say(active_output(t.root.tree, "World"), t.root, "other nodes change the sky texture; the sun's disc is left out")
-    pixels = bake(t, total, images, report)
+        t.tell("sun behind nodes", active_output(t.root.tree, "World"), t.root)
+    pixels = bake(t, total, report)
     number = images.baked((world.original.session_uid, t.is_camera_ray), world.name, pixels)
     return [_dome_of(world, np.ones(3), DOME_TO_BLENDER, number, "LatLong")]
 

@@ -4,7 +4,6 @@
 import bpy
 
 from .. import measuring
-from .denoise import GONIO_OT_add_denoise_node
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
@@ -14,7 +13,6 @@ from .standard_view import GONIO_OT_use_standard_view
 
 CLASSES = (
     GONIO_OT_settings_from_cycles,
-    GONIO_OT_add_denoise_node,
     GONIO_OT_use_standard_view,
     GONIO_OT_expose_for_daylight,
     GONIO_OT_measure_grids,

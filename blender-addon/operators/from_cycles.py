@@ -15,6 +15,7 @@ SCENE = {
         "use_preview_adaptive_sampling",
         "preview_adaptive_threshold",
         "preview_adaptive_min_samples",
+        "use_denoising",
         "use_preview_denoising",
         "preview_denoising_start_sample",
         "time_limit",

@@ -17,11 +17,11 @@ class GONIO_OT_report_jump(bpy.types.Operator):
     index: IntProperty(name="Line", description="Number of the line in the report", min=0, options={"HIDDEN"})
 
     def execute(self, context):
-        lines = report.latest().diagnostics
+        lines = report.latest().counted
         if self.index >= len(lines):
             self.report({"WARNING"}, "The report has changed")
             return {"CANCELLED"}
-        line = lines[self.index]
+        line = lines[self.index].first
         if line.material is not None:
             return self._show_material(context, line)
         if line.kind in ("World", "Light") and line.node is not None:

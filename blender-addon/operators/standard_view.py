@@ -4,7 +4,14 @@
 import bpy
 
 # What Color Management must say.
-STANDARD = {"view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0, "use_curve_mapping": False, "use_white_balance": False}
+STANDARD = {
+    "view_transform": "Standard",
+    "look": "None",
+    "exposure": 0.0,
+    "gamma": 1.0,
+    "use_curve_mapping": False,
+    "use_white_balance": False,
+}
 
 
 def is_standard(view) -> bool:

@@ -3,6 +3,7 @@
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
+from .. import denoising
 from .switch import switch
 from .tag import tag_data
 
@@ -75,6 +76,13 @@ class AppearanceSettings:
     false_color_steps: IntProperty(name="Steps", description="Steps of the false-colour scale", min=1, max=64, default=10, update=tag_data)
     use_false_color_contours: BoolProperty(
         name="Contours", description="Lines where steps of the false-colour scale meet", default=True, update=tag_data
+    )
+    use_denoising: BoolProperty(
+        name="Denoise",
+        description="Take noise out of final renders by Blender's own denoiser: a Denoise node of the compositor, guided by Gonio's normals and "
+        "albedos",
+        get=lambda settings: denoising.is_on(settings.id_data),
+        set=lambda settings, on: denoising.switch(settings.id_data, on),
     )
     use_preview_denoising: switch(
         "Denoise Viewport",

@@ -4,8 +4,10 @@
 from math import radians
 
 import bpy
+import gonio
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from .. import luminaire
 from .switch import switch
 from .tag import tag_data
 
@@ -26,6 +28,39 @@ OPENINGS = (
 )
 
 
+def _is_untouched(settings) -> bool:
+    """Whether the strength is the usual one, or one that was taken over."""
+    return not settings.is_property_set("quantity") or settings.quantity == settings.taken_quantity
+
+
+def _take(settings, unit: str, quantity: float) -> None:
+    """States the strength in a unit, unless another one was chosen."""
+    if settings.is_property_set("unit") and settings.unit not in (unit, settings.taken_unit):
+        return
+    settings.taken_quantity = quantity
+    settings.unit = settings.taken_unit = unit
+    settings.quantity = settings.taken_quantity
+
+
+def _take_over(settings, context) -> None:
+    """Photometry starts from what a luminaire's file says, or from the power that stands there."""
+    if settings.use_photometry and _is_untouched(settings):
+        from ..power import as_quantity
+
+        _take(settings, *(_of_file(settings.id_data) or as_quantity(settings.id_data)))
+    tag_data(settings, context)
+
+
+def _of_file(light):
+    """The unit and the flux of a light's file; None without one."""
+    try:
+        found = luminaire.figures(light)
+    except (OSError, gonio.Error):
+        # The panel says what is wrong with it.
+        return None
+    return None if found is None else ("FILE", found["flux_lm"])
+
+
 def _factor(name, description):
     return FloatProperty(
         name=name, description=description, default=1.0, min=0.0, max=10.0, soft_max=1.0, subtype="FACTOR", update=tag_data
@@ -37,7 +72,7 @@ class GonioLightSettings(bpy.types.PropertyGroup):
 
     is_portal: switch("Portal", "The area light gives no light; it marks an opening through which the world's light is sampled", tag_data)
     use_photometry: switch(
-        "Photometry", "State the light's strength in photometric units or by its maker's file, in the place of its power", tag_data
+        "Photometry", "State the light's strength in photometric units or by its maker's file, in the place of its power", _take_over
     )
     unit: EnumProperty(name="Unit", description="What the light's strength is stated as", items=UNITS, default="LUMEN", update=tag_data)
     quantity: FloatProperty(
@@ -50,6 +85,10 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         precision=2,
         update=tag_data,
     )
+    taken_quantity: FloatProperty(
+        name="Taken Strength", description="The strength that was taken over from the power or the file", options={"HIDDEN"}
+    )
+    taken_unit: StringProperty(name="Taken Unit", description="The unit of the strength that was taken over", options={"HIDDEN"})
     distance: FloatProperty(
         name="Distance",
         description="Where the illuminance is measured, by the inverse square law from the light's centre",
@@ -63,7 +102,7 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         description="A luminaire's IES or EULUMDAT file. Nadir is the light's -Z, C0 its +X",
         subtype="FILE_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
-        update=tag_data,
+        update=_take_over,
     )
     opening: EnumProperty(name="Opening", description="What of the luminaire shines", items=OPENINGS, default="FILE", update=tag_data)
     rotation: FloatProperty(

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import gonio
 
 from .. import report
-from ..export import Exporter
+from ..export import Exporter, limits
 from . import passes, status
 from .frame import Frame, final_frame
 
@@ -45,6 +45,7 @@ class FinalSession:
         layer.report.clear()
         aovs = frozenset() if preview else passes.shader_aov_names(depsgraph.view_layer)
         layer.exporter.sync(depsgraph, preview=preview, shader_aovs=aovs)
+        limits.of_passes(depsgraph.view_layer, passes.SWITCHES, layer.report)
         self._layers[name] = layer
 
     def render(self, engine, depsgraph, *, preview: bool = False) -> report.Report:

@@ -77,6 +77,9 @@ _OWN_PASSES = {
     "pass_debug_sample_count": (Pass("Debug Sample Count", "X", "VALUE", "sample_count", Scale.SAMPLES),),
 }
 
+# Properties of a view layer that ask for passes which there are.
+SWITCHES = {"use_pass_combined", *_LAYER_PASSES}
+
 
 def enabled_passes(layer) -> Iterator[Pass]:
     """The passes that a view layer asks for, under this Blender's names."""

@@ -46,9 +46,11 @@ def register() -> None:
     polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
+    report.register()
 
 
 def unregister() -> None:
+    report.unregister()
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
     polar_picture.unregister()

@@ -44,15 +44,7 @@ class GONIO_RENDER_PT_sampling_render(RenderPanel, Panel):
         if settings.use_adaptive_sampling:
             layout.prop(settings, "adaptive_min_samples", text="Min Samples")
         layout.prop(settings, "time_limit")
-
-
-class GONIO_RENDER_PT_sampling_denoise(RenderPanel, Panel):
-    bl_label = "Denoise"
-    bl_parent_id = "GONIO_RENDER_PT_sampling"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw_settings(self, layout, scene):
-        layout.operator("gonio.add_denoise_node", icon="NODE_COMPOSITING")
+        layout.prop(settings, "use_denoising")
 
 
 class GONIO_RENDER_PT_sampling_advanced(RenderPanel, Panel):
@@ -79,6 +71,5 @@ PANELS = (
     GONIO_RENDER_PT_sampling,
     GONIO_RENDER_PT_sampling_viewport,
     GONIO_RENDER_PT_sampling_render,
-    GONIO_RENDER_PT_sampling_denoise,
     GONIO_RENDER_PT_sampling_advanced,
 )

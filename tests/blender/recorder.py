@@ -8,6 +8,16 @@ import numpy as np
 EXTENSION = "gonio_extension"
 
 
+class WrongCall(BaseException):
+    """A call that the scene would not have taken; no guard of the exporter catches it."""
+
+
+def check(holds, *what):
+    """Raises `WrongCall` unless something holds."""
+    if not holds:
+        raise WrongCall(*what)
+
+
 class Recorder:
     """Has the methods of `gonio.Scene` that the exporter calls, and its checks of shapes and numbers."""
 
@@ -21,19 +31,19 @@ class Recorder:
         if index is None:
             things.append(thing)
             return len(things) - 1
-        assert 0 <= index < len(things), (what, index, len(things))
+        check(0 <= index < len(things), what, index, len(things))
         things[index] = thing
         return index
 
     def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
         arrays = {"points": points, "triangles": triangles, "corners": corners, "faces": faces, "normals": normals, "slots": slots}
         for key, array in {**arrays, **(primvars or {})}.items():
-            assert array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key
+            check(array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key)
         return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
 
     def put_instances(self, mesh, materials, transforms, *, name, visibility=None, primvars=None, pass_index=0, light_group="", index=None):
-        assert transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all()
-        assert 0 <= mesh < len(self.meshes) and all(0 <= m < len(self.materials) for m in materials)
+        check(transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all(), name)
+        check(0 <= mesh < len(self.meshes) and all(0 <= m < len(self.materials) for m in materials), name)
         fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
         return self._put("instances", {**fields, "primvars": primvars or {}, "pass_index": pass_index, "light_group": light_group}, index)
 

@@ -49,7 +49,9 @@ def test_all_passes_are_in_the_file(tmp_path: Path):
     scene.gonio.max_bounces = 4
     layer = scene.view_layers[0]
     for name in layer.bl_rna.properties.keys():
-        if name.startswith("use_pass_") and not any(word in name for word in ("cryptomatte", "grease", "subsurface", "shadow", "occlusion", "vector")):
+        if name.startswith("use_pass_") and not any(
+            word in name for word in ("cryptomatte", "grease", "subsurface", "shadow", "occlusion", "vector")
+        ):
             setattr(layer, name, True)
     for name in layer.gonio.bl_rna.properties.keys():
         if name not in ("rna_type", "name"):
@@ -199,7 +201,7 @@ def test_the_denoise_node_denoises(tmp_path: Path):
         assert bpy.ops.render.render(write_still=True) == {"FINISHED"}
         picture = next(values for channel, values in scenes.read(tmp_path / f"{name}.exr").items() if channel.endswith("R"))
         noise.append(numpy.abs(numpy.diff(picture, axis=1)).mean() / picture.mean())
-        assert bpy.ops.gonio.add_denoise_node() == {"FINISHED"}
+        scene.gonio.use_denoising = True
     assert noise[1] < 0.3 * noise[0], noise
 
 

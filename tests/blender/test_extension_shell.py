@@ -79,7 +79,13 @@ def test_settings_have_words_units_and_fixed_numbers():
 def test_blenders_own_panels_show():
     import bpy
 
-    for name in ("RENDER_PT_format", "RENDER_PT_color_management", "DATA_PT_lens", "DATA_PT_camera_dof", "EEVEE_MATERIAL_PT_context_material"):
+    for name in (
+        "RENDER_PT_format",
+        "RENDER_PT_color_management",
+        "DATA_PT_lens",
+        "DATA_PT_camera_dof",
+        "EEVEE_MATERIAL_PT_context_material",
+    ):
         assert _has_engine(getattr(bpy.types, name)), name
     for name in ("DATA_PT_light", "RENDER_PT_simplify", "RENDER_PT_freestyle", "VIEWLAYER_PT_layer_passes"):
         assert not _has_engine(getattr(bpy.types, name, None)), name
@@ -112,13 +118,15 @@ def test_takes_settings_from_cycles():
 
 
 @pytest.mark.blender
-def test_adds_one_denoise_node():
+def test_denoising_is_a_switch():
     import bpy
 
     scene = bpy.context.scene
     scene.render.engine = "GONIO"
+    assert not scene.gonio.use_denoising
     for _ in range(2):
-        assert bpy.ops.gonio.add_denoise_node() == {"FINISHED"}
+        scene.gonio.use_denoising = True
+        assert scene.gonio.use_denoising
     tree = part("compat").compositor_tree(scene)
     denoise = [node for node in tree.nodes if node.bl_idname == "CompositorNodeDenoise"]
     assert len(denoise) == 1
@@ -128,6 +136,29 @@ def test_adds_one_denoise_node():
     while before.bl_idname == "NodeReroute":
         before = before.inputs[0].links[0].from_node
     assert before == denoise[0]
+    # Off and on again it is the same node; a compositor that is off denoises nothing.
+    scene.gonio.use_denoising = False
+    assert not scene.gonio.use_denoising and denoise[0].mute
+    scene.gonio.use_denoising = True
+    assert scene.gonio.use_denoising and not denoise[0].mute
+    scene.render.use_compositing = False
+    assert not scene.gonio.use_denoising
+    fresh = bpy.data.scenes.new("Fresh")
+    fresh.gonio.use_denoising = False
+    assert not fresh.gonio.use_denoising and part("compat").existing_compositor_tree(fresh) is None
+
+
+@pytest.mark.blender
+def test_report_lines_are_whole_in_narrow_panels():
+    wrapped = part("ui.report").wrapped
+    text = "Wood > Noise Texture: not supported; the value 0.5 is used"
+    lines = wrapped(text, 20, len)
+    assert " ".join(lines) == text and all(len(line) <= 20 for line in lines) and len(lines) == 4
+    path = "C:/a/long/path/without/any/space.png"
+    assert "".join(wrapped(path, 10, len)) == path and max(map(len, wrapped(path, 10, len))) == 10
+    assert wrapped("short", 100, len) == ["short"] and wrapped("", 10, len) == [""]
+    # However narrow, it comes to an end.
+    assert "".join(wrapped("abc", 0, len)) == "abc"
 
 
 @pytest.mark.blender

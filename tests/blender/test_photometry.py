@@ -120,7 +120,8 @@ def test_files_that_are_not_there_are_reported(tmp_path: Path):
 
     scene = scenes.lit_floor()
     settings = next(thing for thing in scene.objects if thing.type == "LIGHT").data.gonio
-    settings.use_photometry, settings.unit, settings.file = True, "CANDELA", str(tmp_path / "none.ies")
+    settings.use_photometry, settings.unit, settings.quantity = True, "CANDELA", 800.0
+    settings.file = str(tmp_path / "none.ies")
     made, report = exporter()
     light = made.sync(depsgraph()).lights[0]
     assert light["goniogram"] is None and light["quantity"] == {"Candela": 800.0}

@@ -5,11 +5,13 @@ from dataclasses import dataclass, field
 
 import bpy
 
+from .. import limits
 from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
-from .closures import closure, flatten
+from .closures import closure
+from .flatten import flatten
 from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
-from .sockets import active_output, follow, input_socket
+from .sockets import active_output, input_socket
 from .translator import Translator
 
 
@@ -36,17 +38,21 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
     else:
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
-        _report_rest(t, end)
+        _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
     return Translated(_described(t, material, outputs), t.primvars, t.instance_primvars)
 
 
-def _report_rest(t, end):
-    for name, consequence in (("Volume", "the inside stays empty"), ("Displacement", "the surface stays as it is")):
-        socket = input_socket(end, name)
-        found = None if socket is None else follow(socket, t.root)
-        if found is not None and found[0] is not None:
-            t.say(end, t.root, f"{name.lower()} is not supported; {consequence}")
+def _rest(t, end, material):
+    """What an output node has beside its surface; rays pass what is a volume alone."""
+    if t.linked(end, "Volume", t.root):
+        t.tell("volume", end, t.root, "Volume")
+        # As in Cycles a surface that comes to nothing counts as none.
+        if not t.closures:
+            t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
+    if t.linked(end, "Displacement", t.root):
+        t.tell("displacement", end, t.root)
+    limits.of_material(material, t.report)
 
 
 def _described(t, material, outputs):

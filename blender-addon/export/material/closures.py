@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shader nodes: Mix and Add flattened into weighted closures, and the nodes that are one closure each."""
+"""Shader nodes that are one closure each."""
 
 from ...units import LUMENS_PER_WATT
 from .inputs import hit
-from .sockets import follow, group_output, input_socket
-from .translator import CLOSURES, closure_node
+from .sockets import input_socket
+from .translator import closure_node
 from .vectors import radial_tangent
 
-# More closures than this in one material are left out: the surface would not be shaded in reasonable time.
-MOST_CLOSURES = 64
 DISTRIBUTIONS = {"MULTI_GGX": "MultiGgx", "GGX": "Ggx", "BECKMANN": "Beckmann", "ASHIKHMIN_SHIRLEY": "AshikhminShirley"}
 SUBSURFACE = {
     "BURLEY": "Burley",
@@ -16,51 +14,6 @@ SUBSURFACE = {
     "RANDOM_WALK_LEGACY": "RandomWalkLegacy",
     "RANDOM_WALK_SKIN": "RandomWalkSkin",
 }
-
-
-def flatten(t, socket, context, weight):
-    """Appends the closures that reach a shader input, their weights multiplied by `weight`."""
-    if weight.is_zero():
-        return
-    found = follow(socket, context)
-    if found is None or found[0] is None:
-        return
-    node, output, context = found
-    if len(t.closures) >= MOST_CLOSURES:
-        t.say(node, context, f"more than {MOST_CLOSURES} shaders are mixed; the rest is left out")
-        return
-    if node.bl_idname == "ShaderNodeMixShader":
-        share = t.input(node, "Fac", context, 0.5).clamp()
-        flatten(t, node.inputs[1], context, weight * (1.0 - share))
-        flatten(t, node.inputs[2], context, weight * share)
-    elif node.bl_idname == "ShaderNodeAddShader":
-        flatten(t, node.inputs[0], context, weight)
-        flatten(t, node.inputs[1], context, weight)
-    else:
-        _append(t, node, output, context, weight)
-
-
-def _append(t, node, output, context, weight):
-    handler = CLOSURES.get(node.bl_idname)
-    if handler is None:
-        t.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; a diffuse surface of its colour is used")
-        handler = _stand_in
-    closures = handler(t, node, context)
-    if closures is None:
-        inner = group_output(node, output, context)
-        if inner is not None:
-            flatten(t, *inner, weight)
-        return
-    for made in closures:
-        share = made.pop("share", None)
-        part = weight if share is None else weight * share
-        if not part.is_zero():
-            t.closures.append({"weight": part.input(), **made})
-
-
-def _stand_in(t, node, context):
-    colour = next((socket for socket in node.inputs if socket.type == "RGBA"), None)
-    return [closure(t.graph, "Diffuse", base_color=t.socket(colour, context) if colour else t.graph.colour((0.8, 0.8, 0.8)))]
 
 
 def closure(
@@ -134,7 +87,7 @@ def diffuse(t, node, context):
 def glossy(t, node, context):
     anisotropy = t.input(node, "Anisotropy", context)
     if node.distribution not in DISTRIBUTIONS:
-        t.say(node, context, f"distribution {node.distribution} is not supported; GGX is used")
+        t.tell("distribution", node, context, f"Distribution {node.distribution}")
     return [
         closure(
             t.graph,
@@ -199,6 +152,12 @@ def metallic(t, node, context):
 @closure_node("ShaderNodeBsdfTransparent")
 def transparent(t, node, context):
     return [closure(t.graph, "Transparent", base_color=t.input(node, "Color", context))]
+
+
+@closure_node("ShaderNodeBsdfRayPortal")
+def ray_portal(t, node, context):
+    t.tell("ray portal", node, context)
+    return transparent(t, node, context)
 
 
 @closure_node("ShaderNodeBsdfTranslucent")

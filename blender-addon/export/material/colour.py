@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colour nodes: Mix with its blend modes, ramps and curves, hue, brightness, separate and combine, blackbody."""
+"""Colour nodes: Mix with its blend modes, ramps, curves (of vectors too), hue, brightness, separate and combine, blackbody."""
 
 from .translator import value_node
 
@@ -127,6 +127,12 @@ def curve(mapping, numbers):
 def rgb_curves(t, node, context, output):
     colour, factor = t.input(node, "Color", context), t.input(node, "Fac", context, 1.0)
     return colour.mix(t.graph.add(curve(node.mapping, [0, 1, 2]), colour, kind="RGBA"), factor)
+
+
+@value_node("ShaderNodeVectorCurve")
+def vector_curves(t, node, context, output):
+    vector, factor = t.input(node, "Vector", context), t.input(node, "Fac", context, 1.0)
+    return vector.mix(t.graph.add(curve(node.mapping, [0, 1, 2]), vector, kind="VECTOR"), factor)
 
 
 @value_node("ShaderNodeInvert")

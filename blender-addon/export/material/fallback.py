@@ -1,23 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands in for nodes that cannot be computed: their usual mean, or the value of a socket."""
+"""What stands in for nodes that cannot be computed: a value of its own, their main input, or the value of a socket."""
 
+from ...unsupported import LIMITS, STAND_INS
+from .inputs import normal_of
 from .sockets import KINDS, input_socket
+from .textures import MISSING
 
-# Mean of a texture's scalar output; its colour output is grey of the same value unless it mixes colours of its own.
-MEANS = {
-    "ShaderNodeTexNoise": 0.5,
-    "ShaderNodeTexVoronoi": 0.5,
-    "ShaderNodeTexWave": 0.5,
-    "ShaderNodeTexMagic": 0.5,
-    "ShaderNodeTexGabor": 0.5,
-    "ShaderNodeTexWhiteNoise": 0.5,
-    "ShaderNodeTexMusgrave": 0.5,
-    "ShaderNodeTexPointDensity": 0.0,
-    "ShaderNodeAmbientOcclusion": 1.0,
-    "ShaderNodeTexIES": 1.0,
-    "ShaderNodeHairInfo": 0.5,
-    "ShaderNodeParticleInfo": 0.5,
-}
 # Mean radiance of the upper half of Blender's default skies without the sun, by cosine, W/(m² sr); measured with Cycles.
 SKIES = {
     "SINGLE_SCATTERING": (1.69, 2.14, 2.81),
@@ -29,25 +17,32 @@ SKIES = {
 
 
 def stand_in(translator, node, output, context):
-    """The value that stands in for an output, and words that say so."""
-    kind = KINDS.get(output.type, "VALUE")
-    graph = translator.graph
+    """The value that stands in for an output, and the report's words."""
+    kind, graph, label = KINDS.get(output.type, "VALUE"), translator.graph, node.bl_label or node.bl_idname
+    found = STAND_INS.get((node.bl_idname, output.identifier)) or STAND_INS.get(node.bl_idname)
+    if found is not None:
+        name, value = found
+        return graph.value(value), f"{name}: not supported; the value {value:g} is used"
     if node.bl_idname == "ShaderNodeTexSky":
-        return graph.colour(SKIES.get(node.sky_type, SKIES["PREETHAM"])), "an even sky of its usual brightness without the sun is used"
+        return graph.colour(SKIES.get(node.sky_type, SKIES["PREETHAM"])), LIMITS["sky elsewhere"].line(label)
+    if node.bl_idname == "ShaderNodeTexIES":
+        return translator.input(node, "Strength", context, 1.0), LIMITS["ies elsewhere"].line(label)
+    if node.bl_idname in ("ShaderNodeTexImage", "ShaderNodeTexEnvironment"):
+        return graph.colour(MISSING), f"{label}: not supported; the colour of missing images is used"
     if node.bl_idname == "ShaderNodeTexBrick":
         first, second = (translator.input(node, f"Color{n}", context) for n in (1, 2))
-        return (first.mix(second, 0.5) if kind == "RGBA" else graph.scalar(0.1)), "the mean of its colours is used"
-    if node.bl_idname in MEANS:
-        mean = MEANS[node.bl_idname]
-        return graph.value(mean), f"its mean {mean:g} is used"
-    through = _same_kind_input(node, output)
-    if through is not None:
-        return translator.socket(through, context), f"its input {through.name} is passed on"
-    return translator.default_of(output, kind), "its socket's value is used"
+        value = first.mix(second, 0.5) if kind == "RGBA" else graph.scalar(0.1)
+        return value, f"{label}: not supported; the mean of its bricks is used"
+    through = main_input(node, output)
+    if through is None:
+        return translator.default_of(output, kind), f"{label}: not supported; its socket's value is used"
+    is_normal = kind == "VECTOR" and through.name == "Normal"
+    value = normal_of(translator, node, context) if is_normal else translator.socket(through, context)
+    return value, f"{label}: not supported; its input {through.name} is passed on"
 
 
-def _same_kind_input(node, output):
-    """The input that a node most likely changes: the one of the output's name, else the first of its type."""
+def main_input(node, output):
+    """The input that a node most likely changes: the one of the output's name, else the first of its type; None if there is none."""
     named = input_socket(node, output.name)
     if named is not None and named.type == output.type and named.enabled:
         return named

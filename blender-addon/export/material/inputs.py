@@ -22,7 +22,7 @@ def constant(t, node, context, output):
 @value_node("ShaderNodeUVMap")
 def uv_map(t, node, context, output):
     if node.from_instancer:
-        t.say(node, context, "texture coordinates of the instancer are not supported; the mesh's own are used")
+        t.tell("instancer's coordinates", node, context)
     return t.primvar(node.uv_map or UV)
 
 
@@ -89,6 +89,10 @@ def geometry(t, node, context, output):
         return hit(t, simple[output.identifier])
     if output.identifier == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
+    if output.identifier == "Tangent":
+        from .vectors import radial_tangent
+
+        return radial_tangent(t)
     return None
 
 
@@ -116,9 +120,7 @@ def attribute(t, node, context, output):
     if kind == "GEOMETRY":
         value = t.primvar(node.attribute_name or ACTIVE_COLOUR, kind="RGBA")
     else:
-        if kind == "INSTANCER":
-            t.say(node, context, "attributes of the instancer are not supported; the object's own is used")
-        value = t.instance_primvar(f"object {node.attribute_name}", "RGBA")
+        value = t.instance_primvar(f"{kind.lower()} {node.attribute_name}", "RGBA")
     if output.identifier == "Alpha":
         return value.component(3)
     # An attribute of one number fills all components, so its first is its value; a colour's value is the mean.
@@ -139,8 +141,12 @@ def light_path(t, node, context, output):
     name = output.identifier
     if t.is_world:
         if name != "Is Camera Ray":
-            t.say(node, context, f"worlds tell rays of the camera from all others; {name} counts as 0")
+            t.tell("world's light path", node, context, f"Light Path: {name}")
         return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
+    if t.kind == "Light":
+        # What lamps light is found by rays of no such kind.
+        t.tell("lamp's light path", node, context, f"Light Path: {name}")
+        return t.graph.scalar(0.0)
     if name == "Is Volume Scatter Ray":
         return t.graph.scalar(0.0)
     return t.graph.add({"LightPath": name.replace(" ", "")}, kind="VALUE") if name in LIGHT_PATH else None

@@ -77,6 +77,6 @@ def _is_thin_walled(t, node, context):
     """Blender 5.2's Thin Wall socket."""
     value = t.input(node, "Thin Wall", context)
     if not value.is_constant:
-        t.say(node, context, "Thin Wall cannot vary; the surface is taken as solid")
+        t.tell("varying thin wall", node, context)
         return False
     return value.constant[0] > 0.5

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 
 import bpy
 
+from ...report import words_of
 from .graph import Graph, Value
 from .sockets import KINDS, Context, follow, input_socket
 
@@ -67,14 +68,27 @@ class Translator:
         # Of a lamp's IES texture.
         self.goniogram = None
         self._values, self._open = {}, set()
+        # Nodes that something stands in for, and that were told.
+        self._stood_in = set()
         # While a height is taken beside the hit: along which of the two steps, and how far.
         self._step = None
 
     def say(self, node, context, message):
         """One report line for a node, with its path through groups."""
+        self.report.add(self.kind, self.owner.name, message, **self._place(node, context))
+
+    def tell(self, limit, node, context, subject=""):
+        """The report line of an entry of the table of limits."""
+        self.report.tell(limit, self.kind, self.owner.name, subject, **self._place(node, context))
+
+    def fail(self, node, context, problem, consequence):
+        """The report line of a node that could not be translated for a reason that nobody foresaw."""
+        message = f"{words_of(problem)}; {consequence}"
+        self.report.add(self.kind, self.owner.name, message, severity="ERROR", **self._place(node, context))
+
+    def _place(self, node, context):
         path = "/".join([*(group.name for group in context.groups()), node.name])
-        material = self.owner.name if self.kind == "Material" else None
-        self.report.add(self.kind, self.owner.name, message, material=material, node=path)
+        return {"material": self.owner.name if self.kind == "Material" else None, "node": path}
 
     def socket(self, socket, context):
         """The value that reaches an input, converted to the input's kind."""
@@ -117,28 +131,38 @@ class Translator:
             if key in self._open:
                 return self.graph.scalar(0.0)
             if len(self._open) >= DEEPEST:
-                self.say(node, context, f"more than {DEEPEST} nodes in a row; the value before them is taken as 0")
+                self.tell("nodes in a row", node, context)
                 return self.graph.scalar(0.0)
             self._open.add(key)
-            with _room_for_calls():
-                self._values[key] = self._compute(node, output, context)
-            self._open.discard(key)
+            try:
+                with _room_for_calls():
+                    self._values[key] = self._compute(node, output, context)
+            finally:
+                self._open.discard(key)
         return self._values[key]
 
     def _compute(self, node, output, context):
         kind = KINDS.get(output.type, "VALUE")
-        handler = VALUES.get(node.bl_idname)
-        value = None if handler is None else handler(self, node, context, output)
+        handler, value = VALUES.get(node.bl_idname), None
+        try:
+            value = None if handler is None else handler(self, node, context, output)
+        except RecursionError:
+            raise
+        except Exception as problem:
+            self._stood_in.add((context, node.name))
+            self.fail(node, context, problem, "what stands in for it is used")
         if value is None:
             value = self.unsupported(node, output, context)
         return value.as_kind(kind)
 
     def unsupported(self, node, output, context):
-        """The nearest sane value of a node that cannot be computed, with a report line."""
+        """The nearest sane value of a node that cannot be computed; the report has one line for a node, whichever outputs are used."""
         from .fallback import stand_in
 
         value, what = stand_in(self, node, output, context)
-        self.say(node, context, f"{node.bl_label or node.bl_idname} is not supported; {what}")
+        if (context, node.name) not in self._stood_in:
+            self._stood_in.add((context, node.name))
+            self.say(node, context, what)
         return value
 
     def stepped(self, axis, share, function):

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender's files may ask for and Gonio shows otherwise: one table, for the report's lines and for docs/unsupported.md."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Limit:
+    """`what` is asked for, and `instead` is what the picture shows."""
+
+    what: str
+    instead: str
+    severity: str = "WARNING"
+    # Whether a line of the report tells it; else it is a small difference that the page alone names.
+    is_told: bool = True
+
+    def line(self, subject: str = "") -> str:
+        """The report's words; `subject` says more exactly what was asked for."""
+        return f"{subject or self.what}: not supported; {self.instead}"
+
+
+def _quietly(what, instead):
+    return Limit(what, instead, severity="INFO")
+
+
+def _untold(what, instead):
+    return Limit(what, instead, is_told=False)
+
+
+OBJECTS = {
+    "hair strands": Limit("Hair strands of particle systems", "left out"),
+    "kind of object": Limit("Hair curves, point clouds, volumes, grease pencil", "left out"),
+    "light linking": Limit("Light linking and shadow linking", "every light lights everything, and everything blocks it"),
+    "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
+    "adaptive subdivision": Limit("Adaptive subdivision", "as many levels as the modifier states"),
+    "culling": Limit("Culling of objects by camera or distance", "nothing is culled"),
+    "shadow caustics": _quietly("Shadow caustics", "refracted light is found by paths alone"),
+    "shadow terminator": _quietly("Shadow terminator offsets", "left out"),
+    "varying visibility": _untold(
+        "Lights that some kinds of scattered rays see and others do not", "sampled for all kinds if any sees them"
+    ),
+}
+
+SCENES = {
+    "motion blur": Limit("Motion blur", "everything stands still at the frame"),
+    "stereoscopy": Limit("Stereoscopy", "one picture, through the camera itself"),
+    "sample subset": Limit("Sample subsets", "all samples are taken"),
+    "freestyle": Limit("Freestyle lines", "left out"),
+    "transparent glass": Limit("Transparent Glass", "glass before a transparent film is opaque"),
+    "fast gi": Limit("Fast GI Approximation", "light is followed to the last bounce"),
+    "no caustics": Limit("Caustics that are switched off", "they stay"),
+    "filter glossy": _quietly("Filter Glossy other than 1", "reflections stay as sharp as they are"),
+    "layer filter": Limit("Filters of view layers", "everything is shown"),
+    "noise": _untold(
+        "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
+        "Gonio's own ways",
+    ),
+    "pass": Limit(
+        "Passes: Vector, Ambient Occlusion, Shadow, Cryptomatte, Render Time, subsurface and volume passes, Shadow Catcher", "absent"
+    ),
+    "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
+    "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
+    "kind of camera": Limit("Cameras of custom types", "a perspective one"),
+    "tone map in animations": _untold(
+        "*Tone Map in Gonio* in animations: an eye that adapts over the frames", "each frame by itself; *Fixed Exposure* for all alike"
+    ),
+    "quick denoiser": _untold(
+        "The viewport's quick denoiser in false colour and in final renders", "the picture as it is; *Denoise* of *Sampling*"
+    ),
+}
+
+LIGHTS = {
+    "textured lamp": Limit("Textures and other values that vary over a lamp's light", "it shines evenly with their mean"),
+    "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
+    "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
+    "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
+    "ies elsewhere": Limit("IES textures on surfaces, with a vector of their own, or more than one a lamp", "even light of the strength"),
+    "shining meshes": _untold("Photometric units of meshes that shine", "emission in W/m², times 177.83 lm/W"),
+    "catcher's groups": _untold("Light groups of shadow catchers", "without what the catcher leaves out"),
+}
+
+WORLDS = {
+    "world volume": Limit("The world's volume", "the air stays clear"),
+    "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
+    "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
+    "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
+    "sky elsewhere": Limit("Sky Texture on surfaces and lamps", "an even sky of its usual brightness, without the sun"),
+    "limb": _untold("Sky Texture: darkening towards the disc's limb, reddening from its top to its foot", "an even disc as bright"),
+    "skies": _untold(
+        "Sky Texture: Hošek and Wilkie's data for Rec.709 in the place of Cycles' for XYZ; atmospheres drawn anew",
+        "within 1 % of Cycles in the median of the picture",
+    ),
+    "twilight": _untold("Twilight in the *Daylight* panel", "no light while the sun is down"),
+}
+
+MATERIALS = {
+    "volume": Limit("Volumes of materials", "the inside stays empty; without a surface, rays pass"),
+    "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
+    "displacement": Limit("Displacement", "the surface stays as it is"),
+    "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
+    "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
+    "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
+    "ray portal": Limit("Ray Portal BSDF", "rays go straight on"),
+    "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
+    "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
+    "thin walls": _untold(
+        "Thin walls as Cycles has them, by the mean of both polarisations",
+        "each polarisation by itself, as panes are; up to 3 % apart near 75°",
+    ),
+    "instancer's coordinates": Limit("Texture coordinates from the instancer", "the mesh's own"),
+    "instancer's attribute": Limit(
+        "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
+    ),
+    "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
+    "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
+    "brick": Limit("Brick Texture", "the mean of its bricks"),
+    "node": Limit("Other nodes, named in the report", "their main input is passed on; without one, the value of their socket is used"),
+}
+
+LIMITS = {**OBJECTS, **SCENES, **LIGHTS, **WORLDS, **MATERIALS}
+
+# Nodes, or one of their outputs, that have a value of their own in the place of theirs.
+# bl_idname, or bl_idname and the output's identifier -> the names that the page has for them, and the value.
+STAND_INS = {
+    "ShaderNodeTexNoise": ("Noise Texture", 0.5),
+    "ShaderNodeTexVoronoi": ("Voronoi Texture", 0.5),
+    "ShaderNodeTexWave": ("Wave Texture", 0.5),
+    "ShaderNodeTexMagic": ("Magic Texture", 0.5),
+    "ShaderNodeTexGabor": ("Gabor Texture", 0.5),
+    "ShaderNodeTexWhiteNoise": ("White Noise Texture", 0.5),
+    "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
+    "ShaderNodeTexPointDensity": ("Point Density", 0.0),
+    "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
+    "ShaderNodeWireframe": ("Wireframe", 0.0),
+    "ShaderNodeWavelength": ("Wavelength", 0.5),
+    "ShaderNodeCameraData": ("Camera Data", 1.0),
+    "ShaderNodeHairInfo": ("Curves Info", 0.5),
+    "ShaderNodeParticleInfo": ("Particle Info", 0.5),
+    "ShaderNodePointInfo": ("Point Info", 0.5),
+    "ShaderNodeVolumeInfo": ("Volume Info", 0.0),
+    "ShaderNodeUVAlongStroke": ("UV Along Stroke", 0.5),
+    ("ShaderNodeNewGeometry", "Pointiness"): ("Geometry: Pointiness", 0.5),
+    ("ShaderNodeNewGeometry", "Random Per Island"): ("Geometry: Random Per Island", 0.5),
+    ("ShaderNodeNewGeometry", "Parametric"): ("Geometry: Parametric", 0.5),
+    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window", 0.5),
+    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera", 0.5),
+}
+
+
+def rows() -> list[tuple[str, str]]:
+    """The rows of the page's table of Blender: what, and what happens instead."""
+    found = [(limit.what, limit.instead) for limit in LIMITS.values()]
+    by_value: dict[float, list[str]] = {}
+    for name, value in STAND_INS.values():
+        by_value.setdefault(value, []).append(name)
+    return found + [(", ".join(names), f"the value {value:g}") for value, names in by_value.items()]
+
+
+def page() -> str:
+    """The page's part on Blender, below its heading."""
+    table = "\n".join(f"| {what} | {instead} |" for what, instead in rows())
+    return f"| what | what happens instead |\n| --- | --- |\n{table}\n"

@@ -1,0 +1,108 @@
+"""Lamps whose nodes vary over their light."""
+
+import pytest
+
+
+def lit(lamp, build):
+    """A lamp whose emission's strength and colour a function of its tree and its Emission node makes."""
+    lamp.use_nodes = True
+    tree = lamp.node_tree
+    tree.nodes.clear()
+    light, end = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputLight")
+    light.inputs["Strength"].default_value = 1.0
+    tree.links.new(light.outputs[0], end.inputs["Surface"])
+    build(tree, light)
+
+
+@pytest.mark.blender
+def test_a_textured_lamp_shines_with_the_mean_of_its_pattern(tmp_path):
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link
+
+    def stripes(tree, light):
+        picture = bpy.data.images.new("Stripes", 8, 8, float_buffer=True)
+        pixels = np.zeros((8, 8, 4), np.float32)
+        pixels[..., :3], pixels[..., 3] = (0.2, 0.4, 0.6), 1.0
+        pixels[:, ::2, :3] = (1.0, 0.0, 0.2)
+        picture.pixels.foreach_set(pixels.ravel())
+        texture, place = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeTexCoord")
+        texture.image, texture.interpolation = picture, "Closest"
+        tree.links.new(place.outputs["UV"], texture.inputs["Vector"])
+        tree.links.new(texture.outputs["Color"], light.inputs["Color"])
+
+    def upwards(tree, light):
+        place, split = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeSeparateXYZ")
+        half = tree.nodes.new("ShaderNodeMath")
+        half.operation = "MULTIPLY_ADD"
+        half.inputs[1].default_value = half.inputs[2].default_value = 0.5
+        tree.links.new(place.outputs["Normal"], split.inputs[0])
+        tree.links.new(split.outputs["Z"], half.inputs[0])
+        tree.links.new(half.outputs[0], light.inputs["Strength"])
+
+    # The mean of (1 + z) / 2 is 1/2 over the sphere, and (1 - cos 30°) / 4 over a cone of 60° about -z.
+    cases = (
+        ("AREA", stripes, (0.6, 0.2, 0.4), 1e-6),
+        ("POINT", upwards, (0.5,) * 3, 1e-3),
+        ("SPOT", upwards, ((1.0 - np.cos(np.pi / 6.0)) / 4.0,) * 3, 1e-3),
+    )
+    for kind, build, expected, tolerance in cases:
+        empty()
+        lamp = bpy.data.lights.new("Lamp", kind)
+        if kind == "SPOT":
+            lamp.spot_size, lamp.spot_blend = np.pi / 3.0, 0.0
+        thing = link(bpy.data.objects.new("Lamp", lamp))
+        thing.rotation_euler = (0.4, 1.1, 0.3)
+        even, _ = exporter()
+        full = even.sync(depsgraph()).lights[0]["emission"]["radiance"]
+        lit(lamp, build)
+        made, report = exporter()
+        found = made.sync(depsgraph()).lights[0]["emission"]["radiance"]
+        assert np.divide(found, full) == pytest.approx(expected, rel=tolerance), kind
+        [line] = report.diagnostics
+        assert line.message.endswith("not supported; it shines evenly with their mean"), line
+
+
+@pytest.mark.blender
+def test_light_falloffs_pass_their_strength_on(tmp_path):
+    import bpy
+    import numpy as np
+    from recorder import depsgraph, empty, exporter, link
+
+    for output, lines in (("Quadratic", 0), ("Linear", 1), ("Constant", 1)):
+        empty()
+        lamp = bpy.data.lights.new("Lamp", "POINT")
+        link(bpy.data.objects.new("Lamp", lamp))
+        full = exporter()[0].sync(depsgraph()).lights[0]["emission"]["radiance"]
+
+        def falloff(tree, light, output=output):
+            node = tree.nodes.new("ShaderNodeLightFalloff")
+            node.inputs["Strength"].default_value = 3.0
+            tree.links.new(node.outputs[output], light.inputs["Strength"])
+
+        lit(lamp, falloff)
+        made, report = exporter()
+        assert np.divide(made.sync(depsgraph()).lights[0]["emission"]["radiance"], full) == pytest.approx([3.0] * 3)
+        assert len(report.diagnostics) == lines, output
+
+
+@pytest.mark.blender
+def test_lamps_that_the_camera_shall_not_see_shine(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link
+
+    def hidden(tree, light):
+        path, part = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMath")
+        part.operation = "SUBTRACT"
+        part.inputs[0].default_value = 1.0
+        tree.links.new(path.outputs["Is Camera Ray"], part.inputs[1])
+        tree.links.new(part.outputs[0], light.inputs["Strength"])
+
+    empty()
+    lamp = bpy.data.lights.new("Lamp", "AREA")
+    link(bpy.data.objects.new("Lamp", lamp))
+    full = exporter()[0].sync(depsgraph()).lights[0]["emission"]["radiance"]
+    lit(lamp, hidden)
+    made, report = exporter()
+    assert made.sync(depsgraph()).lights[0]["emission"]["radiance"] == pytest.approx(full)
+    assert [line.message.partition(":")[0] for line in report.diagnostics] == ["Light Path"]
