@@ -121,11 +121,11 @@ def test_unknown_complexity(stage):
         gonio.load_usd(stage, complexity="extreme")
 
 
-def test_the_neutral_dome_can_be_left_out(tmp_path):
+def test_the_camera_light_can_be_left_out(tmp_path):
     path = tmp_path / "dark.usda"
     path.write_text('#usda 1.0\ndef Sphere "Ball" {}\n')
     assert len(gonio.load_usd(path).to_dict()["lights"]) == 1
-    assert gonio.load_usd(path, neutral_dome=False).to_dict()["lights"] == []
+    assert gonio.load_usd(path, camera_light=False).to_dict()["lights"] == []
 
 
 def test_diagnostics_are_pairs_of_texts(tmp_path):

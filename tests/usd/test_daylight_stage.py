@@ -106,7 +106,7 @@ def test_weather_and_model_are_taken(tmp_path):
     ],
 )
 def test_what_is_wrong_is_told_with_the_prim(tmp_path, body, words):
-    scene = gonio.load_usd(stage(tmp_path, body), neutral_dome=False)
+    scene = gonio.load_usd(stage(tmp_path, body), camera_light=False)
     assert not scene.to_dict()["lights"]
     assert any(origin == "/Sky" and words in message for origin, message in scene.diagnostics), scene.diagnostics
 
@@ -114,7 +114,7 @@ def test_what_is_wrong_is_told_with_the_prim(tmp_path, body, words):
 def test_a_place_without_latitude_is_told(tmp_path):
     path = tmp_path / "stage.usda"
     path.write_text(HEAD.format(up="Z") + 'def Xform "Sky"\n{\n    double gonio:daylight:longitude = 16\n}\n')
-    scene = gonio.load_usd(str(path), neutral_dome=False)
+    scene = gonio.load_usd(str(path), camera_light=False)
     assert any("latitude: NaN" in message for _, message in scene.diagnostics), scene.diagnostics
 
 

@@ -99,20 +99,27 @@ def test_specular_workflow_tints_the_reflectance_at_normal_incidence(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("inputs", "opacity", "transmission", "threshold"),
+    ("inputs", "opacity", "threshold"),
     [
-        ("float inputs:opacity = 0.25", 0.25, None, 0),
-        ('float inputs:opacity = 0.25\ntoken inputs:opacityMode = "presence"', 0.25, None, 0),
-        ('float inputs:opacity = 0.25\ntoken inputs:opacityMode = "transparent"', None, 0.75, 0),
-        ('float inputs:opacity = 0.25\nfloat inputs:opacityThreshold = 0.5\ntoken inputs:opacityMode = "transparent"', 0.25, None, 0.5),
+        ("", 1, 0),
+        ('float inputs:opacity = 0.25\ntoken inputs:opacityMode = "presence"', 0.25, 0),
+        ('float inputs:opacity = 0.25\nfloat inputs:opacityThreshold = 0.5\ntoken inputs:opacityMode = "transparent"', 0.25, 0.5),
+        ("float inputs:opacity = 0.25\nfloat inputs:opacityThreshold = 0.5", 0.25, 0.5),
     ],
 )
-def test_opacity(tmp_path, inputs, opacity, transmission, threshold):
+def test_opacity_that_removes_the_surface(tmp_path, inputs, opacity, threshold):
     m = bound_material(load(tmp_path, preview(inputs)))
-    names = dict(m["parameters"])
-    assert (names["geometry_opacity"]["Constant"][0] if "geometry_opacity" in names else None) == opacity
-    assert (names["transmission_weight"]["Constant"][0] if "transmission_weight" in names else None) == transmission
+    assert constant(m, "geometry_opacity")[0] == opacity
     assert m["opacity_threshold"] == pytest.approx(threshold)
+
+
+@pytest.mark.parametrize("mode", ["", '\ntoken inputs:opacityMode = "transparent"'])
+def test_opacity_that_leaves_the_reflection(tmp_path, mode):
+    scene = load(tmp_path, preview("color3f inputs:diffuseColor = (0.4, 0.4, 0.4)\nfloat inputs:opacity = 0.25" + mode))
+    whole, clear, straight = scene["materials"][scene["instances"][0]["materials"][0]]["closures"]
+    assert whole["weight"]["Constant"][0] == 0.25 and constant(whole, "base_color")[0] == pytest.approx(0.4)
+    assert clear["weight"]["Constant"][0] == 0.75 and constant(clear, "base_color")[0] == 0
+    assert straight["model"] == "Transparent" and "Node" in straight["weight"]
 
 
 TEXTURED = """

@@ -1,6 +1,7 @@
 //! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
 
 use crate::goniogram::LuminaireFile;
+use crate::material::Shaded;
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
@@ -11,6 +12,7 @@ use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// The stage's vertical axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,6 +49,10 @@ pub struct Context<'a, 'py> {
     pub up_axis: UpAxis,
     /// Materials by the path of their prim; `None` for those that could not be read.
     pub material_ids: HashMap<String, Option<MaterialId>>,
+    /// Names of primvars whose text materials have asked for, by the path of the material.
+    pub asked_of_prims: HashMap<String, Vec<String>>,
+    /// The prim that the material under way is for.
+    pub shaded: Shaded<'py>,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
     /// Measured BSDFs by the path of their file; `None` for those that could not be read.
@@ -55,6 +61,8 @@ pub struct Context<'a, 'py> {
     pub goniograms: HashMap<String, Option<Arc<Goniogram>>>,
     /// The files that goniograms were read from, in the order of their reading.
     pub luminaires: Vec<LuminaireFile>,
+    /// Time that reading has waited for meshes to be built.
+    pub waited_for_meshes: Duration,
     /// Prims met, by type.
     pub prim_counts: HashMap<String, usize>,
     diagnostics: Vec<Diagnostic>,
@@ -81,10 +89,13 @@ impl<'a, 'py> Context<'a, 'py> {
             metres_per_unit: 0.01,
             up_axis: UpAxis::Y,
             material_ids: HashMap::new(),
+            asked_of_prims: HashMap::new(),
+            shaded: Shaded::default(),
             texture_ids: HashMap::new(),
             measured_ids: HashMap::new(),
             goniograms: HashMap::new(),
             luminaires: Vec::new(),
+            waited_for_meshes: Duration::ZERO,
             prim_counts: HashMap::new(),
             diagnostics: Vec::new(),
             refused: None,

@@ -1,6 +1,6 @@
 //! How a camera meets an image: aspect ratio policies, and a camera and a light for stages without them.
 
-use gonio::scene::{Camera, DomeFormat, Light, LightShape, Origin, Transform};
+use gonio::scene::{Camera, Emission, Light, LightShape, Origin, Transform};
 
 /// Vertical field of view of the automatic camera, degrees.
 const AUTO_FIELD_OF_VIEW: f64 = 35.0;
@@ -110,9 +110,12 @@ pub fn auto_camera(bounds: [[f64; 3]; 2], is_z_up: bool, aspect: f64) -> Camera 
     camera
 }
 
-/// A white dome of one nit for stages without lights.
-pub fn neutral_dome() -> Light {
-    Light::new(Origin::new("neutral dome"), LightShape::Dome { format: DomeFormat::LatLong }, Transform::IDENTITY)
+/// A light for stages without any: it shines along the camera's view without shadows, as usdrecord's, and shows a white surface that faces it as
+/// white (1 cd/m²).
+pub fn camera_light(camera: &Camera) -> Light {
+    let emission = Emission { radiance: [std::f32::consts::PI; 3], normalized: true, ..Emission::default() };
+    let shape = LightShape::Distant { angle_deg: 0.0 };
+    Light { emission, casts_shadow: false, ..Light::new(Origin::new("camera light"), shape, camera.transform) }
 }
 
 /// Width over height of a camera's aperture, for pictures whose height follows the camera.

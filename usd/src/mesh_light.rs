@@ -5,7 +5,7 @@ use crate::light::{input, radiance, report_left_out, tint};
 use crate::photometry;
 use crate::prim::Prim;
 use gonio::colour::luminance_of_pixel;
-use gonio::scene::{Channel, Input, Material, MaterialId, Operation};
+use gonio::scene::{Channel, Closure, Input, Material, MaterialId, Operation};
 
 /// Whether a light is made of the prim's geometry.
 pub(crate) fn is_geometry_light(prim: &Prim<'_>) -> bool {
@@ -54,18 +54,30 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
 /// Adds the light to what the material emits itself, or tints a material's glow with it.
 fn emit(material: &mut Material, [r, g, b]: [f32; 3], tints: bool) {
     let light = Input::Constant([r, g, b, 1.0]);
-    let Some(surface) = material.closures.first_mut() else { return };
-    let glow = surface.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
-    let emission = match (glow, tints) {
-        (None, _) => light,
-        (Some(Input::Constant(glow)), true) => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
-        (Some(Input::Constant(glow)), false) => Input::Constant([glow[0] + r, glow[1] + g, glow[2] + b, 1.0]),
-        (Some(node), tints) => {
-            let operation = if tints { Operation::Multiply } else { Operation::Add };
-            Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
-        }
-    };
-    surface.set_input("emission_color", emission);
+    let glow = |surface: &Closure| surface.input("emission_color").filter(|glow| !matches!(glow, Input::Constant([0.0, 0.0, 0.0, _])));
+    let is_tinted = tints && material.closures.iter().any(|surface| glow(surface).is_some());
+    if !is_tinted && material.closures.len() > 1 {
+        // Closures have shares of the surface, the light has all of it.
+        let mut whole = Closure::default();
+        whole.set_colour("base_color", [0.0; 3]);
+        whole.set("specular_weight", 0.0);
+        whole.set_input("emission_color", light);
+        material.closures.push(whole);
+        return;
+    }
+    for surface in &mut material.closures {
+        let emission = match glow(surface) {
+            None if is_tinted => continue,
+            None => light,
+            Some(Input::Constant(glow)) if tints => Input::Constant([glow[0] * r, glow[1] * g, glow[2] * b, 1.0]),
+            Some(Input::Constant(glow)) => Input::Constant([glow[0] + r, glow[1] + g, glow[2] + b, 1.0]),
+            Some(node) => {
+                let operation = if tints { Operation::Multiply } else { Operation::Add };
+                Input::Node(material.graph.add(operation, vec![node, light]), Channel::Rgb)
+            }
+        };
+        surface.set_input("emission_color", emission);
+    }
 }
 
 #[cfg(test)]
@@ -81,5 +93,14 @@ mod tests {
         emit(&mut sum, [2.0; 3], false);
         assert_eq!(material.closures[0].input("emission_color"), Some(Input::Constant([2.0, 1.0, 0.0, 1.0])));
         assert_eq!(sum.closures[0].input("emission_color"), Some(Input::Constant([3.0, 2.5, 2.0, 1.0])));
+    }
+
+    #[test]
+    fn a_light_on_several_closures_has_all_of_the_surface() {
+        let mut material = Material::default();
+        material.closures.push(Closure { weight: Input::Constant([0.5; 4]), ..Closure::default() });
+        emit(&mut material, [2.0; 3], true);
+        assert_eq!(material.closures.len(), 3);
+        assert_eq!(material.closures[2].input("emission_color"), Some(Input::Constant([2.0, 2.0, 2.0, 1.0])));
     }
 }

@@ -4,6 +4,7 @@
 
 use crate::options::Purpose;
 use gonio::scene::{MaterialId, MeshId, Transform};
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 /// A named value that things inherit from the prims above them or from their placement.
@@ -19,23 +20,17 @@ pub struct Inherited {
     pub is_varying: bool,
 }
 
-/// The material of one slot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slot {
-    /// A bound one.
-    Bound(MaterialId),
-    /// No binding is authored at or above the prim: what displayColor and displayOpacity say.
-    Unbound,
-}
+/// Materials that are filled in when they are known.
+pub type Slots = Rc<OnceCell<Vec<MaterialId>>>;
 
 /// A mesh with its materials.
 #[derive(Clone, Debug)]
 pub struct Shape {
     /// The mesh.
     pub mesh: MeshId,
-    /// The material of each slot.
-    pub slots: Vec<Slot>,
-    /// The prim that each slot's binding is looked up at: the mesh, then its subsets.
+    /// The material of each slot, known when the whole stage has been walked; empty where no binding is authored at or above the prim.
+    pub slots: Slots,
+    /// The prim that each slot's binding is looked up at: the mesh, then its subsets. Empty where no binding counts.
     pub slot_prims: Vec<String>,
     /// Whether the mesh has displayOpacity itself.
     pub has_opacity: bool,

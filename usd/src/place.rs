@@ -1,9 +1,10 @@
 //! From models to the scene: groups multiplied out, shapes of equal mesh and materials gathered into one set of instances.
 
+mod rebound;
+
 use crate::context::Context;
-use crate::model::{Element, Group, Inherited, Kind, Model, Shape, Slot};
+use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
-use crate::prim::Prim;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
 use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
@@ -29,6 +30,16 @@ struct Placement {
 }
 
 impl Placement {
+    /// The frame of a group's model, without its transformations, values and purpose.
+    fn inside(&self, element: &Element, group: &Group) -> Self {
+        let renamed = match &group.instance {
+            Some(instance) => Some((group.model.root.clone(), self.path(instance))),
+            None => self.renamed.clone(),
+        };
+        let is_rebound = self.is_rebound || group.instance.is_some() && element.is_bound;
+        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound }
+    }
+
     fn path(&self, path: &str) -> String {
         let renamed = self.renamed.as_ref().and_then(|(from, to)| Some(format!("{to}{}", path.strip_prefix(from.as_str())?)));
         renamed.unwrap_or_else(|| path.to_owned())
@@ -51,6 +62,8 @@ struct Gathered {
 pub struct Placer<'w, 'a, 'py> {
     context: &'w mut Context<'a, 'py>,
     failed: HashSet<MeshId>,
+    /// Materials by the path of the prim in its instance.
+    rebound: HashMap<String, MaterialId>,
     places: HashMap<Key, usize>,
     gathered: Vec<Gathered>,
     placement_count: usize,
@@ -69,8 +82,16 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         renamed: None,
         is_rebound: false,
     };
-    let mut placer =
-        Placer { context, failed, places: HashMap::new(), gathered: Vec::new(), placement_count: 0, geometry_lights: HashMap::new() };
+    let rebound = rebound::materials(context, world, &placement);
+    let mut placer = Placer {
+        context,
+        failed,
+        rebound,
+        places: HashMap::new(),
+        gathered: Vec::new(),
+        placement_count: 0,
+        geometry_lights: HashMap::new(),
+    };
     placer.place(world, &placement)?;
     placer.finish();
     Ok(())
@@ -119,12 +140,8 @@ impl<'py> Placer<'_, '_, 'py> {
         let repeated: Vec<Inherited> = placement.primvars.iter().map(|value| each_repeated(value, group.transforms.len())).collect();
         let tiled: Vec<Inherited> = group.primvars.iter().map(|value| tiled(value, outer.len())).collect();
         let near = primvar::merged(&tiled, &element.primvars);
-        let renamed = match &group.instance {
-            Some(instance) => Some((group.model.root.clone(), placement.path(instance))),
-            None => placement.renamed.clone(),
-        };
-        let is_rebound = placement.is_rebound || group.instance.is_some() && element.is_bound;
-        self.place(&group.model, &Placement { transforms, primvars: primvar::merged(&near, &repeated), purpose, renamed, is_rebound })
+        let primvars = primvar::merged(&near, &repeated);
+        self.place(&group.model, &Placement { transforms, primvars, purpose, ..placement.inside(element, group) })
     }
 
     fn shape(&mut self, element: &Element, shape: &Shape, placement: &Placement) -> Result<()> {
@@ -191,25 +208,15 @@ impl<'py> Placer<'_, '_, 'py> {
         transforms: &[Transform],
     ) -> Vec<MaterialId> {
         let has_opacity = shape.has_opacity || primvars.iter().any(|value| value.name == "displayOpacity");
-        let rebound = if placement.is_rebound { self.rebound(shape, placement) } else { None };
-        let mut materials = rebound.unwrap_or_else(|| {
-            let unbound = |slot: &Slot| match slot {
-                Slot::Bound(material) => *material,
-                Slot::Unbound => material::fallback(self.context, has_opacity),
-            };
-            shape.slots.iter().map(unbound).collect()
-        });
+        let rebound = || shape.slot_prims.iter().map(|path| self.rebound.get(&placement.path(path)).copied()).collect::<Option<Vec<_>>>();
+        let rebound = if placement.is_rebound && !shape.slot_prims.is_empty() { rebound() } else { None };
+        let bound = rebound.or_else(|| shape.slots.get().cloned());
+        let mut materials = bound.unwrap_or_else(|| vec![material::fallback(self.context, has_opacity); shape.slot_prims.len()]);
         if shape.is_light {
             let area = transforms.first().map(|transform| self.area(shape.mesh, transform));
             materials.iter_mut().for_each(|material| *material = self.glowing(&element.path, *material, area));
         }
         materials
-    }
-
-    /// The materials by the bindings that count where the instance stands.
-    fn rebound(&mut self, shape: &Shape, placement: &Placement) -> Option<Vec<MaterialId>> {
-        let prims: Option<Vec<Prim<'py>>> = shape.slot_prims.iter().map(|path| self.context.prim_at(&placement.path(path))).collect();
-        Some(material::bound_all(self.context, &prims?))
     }
 
     fn glowing(&mut self, path: &str, material: MaterialId, area: Option<f64>) -> MaterialId {

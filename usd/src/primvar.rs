@@ -25,7 +25,7 @@ fn names<'a>(prim: &'a Prim<'_>) -> impl Iterator<Item = &'a str> {
 /// The prim's primvar called `name`, `None` where it has no value or is not of floats.
 pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<FacePrimvar> {
     let attribute = prim.attribute(&format!("{PREFIX}{name}"))?;
-    let interpolation = interpolation(context, &attribute, Interpolation::Constant);
+    let interpolation = interpolation(context, prim, &attribute, Interpolation::Constant);
     let mut primvar = from_attribute(context, &attribute, name, interpolation)?;
     let indices_name = format!("{PREFIX}{name}{INDICES}");
     if prim.has_authored(&indices_name)
@@ -42,7 +42,7 @@ pub fn normals<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<
     let found = if prim.has_authored("primvars:normals") { read(context, prim, "normals") } else { None };
     let found = found.or_else(|| {
         let attribute = if prim.has_authored("normals") { prim.attribute("normals")? } else { return None };
-        let interpolation = interpolation(context, &attribute, Interpolation::Vertex);
+        let interpolation = interpolation(context, prim, &attribute, Interpolation::Vertex);
         from_attribute(context, &attribute, "normals", interpolation)
     })?;
     if found.components == 3 {
@@ -52,7 +52,7 @@ pub fn normals<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<
     None
 }
 
-fn interpolation(context: &mut Context<'_, '_>, attribute: &Attribute<'_>, otherwise: Interpolation) -> Interpolation {
+fn interpolation(context: &mut Context<'_, '_>, prim: &Prim<'_>, attribute: &Attribute<'_>, otherwise: Interpolation) -> Interpolation {
     let Some(token) = attribute.metadata("interpolation").and_then(|token| String::from_value(&token)) else { return otherwise };
     match token.as_str() {
         "constant" => Interpolation::Constant,
@@ -60,6 +60,9 @@ fn interpolation(context: &mut Context<'_, '_>, attribute: &Attribute<'_>, other
         "varying" => Interpolation::Varying,
         "vertex" => Interpolation::Vertex,
         "faceVarying" => Interpolation::FaceVarying,
+        // One value an instance: a point instancer has many, any other prim stands for one.
+        "instance" if prim.type_name() == "PointInstancer" => Interpolation::Varying,
+        "instance" => Interpolation::Constant,
         other => {
             let origin = gonio::scene::Origin::new(attribute.path());
             context.warn(&origin, format!("interpolation is '{other}', expected constant, uniform, varying, vertex or faceVarying"));

@@ -12,29 +12,58 @@ const CHANNELS: [&str; 4] = ["translations", "rotations", "scales", "blendShapeW
 /// How deep instances with skeletons may stand in one another.
 const MAX_ROUNDS: usize = 16;
 
-/// Skins the meshes below a `SkelRoot` at the context's time; where that fails they stay in their bind pose, which is reported.
-pub fn bake<'py>(context: &mut Context<'_, 'py>, root: &Prim<'py>) {
-    let origin = root.origin();
-    let result = write_skinned_points(context, root);
-    if context.attempt(&origin, "skinning failed, the meshes are in their bind pose", result) == Some(false) {
-        context.warn(&origin, "skinning failed, the meshes are in their bind pose");
+/// Whether a prim holds skinned meshes.
+pub fn is_root(prim: &Prim<'_>) -> bool {
+    Module::UsdSkel.item(prim.py(), "Root").is_ok_and(|class| prim.is_a(&class))
+}
+
+/// Skins the meshes below all `SkelRoot`s at the context's time, in one go: each writing makes `pxr` compose anew. Where that fails meshes stay in
+/// their bind pose, which is reported.
+pub fn bake<'py>(context: &mut Context<'_, 'py>) {
+    let stage = Origin::new("/");
+    let time = pinned_time(context);
+    let Some(time) = context.attempt(&stage, "skinning failed, the meshes are in their bind pose", time) else { return };
+    let whole = || -> PyResult<bool> {
+        let root = context.stage.call_method0(intern!(context.py, "GetPseudoRoot"))?;
+        let range = Module::Usd.item(context.py, "PrimRange")?.call1((root,))?;
+        write_skinned_points(context, &range, time)
+    };
+    if !whole().unwrap_or(false) {
+        bake_one_by_one(context, time);
     }
 }
 
-fn write_skinned_points<'py>(context: &Context<'_, 'py>, root: &Prim<'py>) -> PyResult<bool> {
-    let py = context.py;
-    // BakeSkinning looks at authored samples only: one is put at the time that is read.
-    let is_numeric = context.time.call_method0(intern!(py, "IsNumeric"))?.is_truthy()?;
-    let time = if is_numeric { context.time.call_method0(intern!(py, "GetValue"))?.extract::<f64>()? } else { 0.0 };
-    if is_numeric {
-        for animation in animations(context)? {
-            CHANNELS.iter().try_for_each(|name| pin(context, &animation, name))?;
+/// One bad skeleton does not spoil the others.
+fn bake_one_by_one<'py>(context: &mut Context<'_, 'py>, time: f64) {
+    let prims = || -> PyResult<Vec<Prim<'py>>> {
+        let prims = context.stage.call_method0(intern!(context.py, "Traverse"))?;
+        prims.try_iter()?.map(|prim| prim.map(Prim::new)).collect()
+    };
+    for prim in prims().unwrap_or_default().into_iter().filter(is_root) {
+        let root = Module::UsdSkel.wrap("Root", prim.object());
+        let result = root.and_then(|root| write_skinned_points(context, &root, time));
+        if context.attempt_at(&prim, "skinning failed, the meshes are in their bind pose", result) == Some(false) {
+            context.warn(&prim.origin(), "skinning failed, the meshes are in their bind pose");
         }
     }
-    let interval = Module::Gf.item(py, "Interval")?.call1((time, time))?;
-    let skel = Module::UsdSkel.import(py)?;
-    let root = skel.getattr("Root")?.call1((root.object(),))?;
-    skel.call_method1("BakeSkinning", (root, interval))?.is_truthy()
+}
+
+/// Skins what is below a root, or below all roots of a range of prims.
+fn write_skinned_points<'py>(context: &Context<'_, 'py>, roots: &Bound<'py, PyAny>, time: f64) -> PyResult<bool> {
+    let interval = Module::Gf.item(context.py, "Interval")?.call1((time, time))?;
+    Module::UsdSkel.import(context.py)?.call_method1("BakeSkinning", (roots, interval))?.is_truthy()
+}
+
+/// The time that is read. BakeSkinning looks at authored samples only: one is put there.
+fn pinned_time(context: &Context<'_, '_>) -> PyResult<f64> {
+    let py = context.py;
+    if !context.time.call_method0(intern!(py, "IsNumeric"))?.is_truthy()? {
+        return Ok(0.0);
+    }
+    for animation in animations(context)? {
+        CHANNELS.iter().try_for_each(|name| pin(context, &animation, name))?;
+    }
+    context.time.call_method0(intern!(py, "GetValue"))?.extract()
 }
 
 /// The animations outside of instances.
@@ -59,26 +88,44 @@ fn pin<'py>(context: &Context<'_, 'py>, animation: &Prim<'py>, name: &str) -> Py
 pub fn take_instances_apart(stage: &Bound<'_, PyAny>) -> PyResult<Vec<Origin>> {
     let mut apart = Vec::new();
     let class = Module::UsdSkel.item(stage.py(), "Root")?;
+    let layer = stage.call_method0("GetEditTarget")?.call_method0("GetLayer")?;
     for _ in 0..MAX_ROUNDS {
-        let before = apart.len();
-        for prototype in stage.call_method0("GetPrototypes")?.try_iter()? {
-            let prototype = prototype?;
-            let is_held = holds(&prototype, &class)?;
-            for instance in prototype.call_method0("GetInstances")?.try_iter()? {
-                let instance = Prim::new(instance?);
-                // The root of a prototype has no type, its instances have.
-                let is_apart = is_held || instance.is_a(&class);
-                if is_apart && !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
-                    instance.object().call_method1("SetInstanceable", (false,))?;
-                    apart.push(instance.origin());
-                }
-            }
-        }
-        if apart.len() == before {
+        let found = instances_with_skeletons(stage, &class)?;
+        if found.is_empty() {
             break;
         }
+        write_apart(&layer, &found)?;
+        apart.extend(found.iter().map(Prim::origin));
     }
     Ok(apart)
+}
+
+fn instances_with_skeletons<'py>(stage: &Bound<'py, PyAny>, class: &Bound<'py, PyAny>) -> PyResult<Vec<Prim<'py>>> {
+    let mut found = Vec::new();
+    for prototype in stage.call_method0("GetPrototypes")?.try_iter()? {
+        let prototype = prototype?;
+        let is_held = holds(&prototype, class)?;
+        for instance in prototype.call_method0("GetInstances")?.try_iter()? {
+            let instance = Prim::new(instance?);
+            // The root of a prototype has no type, its instances have.
+            if (is_held || instance.is_a(class)) && !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
+                found.push(instance);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Writes the opinions of all instances before `pxr` composes anew: once, not once an instance.
+fn write_apart(layer: &Bound<'_, PyAny>, instances: &[Prim<'_>]) -> PyResult<()> {
+    let py = layer.py();
+    let paths: Vec<String> = instances.iter().map(Prim::path).collect();
+    let (create, none) = (Module::Sdf.item(py, "CreatePrimInLayer")?, py.None());
+    let block = Module::Sdf.item(py, "ChangeBlock")?.call0()?;
+    block.call_method0("__enter__")?;
+    let written = paths.iter().try_for_each(|path| create.call1((layer, path))?.call_method1("SetInfo", ("instanceable", false)).map(drop));
+    block.call_method1("__exit__", (&none, &none, &none))?;
+    written
 }
 
 fn holds<'py>(prototype: &Bound<'py, PyAny>, class: &Bound<'py, PyAny>) -> PyResult<bool> {

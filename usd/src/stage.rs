@@ -13,7 +13,7 @@ use crate::options::{SampleTime, StageOptions};
 use crate::pxr::{Module, Trap};
 use crate::settings::{self, RenderSettings};
 use crate::traverse::Walker;
-use crate::{material, place, pxr};
+use crate::{material, place, pxr, skeleton};
 use gonio::scene::Scene;
 use gonio::{Diagnostic, Error, Result, Severity};
 use info::read_info;
@@ -22,9 +22,10 @@ use problem::{composition_errors, passed_on, unreadable};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// A stage as a scene.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Loaded {
     /// What is to be rendered.
     pub scene: Scene,
@@ -32,8 +33,10 @@ pub struct Loaded {
     pub diagnostics: Vec<Diagnostic>,
     /// What the stage says about itself.
     pub info: StageInfo,
-    /// What the stage's RenderSettings prim says; applied to the scene already.
+    /// What the stage's RenderSettings prim says; [`crate::view::complete`] follows it.
     pub settings: Option<RenderSettings>,
+    /// How much of the reading was waiting for meshes to be built, which goes on beside it.
+    pub waited_for_meshes: Duration,
     /// The IES and EULUMDAT files that its lights name.
     pub luminaires: Vec<LuminaireFile>,
 }
@@ -129,22 +132,23 @@ impl Stage {
         let mut context = Context::new(self.object.bind(py).clone(), time, &options, cancel);
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
+        if self.info.has_skeletons {
+            skeleton::bake(&mut context);
+        }
         let walker = Walker::new(&mut context).map_err(unreadable)?;
         let (world, failed) = walker.world()?;
         place::place_world(&mut context, &world, failed)?;
         context.check_refused()?;
-        if let Some(settings) = &settings {
-            settings.apply(&mut context.scene);
-        }
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
         let luminaires = std::mem::take(&mut context.luminaires);
+        let waited_for_meshes = context.waited_for_meshes;
         let (mut scene, of_world) = context.finish();
         diagnostics.extend(of_world);
-        let wanted = settings.as_ref().and_then(|settings| settings.camera.clone()).or_else(|| info.default_camera.clone());
+        let wanted = settings.as_ref().and_then(|settings| settings.framing.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
-        Ok(Loaded { scene, diagnostics, info, settings, luminaires })
+        Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, luminaires })
     }
 }
 

@@ -5,17 +5,18 @@ mod pending;
 mod prototype;
 mod surface;
 
-use crate::build::MeshSource;
 use crate::context::Context;
-use crate::model::{Element, Inherited, Kind, Model};
+use crate::draw_mode::{self, DrawMode};
+use crate::model::{Element, Inherited, Kind, Model, Slots};
 use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, meter, primvar, skeleton};
+use crate::{daylight, meter, primvar};
 use gonio::Result;
 use gonio::scene::{MeshId, Origin, Transform};
 use kind::PrimKind;
+use pending::Pending;
 use pyo3::intern;
 use pyo3::prelude::*;
 use std::collections::{HashMap, HashSet};
@@ -29,12 +30,20 @@ struct Branch {
     purpose: Option<Purpose>,
     primvars: Rc<[Inherited]>,
     is_bound: bool,
+    draw_mode: DrawMode,
 }
 
 impl Branch {
     /// Of a model's root; `is_bound` where bindings may come from outside the model.
     fn root(is_bound: bool) -> Self {
-        Self { to_model: Transform::IDENTITY, is_detached: false, purpose: None, primvars: Rc::from([]), is_bound }
+        Self {
+            to_model: Transform::IDENTITY,
+            is_detached: false,
+            purpose: None,
+            primvars: Rc::from([]),
+            is_bound,
+            draw_mode: DrawMode::Default,
+        }
     }
 }
 
@@ -50,9 +59,10 @@ pub struct Walker<'w, 'a, 'py> {
     prototypes: HashMap<String, Rc<Model>>,
     open_prototypes: Vec<String>,
     quadrics: HashMap<String, MeshId>,
-    pending: Vec<(MeshId, MeshSource)>,
-    pending_floats: usize,
+    pending: Pending,
     failed: HashSet<MeshId>,
+    /// Prims whose materials are looked up at the end, and where to put them.
+    to_bind: Vec<(Vec<String>, Slots)>,
     displayed: Bound<'py, PyAny>,
     loaded: Bound<'py, PyAny>,
 }
@@ -71,9 +81,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             prototypes: HashMap::new(),
             open_prototypes: Vec::new(),
             quadrics: HashMap::new(),
-            pending: Vec::new(),
-            pending_floats: 0,
+            pending: Pending::default(),
             failed: HashSet::new(),
+            to_bind: Vec::new(),
             displayed: usd.getattr("PrimDefaultPredicate")?,
             // Prototypes of point instancers may stand below `over` and `class`, to be hidden from others.
             loaded: active_and_loaded,
@@ -93,7 +103,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         let displayed = self.displayed.clone();
         let roots = self.children(&Prim::new(root), &displayed, &branch);
         let model = self.walk("", roots, &displayed)?;
-        self.build_pending()?;
+        self.bind();
+        self.finish_meshes()?;
+        self.context.waited_for_meshes = self.pending.waited;
         Ok((model, self.failed))
     }
 
@@ -104,7 +116,6 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             self.context.check_cancel()?;
             self.visit(&prim, &branch, &mut model, &mut stack, predicate)?;
         }
-        self.bind(&mut model);
         Ok(model)
     }
 
@@ -132,6 +143,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         *self.context.prim_counts.entry(type_name.clone()).or_default() += 1;
         let Some(branch) = self.branch(prim, above) else { return Ok(()) };
         let is_shown = branch.purpose.is_none_or(|purpose| self.context.options.shows(purpose));
+        if branch.draw_mode != DrawMode::Default && draw_mode::applies(self.context, prim) {
+            return if is_shown { self.stand_in(prim, &branch, model) } else { Ok(()) };
+        }
         if is_shown {
             self.read(prim, &type_name, kind, &branch, model)?;
         }
@@ -145,9 +159,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         let is_surface = matches!(kind, PrimKind::Mesh | PrimKind::Quadric | PrimKind::Unsupported);
         let handed_down = if is_surface { branch.primvars.clone() } else { primvar::handed_down(self.context, prim, &branch.primvars) };
         let below = Rc::new(Branch { primvars: handed_down, ..branch });
-        // Baking may have composed the prim anew.
-        let baked = if kind == PrimKind::SkelRoot { self.context.prim_at(&prim.path()) } else { None };
-        let children = self.children(baked.as_ref().unwrap_or(prim), predicate, &below);
+        let children = self.children(prim, predicate, &below);
         stack.extend(children);
         Ok(())
     }
@@ -166,6 +178,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             purpose: purpose.or(above.purpose),
             primvars: above.primvars.clone(),
             is_bound: above.is_bound || prim.has_authored_prefix("material:binding"),
+            draw_mode: draw_mode::stated(self.context, prim).unwrap_or(above.draw_mode),
         })
     }
 
@@ -183,20 +196,10 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
                 if meter::is_measured(prim) {
                     push(model, prim, branch, Kind::Measured(None));
                 }
-                self.report_draw_mode(prim);
             }
-            PrimKind::SkelRoot => skeleton::bake(self.context, prim),
             PrimKind::Leaf | PrimKind::Unsupported => {}
         }
         Ok(())
-    }
-
-    fn report_draw_mode(&mut self, prim: &Prim<'py>) {
-        let mode = self.context.get_authored::<String>(prim, "model:drawMode");
-        if let Some(mode) = mode.filter(|mode| mode != "default" && mode != "inherited") {
-            let message = || format!("model:drawMode '{mode}' is not supported, the full geometry is shown");
-            self.context.once("drawMode", &mode, &prim.origin(), message);
-        }
     }
 }
 

@@ -2,9 +2,10 @@
 
 use crate::camera::choose;
 use crate::context::UpAxis;
-use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, neutral_dome};
-use crate::settings::conform_cameras;
+use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, camera_light};
+use crate::settings::{Framing, conform_cameras};
 use crate::stage::Loaded;
+use crate::{data_window, render_variable};
 use gonio::compile::Bounds;
 use gonio::scene::{Input, Material, Origin};
 use gonio::{Diagnostic, Error, Result};
@@ -35,13 +36,17 @@ pub struct ViewOptions {
     pub resolution: Resolution,
     /// Factor on both sides.
     pub scale: f64,
-    /// Whether stages without light get a neutral dome.
-    pub neutral_dome: bool,
+    /// Whether stages without light get one at the camera.
+    pub camera_light: bool,
+    /// Whether the settings' data window counts; else the whole picture is rendered.
+    pub data_window: bool,
+    /// Which of the settings' products the picture is for; without it the passes of all are in one picture, framed as the first says.
+    pub product: Option<usize>,
 }
 
 impl Default for ViewOptions {
     fn default() -> Self {
-        Self { camera: None, resolution: Resolution::Stage, scale: 1.0, neutral_dome: true }
+        Self { camera: None, resolution: Resolution::Stage, scale: 1.0, camera_light: true, data_window: true, product: None }
     }
 }
 
@@ -51,24 +56,40 @@ impl Default for ViewOptions {
 /// The camera does not exist, or the scale is not a number above zero.
 pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions) -> Result<Vec<Diagnostic>> {
     let mut notes = Vec::new();
-    let of_settings = loaded.settings.as_ref().and_then(|settings| settings.camera.clone());
+    let product = options.product.and_then(|number| loaded.settings.as_ref()?.products.get(number));
+    let framing = product.map(|product| &product.framing).or(loaded.settings.as_ref().map(|settings| &settings.framing)).cloned();
+    let variables = match (product, &loaded.settings) {
+        (Some(product), _) => product.variables.clone(),
+        (None, settings) => settings.as_ref().map(|settings| settings.variables()).unwrap_or_default(),
+    };
+    if let Some(framing) = &framing {
+        framing.apply(&mut loaded.scene);
+    }
+    render_variable::ask_for_passes(&mut loaded.scene.settings, &variables);
+    let of_settings = framing.as_ref().and_then(|framing| framing.camera.clone());
     let chosen = choose(&loaded.scene.cameras, options.camera.as_deref(), of_settings.as_deref(), primary_camera)?;
     loaded.scene.settings.camera = chosen.unwrap_or(0);
     set_resolution(loaded, options)?;
     let note = |message: &str| Diagnostic::info(&Origin::new("stage"), message);
     let scene = &mut loaded.scene;
-    if scene.lights.is_empty() && options.neutral_dome && !scene.materials.iter().any(shines) {
-        notes.push(note("there is no light; a neutral dome of 1 cd/m² lights it (--disable-camera-light takes it away)"));
-        scene.lights.push(neutral_dome());
-    }
     if scene.cameras.is_empty() {
         notes.push(note("there is no camera; one that sees everything is used"));
         let Bounds { min, max } = Bounds::of_scene(scene);
         let [width, height] = scene.settings.resolution.map(f64::from);
-        scene.cameras.push(auto_camera([min, max], loaded.info.up_axis == UpAxis::Z, width / height.max(1.0)));
+        scene.cameras.push(auto_camera(
+            [min, max],
+            loaded.info.up_axis == UpAxis::Z,
+            width * scene.settings.pixel_aspect / height.max(1.0),
+        ));
     }
-    let policy = loaded.settings.as_ref().map_or(ConformPolicy::default(), |settings| settings.conform);
-    conform_cameras(&mut loaded.scene, policy);
+    if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(shines) {
+        notes.push(note("there is no light; one at the camera lights it (--disable-camera-light takes it away)"));
+        scene.lights.push(camera_light(&scene.cameras[scene.settings.camera as usize]));
+    }
+    render_variable::add_shader_outputs(scene, &variables);
+    conform_cameras(scene, framing.as_ref().map_or(ConformPolicy::default(), |framing| framing.conform));
+    let window = framing.filter(|_| options.data_window).and_then(|Framing { data_window, .. }| data_window::apply(scene, data_window));
+    notes.extend(window.map(|problem| Diagnostic::warning(&Origin::new("render settings"), problem)));
     Ok(notes)
 }
 
@@ -80,7 +101,8 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
     let has_settings = loaded.settings.is_some();
     let scene = &mut loaded.scene;
     let aspect = scene.cameras.get(scene.settings.camera as usize).map_or(DEFAULT_ASPECT, aperture_aspect);
-    let by_width = |width: u32| [width, ((f64::from(width) / aspect).round() as u32).max(1)];
+    let pixel_aspect = scene.settings.pixel_aspect;
+    let by_width = |width: u32| [width, ((f64::from(width) * pixel_aspect / aspect).round() as u32).max(1)];
     let resolution = match options.resolution {
         Resolution::Exact(resolution) => resolution,
         Resolution::Width(width) => by_width(width),

@@ -8,7 +8,7 @@ use super::{
 };
 use gonio::{
     Error, Result,
-    film::{Image, Layer},
+    film::{Frame, Image, Layer},
     output::{Canvas, FalseColour, FalseColourScale, Look, display, encode_png, write_atomically},
     scene::{Aov, Crop},
 };
@@ -67,6 +67,7 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
     let image = Image {
         resolution,
         window: Crop { min: [0; 2], max: resolution },
+        frame: Frame::default(),
         layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
         samples: 1,
         mean_samples: 1.0,

@@ -7,13 +7,12 @@ use super::{
     file_name, list,
     output::{Notes, Writer},
     progress::Reporter,
-    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, stage_options},
+    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, stage_options},
 };
 use clap::Parser;
 use gonio::{
     Error, Result,
     checkpoint::{merge, parts},
-    scene::Scene,
 };
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, SampleTime, Stage, StageOptions};
@@ -69,7 +68,7 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
     for (frame, files) in frames.iter().zip(started().map_err(|error| failure(py, &error))?) {
         let files: Vec<PathBuf> = files.and_then(|files| files.extract()).map_err(|error| failure(py, &error))?;
         let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
-        py.detach(|| write(options, &writer, &files, &first.scene, *frame, time))?;
+        py.detach(|| write(options, &writer, &files, &first, *frame, time))?;
     }
     Ok(0)
 }
@@ -82,17 +81,19 @@ fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
 fn load(py: Python<'_>, stage: &Stage, options: &RenderOptions, frame: Option<f64>) -> Result<Loaded> {
     let time = frame.map_or(SampleTime::Start, SampleTime::Code);
     let mut loaded = stage.load(py, &StageOptions { time, ..stage_options(&options.stage)? }, &INTERRUPTED)?;
-    complete_scene(options, &mut loaded)?;
+    complete_scene(options, &mut loaded, None)?;
     Ok(loaded)
 }
 
 /// Joins the parts of a frame and writes its pictures; `time` is the frame's, seconds.
-fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], scene: &Scene, frame: Option<f64>, time: f64) -> Result<()> {
-    let whole = merge(files)?;
+fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Loaded, frame: Option<f64>, time: f64) -> Result<()> {
+    let (whole, scene) = (merge(files)?, &first.scene);
     let mut image = whole.film.develop();
     let hidden = writer.ask_for_passes(&mut scene.settings.clone());
     writer.finish(&mut image)?;
     image.layers.retain(|layer| !hidden.contains(&layer.aov));
+    let variables = first.settings.as_ref().map(|settings| settings.variables()).unwrap_or_default();
+    name_layers(options, &mut image, &scene.settings, &variables);
     let notes = Notes { exposure: whole.identity.exposure, time, interrupted: false, attributes: &attributes(options, scene) };
     let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
     let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();

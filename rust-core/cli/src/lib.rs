@@ -21,6 +21,7 @@ mod measure;
 mod merge;
 mod output;
 mod photometry;
+mod products;
 mod progress;
 mod radiance;
 mod relight;

@@ -37,17 +37,20 @@ pub(super) struct Writer {
     execution: Execution,
 }
 
+/// The ending of a picture's name, in small letters; others than those that can be written are an error.
+pub(super) fn check_name(path: &Path) -> Result<String> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    if matches!(ending.as_str(), "exr" | "png" | "jpg" | "jpeg") {
+        return Ok(ending);
+    }
+    Err(Error::setting("output", format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display())))
+}
+
 impl Writer {
     /// Checks the options and the names' endings before anything is rendered.
     pub(super) fn new(options: &OutputArguments, execution: Execution) -> Result<Self> {
         for path in &options.output {
-            let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-            if !matches!(ending.as_str(), "exr" | "png" | "jpg" | "jpeg") {
-                return Err(Error::Setting {
-                    name: "output".into(),
-                    problem: format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display()),
-                });
-            }
+            let ending = check_name(path)?;
             if matches!(ending.as_str(), "jpg" | "jpeg") && options.color_space != "srgb" {
                 let problem = format!("{}: JPEG files are sRGB, '{}' goes to PNG", path.display(), options.color_space);
                 return Err(Error::setting("color-space", problem));
@@ -78,6 +81,7 @@ impl Writer {
     /// Writes all files at once: the wait is that for the slowest.
     pub(super) fn write_all(&self, paths: &[PathBuf], image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
         let look = self.look_at(image, about.time);
+        paths.iter().try_for_each(|path| make_folder(path))?;
         let written: Vec<Result<()>> = std::thread::scope(|scope| {
             let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, &look, about))).collect();
             let broken = |_| Err(Error::Internal("the writing of a file broke off".into()));

@@ -4,7 +4,7 @@ use super::{arguments::RelightOptions, file::check_ending, print, say};
 use gonio::{
     Error, Result,
     colour::luminance_of_pixel,
-    film::{Image, Layer},
+    film::{Frame, Image, Layer},
     light::blackbody_rgb,
     output::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr},
     scene::{Aov, Crop},
@@ -103,7 +103,7 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
     }
     layers.insert(0, Layer { aov: Aov::Color, name: "color".into(), values: colour, channels: 4 });
     let resolution = [width as u32, height as u32];
-    Image { resolution, window: Crop { min: [0, 0], max: resolution }, layers, samples: 0, mean_samples: 0.0 }
+    Image { resolution, window: Crop { min: [0, 0], max: resolution }, frame: Frame::default(), layers, samples: 0, mean_samples: 0.0 }
 }
 
 #[cfg(test)]

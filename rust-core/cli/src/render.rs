@@ -6,6 +6,7 @@ use super::{
     daylight, file_name, frames, list,
     output::{Notes, Writer},
     print,
+    products::{Picture, Products},
     progress::{Reporter, clock},
     say,
 };
@@ -13,14 +14,14 @@ use gonio::{
     Error, Result,
     checkpoint::Identity,
     compile::{CompiledScene, compile},
-    film::{Film, Image},
+    film::{Film, Image, Layer},
     render::Render,
     scene::{Aov, Crop, Filter, Scene, Settings},
 };
 use gonio_simd::Execution;
 use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
-    settings::aov_by_name,
+    render_variable::{self, RenderVariable, aov_by_name},
     view::{Resolution, ViewOptions, complete},
 };
 use pyo3::prelude::*;
@@ -39,32 +40,47 @@ pub(super) const MOST_WARNINGS: usize = 20;
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let mut stage_options = stage_options(&options.stage)?;
+    let start = Instant::now();
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    if options.stage.verbose && !options.quiet {
+        say(&format!("pxr imported and the stage opened in {:.2} s", start.elapsed().as_secs_f64()));
+    }
     if options.list_cameras {
         for camera in &stage.info().cameras {
             print(&camera.path);
         }
         return Ok(0);
     }
-    if options.files.output.is_empty() && options.checkpoint.checkpoint.is_none() {
-        return Err(Error::Setting { name: "output".into(), problem: "no file was given; say -o picture.exr".into() });
-    }
     let execution = Execution::detect();
     let writer = Writer::new(&options.files, execution)?;
     let frames = frames_of(options)?;
     let mut previous: Option<Arc<CompiledScene>> = None;
+    let mut products = Products::default();
     for frame in &frames {
         stage_options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
         let start = Instant::now();
         let loaded = stage.load(py, &stage_options, interrupted)?;
-        let loading = start.elapsed();
+        let (loading, waited_for_meshes) = (start.elapsed(), loaded.waited_for_meshes);
         let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
         let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
-        let outputs = options.files.output.iter().map(of_frame).collect();
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
-        let job = Job { options, writer: &writer, execution, outputs, checkpoint, loading, time, interrupted };
-        let compiled = py.detach(|| job.run(loaded, previous.as_deref()))?;
-        previous = Some(compiled);
+        let pictures = if options.files.output.is_empty() && checkpoint.is_none() {
+            products.pictures(&loaded, *frame)?
+        } else {
+            vec![Picture::of_all_products(&loaded, options.files.output.iter().map(of_frame))]
+        };
+        let count = pictures.len();
+        let mut loaded = Some(loaded);
+        for (number, picture) in pictures.into_iter().enumerate() {
+            // The last picture has the scene for itself; meshes and images are shared anyway.
+            let scene = if number + 1 == count { loaded.take() } else { loaded.clone() };
+            let Some(scene) = scene else { break };
+            let checkpoint = checkpoint.clone();
+            let (writer, is_first) = (&writer, number == 0);
+            let job = Job { options, writer, execution, picture, is_first, checkpoint, loading, waited_for_meshes, time, interrupted };
+            let compiled = py.detach(|| job.run(scene, previous.as_deref()))?;
+            previous = Some(compiled);
+        }
     }
     Ok(0)
 }
@@ -119,10 +135,10 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
     })
 }
 
-/// What the command line adds to a stage: daylight, view and settings.
-pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
+/// What the command line adds to a stage: daylight, view and settings. `product` is the render product whose picture it is.
+pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded, product: Option<usize>) -> Result<()> {
     daylight::add(&options.daylight, loaded, options.stage.strict, options.quiet)?;
-    Job::apply_settings(options, loaded)
+    Job::apply_settings(options, loaded, product)
 }
 
 /// What the header of EXR files says beside the passes.
@@ -140,9 +156,12 @@ struct Job<'a> {
     options: &'a RenderOptions,
     writer: &'a Writer,
     execution: Execution,
-    outputs: Vec<PathBuf>,
+    picture: Picture,
+    /// Of its frame: it tells what the stage has to tell.
+    is_first: bool,
     checkpoint: Option<PathBuf>,
     loading: Duration,
+    waited_for_meshes: Duration,
     /// Of the frame, seconds.
     time: f64,
     interrupted: &'static AtomicBool,
@@ -151,8 +170,8 @@ struct Job<'a> {
 impl Job<'_> {
     /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
     fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
-        complete_scene(self.options, &mut loaded)?;
-        if !self.options.quiet {
+        complete_scene(self.options, &mut loaded, self.picture.product)?;
+        if self.is_first && !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
@@ -164,7 +183,7 @@ impl Job<'_> {
     }
 
     /// Command line over render settings over defaults.
-    fn apply_settings(options: &RenderOptions, loaded: &mut Loaded) -> Result<()> {
+    fn apply_settings(options: &RenderOptions, loaded: &mut Loaded, product: Option<usize>) -> Result<()> {
         let view = ViewOptions {
             camera: options.camera.clone(),
             resolution: match (options.res.as_deref(), options.image_width) {
@@ -173,7 +192,9 @@ impl Job<'_> {
                 _ => Resolution::Stage,
             },
             scale: options.res_scale,
-            neutral_dome: !options.disable_camera_light,
+            camera_light: !options.disable_camera_light,
+            data_window: options.crop.is_none(),
+            product,
         };
         for note in complete(loaded, &Python::attach(camera::primary_camera_name), &view)? {
             if !options.quiet {
@@ -243,7 +264,10 @@ impl Job<'_> {
                 self.execution.name()
             ));
             say(&format!("{:.1} MB of geometry, {:.1} MB of textures", megabytes(s.geometry_bytes), megabytes(s.texture_bytes)));
-            say(&format!("read in {}, trees built in {:.2} s, compiled in {:.2} s", clock(self.loading), s.build_s, s.total_s));
+            let (read, meshes) = (self.loading.as_secs_f64(), self.waited_for_meshes.as_secs_f64());
+            say(&format!("read in {read:.2} s, {meshes:.2} s of it waiting for meshes that are built beside"));
+            let rest = (s.total_s - s.textures_s - s.build_s).max(0.0);
+            say(&format!("textures in {:.2} s, trees in {:.2} s, the rest of compiling in {rest:.2} s", s.textures_s, s.build_s));
         }
     }
 
@@ -273,7 +297,7 @@ impl Job<'_> {
         }
         image.layers.retain(|layer| !hidden.contains(&layer.aov));
         if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
-            self.write(scene, &image, result.is_err())?;
+            self.write(scene, &mut image, result.is_err())?;
         }
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
@@ -289,10 +313,14 @@ impl Job<'_> {
     }
 
     /// Writes all files at once: the wait is that for the slowest.
-    fn write(&self, scene: &Scene, image: &Image, interrupted: bool) -> Result<()> {
+    fn write(&self, scene: &Scene, image: &mut Image, interrupted: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
         let notes = Notes { exposure, time: self.time, interrupted, attributes: &attributes(self.options, scene) };
-        self.writer.write_all(&self.outputs, image, &notes, self.options.quiet)
+        let paths: Vec<PathBuf> = self.picture.files.iter().map(|file| file.path.clone()).collect();
+        // All files of a picture show the same.
+        let variables = self.picture.files.first().map(|file| file.variables.as_slice()).unwrap_or_default();
+        name_layers(self.options, image, &scene.settings, variables);
+        self.writer.write_all(&paths, image, &notes, self.options.quiet)
     }
 
     /// What keeps the render's checkpoint, if there is to be one.
@@ -300,6 +328,17 @@ impl Job<'_> {
         let Some(path) = &self.checkpoint else { return Ok(None) };
         let identity = Identity::new(scene, self.execution, attributes(self.options, scene).to_vec());
         Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
+    }
+}
+
+/// Makes the layers of a picture those of the stage's render variables, unless the command line asks for others.
+pub(super) fn name_layers(options: &RenderOptions, image: &mut Image, settings: &Settings, variables: &[RenderVariable]) {
+    if options.aov.is_empty() {
+        let named = render_variable::layers(image, settings, variables);
+        // What nobody asked for by name is the colour, which costs nothing, and light groups.
+        let is_extra = |layer: &Layer| matches!(layer.aov, Aov::Color | Aov::LightGroup(_)) && named.iter().all(|own| own.aov != layer.aov);
+        image.layers.retain(is_extra);
+        image.layers.extend(named);
     }
 }
 

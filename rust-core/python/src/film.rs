@@ -30,9 +30,9 @@ impl Film {
     }
     /// A film of other values of the colour pass alone.
     fn with_colour(&self, values: Vec<f32>) -> Self {
-        let Image { resolution, window, samples, mean_samples, .. } = self.image;
+        let Image { resolution, window, frame, samples, mean_samples, .. } = self.image;
         let layers = vec![Layer { aov: Aov::Color, name: Aov::Color.name().to_owned(), values, channels: 4 }];
-        Self { image: Image { resolution, window, layers, samples, mean_samples }, exposure: self.exposure }
+        Self { image: Image { resolution, window, frame, layers, samples, mean_samples }, exposure: self.exposure }
     }
 }
 

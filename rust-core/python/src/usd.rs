@@ -16,7 +16,7 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for.
 #[pyfunction]
-#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", neutral_dome = true, strict = false))]
+#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", camera_light = true, strict = false))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd<'py>(
     py: Python<'py>,
@@ -26,7 +26,7 @@ pub(crate) fn load_usd<'py>(
     render_settings: Option<String>,
     purposes: Option<Vec<String>>,
     complexity: &str,
-    neutral_dome: bool,
+    camera_light: bool,
     strict: bool,
 ) -> PyResult<Bound<'py, Scene>> {
     let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };
@@ -41,7 +41,7 @@ pub(crate) fn load_usd<'py>(
         options.purposes = Some(tokens.iter().map(purpose).collect::<PyResult<_>>()?);
     }
     let mut loaded = load_stage(py, &path, &options, &AtomicBool::new(false)).map_err(exception)?;
-    let view = ViewOptions { camera, neutral_dome, ..ViewOptions::default() };
+    let view = ViewOptions { camera, camera_light, ..ViewOptions::default() };
     let notes = complete(&mut loaded, &primary_camera_name(py), &view).map_err(exception)?;
     loaded.diagnostics.extend(notes);
     Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)

@@ -82,6 +82,9 @@ pub struct Settings {
     pub pixel_aspect: f64,
     /// The part of the image that is rendered.
     pub crop: Option<Crop>,
+    /// Pixels at the left, top, right and bottom of the resolution that lie outside the picture proper, as EXR files say (overscan).
+    #[serde(default)]
+    pub overscan: [u32; 4],
     /// Which camera of the scene.
     pub camera: u32,
     /// Samples a pixel.
@@ -162,6 +165,7 @@ impl Default for Settings {
             resolution: [1280, 720],
             pixel_aspect: 1.0,
             crop: None,
+            overscan: [0; 4],
             camera: 0,
             samples: 64,
             sample_range: None,

@@ -4,17 +4,17 @@ use gonio::colour::luminance_of_pixel;
 use gonio::scene::{Channel, Graph, Input, Operation};
 
 /// A number as an input.
-pub(super) fn scalar(value: f32) -> Input {
+pub(in crate::material) fn scalar(value: f32) -> Input {
     Input::Constant([value; 4])
 }
 
 /// A colour as an input.
-pub(super) fn colour([r, g, b]: [f32; 3]) -> Input {
+pub(in crate::material) fn colour([r, g, b]: [f32; 3]) -> Input {
     Input::Constant([r, g, b, 1.0])
 }
 
 /// The first component of a constant.
-pub(super) fn constant_scalar(input: Input) -> Option<f32> {
+pub(in crate::material) fn constant_scalar(input: Input) -> Option<f32> {
     match input {
         Input::Constant([x, ..]) => Some(x),
         Input::Node(..) => None,
@@ -22,12 +22,12 @@ pub(super) fn constant_scalar(input: Input) -> Option<f32> {
 }
 
 /// Whether the input is the same known number in all colour components.
-pub(super) fn is_constant(input: Input, value: f32) -> bool {
+pub(in crate::material) fn is_constant(input: Input, value: f32) -> bool {
     matches!(input, Input::Constant([r, g, b, _]) if r == value && g == value && b == value)
 }
 
 /// One component of an input.
-pub(super) fn component(input: Input, index: usize) -> Input {
+pub(in crate::material) fn component(input: Input, index: usize) -> Input {
     match input {
         Input::Constant(values) => scalar(values[index.min(3)]),
         Input::Node(node, Channel::Rgb) => Input::Node(node, [Channel::R, Channel::G, Channel::B, Channel::A][index.min(3)]),
@@ -36,7 +36,7 @@ pub(super) fn component(input: Input, index: usize) -> Input {
 }
 
 /// `a · b`.
-pub(super) fn multiply(graph: &mut Graph, a: Input, b: Input) -> Input {
+pub(in crate::material) fn multiply(graph: &mut Graph, a: Input, b: Input) -> Input {
     if is_constant(a, 1.0) {
         return b;
     }
@@ -47,12 +47,12 @@ pub(super) fn multiply(graph: &mut Graph, a: Input, b: Input) -> Input {
 }
 
 /// `a - b`.
-pub(super) fn subtract(graph: &mut Graph, a: Input, b: Input) -> Input {
+pub(in crate::material) fn subtract(graph: &mut Graph, a: Input, b: Input) -> Input {
     binary(graph, Operation::Subtract, a, b)
 }
 
 /// The operation on two inputs: a constant if both are, else a node.
-pub(super) fn binary(graph: &mut Graph, operation: Operation, a: Input, b: Input) -> Input {
+pub(in crate::material) fn binary(graph: &mut Graph, operation: Operation, a: Input, b: Input) -> Input {
     if let (Input::Constant(x), Input::Constant(y), Some(apply)) = (a, b, folding(&operation)) {
         return Input::Constant(std::array::from_fn(|i| apply(x[i], y[i])));
     }
@@ -72,7 +72,7 @@ fn folding(operation: &Operation) -> Option<fn(f32, f32) -> f32> {
 }
 
 /// `background` where `mix` is 0, `foreground` where it is 1.
-pub(super) fn mix(graph: &mut Graph, background: Input, foreground: Input, mix: Input) -> Input {
+pub(in crate::material) fn mix(graph: &mut Graph, background: Input, foreground: Input, mix: Input) -> Input {
     if let (Input::Constant(a), Input::Constant(b), Input::Constant(t)) = (background, foreground, mix) {
         return Input::Constant(std::array::from_fn(|i| a[i] * (1.0 - t[i]) + b[i] * t[i]));
     }
@@ -80,7 +80,7 @@ pub(super) fn mix(graph: &mut Graph, background: Input, foreground: Input, mix: 
 }
 
 /// `value` held between `low` and `high`.
-pub(super) fn clamp(graph: &mut Graph, value: Input, low: Input, high: Input) -> Input {
+pub(in crate::material) fn clamp(graph: &mut Graph, value: Input, low: Input, high: Input) -> Input {
     if let (Input::Constant(v), Input::Constant(l), Input::Constant(h)) = (value, low, high) {
         return Input::Constant(std::array::from_fn(|i| v[i].max(l[i]).min(h[i])));
     }
@@ -88,7 +88,7 @@ pub(super) fn clamp(graph: &mut Graph, value: Input, low: Input, high: Input) ->
 }
 
 /// The first components of up to four inputs side by side.
-pub(super) fn combine(graph: &mut Graph, parts: &[Input]) -> Input {
+pub(in crate::material) fn combine(graph: &mut Graph, parts: &[Input]) -> Input {
     if parts.iter().all(|part| matches!(part, Input::Constant(_))) {
         let mut values = [0.0, 0.0, 0.0, 1.0];
         for (value, part) in values.iter_mut().zip(parts) {
@@ -100,7 +100,7 @@ pub(super) fn combine(graph: &mut Graph, parts: &[Input]) -> Input {
 }
 
 /// The luminance of a linear Rec.709 colour.
-pub(super) fn luminance(graph: &mut Graph, input: Input) -> Input {
+pub(in crate::material) fn luminance(graph: &mut Graph, input: Input) -> Input {
     match input {
         Input::Constant([r, g, b, _]) => scalar(luminance_of_pixel([r, g, b])),
         Input::Node(_, Channel::Rgb) => Input::Node(graph.add(Operation::Luminance, vec![input]), Channel::R),

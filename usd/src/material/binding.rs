@@ -1,6 +1,7 @@
 //! Which material a prim has: UsdShade's resolution over inheritance, strength, collections and purposes.
 
-use super::{fallback, material};
+use super::fallback;
+use super::shaded::material_on;
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -19,7 +20,7 @@ pub fn bound_all<'py>(context: &mut Context<'_, 'py>, prims: &[Prim<'py>]) -> Ve
     let materials = context.attempt(&origin, "the bound materials cannot be found", computed).unwrap_or_default();
     let mut ids = Vec::with_capacity(prims.len());
     for (index, prim) in prims.iter().enumerate() {
-        let id = materials.get(index).and_then(Option::as_ref).and_then(|bound| material(context, bound));
+        let id = materials.get(index).and_then(Option::as_ref).and_then(|bound| material_on(context, bound, prim));
         if materials.get(index).is_none_or(Option::is_none) {
             report_absent(context, prim);
         }

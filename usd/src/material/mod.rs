@@ -1,15 +1,15 @@
 //! Materials of a stage: which is bound to a prim, and its shading network as a surface of the scene.
 //!
-//! A material's surface is looked for in the render contexts `gonio`, `mtlx` and the universal one, in this order.
+//! A material's surface is looked for in the render contexts `gonio`, `mtlx` and the universal one, in this order, then in all others that it has.
 
 mod arithmetic;
+mod arnold_nodes;
 mod binding;
 mod document;
 mod materialx_nodes;
-mod materialx_surfaces;
-mod measured;
 mod network;
-mod preview_surface;
+mod shaded;
+mod surface;
 mod textures;
 mod usd_nodes;
 mod value;
@@ -17,6 +17,7 @@ mod xml;
 
 pub use binding::{bound, bound_all};
 pub use document::{Substitution, substitute_documents};
+pub use shaded::Shaded;
 pub(crate) use textures::texture;
 pub(crate) use value::{stated_colour_space, to_linear_rec709};
 
@@ -27,69 +28,58 @@ use gonio::scene::{Channel, Closure, Graph, Input, Material, MaterialId, Model, 
 use network::{Network, Shader};
 use pyo3::{intern, prelude::*};
 
-/// Render contexts in the order of preference; the last is the universal one.
+/// Render contexts that go before others, the best first; the empty one is the universal.
 const RENDER_CONTEXTS: [&str; 3] = ["gonio", "mtlx", ""];
 /// Reflectance of surfaces that say nothing about themselves.
 const FALLBACK_REFLECTANCE: f32 = 0.18;
-
-/// The scene's material for the material prim at `path`, converted when first asked for; `None` where its surface cannot be converted, which
-/// is reported once.
-pub fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<MaterialId> {
-    let path = prim.path();
-    if let Some(known) = context.material_ids.get(&path) {
-        return *known;
-    }
-    let id = convert(context, prim, &path).map(|material| context.scene.add_material(material));
-    context.material_ids.insert(path, id);
-    id
-}
 
 fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) -> Option<Material> {
     let origin = Origin::new(path);
     let surfaces = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
     let mut unknown = Vec::new();
-    for surface in surfaces {
-        let shader = Shader::new(surface, &context.time);
+    for (render_context, prim) in surfaces {
+        let shader = Shader::new(prim, &context.time);
         let mut network = Network::new(context);
-        if let Some(closure) = convert_surface(&mut network, &shader) {
-            return Some(Material { graph: network.graph, ..Material::of(origin, closure) });
+        if let Some(closures) = surface::convert(&mut network, &shader) {
+            return Some(Material { origin, closures, graph: network.graph, ..Material::default() });
         }
-        unknown.push(format!("'{}'", shader.id));
+        let name = if shader.id.is_empty() { format!("<{}> without a name", shader.path) } else { format!("'{}'", shader.id) };
+        let place = if render_context.is_empty() { String::new() } else { format!(" (render context {render_context})") };
+        unknown.push(name + &place);
     }
     let found = match unknown.as_slice() {
-        [] => "the material has no surface in the render contexts gonio, mtlx and universal".to_owned(),
-        ids => format!("the surface shader {} is not supported", ids.join(", ")),
+        [] => "the material has no surface in any render context".to_owned(),
+        names => format!("the surface shader {} is not supported", names.join(", ")),
     };
     context.warn(&origin, format!("{found}; displayColor takes its place"));
     None
 }
 
-fn convert_surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
-    match shader.id.as_str() {
-        "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
-        measured::ID => Some(measured::convert(network, shader)),
-        _ => materialx_surfaces::convert(network, shader),
-    }
-}
-
-/// The surface shader prims of a material, the preferred render context's first.
-fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<Prim<'py>>> {
+/// The surface shader prims of a material with their render contexts, the preferred one's first.
+fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
     let py = prim.py();
     let material = Module::UsdShade.wrap("Material", prim.object())?;
     let mut surfaces = Vec::new();
-    for render_context in RENDER_CONTEXTS {
-        let output = material.call_method1(intern!(py, "GetSurfaceOutput"), (render_context,))?;
+    for render_context in render_contexts(prim) {
+        let output = material.call_method1(intern!(py, "GetSurfaceOutput"), (&render_context,))?;
         // A missing context falls back to the universal one, which has its own turn.
         if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
             continue;
         }
-        let source = material.call_method1(intern!(py, "ComputeSurfaceSource"), (render_context,))?;
+        let source = material.call_method1(intern!(py, "ComputeSurfaceSource"), (&render_context,))?;
         let shader = source.get_item(0)?;
         if shader.is_truthy()? {
-            surfaces.push(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?));
+            surfaces.push((render_context, Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
         }
     }
     Ok(surfaces)
+}
+
+/// The preferred contexts, then those that the material has beside them: `outputs:arnold:surface` is arnold's.
+fn render_contexts(prim: &Prim<'_>) -> Vec<String> {
+    let others = prim.authored_names().iter().filter_map(|name| name.strip_prefix("outputs:")?.strip_suffix(":surface"));
+    let others = others.filter(|context| !RENDER_CONTEXTS.contains(context));
+    RENDER_CONTEXTS.iter().copied().chain(others).map(str::to_owned).collect()
 }
 
 /// What surfaces without a material look like: Lambert's law with the prim's displayColor, and its displayOpacity where it has one.

@@ -1,10 +1,11 @@
 //! Images by asset path: files, tiles, and files inside packages; each is in the scene once a colour space.
 
 use super::network::{Network, Shader};
+use super::shaded::named_text;
 use super::value::{Source, Value, stated_colour_space};
 use crate::asset;
 use crate::context::Context;
-use crate::prim::Attribute;
+use crate::prim::{Attribute, Prim};
 use crate::pxr::Module;
 use crate::vt::AssetPath;
 use gonio::colour::ColourSpace;
@@ -26,6 +27,25 @@ fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
         };
         let layer = spec?.getattr(intern!(py, "layer"))?;
         Module::UsdShade.item(py, "UdimUtils")?.call_method1(intern!(py, "ResolveUdimPath"), (authored, layer))?.extract()
+    };
+    resolve().unwrap_or_default()
+}
+
+/// Where a file lies whose name is text, relative to the layer that says it; empty if there is none.
+fn resolve_text(attribute: &Attribute<'_>, authored: &str) -> String {
+    let py = attribute.object().py();
+    let resolve = || -> PyResult<String> {
+        let time = Module::Usd.item(py, "TimeCode")?.call_method0(intern!(py, "EarliestTime"))?;
+        let specs = attribute.object().call_method1(intern!(py, "GetPropertyStack"), (time,))?;
+        let anchored = match specs.try_iter()?.next() {
+            Some(spec) => {
+                let layer = spec?.getattr(intern!(py, "layer"))?;
+                Module::Sdf.item(py, "ComputeAssetPathRelativeToLayer")?.call1((layer, authored))?.extract()?
+            }
+            None => authored.to_owned(),
+        };
+        let resolver = Module::Ar.item(py, "GetResolver")?.call0()?;
+        resolver.call_method1(intern!(py, "Resolve"), (anchored,))?.str()?.extract()
     };
     resolve().unwrap_or_default()
 }
@@ -72,12 +92,30 @@ pub(crate) fn texture(
 }
 
 impl<'py> Network<'_, '_, 'py> {
-    /// The image in a shader's `file` input; `stated` is the colour space that the shader says, `unstated` what holds where nobody says one.
+    /// The image in a shader's `file` input; see [`Network::texture_of`].
+    pub(in crate::material) fn texture(&mut self, shader: &Shader<'py>, stated: Option<&str>, unstated: &str) -> Option<TextureId> {
+        self.texture_of(shader, "file", stated, unstated)
+    }
+
+    /// The image in a shader's input; `stated` is the colour space that the shader says, `unstated` what holds where nobody says one.
     /// `None`, with a warning, where there is no image.
-    pub(super) fn texture(&mut self, shader: &Shader<'py>, stated: Option<&str>, unstated: &str) -> Option<TextureId> {
-        let (path, attribute) = match self.source(shader, "file") {
+    pub(in crate::material) fn texture_of(
+        &mut self,
+        shader: &Shader<'py>,
+        input: &str,
+        stated: Option<&str>,
+        unstated: &str,
+    ) -> Option<TextureId> {
+        let source = match self.source(shader, input) {
+            Source::Output(prim, _) => self.text_of_primvar(prim),
+            source => source,
+        };
+        let (path, attribute) = match source {
             Source::Value(Value::Asset(path), attribute) if !path.authored.is_empty() => (path, attribute),
-            Source::Value(Value::Text(authored), attribute) => (AssetPath { authored, resolved: String::new() }, attribute),
+            Source::Value(Value::Text(authored), attribute) if !authored.is_empty() => {
+                let resolved = if authored.contains(UDIM) { String::new() } else { resolve_text(&attribute, &authored) };
+                (AssetPath { authored, resolved }, attribute)
+            }
             _ => {
                 self.warn(shader, "no image file is named; the fallback value is used");
                 return None;
@@ -92,8 +130,26 @@ impl<'py> Network<'_, '_, 'py> {
         texture(self.context, &Origin::new(&shader.path), &path, &attribute, space)
     }
 
+    /// The file that a primvar of the shaded prim names, through a shader that reads it.
+    fn text_of_primvar(&mut self, reader: Prim<'py>) -> Source<'py> {
+        let reader = Shader::new(reader, &self.context.time);
+        let input = match reader.id.as_str() {
+            "UsdPrimvarReader_string" => "varname",
+            "ND_geompropvalue_string" | "ND_geompropvalue_filename" => "geomprop",
+            "arnold:user_data_string" => "attribute",
+            _ => {
+                self.warn(&reader, format!("shader node '{}' gives no file name", reader.id));
+                return Source::Nothing;
+            }
+        };
+        match self.text(&reader, input) {
+            Some(name) if !name.is_empty() => named_text(self.context, &name),
+            _ => Source::Nothing,
+        }
+    }
+
     /// The texture coordinates of the given set: `st`, `st1`, …
-    pub(super) fn texture_coordinates(&mut self, set: u32) -> Input {
+    pub(in crate::material) fn texture_coordinates(&mut self, set: u32) -> Input {
         let name = if set == 0 { "st".to_owned() } else { format!("st{set}") };
         self.node(Operation::Primvar { name, fallback: [0.0; 4] }, vec![])
     }

@@ -9,12 +9,12 @@ use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
 const UNSTATED_WRAP: &str = "useMetadata";
 
 /// Whether `node` (without MaterialX's prefix) is one of the specification's.
-pub(super) fn is_usd_node(node: &str) -> bool {
+pub(in crate::material) fn is_usd_node(node: &str) -> bool {
     node.starts_with("UsdUVTexture") || node.starts_with("UsdPrimvarReader_") || node.starts_with("UsdTransform2d")
 }
 
 /// The component that a named output of a texture or of a scalar reader stands for.
-pub(super) fn output_component(id: &str, output: &str) -> Option<usize> {
+pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<usize> {
     let node = id.strip_prefix("ND_").unwrap_or(id);
     match (node, output) {
         ("UsdPrimvarReader_float" | "UsdPrimvarReader_int" | "UsdPrimvarReader_integer", _) => Some(0),
@@ -24,7 +24,12 @@ pub(super) fn output_component(id: &str, output: &str) -> Option<usize> {
 }
 
 /// Builds a node of the specification; `is_materialx` says that MaterialX's defaults hold.
-pub(super) fn build<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, node: &str, is_materialx: bool) -> Option<Input> {
+pub(in crate::material) fn build<'py>(
+    network: &mut Network<'_, '_, 'py>,
+    shader: &Shader<'py>,
+    node: &str,
+    is_materialx: bool,
+) -> Option<Input> {
     match node {
         _ if node.starts_with("UsdUVTexture") => Some(texture(network, shader, is_materialx)),
         "UsdTransform2d" => Some(transform(network, shader)),
@@ -103,7 +108,7 @@ fn is_unsigned_format(file: &str) -> bool {
 }
 
 /// The preview surface's `normal` input as a tangent-space normal in [-1, 1]; `None` if it is not connected.
-pub(super) fn tangent_normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
+pub(in crate::material) fn tangent_normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
     let Source::Output(prim, _) = network.source(shader, "normal") else {
         return None;
     };

@@ -49,7 +49,7 @@ impl Value {
 
 /// Where a shader input's value comes from.
 #[derive(Debug)]
-pub(super) enum Source<'py> {
+pub(in crate::material) enum Source<'py> {
     /// Nothing is said.
     Nothing,
     /// A value, and the attribute that holds it.
@@ -59,7 +59,7 @@ pub(super) enum Source<'py> {
 }
 
 /// The source of the input `name` of a shader prim at a time, through interfaces of node graphs and materials.
-pub(super) fn source<'py>(shader: &Prim<'py>, name: &str, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
+pub(in crate::material) fn source<'py>(shader: &Prim<'py>, name: &str, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
     let py = shader.py();
     let name = format!("inputs:{name}");
     // Shaders have no schema that would give unauthored inputs a value.
@@ -103,7 +103,7 @@ pub(crate) fn stated_colour_space(attribute: &Attribute<'_>) -> String {
 }
 
 /// Whether an attribute's type is a colour.
-pub(super) fn is_colour(attribute: &Attribute<'_>) -> bool {
+pub(in crate::material) fn is_colour(attribute: &Attribute<'_>) -> bool {
     attribute.type_name().starts_with("color")
 }
 

@@ -4,6 +4,7 @@ use super::problem::file_origin;
 use crate::context::UpAxis;
 use crate::prim::Prim;
 use crate::pxr::Module;
+use crate::skeleton;
 use gonio::Diagnostic;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -38,6 +39,8 @@ pub struct StageInfo {
     pub cameras: Vec<CameraInfo>,
     /// Prims read, by type; filled by [`Stage::load`].
     pub prim_counts: BTreeMap<String, usize>,
+    /// Whether meshes are skinned.
+    pub has_skeletons: bool,
     /// What could not be composed: missing references, cycles.
     pub composition_errors: Vec<Diagnostic>,
 }
@@ -73,7 +76,7 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
             ));
         }
     }
-    let cameras = cameras(stage)?;
+    let (cameras, has_skeletons) = survey(stage)?;
     let primary: String = Module::UsdUtils.import(stage.py())?.call_method0("GetPrimaryCameraName")?.extract()?;
     let default_camera = cameras.iter().find(|camera| camera.name == primary).or(cameras.first()).map(|camera| camera.path.clone());
     Ok(StageInfo {
@@ -83,18 +86,23 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
         time_codes_per_second,
         default_camera,
         cameras,
+        has_skeletons,
         ..StageInfo::default()
     })
 }
 
-fn cameras(stage: &Bound<'_, PyAny>) -> PyResult<Vec<CameraInfo>> {
-    let class = Module::UsdGeom.item(stage.py(), "Camera")?;
+/// The cameras, and whether there are skeletons.
+fn survey(stage: &Bound<'_, PyAny>) -> PyResult<(Vec<CameraInfo>, bool)> {
+    let camera = Module::UsdGeom.item(stage.py(), "Camera")?;
     let mut cameras = Vec::new();
+    let mut has_skeletons = false;
     for prim in stage.call_method0("Traverse")?.try_iter()? {
         let prim = Prim::new(prim?);
-        if prim.is_a(&class) {
-            cameras.push(CameraInfo { name: prim.name(), path: prim.path() });
+        match prim.type_name().as_str() {
+            "" | "Xform" | "Scope" | "Mesh" => {}
+            _ if prim.is_a(&camera) => cameras.push(CameraInfo { name: prim.name(), path: prim.path() }),
+            _ => has_skeletons = has_skeletons || skeleton::is_root(&prim),
         }
     }
-    Ok(cameras)
+    Ok((cameras, has_skeletons))
 }

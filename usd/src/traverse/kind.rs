@@ -10,8 +10,6 @@ use pyo3::prelude::*;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PrimKind {
     Container,
-    /// A container whose meshes are skinned.
-    SkelRoot,
     Mesh,
     Quadric,
     Instancer,
@@ -40,8 +38,7 @@ impl<'py> Walker<'_, '_, 'py> {
 
     fn classify(&mut self, type_name: &str, prim: &Prim<'py>) -> PrimKind {
         match type_name {
-            "" | "Xform" | "Scope" => PrimKind::Container,
-            "SkelRoot" => PrimKind::SkelRoot,
+            "" | "Xform" | "Scope" | "SkelRoot" => PrimKind::Container,
             "Mesh" => PrimKind::Mesh,
             "PointInstancer" => PrimKind::Instancer,
             "Camera" => PrimKind::Camera,

@@ -1,35 +1,113 @@
-//! Meshes that wait to be built, many at once and without the interpreter.
+//! Meshes that are built on other threads, without the interpreter, while the stage is read on.
 
 use super::Walker;
 use crate::build::{self, BuildError, BuiltMesh, MeshSource};
 use gonio::scene::{Mesh, MeshId, Origin};
 use gonio::{Error, Result};
-use rayon::prelude::*;
-use std::sync::atomic::AtomicBool;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
 
-/// Floats of meshes that wait to be built; more are built at once, to bound memory.
+/// Floats of meshes that wait to be built; beyond that reading waits, to bound memory.
 const PENDING_LIMIT: usize = 1 << 25;
+/// How often a wait looks whether the caller wants to stop.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
+
+/// What became of a mesh.
+#[derive(Debug)]
+struct Outcome {
+    id: MeshId,
+    origin: Origin,
+    floats: usize,
+    result: Result<BuiltMesh, BuildError>,
+}
+
+/// Meshes on their way.
+#[derive(Debug)]
+pub(super) struct Pending {
+    sender: Sender<Outcome>,
+    receiver: Receiver<Outcome>,
+    outcomes: Vec<Outcome>,
+    /// Meshes and their floats that are not built yet.
+    count: usize,
+    floats: usize,
+    stop: Arc<AtomicBool>,
+    /// Time that reading has waited.
+    pub(super) waited: Duration,
+}
+
+impl Default for Pending {
+    fn default() -> Self {
+        let (sender, receiver) = channel();
+        let stop = Arc::default();
+        Self { sender, receiver, outcomes: Vec::new(), count: 0, floats: 0, stop, waited: Duration::ZERO }
+    }
+}
+
+impl Drop for Pending {
+    fn drop(&mut self) {
+        // Nobody waits for what is left.
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Pending {
+    fn take(&mut self, outcome: Outcome) {
+        self.count -= 1;
+        self.floats -= outcome.floats;
+        self.outcomes.push(outcome);
+    }
+}
 
 impl Walker<'_, '_, '_> {
-    /// Reserves the scene's place for a mesh that is built later.
+    /// Reserves the scene's place for a mesh and has it built.
     pub(super) fn submit(&mut self, source: MeshSource) -> Result<MeshId> {
         let id = self.context.scene.add_mesh(Mesh { origin: source.origin.clone(), ..Mesh::default() });
         let primvar_floats: usize = source.polygons.primvars.iter().map(|primvar| primvar.values.len()).sum();
-        self.pending_floats += source.polygons.points.len() * 3 + source.polygons.corners.len() + primvar_floats;
-        self.pending.push((id, source));
-        if self.pending_floats > PENDING_LIMIT {
-            self.build_pending()?;
-        }
+        let floats = source.polygons.points.len() * 3 + source.polygons.corners.len() + primvar_floats;
+        let pending = &mut self.pending;
+        pending.count += 1;
+        pending.floats += floats;
+        let (sender, stop) = (pending.sender.clone(), pending.stop.clone());
+        // Without a receiver the reading has ended.
+        rayon::spawn(move || drop(sender.send(built(id, floats, source, &stop))));
+        self.wait_for_meshes(PENDING_LIMIT)?;
         Ok(id)
     }
 
-    /// Builds the waiting meshes on all cores, without the interpreter.
-    pub(super) fn build_pending(&mut self) -> Result<()> {
+    /// Takes what is built, and waits until no more floats than these are left.
+    fn wait_for_meshes(&mut self, limit: usize) -> Result<()> {
+        while let Ok(outcome) = self.pending.receiver.try_recv() {
+            self.pending.take(outcome);
+        }
+        let start = Instant::now();
+        while self.pending.count > 0 && self.pending.floats > limit {
+            let received = self.receive();
+            match received {
+                Ok(outcome) => self.pending.take(outcome),
+                Err(RecvTimeoutError::Timeout) => self.context.check_cancel()?,
+                Err(RecvTimeoutError::Disconnected) => return Err(Error::Internal("the building of meshes broke off".into())),
+            }
+        }
+        self.pending.waited += start.elapsed();
+        Ok(())
+    }
+
+    /// The next mesh; others have the interpreter meanwhile.
+    fn receive(&mut self) -> Result<Outcome, RecvTimeoutError> {
         let pending = std::mem::take(&mut self.pending);
-        self.pending_floats = 0;
-        let cancel = self.context.cancel_flag();
-        let built: Vec<_> = self.context.py.detach(|| pending.into_par_iter().map(|(id, source)| built(id, source, cancel)).collect());
-        for (id, origin, result) in built {
+        let (received, pending) = self.context.py.detach(move || (pending.receiver.recv_timeout(LOOK_EVERY), pending));
+        self.pending = pending;
+        received
+    }
+
+    /// Waits for all meshes, and puts them into the scene in the order of their reading.
+    pub(super) fn finish_meshes(&mut self) -> Result<()> {
+        self.wait_for_meshes(0)?;
+        let mut outcomes = std::mem::take(&mut self.pending.outcomes);
+        outcomes.sort_by_key(|outcome| outcome.id);
+        for Outcome { id, origin, result, .. } in outcomes {
             match result {
                 Ok(BuiltMesh { mesh, problems }) => {
                     self.context.scene.meshes[id.index()] = mesh;
@@ -46,9 +124,10 @@ impl Walker<'_, '_, '_> {
     }
 }
 
-fn built(id: MeshId, source: MeshSource, cancel: &AtomicBool) -> (MeshId, Origin, Result<BuiltMesh, BuildError>) {
+fn built(id: MeshId, floats: usize, source: MeshSource, cancel: &AtomicBool) -> Outcome {
     let origin = source.origin.clone();
     // A defect in one mesh must not take the stage with it.
     let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| build::build(source, cancel)));
-    (id, origin, result.unwrap_or_else(|_| Err(BuildError::Problem("internal error while the mesh was cut into triangles".into()))))
+    let result = result.unwrap_or_else(|_| Err(BuildError::Problem("internal error while the mesh was cut into triangles".into())));
+    Outcome { id, origin, floats, result }
 }

@@ -1,11 +1,13 @@
 //! Meshes, quadrics and their materials.
 
 use super::{Branch, Walker, push};
-use crate::model::{Inherited, Kind, Model, Shape, Slot};
+use crate::model::{Inherited, Kind, Model, Shape};
 use crate::prim::Prim;
-use crate::{material, mesh, mesh_light, meter, primvar, quadrics};
+use crate::{draw_mode, material, mesh, mesh_light, meter, primvar, quadrics};
 use gonio::Result;
 use gonio::mesh::Interpolation;
+use std::cell::OnceCell;
+use std::rc::Rc;
 
 impl<'py> Walker<'_, '_, 'py> {
     /// Adds a mesh.
@@ -13,14 +15,30 @@ impl<'py> Walker<'_, '_, 'py> {
         let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(()) };
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
         let is_light = mesh_light::is_geometry_light(prim);
-        let shape = Shape { mesh: self.submit(source)?, slots: vec![Slot::Unbound; slot_prims.len()], slot_prims, has_opacity, is_light };
+        let shape = Shape { mesh: self.submit(source)?, slots: Rc::default(), slot_prims, has_opacity, is_light };
         if meter::is_measured(prim) {
             push(model, prim, branch, Kind::Measured(Some(shape.mesh)));
         }
         // A binding may stand on a subset alone.
         let is_bound = branch.is_bound || shape.slot_prims.len() > 1;
-        push(model, prim, &Branch { is_bound, ..branch.clone() }, Kind::Shape(shape));
+        self.push_shape(prim, &Branch { is_bound, ..branch.clone() }, shape, model);
         Ok(())
+    }
+
+    /// Adds what is drawn in the place of a model.
+    pub(super) fn stand_in(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
+        let Some((source, materials)) = draw_mode::stand_in(self.context, prim, branch.draw_mode) else { return Ok(()) };
+        let slots = Rc::new(OnceCell::from(materials));
+        let shape = Shape { mesh: self.submit(source)?, slots, slot_prims: Vec::new(), has_opacity: false, is_light: false };
+        push(model, prim, branch, Kind::Shape(shape));
+        Ok(())
+    }
+
+    fn push_shape(&mut self, prim: &Prim<'py>, branch: &Branch, shape: Shape, model: &mut Model) {
+        if branch.is_bound {
+            self.to_bind.push((shape.slot_prims.clone(), shape.slots.clone()));
+        }
+        push(model, prim, branch, Kind::Shape(shape));
     }
 
     /// Adds a sphere, a cube or the like.
@@ -44,36 +62,33 @@ impl<'py> Walker<'_, '_, 'py> {
             push(model, prim, branch, Kind::Measured(Some(mesh)));
         }
         let is_light = mesh_light::is_geometry_light(prim);
-        let shape = Shape { mesh, slots: vec![Slot::Unbound], slot_prims: vec![prim.path()], has_opacity, is_light };
+        let shape = Shape { mesh, slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light };
         let branch = Branch { primvars: primvar::merged(&own, &branch.primvars), ..branch.clone() };
-        push(model, prim, &branch, Kind::Shape(shape));
+        self.push_shape(prim, &branch, shape, model);
         Ok(())
     }
 
-    /// Looks up the materials of the model's shapes, all in one call.
-    pub(super) fn bind(&mut self, model: &mut Model) {
+    /// Looks up the materials of all shapes in one call: `pxr` reads the collections above anew in each.
+    pub(super) fn bind(&mut self) {
+        let shapes = std::mem::take(&mut self.to_bind);
         let mut prims = Vec::new();
-        let mut places = Vec::new();
-        for (index, element) in model.elements.iter().enumerate() {
-            let Kind::Shape(shape) = &element.kind else { continue };
-            if !element.is_bound {
-                continue;
-            }
-            for (slot, path) in shape.slot_prims.iter().enumerate() {
-                if let Some(prim) = self.context.prim_at(path) {
-                    prims.push(prim);
-                    places.push((index, slot));
-                }
-            }
-        }
+        // A prim that has vanished leaves its shape without materials.
+        let shapes: Vec<_> = shapes
+            .into_iter()
+            .filter_map(|(paths, slots)| {
+                let mut own: Vec<Prim<'py>> = paths.iter().map(|path| self.context.prim_at(path)).collect::<Option<_>>()?;
+                let count = own.len();
+                prims.append(&mut own);
+                Some((count, slots))
+            })
+            .collect();
         if prims.is_empty() {
             return;
         }
-        let materials = material::bound_all(self.context, &prims);
-        for ((index, slot), material) in places.into_iter().zip(materials) {
-            if let Kind::Shape(shape) = &mut model.elements[index].kind {
-                shape.slots[slot] = Slot::Bound(material);
-            }
+        let mut materials = material::bound_all(self.context, &prims).into_iter();
+        for (count, slots) in shapes {
+            // Each cell is filled once.
+            let _ = slots.set(materials.by_ref().take(count).collect());
         }
     }
 }

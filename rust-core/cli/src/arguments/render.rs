@@ -73,7 +73,7 @@ pub(crate) struct RenderOptions {
     /// Limit of an indirect sample's components in nits; 0 is off.
     #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_indirect: f32,
-    /// No neutral dome for stages without lights.
+    /// No light at the camera for stages without lights.
     #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
     pub(crate) disable_camera_light: bool,
     /// List the stage's cameras and end.

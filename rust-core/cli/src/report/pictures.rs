@@ -54,7 +54,7 @@ pub(super) fn pictures(
         // Each picture has a shape of its own, which the stage's cameras are made to fit.
         let (known, settings) = (loaded.scene.cameras.clone(), loaded.scene.settings.clone());
         let (resolution, camera) = (Resolution::Width(options.image_width), camera.clone());
-        complete(loaded, "", &ViewOptions { camera, resolution, neutral_dome: false, ..ViewOptions::default() })?;
+        complete(loaded, "", &ViewOptions { camera, resolution, camera_light: false, data_window: false, ..ViewOptions::default() })?;
         apply_settings(options, loaded);
         if denoiser.is_some() {
             Denoiser::ask_for_guides(&mut loaded.scene.settings);

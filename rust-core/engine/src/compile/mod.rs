@@ -80,6 +80,8 @@ pub struct CompileStatistics {
     pub geometry_bytes: u64,
     /// Bytes of textures.
     pub texture_bytes: u64,
+    /// Seconds spent on textures: decoding, mip maps.
+    pub textures_s: f64,
     /// Seconds spent on building trees.
     pub build_s: f64,
     /// Seconds spent in all.
@@ -93,13 +95,15 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let none = (kept::KeptImages::default(), lights::KeptLights::default());
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
     let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
+    let textures_s = start.elapsed().as_secs_f64();
     let none = measured::CompiledMeasured::default();
     let measured = measured::compile(scene, previous.map_or(&none, |p| &p.measured), &mut diagnostics);
     let names = primvars::used_names(scene, &measured);
     let materials = materials::compile(scene, &textures, &measured, &names, &mut diagnostics)?;
     check(cancel)?;
+    let trees_start = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
-    let built = start.elapsed().as_secs_f64();
+    let built = trees_start.elapsed().as_secs_f64();
     let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
     oversized::report(scene, &bounds, &mut diagnostics);
@@ -118,6 +122,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         lights: lights.table.len() as u64,
         geometry_bytes: (trees.iter().map(|kept| kept.tree.memory().bytes()).sum::<usize>() + geometry.table.memory()) as u64,
         texture_bytes: textures.table.bytes() as u64,
+        textures_s,
         build_s: built,
         total_s: start.elapsed().as_secs_f64(),
     };

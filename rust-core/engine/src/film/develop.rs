@@ -24,6 +24,21 @@ pub struct Layer {
     pub channels: usize,
 }
 
+/// How a picture is to be placed and shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Pixels at the left, top, right and bottom of the resolution that lie outside the picture proper.
+    pub overscan: [u32; 4],
+    /// Width of a pixel over its height.
+    pub pixel_aspect: f64,
+}
+
+impl Default for Frame {
+    fn default() -> Self {
+        Self { overscan: [0; 4], pixel_aspect: 1.0 }
+    }
+}
+
 /// A developed film: the rendered window of an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
@@ -31,6 +46,8 @@ pub struct Image {
     pub resolution: [u32; 2],
     /// The part the layers hold.
     pub window: Crop,
+    /// Overscan and the pixels' shape.
+    pub frame: Frame,
     /// The passes.
     pub layers: Vec<Layer>,
     /// Samples a pixel, the least of all.
@@ -76,7 +93,7 @@ impl Film {
         });
         let (samples, total) = samples.unwrap_or((0, 0));
         let mean_samples = total as f64 / (width * height).max(1) as f64;
-        Image { resolution: self.resolution, window: self.window, layers, samples, mean_samples }
+        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples }
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {

@@ -16,7 +16,7 @@ mod zones;
 pub(crate) use blocks::{GROUP, MOST_BLOCK, block, block_at};
 pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
-pub use develop::{Image, Layer};
+pub use develop::{Frame, Image, Layer};
 pub use edge_aware::edge_aware;
 pub use filter::tabulate;
 pub use gonio_camera::{FilterTable, Placement};
@@ -41,6 +41,8 @@ pub struct Film {
     pub resolution: [u32; 2],
     /// The part that is rendered; tiles start at its corner.
     pub window: Crop,
+    /// Pixels on each side that lie outside the picture proper, and the pixels' width over height.
+    frame: Frame,
     /// Which passes are kept, and where.
     pub layout: ChannelLayout,
     /// Names of the passes.
@@ -60,8 +62,9 @@ impl Film {
         let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let plan = Plan::new(settings, &layout, across(0) * across(1));
-        let mut film =
-            Self { resolution: settings.resolution, window, layout, names, exposure, plan, tiles: Vec::new(), columns: across(0) };
+        let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect };
+        let (resolution, columns) = (settings.resolution, across(0));
+        let mut film = Self { resolution, window, frame, layout, names, exposure, plan, tiles: Vec::new(), columns };
         let tile = |tile: u32| {
             // Tiles of other parts of the render have no pixels here, so that nobody waits for them.
             let size = if film.plan.tiles.contains(&tile) { film.tile_size(tile as usize) } else { [0; 2] };

@@ -41,9 +41,10 @@ type ExrImage = exr::image::Image<ExrLayer<AnyChannels<FlatSamples>>>;
 
 fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     let [width, height] = image.size();
+    let [left, top, right, bottom] = image.frame.overscan.map(signed);
     let channels = image.layers.iter().flat_map(|layer| channels_of(layer, options.half)).collect();
     let mut attributes = LayerAttributes {
-        layer_position: Vec2(signed(image.window.min[0]), signed(image.window.min[1])),
+        layer_position: Vec2(signed(image.window.min[0]) - left, signed(image.window.min[1]) - top),
         software_name: Some(Text::from(concat!("gonio ", env!("CARGO_PKG_VERSION")))),
         white_luminance: Some(1.0 / if options.exposure > 0.0 { options.exposure } else { 1.0 }),
         ..LayerAttributes::default()
@@ -62,9 +63,11 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     }
     let encoding = if options.hasty { Encoding::UNCOMPRESSED } else { Encoding::FAST_LOSSLESS };
     let layer = ExrLayer::new((width, height), attributes, encoding, AnyChannels::sort(channels));
-    let display = IntegerBounds::new((0, 0), (image.resolution[0] as usize, image.resolution[1] as usize));
+    // The picture proper begins at 0; overscan lies outside it.
+    let side = |axis: usize, beyond: i32| (signed(image.resolution[axis]) - beyond).max(1) as usize;
+    let display = IntegerBounds::new((0, 0), (side(0, left + right), side(1, top + bottom)));
     let mut out = exr::image::Image::from_layer(layer);
-    out.attributes = ImageAttributes { display_window: display, ..out.attributes };
+    out.attributes = ImageAttributes { display_window: display, pixel_aspect: image.frame.pixel_aspect as f32, ..out.attributes };
     out
 }
 

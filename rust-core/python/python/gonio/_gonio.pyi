@@ -520,7 +520,7 @@ def load_usd(
     render_settings: str | None = None,
     purposes: Sequence[str] | None = None,
     complexity: str = "high",
-    neutral_dome: bool = True,
+    camera_light: bool = True,
     strict: bool = False,
 ) -> PublicScene: ...
 def _files_of_stage(path: str | PathLike[str]) -> list[str]: ...

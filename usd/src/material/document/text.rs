@@ -125,6 +125,14 @@ fn node_id(node: &Element) -> String {
     let input = |name: &str| node.child_called(name).and_then(|input| input.attribute("type")).unwrap_or_default();
     match (node.name.as_str(), kind) {
         ("convert" | "swizzle", _) => format!("ND_{}_{}_{kind}", node.name, input("in")),
+        // Closures and surfaces have the type in their name, or no type there.
+        ("mix" | "add" | "layer", "BSDF" | "EDF") => format!("ND_{}_{}", node.name, kind.to_ascii_lowercase()),
+        ("multiply", "BSDF" | "EDF") => {
+            let factor = if input("in2") == "color3" { 'C' } else { 'F' };
+            format!("ND_multiply_{}{factor}", kind.to_ascii_lowercase())
+        }
+        (name, "BSDF" | "EDF") => format!("ND_{name}"),
+        ("surface" | "surface_unlit", _) => format!("ND_{}", node.name),
         ("combine2", "color4") => "ND_combine2_color4CF".to_owned(),
         ("combine2", "vector4") if input("in1") == "vector2" => "ND_combine2_vector4VV".to_owned(),
         ("combine2", "vector4") => "ND_combine2_vector4VF".to_owned(),

@@ -1,7 +1,10 @@
 //! What the filter takes away and what it leaves.
 
 use super::*;
-use crate::{film::Layer, scene::Crop};
+use crate::{
+    film::{Frame, Layer},
+    scene::Crop,
+};
 
 const SIZE: [usize; 2] = [70, 50];
 
@@ -22,7 +25,14 @@ fn picture(mut pixel: impl FnMut(usize, usize) -> [[f32; 3]; 3]) -> Image {
         }
     }
     let resolution = SIZE.map(|side| side as u32);
-    Image { resolution, window: Crop { min: [0, 0], max: resolution }, layers: layers.into(), samples: 1, mean_samples: 1.0 }
+    Image {
+        resolution,
+        window: Crop { min: [0, 0], max: resolution },
+        frame: Frame::default(),
+        layers: layers.into(),
+        samples: 1,
+        mean_samples: 1.0,
+    }
 }
 
 /// Even numbers in [0, 1).

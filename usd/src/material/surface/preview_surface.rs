@@ -1,9 +1,10 @@
 //! UsdPreviewSurface as parameters of the surface block, by the UsdPreviewSurface specification.
 
-use super::arithmetic::{binary, colour, constant_scalar, is_constant, scalar, subtract};
-use super::network::{Network, Shader};
-use super::usd_nodes::tangent_normal;
-use gonio::scene::{Closure, Input, Model, NodeId, Operation};
+use super::{straight, weighted};
+use crate::material::arithmetic::{binary, constant_scalar, is_constant, multiply, scalar, subtract};
+use crate::material::network::{Network, Shader};
+use crate::material::usd_nodes::tangent_normal;
+use gonio::scene::{Channel, Closure, Graph, Input, Model, NodeId, Operation};
 
 /// Index of refraction that stands in where the interface's own reflects nothing.
 const FALLBACK_IOR: f32 = 1.5;
@@ -14,10 +15,22 @@ fn normal_reflectance(ior: f32) -> f32 {
     ratio * ratio
 }
 
+/// What models that are otherwise like it call the base colour, and its default.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Names {
+    pub(super) base: &'static str,
+    pub(super) base_default: [f32; 3],
+}
+
 /// Converts the surface; its defaults are the specification's.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
+    convert_as(network, shader, Names { base: "diffuseColor", base_default: [0.18; 3] })
+}
+
+/// Converts a surface of the same parameters but for these names.
+pub(super) fn convert_as<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, names: Names) -> Vec<Closure> {
     let mut closure = Closure { model: Model::PreviewSurface, ..Closure::default() };
-    let diffuse = network.colour(shader, "diffuseColor", [0.18; 3]);
+    let diffuse = network.colour(shader, names.base, names.base_default);
     closure.set_input("base_color", diffuse);
     let ior = network.scalar(shader, "ior", 1.5);
     closure.set_input("specular_ior", ior);
@@ -38,12 +51,11 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
     closure.set_input("coat_ior", ior);
     closure.set("coat_darkening", 0.0);
     closure.set_input("emission_color", network.colour(shader, "emissiveColor", [0.0; 3]));
-    opacity(network, shader, &mut closure);
     closure.normal = normal(network, shader);
     if network.input(shader, "displacement").is_some_and(|input| !is_constant(input, 0.0)) {
         network.unsupported("displacement of UsdPreviewSurface", shader);
     }
-    closure
+    opacity(network, shader, closure)
 }
 
 /// F0 is the specular colour: a tint of what the index gives.
@@ -72,20 +84,49 @@ fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'p
     closure.set_input("specular_color", tint);
 }
 
-/// Opacity removes the surface. Only where the file itself says `transparent`, what is missing is smooth transmission under the reflection.
-fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure) {
+/// What opacity lacks goes straight through what the interface does not reflect, and leaves the reflection; with a threshold or the mode
+/// `presence` it removes the surface.
+fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, mut closure: Closure) -> Vec<Closure> {
     let opacity = network.scalar(shader, "opacity", 1.0);
     closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
-    let is_strict = network.text(shader, "opacityMode").as_deref() == Some("transparent");
-    if is_strict && closure.opacity_threshold == 0.0 {
-        let transmission = subtract(&mut network.graph, scalar(1.0), opacity);
-        closure.set_input("transmission_weight", transmission);
-        closure.set_input("transmission_color", colour([1.0; 3]));
-        // Held in 0 to 1 after the sum: smooth whatever the roughness of the reflection.
-        closure.set("transmission_extra_roughness", -1.0);
-    } else {
+    let is_presence = network.text(shader, "opacityMode").as_deref() == Some("presence");
+    if is_presence || closure.opacity_threshold > 0.0 || is_constant(opacity, 1.0) {
         closure.set_input("geometry_opacity", opacity);
+        return vec![closure];
     }
+    let clear = reflection_alone(network, &closure);
+    let metalness = closure.input("metalness").unwrap_or(scalar(0.0));
+    let graph = &mut network.graph;
+    let open = subtract(graph, scalar(1.0), opacity);
+    let dielectric = subtract(graph, scalar(1.0), metalness);
+    let reflected = interface_reflectance(graph, &closure);
+    let passed = subtract(graph, scalar(1.0), reflected);
+    let passed = multiply(graph, passed, dielectric);
+    let passed = straight(multiply(graph, open, passed));
+    let mut closures = weighted(network, vec![closure], opacity);
+    closures.extend(weighted(network, vec![clear], open));
+    closures.push(passed);
+    closures
+}
+
+/// The surface without its diffuse part; the metal's colour stays.
+fn reflection_alone(network: &mut Network<'_, '_, '_>, closure: &Closure) -> Closure {
+    let (base, metalness) = (closure.input("base_color").unwrap_or(scalar(0.0)), closure.input("metalness").unwrap_or(scalar(0.0)));
+    let mut clear = closure.clone();
+    clear.set_input("base_color", multiply(&mut network.graph, base, metalness));
+    clear
+}
+
+/// What a smooth interface of the surface's index reflects of light from where it is seen.
+fn interface_reflectance(graph: &mut Graph, closure: &Closure) -> Input {
+    if closure.input("specular_scale").is_some_and(|scale| is_constant(scale, 0.0)) {
+        return scalar(0.0);
+    }
+    let whole = |graph: &mut Graph, operation, inputs| Input::Node(graph.add(operation, inputs), Channel::Rgb);
+    let (incoming, normal) = (whole(graph, Operation::Incoming, vec![]), whole(graph, Operation::Normal, vec![]));
+    let cosine = whole(graph, Operation::Dot, vec![incoming, normal]);
+    let ior = closure.input("specular_ior").unwrap_or(scalar(FALLBACK_IOR));
+    whole(graph, Operation::Fresnel, vec![cosine, ior])
 }
 
 fn normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<NodeId> {

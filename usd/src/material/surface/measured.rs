@@ -3,12 +3,12 @@
 //! Inputs: `file` (asset), `tint` (color3f, white), `scale` (float, 1), `rotation` (float, degrees of the tangent about the normal, 0) and
 //! `normal` (a tangent-space normal).
 
-use super::arithmetic::{binary, constant_scalar, scalar};
-use super::network::{Network, Shader};
-use super::usd_nodes::tangent_normal;
-use super::value::{Source, Value};
 use crate::asset;
 use crate::context::Context;
+use crate::material::arithmetic::{binary, constant_scalar, scalar};
+use crate::material::network::{Network, Shader};
+use crate::material::usd_nodes::tangent_normal;
+use crate::material::value::{Source, Value};
 use crate::vt::AssetPath;
 use gonio::scene::{Closure, Input, MeasuredBsdf, MeasuredId, Model, Operation, Origin};
 use gonio_formats::bsdf;

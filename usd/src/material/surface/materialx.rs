@@ -1,7 +1,7 @@
-//! MaterialX's surface shaders as parameters of the surface block.
+//! MaterialX's surface shaders as parameters of the surface block. Arnold's of the same names have the same parameters.
 
-use super::arithmetic::{component, constant_scalar, is_constant, luminance, multiply, scalar};
-use super::network::{Network, Shader};
+use crate::material::arithmetic::{component, constant_scalar, is_constant, luminance, multiply, scalar};
+use crate::material::network::{Network, Shader};
 use gonio::scene::{Channel, Closure, Input, Model, NodeId, Operation};
 
 /// Nanometres in a micrometre.
@@ -77,9 +77,9 @@ impl Surface<'_, '_, '_, '_> {
 /// The material of a MaterialX surface shader; `None` where the node is not one that is known.
 pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
     let fill = match shader.id.as_str() {
-        "ND_standard_surface_surfaceshader" => standard_surface,
+        "ND_standard_surface_surfaceshader" | "arnold:standard_surface" => standard_surface,
         "ND_standard_surface_surfaceshader_100" => standard_surface_100,
-        "ND_open_pbr_surface_surfaceshader" => open_pbr_surface,
+        "ND_open_pbr_surface_surfaceshader" | "arnold:openpbr_surface" => open_pbr_surface,
         "ND_gltf_pbr_surfaceshader" => gltf_pbr,
         _ => return None,
     };

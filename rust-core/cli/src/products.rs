@@ -1,0 +1,67 @@
+//! The pictures of a frame: one where the command line names the files, else those that the stage's render products ask for.
+
+use gonio::{Error, Result};
+use gonio_usd::{Loaded, render_variable::RenderVariable};
+use std::{collections::HashSet, path::PathBuf};
+
+use super::{file_name, output::check_name};
+
+/// A file, and what is in it; all passes of the picture where no variables are named.
+#[derive(Debug)]
+pub(super) struct File {
+    pub(super) path: PathBuf,
+    pub(super) variables: Vec<RenderVariable>,
+}
+
+/// Files that one render is for.
+#[derive(Debug)]
+pub(super) struct Picture {
+    /// The first of the products that share it; `None` for all of them at once.
+    pub(super) product: Option<usize>,
+    pub(super) files: Vec<File>,
+}
+
+impl Picture {
+    /// One picture with the variables of all products in each of these files.
+    pub(super) fn of_all_products(loaded: &Loaded, paths: impl Iterator<Item = PathBuf>) -> Self {
+        let variables = loaded.settings.as_ref().map(|settings| settings.variables()).unwrap_or_default();
+        Self { product: None, files: paths.map(|path| File { path, variables: variables.clone() }).collect() }
+    }
+}
+
+/// Files written so far, which no later frame may write again.
+#[derive(Debug, Default)]
+pub(super) struct Products {
+    written: HashSet<PathBuf>,
+}
+
+impl Products {
+    /// The pictures that the stage's products ask for at a frame: one for all products that are framed alike and show the same.
+    pub(super) fn pictures(&mut self, loaded: &Loaded, frame: Option<f64>) -> Result<Vec<Picture>> {
+        let products = loaded.settings.as_ref().map(|settings| settings.products.as_slice()).unwrap_or_default();
+        if products.is_empty() {
+            let problem = "no file was given and the stage has no render product; say -o picture.exr";
+            return Err(Error::Setting { name: "output".into(), problem: problem.into() });
+        }
+        let mut pictures: Vec<Picture> = Vec::new();
+        for (number, product) in products.iter().enumerate() {
+            let path = PathBuf::from(&product.name);
+            let path = frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(&path, frame));
+            check_name(&path).map_err(|error| Error::scene(&product.origin, error.to_string()))?;
+            if !self.written.insert(path.clone()) {
+                let problem = format!("{} is written twice; several frames need a place for the number, such as '####'", path.display());
+                return Err(Error::scene(&product.origin, problem));
+            }
+            let file = File { path, variables: product.variables.clone() };
+            let is_like = |picture: &&mut Picture| {
+                let other = picture.product.and_then(|first| products.get(first));
+                other.is_some_and(|other| other.framing == product.framing && other.variables == product.variables)
+            };
+            match pictures.iter_mut().find(is_like) {
+                Some(picture) => picture.files.push(file),
+                None => pictures.push(Picture { product: Some(number), files: vec![file] }),
+            }
+        }
+        Ok(pictures)
+    }
+}

@@ -1,0 +1,108 @@
+"""What is done for a whole stage is done once: eight times the prims take at most eight times the time."""
+
+import time
+
+import numpy as np
+import pictures
+import pytest
+
+gonio = pytest.importorskip("gonio")
+
+FEW, MANY = 100, 800
+
+CHARACTER = """#usda 1.0
+(
+    defaultPrim = "char"
+    startTimeCode = 1
+    endTimeCode = 10
+)
+def SkelRoot "char" (prepend apiSchemas = ["SkelBindingAPI"])
+{
+    rel skel:skeleton = </char/skel>
+    def Skeleton "skel" (prepend apiSchemas = ["SkelBindingAPI"])
+    {
+        uniform token[] joints = ["a", "a/b"]
+        uniform matrix4d[] bindTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,2,0,1))]
+        uniform matrix4d[] restTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,2,0,1))]
+        rel skel:animationSource = </char/skel/anim>
+        def SkelAnimation "anim"
+        {
+            uniform token[] joints = ["a/b"]
+            quatf[] rotations.timeSamples = { 1: [(1,0,0,0)], 10: [(0.70710678,0,0,0.70710678)] }
+            half3[] scales = [(1,1,1)]
+            float3[] translations = [(0,2,0)]
+        }
+    }
+    def Mesh "m" (prepend apiSchemas = ["SkelBindingAPI"])
+    {
+        uniform token subdivisionScheme = "none"
+        int[] faceVertexCounts = [4, 4]
+        int[] faceVertexIndices = [0, 1, 3, 2, 2, 3, 5, 4]
+        point3f[] points = [(-0.3,0,0), (0.3,0,0), (-0.3,2,0), (0.3,2,0), (-0.3,4,0), (0.3,4,0)]
+        int[] primvars:skel:jointIndices = [0,0,0,0,1,1] (elementSize = 1
+            interpolation = "vertex")
+        float[] primvars:skel:jointWeights = [1,1,1,1,1,1] (elementSize = 1
+            interpolation = "vertex")
+    }
+}
+"""
+TRIANGLE = """
+    def Mesh "Mesh"
+    {
+        int[] faceVertexCounts = [3]
+        int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+        uniform token subdivisionScheme = "none"
+    }
+"""
+GREY = 'def Material "Grey"\n{\n    token outputs:surface.connect = </Grey/S.outputs:surface>\n    def Shader "S"\n    {\n        uniform token info:id = "UsdPreviewSurface"\n        token outputs:surface\n    }\n}\n'
+
+
+def characters(folder, count):
+    (folder / "char.usda").write_text(CHARACTER)
+    each = lambda i: f'def "c{i}" (instanceable = {"true" if i % 2 else "false"}\n    prepend references = @char.usda@) {{}}\n'
+    return "".join(map(each, range(count)))
+
+
+def collection(folder, count):
+    """Instances that a collection above binds."""
+    members = ", ".join(f"</W/i{i}>" for i in range(count))
+    text = f'class "Asset"\n{{{TRIANGLE}}}\n{GREY}def Xform "W" (prepend apiSchemas = ["MaterialBindingAPI", "CollectionAPI:all"])\n{{\n'
+    text += f"    rel material:binding:collection:all = [</W.collection:all>, </Grey>]\n    rel collection:all:includes = [{members}]\n"
+    return text + "".join(f'def "i{i}" (instanceable = true\n    inherits = </Asset>) {{}}\n' for i in range(count)) + "}\n"
+
+
+def prototypes(folder, count):
+    """A prototype for each instancer, all under a collection."""
+    members = ", ".join(f"</W/I{i}>" for i in range(count))
+    text = f'{GREY}def Xform "W" (prepend apiSchemas = ["MaterialBindingAPI", "CollectionAPI:all"])\n{{\n'
+    text += f"    rel material:binding:collection:all = [</W.collection:all>, </Grey>]\n    rel collection:all:includes = [{members}]\n"
+    each = lambda i: f'def PointInstancer "I{i}"\n{{\n    point3f[] positions = [({i}, 0, 0)]\n    int[] protoIndices = [0]\n    rel prototypes = </W/I{i}/Mesh>\n{TRIANGLE}}}\n'
+    return text + "".join(map(each, range(count))) + "}\n"
+
+
+def seconds(path, expected):
+    start = time.process_time()
+    scene = gonio.load_usd(str(path), camera_light=False)
+    taken = time.process_time() - start
+    assert sum(len(instances["transforms"]) for instances in scene.to_dict()["instances"]) == expected
+    return taken
+
+
+@pytest.mark.parametrize("make", [characters, collection, prototypes])
+def test_eight_times_the_prims_take_eight_times_the_time(tmp_path, make):
+    few, many = (pictures.stage(tmp_path / f"{count}.usda", make(tmp_path, count)) for count in (FEW, MANY))
+    seconds(few, FEW)
+    few, many = (min(seconds(path, count) for _ in range(3)) for path, count in ((few, FEW), (many, MANY)))
+    # The rest is for the clock.
+    assert many <= 8 * few + 0.05, (few, many)
+
+
+def test_all_characters_are_in_the_pose_of_the_frame(tmp_path):
+    path = pictures.stage(tmp_path / "posed.usda", characters(tmp_path, 3))
+    scene = gonio.load_usd(str(path), frame=10.0, camera_light=False).to_dict()
+    for instances in scene["instances"]:
+        points = np.array(scene["meshes"][instances["mesh"]]["points"]).reshape(-1, 3)
+        # The upper bone has turned by 90° about z: what stood above it lies to the left.
+        assert points[-1] == pytest.approx([-2, 2.3, 0], abs=1e-3)
+    assert len(scene["instances"]) == 3

@@ -1,0 +1,177 @@
+"""UsdRender's pictures: data windows beyond the picture, products as files, variables as layers."""
+
+import numpy as np
+import pictures
+import pytest
+
+gonio = pytest.importorskip("gonio")
+
+SCENE = """
+def Camera "Cam"
+{
+    float focalLength = 50
+    float horizontalAperture = 36
+    float verticalAperture = 36
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "Sky"
+{
+    float inputs:intensity = 0.5
+}
+def Mesh "Wall"
+{
+    uniform token subdivisionScheme = "none"
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+    color3f[] primvars:displayColor = [(0.1, 0.5, 0.2)]
+    float primvars:wear = 0.75
+}
+"""
+# The camera sees 7.2 m of it.
+SEEN = 7.2 / 20
+
+VARIABLES = """
+def Scope "Vars"
+{
+    def RenderVar "color" { SOURCE "C.*[LO]"
+        uniform token sourceType = "lpe" }
+    def RenderVar "uv" { SOURCE "st"
+        uniform token sourceType = "primvar" }
+    def RenderVar "dc" { SOURCE "displayColor"
+        uniform token sourceType = "primvar" }
+    def RenderVar "worn" { SOURCE "wear"
+        uniform token dataType = "float"
+        uniform token sourceType = "primvar" }
+    def RenderVar "N" { SOURCE "Neye" }
+    def RenderVar "eye" { SOURCE "Peye" }
+    def RenderVar "Pc" { SOURCE "P" }
+    def RenderVar "Pg" { SOURCE "P" }
+    def RenderVar "direct" { SOURCE "C<RD>[<L.>O]"
+        uniform token sourceType = "lpe" }
+    def RenderVar "all" { SOURCE "C<RD>.*[<L.>O]"
+        uniform token sourceType = "lpe" }
+}
+""".replace("SOURCE", "uniform string sourceName =").replace("{ ", "{\n        ").replace(" }", "\n    }")
+ALL = "[" + ", ".join(f"</Vars/{name}>" for name in ["color", "uv", "dc", "worn", "N", "eye", "Pc", "Pg", "direct", "all"]) + "]"
+
+
+def settings(body="", *products):
+    listed = ", ".join(f"</P{number}>" for number in range(len(products)))
+    text = f'def RenderSettings "S"\n{{\n    rel camera = </Cam>\n    uniform int2 resolution = (40, 40)\n    {body}\n    rel products = [{listed}]\n}}\n'
+    return text + "".join(f'def RenderProduct "P{number}"\n{{\n    {product}\n}}\n' for number, product in enumerate(products))
+
+
+def windows(picture):
+    ends = lambda window: [tuple(int(x) for x in end) for end in window]
+    return ends(picture.header["dataWindow"]), ends(picture.header["displayWindow"])
+
+
+def rendered(run, tmp_path, *parts, options=()):
+    stage = pictures.stage(tmp_path / "stage.usda", SCENE, *parts)
+    done = run("render", stage, "--spp", 4, *options, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def uv(picture):
+    return picture["uv.R"], picture["uv.G"]
+
+
+@pytest.mark.parametrize(
+    ("window", "data", "shape"),
+    [
+        ("(-0.1, -0.1, 1.1, 1.1)", [(-4, -4), (43, 43)], (48, 48)),
+        ("(0.5, 0.5, 1.25, 1.5)", [(20, -20), (49, 19)], (40, 30)),
+        ("(0.5, 0, 1, 0.5)", [(20, 20), (39, 39)], (20, 20)),
+    ],
+)
+def test_the_data_window(run, tmp_path, window, data, shape):
+    body = f"uniform float4 dataWindowNDC = {window}"
+    rendered(run, tmp_path, settings(body, f"rel orderedVars = {ALL}"), VARIABLES, options=["-o", "a.exr"])
+    picture = pictures.read(tmp_path / "a.exr")
+    assert windows(picture) == (data, [(0, 0), (39, 39)])
+    assert picture.shape == shape
+    # What a pixel shows does not depend on the window.
+    u, v = uv(picture)
+    column, row = data[0][0] + np.arange(shape[1]), data[0][1] + np.arange(shape[0])
+    assert np.abs(u.mean(axis=0) - (0.5 + SEEN * ((column + 0.5) / 40 - 0.5))).max() < 0.006
+    assert np.abs(v.mean(axis=1) - (0.5 - SEEN * ((row + 0.5) / 40 - 0.5))).max() < 0.006
+
+
+def test_a_window_follows_the_size_of_the_picture_and_gives_way_to_a_crop(run, tmp_path):
+    body = "uniform float4 dataWindowNDC = (-0.25, 0, 1, 1)"
+    rendered(run, tmp_path, settings(body), options=["-o", "a.exr", "--res", 80, 80])
+    assert windows(pictures.read(tmp_path / "a.exr")) == ([(-20, 0), (79, 79)], [(0, 0), (79, 79)])
+    rendered(run, tmp_path, settings(body), options=["-o", "b.exr", "--crop", 0, 0, 10, 20])
+    assert windows(pictures.read(tmp_path / "b.exr")) == ([(0, 0), (9, 19)], [(0, 0), (39, 39)])
+
+
+def test_the_shape_of_pixels_is_in_the_file(run, tmp_path):
+    rendered(run, tmp_path, settings("uniform float pixelAspectRatio = 2"), options=["-o", "a.exr"])
+    assert pictures.read(tmp_path / "a.exr").header["pixelAspectRatio"] == pytest.approx(2)
+
+
+def test_products_are_files_of_their_own_size(run, tmp_path):
+    own = 'token productName = "deep/second.exr"\n    uniform int2 resolution = (20, 12)'
+    done = rendered(run, tmp_path, settings("", 'token productName = "first.png"', own))
+    assert done.stdout.split() == ["first.png", "deep/second.exr"]
+    assert pictures.png_size(tmp_path / "first.png") == (40, 40)
+    assert pictures.read(tmp_path / "deep" / "second.exr").shape == (12, 20)
+
+
+def test_products_have_their_own_variables_and_a_name_each_frame(run, tmp_path):
+    first = 'token productName.timeSamples = { 1: "one.exr", 2: "two.exr" }\n    rel orderedVars = [</Vars/color>, </Vars/uv>]'
+    second = 'token productName = "b.####"\n    rel orderedVars = [</Vars/N>]'
+    rendered(run, tmp_path, settings("", first, second), VARIABLES, options=["--frames", "1:2"])
+    assert {path.name for path in tmp_path.glob("*.exr")} == {"one.exr", "two.exr", "b.0001.exr", "b.0002.exr"}
+    assert "uv.R" in pictures.read(tmp_path / "one.exr").channels and "N.R" not in pictures.read(tmp_path / "one.exr").channels
+    assert "N.R" in pictures.read(tmp_path / "b.0002.exr").channels
+
+
+@pytest.mark.parametrize(
+    ("parts", "options", "said"),
+    [
+        ([], [], "no file was given"),
+        ([settings("", 'token productName = "a.tif"')], [], "expected exr, png or jpg"),
+        ([settings("", 'token productName = "a.exr"')], ["--frames", "1:2"], "several frames need a place"),
+        ([settings("", 'token productName = "a.exr"', 'token productName = "a.exr"')], [], "written twice"),
+    ],
+)
+def test_names_that_cannot_be_written(run, tmp_path, parts, options, said):
+    stage = pictures.stage(tmp_path / "stage.usda", SCENE, *parts)
+    done = run("render", stage, "--spp", 1, *options, cwd=tmp_path)
+    assert done.returncode == 1 and said in done.stderr
+
+
+def test_variables_are_layers_by_their_names(run, tmp_path):
+    rendered(run, tmp_path, settings("", f'token productName = "out.exr"\n    rel orderedVars = {ALL}'), VARIABLES, options=["--spp", 64])
+    picture = pictures.read(tmp_path / "out.exr")
+    middle = lambda name: float(picture[name][20, 20])
+    assert [middle(f"dc.{c}") for c in "RGB"] == pytest.approx([0.1, 0.5, 0.2], rel=1e-4)
+    assert middle("worn") == pytest.approx(0.75)
+    assert [middle(f"N.{c}") for c in "RGB"] == pytest.approx([0, 0, 1], abs=1e-5)
+    assert middle("eye.B") == pytest.approx(-10, rel=1e-4)
+    assert picture["Pc.X"].shape == picture["Pg.X"].shape
+    # Under an even sky nothing comes from other surfaces: direct light is the colour.
+    for c in "RGB":
+        assert middle(f"direct.{c}") == pytest.approx(middle(c), rel=1e-3)
+        assert middle(f"all.{c}") == pytest.approx(middle(c), rel=1e-3)
+
+
+def test_normals_of_a_turned_camera_are_in_its_space(run, tmp_path):
+    turned = SCENE.replace("(0, 0, 10)", "(10, 0, 10)").replace('["xformOp:translate"]', '["xformOp:translate", "xformOp:rotateY"]\n    float xformOp:rotateY = 45', 1)
+    stage = pictures.stage(tmp_path / "stage.usda", turned, settings("", f'token productName = "out.exr"\n    rel orderedVars = {ALL}'), VARIABLES)
+    done = run("render", stage, "--spp", 4, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    picture = pictures.read(tmp_path / "out.exr")
+    half = 0.5**0.5
+    assert [float(picture[f"N.{c}"][20, 20]) for c in "RGB"] == pytest.approx([-half, 0, half], abs=1e-4)
+
+
+def test_variables_that_are_not_there_are_named(run, tmp_path):
+    odd = 'def RenderVar "odd"\n{\n    uniform string sourceName = "C<RD><RS>L"\n    uniform token sourceType = "lpe"\n}\n'
+    done = rendered(run, tmp_path, settings("", 'token productName = "out.exr"\n    rel orderedVars = [</odd>]'), odd)
+    assert "'C<RD><RS>L' (lpe) is not supported" in done.stderr

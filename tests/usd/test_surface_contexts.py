@@ -1,0 +1,233 @@
+"""Surfaces of other renderers: known shaders in any render context, closures of MaterialX, materials of phones, Arnold and Omniverse."""
+
+import struct
+import zlib
+
+import pytest
+
+gonio = pytest.importorskip("gonio")
+pytest.importorskip("pxr")
+
+HEADER = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n)\n'
+BALL = 'def Sphere "Ball" (prepend apiSchemas = ["MaterialBindingAPI"])\n{\n    rel material:binding = </M>\n}\n'
+
+
+def shader(name, body, kind=None):
+    kind = f'uniform token info:id = "{kind}"' if kind else ""
+    return f'    def Shader "{name}"\n    {{\n        {kind}\n        {body}\n        token outputs:out\n    }}\n'
+
+
+def load(tmp_path, *shaders, context="mtlx", surface="S"):
+    path = tmp_path / "stage.usda"
+    output = f"outputs:{context}:surface" if context else "outputs:surface"
+    material = f'def Material "M"\n{{\n    token {output}.connect = </M/{surface}.outputs:out>\n' + "".join(shaders) + "}\n"
+    path.write_text(HEADER + BALL + material)
+    return gonio.load_usd(str(path), camera_light=False)
+
+
+def material(scene):
+    scene = scene.to_dict()
+    return scene["materials"][scene["instances"][0]["materials"][0]]
+
+
+def only(scene):
+    (closure,) = material(scene)["closures"]
+    return closure
+
+
+def constant(closure, name):
+    return dict(closure["parameters"])[name]["Constant"]
+
+
+def messages(scene):
+    return " | ".join(message for _, message in scene.diagnostics)
+
+
+def near(found, expected):
+    return found[: len(expected)] == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("context", ["kma", "glslfx", "arnold", "ri", ""])
+@pytest.mark.parametrize(
+    ("kind", "base"),
+    [
+        ("ND_standard_surface_surfaceshader", "base_color"),
+        ("UsdPreviewSurface", "diffuseColor"),
+        ("ND_open_pbr_surface_surfaceshader", "base_color"),
+        ("arnold:standard_surface", "base_color"),
+        ("arnold:openpbr_surface", "base_color"),
+    ],
+)
+def test_a_known_surface_is_used_in_any_context(tmp_path, context, kind, base):
+    scene = load(tmp_path, shader("S", f"color3f inputs:{base} = (0.1, 0.7, 0.2)", kind), context=context)
+    assert near(constant(only(scene), "base_color"), [0.1, 0.7, 0.2])
+    assert "not supported" not in messages(scene)
+
+
+def test_arnold_has_the_parameters_of_standard_surface(tmp_path):
+    body = "float inputs:base = 0.5\n        float inputs:specular_IOR = 1.4\n        float inputs:coat = 0.25\n        float inputs:metalness = 1"
+    closure = only(load(tmp_path, shader("S", body, "arnold:standard_surface"), context="arnold"))
+    assert closure["model"] == "StandardSurface"
+    assert near(constant(closure, "base_color"), [0.4] * 3)
+    assert [constant(closure, name)[0] for name in ["specular_ior", "coat_weight", "metalness"]] == pytest.approx([1.4, 0.25, 1])
+
+
+def test_arnold_nodes_feed_it(tmp_path, image):
+    parts = [
+        shader("S", "color3f inputs:base_color.connect = </M/I.outputs:out>\n        float inputs:specular_roughness.connect = </M/I.outputs:g>", "arnold:standard_surface"),
+        shader("I", f'string inputs:filename = "{image}"\n        float inputs:sscale = 2', "arnold:image"),
+    ]
+    made = material(load(tmp_path, *parts, context="arnold"))
+    assert [next(iter(n["operation"])) if isinstance(n["operation"], dict) else n["operation"] for n in made["graph"]["nodes"]] == ["Primvar", "Transform2d", "Image"]
+    assert dict(made["closures"][0]["parameters"])["specular_roughness"]["Node"][1] == "G"
+
+
+def test_the_universal_context_goes_before_those_of_others(tmp_path):
+    path = tmp_path / "stage.usda"
+    two = 'def Material "M"\n{\n    token outputs:arnold:surface.connect = </M/A.outputs:out>\n    token outputs:surface.connect = </M/B.outputs:out>\n'
+    two += shader("A", "", "arnold:standard_surface") + shader("B", "", "UsdPreviewSurface") + "}\n"
+    path.write_text(HEADER + BALL + two)
+    assert only(gonio.load_usd(str(path), camera_light=False))["model"] == "PreviewSurface"
+
+
+def test_what_is_there_is_said_where_nothing_is_known(tmp_path):
+    said = messages(load(tmp_path, shader("S", "", "PxrSurface"), context="ri"))
+    assert "'PxrSurface' (render context ri) is not supported" in said
+    body = 'uniform token info:implementationSource = "sourceAsset"\n        uniform asset info:mdl:sourceAsset = @Own.mdl@\n        uniform token info:mdl:sourceAsset:subIdentifier = "Carpet"'
+    assert "'mdl:Carpet' (render context mdl) is not supported" in messages(load(tmp_path, shader("S", body), context="mdl"))
+
+
+@pytest.fixture
+def image(tmp_path):
+    """A picture of one colour, (0.5, 0.25, 1) as it is encoded."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    pixels = zlib.compress(b"\x00" + bytes([128, 64, 255]))
+    head = struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)
+    path = tmp_path / "texel.png"
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
+    return path
+
+
+def test_realitykit_is_lit_like_a_preview_surface(tmp_path):
+    body = "color3f inputs:baseColor = (0.8, 0.1, 0.1)\n        float inputs:roughness = 0.4\n        float inputs:clearcoat = 0.5"
+    closure = only(load(tmp_path, shader("S", body, "ND_realitykit_pbr_surfaceshader")))
+    assert closure["model"] == "PreviewSurface"
+    assert near(constant(closure, "base_color"), [0.8, 0.1, 0.1])
+    assert [constant(closure, name)[0] for name in ["specular_roughness", "coat_weight", "specular_scale"]] == pytest.approx([0.4, 0.5, 1])
+
+
+def test_realitykit_unlit_shines(tmp_path):
+    body = "color3f inputs:color = (0.2, 0.6, 1)\n        float inputs:opacity = 0.5"
+    closure = only(load(tmp_path, shader("S", body, "ND_realitykit_unlit_surfaceshader")))
+    assert near(constant(closure, "emission_color"), [0.2, 0.6, 1])
+    assert constant(closure, "base_color")[0] == 0 and constant(closure, "geometry_opacity")[0] == 0.5
+
+
+def test_a_surface_of_closures(tmp_path):
+    diffuse = shader("B", "color3f inputs:color = (0.8, 0.1, 0.1)\n        float inputs:weight = 0.5", "ND_oren_nayar_diffuse_bsdf")
+    closure = only(load(tmp_path, shader("S", "token inputs:bsdf.connect = </M/B.outputs:out>", "ND_surface"), diffuse))
+    assert near(constant(closure, "base_color"), [0.8, 0.1, 0.1])
+    assert closure["weight"]["Constant"][0] == 0.5 and constant(closure, "specular_weight")[0] == 0
+
+
+def test_a_dielectric_over_a_diffuse_base_is_one_surface(tmp_path):
+    parts = [
+        shader("S", "token inputs:bsdf.connect = </M/L.outputs:out>\n        token inputs:edf.connect = </M/E.outputs:out>", "ND_surface"),
+        shader("L", "token inputs:top.connect = </M/D.outputs:out>\n        token inputs:base.connect = </M/B.outputs:out>", "ND_layer_bsdf"),
+        shader("D", "float inputs:ior = 1.4\n        float2 inputs:roughness = (0.04, 0.04)", "ND_dielectric_bsdf"),
+        shader("B", "color3f inputs:color = (0.3, 0.3, 0.3)", "ND_oren_nayar_diffuse_bsdf"),
+        shader("E", "color3f inputs:color = (3, 2, 1)", "ND_uniform_edf"),
+    ]
+    surface, glow = material(load(tmp_path, *parts))["closures"]
+    assert [constant(surface, name)[0] for name in ["specular_weight", "specular_ior", "specular_roughness"]] == pytest.approx([1, 1.4, 0.2])
+    assert near(constant(surface, "base_color"), [0.3] * 3)
+    assert near(constant(glow, "emission_color"), [3, 2, 1])
+
+
+def test_surface_unlit_shines_through_its_opacity(tmp_path):
+    shining, straight = material(load(tmp_path, shader("S", "color3f inputs:emission_color = (0.1, 0.7, 0.1)\n        float inputs:opacity = 0.75", "ND_surface_unlit")))["closures"]
+    assert near(constant(shining, "emission_color"), [0.1, 0.7, 0.1]) and shining["weight"]["Constant"][0] == 0.75
+    assert straight["model"] == "Transparent" and straight["weight"]["Constant"][0] == 0.25
+
+
+@pytest.mark.parametrize(
+    ("mixer", "inputs"), [("ND_mix_surfaceshader", ["bg", "fg"]), ("arnold:mix_shader", ["shader1", "shader2"])]
+)
+def test_mixes_of_surfaces(tmp_path, mixer, inputs):
+    under, over = (f"token inputs:{name}.connect = </M/{target}.outputs:out>" for name, target in zip(inputs, "BF"))
+    parts = [
+        shader("S", f"{under}\n        {over}\n        float inputs:mix = 0.25", mixer),
+        shader("F", "color3f inputs:base_color = (0.8, 0.1, 0.1)", "ND_standard_surface_surfaceshader"),
+        shader("B", "color3f inputs:base_color = (0.1, 0.1, 0.8)", "ND_standard_surface_surfaceshader"),
+    ]
+    back, front = material(load(tmp_path, *parts))["closures"]
+    assert back["weight"]["Constant"][0] == 0.75 and near(constant(back, "base_color"), [0.1, 0.1, 0.8])
+    assert front["weight"]["Constant"][0] == 0.25 and near(constant(front, "base_color"), [0.8, 0.1, 0.1])
+
+
+def test_a_mix_of_itself_ends(tmp_path):
+    body = "token inputs:bg.connect = </M/S.outputs:out>\n        token inputs:fg.connect = </M/S.outputs:out>"
+    assert material(load(tmp_path, shader("S", body, "ND_mix_surfaceshader")))["closures"] == []
+
+
+def test_closures_of_a_document(tmp_path):
+    (tmp_path / "look.mtlx").write_text("""<materialx version="1.38">
+      <oren_nayar_diffuse_bsdf name="B" type="BSDF"><input name="color" type="color3" value="0.2, 0.4, 0.6"/></oren_nayar_diffuse_bsdf>
+      <multiply name="H" type="BSDF"><input name="in1" type="BSDF" nodename="B"/><input name="in2" type="float" value="0.5"/></multiply>
+      <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="H"/></surface>
+      <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>""")
+    path = tmp_path / "stage.usda"
+    path.write_text(HEADER + BALL.replace("</M>", "</L/M>") + 'def "L" (references = @look.mtlx@</MaterialX/Materials>) {}\n')
+    closure = only(gonio.load_usd(str(path), camera_light=False))
+    assert near(constant(closure, "base_color"), [0.2, 0.4, 0.6]) and closure["weight"]["Constant"][0] == 0.5
+
+
+def mdl(name, body):
+    source = 'uniform token info:implementationSource = "sourceAsset"\n        '
+    source += f'uniform asset info:mdl:sourceAsset = @{name}.mdl@\n        uniform token info:mdl:sourceAsset:subIdentifier = "{name}"\n        '
+    return shader("S", source + body)
+
+
+def test_omni_pbr(tmp_path):
+    body = """color3f inputs:diffuse_color_constant = (0.4, 0.6, 0.8)
+        color3f inputs:diffuse_tint = (0.5, 1, 1)
+        float inputs:reflection_roughness_constant = 0.25
+        float inputs:metallic_constant = 1
+        bool inputs:enable_emission = 1
+        color3f inputs:emissive_color = (1, 1, 0)
+        float inputs:emissive_intensity = 10"""
+    closure = only(load(tmp_path, mdl("OmniPBR", body), context="mdl"))
+    assert near(constant(closure, "base_color"), [0.2, 0.6, 0.8])
+    assert constant(closure, "specular_roughness")[0] == 0.25 and constant(closure, "metalness")[0] == 1
+    assert constant(closure, "specular_ior")[0] == pytest.approx(1.5)
+    assert near(constant(closure, "emission_color"), [10, 10, 0])
+
+
+def test_omni_pbr_with_one_image_for_roughness_and_metal(tmp_path, image):
+    body = f"""bool inputs:enable_ORM_texture = 1
+        asset inputs:ORM_texture = @{image}@
+        float inputs:reflection_roughness_texture_influence = 1
+        float inputs:metallic_texture_influence = 1"""
+    made = material(load(tmp_path, mdl("OmniPBR", body), context="mdl"))
+    mixes = [node for node in made["graph"]["nodes"] if node["operation"] == "Mix"]
+    assert [node["inputs"][1]["Node"][1] for node in mixes] == ["G", "B"]
+
+
+def test_omni_glass(tmp_path):
+    closure = only(load(tmp_path, mdl("OmniGlass", "color3f inputs:glass_color = (0.9, 1, 0.9)\n        bool inputs:thin_walled = 1"), context="mdl"))
+    assert closure["thin_walled"] and constant(closure, "transmission_weight")[0] == 1
+    assert near(constant(closure, "transmission_color"), [0.9, 1, 0.9])
+    assert constant(closure, "specular_ior")[0] == pytest.approx(1.491)
+
+
+def test_a_mixed_ball_has_both_colours(picture, tmp_path):
+    parts = [
+        shader("S", "token inputs:bg.connect = </M/B.outputs:out>\n        token inputs:fg.connect = </M/F.outputs:out>\n        float inputs:mix = 0.5", "ND_mix_surfaceshader"),
+        shader("F", "color3f inputs:emission_color = (2, 0, 0)", "ND_surface_unlit"),
+        shader("B", "color3f inputs:emission_color = (0, 0, 4)", "ND_surface_unlit"),
+    ]
+    load(tmp_path, *parts)
+    seen = picture(tmp_path / "stage.usda", size=8, spp=256)
+    assert seen.rgb[seen["A"] > 0.999].mean(axis=0) == pytest.approx([1, 0, 2], rel=0.05, abs=0.02)

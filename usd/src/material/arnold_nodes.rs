@@ -1,0 +1,73 @@
+//! Arnold's shaders as they stand in USD, `arnold:image`: images, normal maps, arithmetic and primvars.
+
+use super::arithmetic::{binary, mix, scalar};
+use super::network::{Network, Shader};
+use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
+
+/// The component that an output stands for: `r`, or `out:r`.
+pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<usize> {
+    let name = output.rsplit(':').next().filter(|_| id.starts_with("arnold:"))?;
+    ["r", "g", "b", "a"].iter().position(|known| *known == name).or_else(|| ["x", "y", "z"].iter().position(|known| *known == name))
+}
+
+/// Builds a node; `None` where it is not supported.
+pub(in crate::material) fn build<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, node: &str) -> Option<Input> {
+    let operation = match node {
+        "image" => return Some(image(network, shader)),
+        "normal_map" => return normal_map(network, shader),
+        "flat" => return Some(network.input(shader, "color").unwrap_or(scalar(1.0))),
+        "mix_rgba" => {
+            let [a, b] = ["input1", "input2"].map(|name| network.input(shader, name).unwrap_or(scalar(0.0)));
+            let share = network.scalar(shader, "mix", 0.5);
+            return Some(mix(&mut network.graph, a, b, share));
+        }
+        "user_data_rgb" | "user_data_rgba" | "user_data_float" => {
+            let fallback = network.uniform(shader, "default", [0.0, 0.0, 0.0, 1.0]);
+            let name = network.text(shader, "attribute").filter(|name| !name.is_empty())?;
+            return Some(network.node(Operation::Primvar { name, fallback }, vec![]));
+        }
+        "add" => (Operation::Add, 0.0),
+        "subtract" => (Operation::Subtract, 0.0),
+        "multiply" => (Operation::Multiply, 1.0),
+        "divide" => (Operation::Divide, 1.0),
+        _ => return None,
+    };
+    let [a, b] = ["input1", "input2"].map(|name| network.input(shader, name).unwrap_or(scalar(operation.1)));
+    Some(binary(&mut network.graph, operation.0, a, b))
+}
+
+fn image<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+    let fallback = network.uniform(shader, "missing_texture_color", [0.0, 0.0, 0.0, 1.0]);
+    let space = network.text(shader, "color_space").filter(|space| !space.is_empty());
+    let Some(texture) = network.texture_of(shader, "filename", space.as_deref(), "auto") else { return Input::Constant(fallback) };
+    let wrap = ["swrap", "twrap"].map(|name| match network.text(shader, name).as_deref() {
+        Some("clamp") => WrapMode::Clamp,
+        Some("mirror") => WrapMode::Mirror,
+        Some("black") => WrapMode::Black,
+        _ => WrapMode::Repeat,
+    });
+    let set = network.text(shader, "uvset").filter(|set| !set.is_empty()).unwrap_or_else(|| "st".to_owned());
+    let mut place = |names: [&str; 2], default: f32| names.map(|name| network.number(shader, name, default));
+    let (scale, translation) = (place(["sscale", "tscale"], 1.0), place(["soffset", "toffset"], 0.0));
+    let mut coordinates = match network.input(shader, "uvcoords") {
+        Some(coordinates @ Input::Node(..)) => coordinates,
+        _ => network.node(Operation::Primvar { name: set, fallback: [0.0; 4] }, vec![]),
+    };
+    if (scale, translation) != ([1.0; 2], [0.0; 2]) {
+        coordinates = network.node(Operation::Transform2d { scale, rotation_deg: 0.0, translation }, vec![coordinates]);
+    }
+    let [r, g, b, _] = network.uniform(shader, "multiply", [1.0; 4]);
+    let [x, y, z, _] = network.uniform(shader, "offset", [0.0; 4]);
+    let (scale, bias) = ([r, g, b, 1.0], [x, y, z, 0.0]);
+    network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![coordinates])
+}
+
+fn normal_map<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
+    let mut input = network.input(shader, "input")?;
+    if network.number(shader, "color_to_signed", 1.0) != 0.0 {
+        let doubled = binary(&mut network.graph, Operation::Multiply, input, scalar(2.0));
+        input = binary(&mut network.graph, Operation::Subtract, doubled, scalar(1.0));
+    }
+    let scale = network.number(shader, "strength", 1.0);
+    Some(network.node(Operation::NormalMap { scale, uv: None }, vec![input]))
+}

@@ -1,0 +1,62 @@
+//! Surface shaders as closures: each model has a file of its own.
+
+mod closures;
+mod lobes;
+mod materialx;
+mod measured;
+mod omniverse;
+mod preview_surface;
+mod realitykit;
+
+use super::arithmetic::{colour, is_constant, multiply, scalar, subtract};
+use super::network::{Network, Shader};
+use gonio::scene::{Closure, Input, Model};
+
+/// The closures of a surface shader; `None` where it is not one that is known.
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
+    match shader.id.as_str() {
+        "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
+        measured::ID => Some(vec![measured::convert(network, shader)]),
+        _ => materialx::convert(network, shader)
+            .map(|closure| vec![closure])
+            .or_else(|| realitykit::convert(network, shader))
+            .or_else(|| omniverse::convert(network, shader))
+            .or_else(|| closures::convert(network, shader)),
+    }
+}
+
+/// A surface that only shines.
+fn shining(radiance: Input) -> Closure {
+    let mut closure = Closure { model: Model::OpenPbr, ..Closure::default() };
+    closure.set_input("base_color", colour([0.0; 3]));
+    closure.set("specular_weight", 0.0);
+    closure.set_input("emission_color", radiance);
+    closure
+}
+
+/// Light that goes straight through.
+fn straight(weight: Input) -> Closure {
+    let mut closure = Closure { model: Model::Transparent, weight, ..Closure::default() };
+    closure.set_input("base_color", colour([1.0; 3]));
+    closure
+}
+
+/// Multiplies what closures scatter and emit.
+fn weighted(network: &mut Network<'_, '_, '_>, mut closures: Vec<Closure>, weight: Input) -> Vec<Closure> {
+    for closure in &mut closures {
+        closure.weight = multiply(&mut network.graph, closure.weight, weight);
+    }
+    closures.retain(|closure| !is_constant(closure.weight, 0.0));
+    closures
+}
+
+/// Closures of which only a share is there; through the rest light goes straight.
+fn with_opacity(network: &mut Network<'_, '_, '_>, closures: Vec<Closure>, opacity: Input) -> Vec<Closure> {
+    if is_constant(opacity, 1.0) {
+        return closures;
+    }
+    let open = subtract(&mut network.graph, scalar(1.0), opacity);
+    let mut closures = weighted(network, closures, opacity);
+    closures.push(straight(open));
+    closures
+}

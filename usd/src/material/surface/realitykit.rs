@@ -1,0 +1,35 @@
+//! RealityKit's surfaces, as Reality Composer and its exporters write them: the lit one has UsdPreviewSurface's parameters, the other shines.
+
+use super::{preview_surface, shining};
+use crate::material::arithmetic::{multiply, scalar};
+use crate::material::network::{Network, Shader};
+use gonio::scene::Closure;
+
+/// The closures of a RealityKit surface; `None` for other shaders.
+pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
+    match shader.id.trim_start_matches("ND_") {
+        "realitykit_pbr_surfaceshader" | "realitykit_pbr_surfaceshader_2_0" => Some(lit(network, shader)),
+        "realitykit_unlit_surfaceshader" => Some(vec![unlit(network, shader)]),
+        _ => None,
+    }
+}
+
+fn lit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
+    let names = preview_surface::Names { base: "baseColor", base_default: [1.0; 3] };
+    let mut closures = preview_surface::convert_as(network, shader, names);
+    // Half of `specular` is a dielectric as it comes.
+    let specular = network.scalar(shader, "specular", 0.5);
+    let scale = multiply(&mut network.graph, specular, scalar(2.0));
+    closures
+        .iter_mut()
+        .filter(|closure| closure.input("specular_ior").is_some())
+        .for_each(|closure| closure.set_input("specular_scale", scale));
+    closures
+}
+
+fn unlit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+    let mut closure = shining(network.colour(shader, "color", [1.0; 3]));
+    closure.set_input("geometry_opacity", network.scalar(shader, "opacity", 1.0));
+    closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
+    closure
+}
