@@ -242,7 +242,13 @@ impl Job<'_> {
                 self.execution.name()
             ));
             say(&format!("{:.1} MB of geometry, {:.1} MB of textures", megabytes(s.geometry_bytes), megabytes(s.texture_bytes)));
-            say(&format!("read in {}, trees built in {:.2} s, compiled in {:.2} s", clock(self.loading), s.build_s, s.total_s));
+            say(&format!(
+                "read in {}, textures decoded in {:.2} s, trees built in {:.2} s, compiled in {:.2} s",
+                clock(self.loading),
+                s.textures_s,
+                s.build_s,
+                s.total_s
+            ));
         }
     }
 

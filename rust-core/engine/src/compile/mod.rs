@@ -9,6 +9,7 @@ mod goniograms;
 mod instances;
 mod kept;
 mod light_groups;
+mod light_images;
 mod lights;
 mod luminaires;
 mod materials;
@@ -79,6 +80,8 @@ pub struct CompileStatistics {
     pub geometry_bytes: u64,
     /// Bytes of textures.
     pub texture_bytes: u64,
+    /// Seconds spent on textures: reading, decoding, filtering.
+    pub textures_s: f64,
     /// Seconds spent on building trees.
     pub build_s: f64,
     /// Seconds spent in all.
@@ -97,8 +100,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let names = primvars::used_names(scene, &measured);
     let materials = materials::compile(scene, &textures, &measured, &names, &mut diagnostics)?;
     check(cancel)?;
+    let building = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
-    let built = start.elapsed().as_secs_f64();
+    let built = building.elapsed().as_secs_f64();
     let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
     let origin = bounds.rebase_origin();
@@ -116,6 +120,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         lights: lights.table.len() as u64,
         geometry_bytes: (trees.iter().map(|kept| kept.tree.memory().bytes()).sum::<usize>() + geometry.table.memory()) as u64,
         texture_bytes: textures.table.bytes() as u64,
+        textures_s: textures.seconds,
         build_s: built,
         total_s: start.elapsed().as_secs_f64(),
     };

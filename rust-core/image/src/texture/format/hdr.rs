@@ -1,7 +1,7 @@
 //! Radiance HDR: RGBE or XYZE texels.
 
 use super::bitmap::from_decoder;
-use crate::colour::{Gamut, Primaries};
+use crate::colour::{Gamut, Primaries, Stated};
 use crate::texture::error::TextureError;
 use crate::texture::image::{Image, Texels};
 use crate::texture::limits::check_size;
@@ -28,7 +28,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
     decoder.read_image(&mut buffer).map_err(from_decoder)?;
     let values = buffer.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect();
     let primaries = if is_xyz { Some(Gamut::XyzE.primaries()) } else { stated };
-    Ok(Image { width, height, channels: 3, texels: Texels::Float(values), primaries })
+    let stated = primaries.map_or(Stated::Nothing, |primaries| Stated::linear(&primaries));
+    Ok(Image { width, height, channels: 3, texels: Texels::Float(values), stated })
 }
 
 fn rename_format(bytes: &[u8], header_len: usize) -> Vec<u8> {
