@@ -3,7 +3,6 @@
 
 import numpy as np
 
-from .images import linear_pixels
 from .material.operations import compute
 from .sky_texture import Picture
 
@@ -17,7 +16,7 @@ def bake(t, total, images, report):
     rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image in pictures.values())]))
     report.add("World", t.owner.name, f"its nodes were baked to {2 * rows} × {rows} directions", severity="INFO")
     values = []
-    loaded = {image.name: _pixels(image) for image in pictures.values()}
+    loaded = {image.name: _pixels(image, images, report) for image in pictures.values()}
     for top in range(0, rows, 64):
         directions = _directions(rows, range(top, min(top + 64, rows)))
         values.append(_evaluate(t, total, directions, loaded))
@@ -57,12 +56,11 @@ def _evaluate(t, total, directions, loaded):
         return np.array(read(total.input()))
 
 
-def _pixels(image):
+def _pixels(image, images, report):
     if isinstance(image, Picture):
         return image.pixels[::-1]
-    if not image.has_data and image.source in ("FILE", "SEQUENCE"):
-        image.pixels  # noqa: B018 (loads the file)
-    return linear_pixels(image) if image.size[0] else np.zeros((1, 1, 4), dtype=np.float32)
+    pixels = images.linear(image, report)
+    return np.zeros((1, 1, 4), dtype=np.float32) if pixels is None else pixels
 
 
 def _look_up(operation, uv, loaded):

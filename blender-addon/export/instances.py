@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .colour_management import to_rec709
 from .gather import SILENT
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .transforms import usable
@@ -152,7 +153,7 @@ def _of_object(source, pass_index, wanted, count):
     for name in sorted(wanted):
         value = None
         if name == COLOUR:
-            value = tuple(source.color)
+            value = to_rec709(source.color)
         elif name == INDEX:
             value = [pass_index]
         elif name.startswith(OBJECT_PREFIX):

@@ -9,6 +9,7 @@ from .. import luminaire
 from ..units import LUMENS_PER_WATT
 from . import goniogram  # noqa: F401 (it registers its node)
 from . import photometry
+from .colour_management import to_rec709
 from .material.closures import flatten
 from .material.sockets import active_output, input_socket
 from .material.translator import Translator
@@ -54,6 +55,7 @@ def _colour(lamp, images, report):
     colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
         colour = colour * np.array(lamp.temperature_color, dtype=float)
+    colour = np.array(to_rec709(colour))
     if lamp.use_nodes and lamp.node_tree is not None:
         by_nodes, distribution = _nodes_colour(lamp, images, report)
         return colour * by_nodes, distribution
