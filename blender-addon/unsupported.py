@@ -64,6 +64,11 @@ SCENES = {
     "tone map in animations": _untold(
         "*Tone Map in Gonio* in animations: an eye that adapts over the frames", "each frame by itself; *Fixed Exposure* for all alike"
     ),
+    "working space": _untold(
+        "Working spaces ACEScg and Rec.2020",
+        "colours come in and go out by the configuration's matrix, light is reckoned in linear Rec.709; saturated colours under coloured light "
+        "differ from Cycles",
+    ),
     "quick denoiser": _untold(
         "The viewport's quick denoiser in false colour and in final renders", "the picture as it is; *Denoise* of *Sampling*"
     ),
@@ -113,6 +118,7 @@ MATERIALS = {
     ),
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
+    "painted tiles": _untold("Image tiles that were painted and never saved", "not seen"),
     "brick": Limit("Brick Texture", "the mean of its bricks"),
     "node": Limit("Other nodes, named in the report", "their main input is passed on; without one, the value of their socket is used"),
 }

@@ -3,12 +3,9 @@
 
 import numpy as np
 
-from .evaluate import evaluate, look_up, pixels_of
-from .material.textures import MISSING
+from .evaluate import LOST, evaluate, look_up
 from .sky_texture import Picture
 
-# The pixels of a missing image.
-LOST = np.full((1, 1, 4), MISSING, dtype=np.float32)
 # Rows of a baked world without images; one with an image has the image's rows up to the limit.
 ROWS, MOST_ROWS = 512, 2048
 
@@ -20,7 +17,7 @@ def bake(t, total, report):
     rows = min(MOST_ROWS, max([ROWS, *(image.size[1] for image, _ in pictures)]))
     report.add("World", t.owner.name, f"its nodes were baked to {2 * rows} × {rows} directions", severity="INFO")
     values = []
-    loaded = {image.name: _pixels(image) if is_there else LOST for image, is_there in pictures}
+    loaded = {image.name: _pixels(image, t.images) if is_there else LOST for image, is_there in pictures}
     for top in range(0, rows, 64):
         directions = _directions(rows, range(top, min(top + 64, rows)))
         values.append(evaluate(t.graph, total.input(), directions.shape, _leaves(t, directions, loaded)))
@@ -57,5 +54,5 @@ def _leaves(t, directions, loaded):
     return leaf
 
 
-def _pixels(image):
-    return image.pixels[::-1] if isinstance(image, Picture) else pixels_of(image)
+def _pixels(image, images):
+    return image.pixels[::-1] if isinstance(image, Picture) else images.pixels(image)

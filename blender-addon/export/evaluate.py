@@ -3,16 +3,19 @@
 
 import numpy as np
 
-from .images import linear_pixels
 from .material.operations import compute
 from .material.textures import MISSING
+
+
+# The pixels of a missing image.
+LOST = np.full((1, 1, 4), MISSING, dtype=np.float32)
 
 
 class Pictures:
     """The images of a node tree as `Images` has them, and which of them has which number."""
 
-    def __init__(self, images):
-        self._images, self._by_number = images, {}
+    def __init__(self, images, report):
+        self._images, self._report, self._by_number = images, report, {}
 
     def __getattr__(self, name):
         return getattr(self._images, name)
@@ -28,15 +31,12 @@ class Pictures:
         image = self._by_number.get(fields["texture"])
         if image is None:
             return np.zeros(uv.shape)
-        pixels = pixels_of(image)
-        return look_up(pixels, uv, fields["wrap"], fields["filter"] == "Closest") * fields["scale"] + fields["bias"]
+        return look_up(self.pixels(image), uv, fields["wrap"], fields["filter"] == "Closest") * fields["scale"] + fields["bias"]
 
-
-def pixels_of(image):
-    """An image's pixels as (height, width, 4), linear, the bottom row first; the colour of missing images where it has none."""
-    if not image.has_data and image.source in ("FILE", "SEQUENCE"):
-        image.pixels  # noqa: B018 (loads the file)
-    return linear_pixels(image) if image.size[0] and image.size[1] else np.full((1, 1, 4), MISSING, dtype=np.float32)
+    def pixels(self, image):
+        """An image's pixels as (height, width, 4), linear, the bottom row first; the colour of missing images where it has none."""
+        pixels = self._images.linear(image, self._report)
+        return LOST if pixels is None else pixels
 
 
 def evaluate(graph, source, shape, leaf):

@@ -7,26 +7,13 @@ import bpy
 import numpy as np
 
 from ..file_version import file_version
+from .colour_management import gonio_name, pixels_to_rec709, working_space
+from .image_files import frame_of, kind_of, kind_of_file, path_of, pixels_of, pixels_of_file, pixels_of_frame
 
-# Blender's names of colour spaces -> gonio's. Data is taken as it is.
-COLOUR_SPACES = {
-    "sRGB": "srgb_texture",
-    "Non-Color": "raw",
-    "Linear Rec.709": "lin_rec709",
-    "Linear": "lin_rec709",
-    "Linear BT.709": "lin_rec709",
-    "Linear Rec.2020": "lin_rec2020",
-    "ACEScg": "ACEScg",
-    "ACES2065-1": "ACES2065-1",
-    "Display P3": "srgb_displayp3",
-    "Linear DCI-P3 D65": "lin_displayp3",
-    "Working Space": "lin_rec709",
-    "scene_linear": "lin_rec709",
-}
-# File formats that gonio reads itself; of others Blender gives the pixels.
-READABLE = {"PNG", "JPEG", "HDR", "OPEN_EXR", "OPEN_EXR_MULTILAYER"}
 # File formats that keep colours multiplied by alpha.
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
+# Sources whose pixels are in memory only.
+IN_MEMORY = {"GENERATED", "VIEWER"}
 
 
 class Images:
@@ -34,19 +21,24 @@ class Images:
 
     def __init__(self, scene, slots):
         self._scene, self._slots = scene, slots
+        # The scene's, which says which picture of a sequence or a movie is shown.
+        self.frame = None
+        # By the image's number in the session: the format of its file, and who used it last.
+        self._kinds, self._users = {}, {}
         # Owner of a picture that changes -> what its pixels were, and which of its two places they have.
         self._changing = {}
 
     def texture(self, image, user, report):
         """The number of an image as it is at this frame; None, with a report line, where there is nothing to show."""
+        self._users[image.session_uid] = user
         key, make = self._source(image, user, report)
         if key is None:
             return None
-        number, is_new = self._slots.take((*key, self._colour_space(image, report)))
+        number, is_new = self._slots.take((*key, image.colorspace_settings.name, working_space()))
         if is_new:
             fields, buffers = make()
             space = "raw" if "pixels" in buffers else self._colour_space(image, report)
-            description = {"origin": {"name": image.name, "file": _path(image)}, "colour_space": space, **fields}
+            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": space, **fields}
             self._slots.place(self._scene.put_texture, number, description, **buffers)
         return number
 
@@ -79,83 +71,95 @@ class Images:
         """Whether the file can have an alpha channel at all."""
         return image.depth not in (8, 16, 24, 48, 96)
 
-    @staticmethod
-    def stores_premultiplied(image):
+    def stores_premultiplied(self, image):
         """Whether colours are stored multiplied by alpha."""
-        return image.file_format in PREMULTIPLIED
+        return self._kinds.get(image.session_uid, image.file_format) in PREMULTIPLIED
+
+    def linear(self, image, report):
+        """Pixels as (height, width, 4), linear Rec.709, the bottom row first; None where there are none."""
+        user = self._users.get(image.session_uid)
+        if image.source == "MOVIE" and user is not None and self.frame is not None:
+            pixels, is_float = pixels_of_frame(image, frame_of(user, self.frame)), image.is_float
+        elif image.source == "SEQUENCE":
+            pixels, is_float = pixels_of_file(image, path_of(image, user, self.frame))
+        else:
+            pixels, is_float = pixels_of(image) if image.size[0] and image.size[1] else None, image.is_float
+        return None if pixels is None else _linear(pixels, image, is_float, report)
 
     @staticmethod
     def _colour_space(image, report):
         name = image.colorspace_settings.name
-        if name not in COLOUR_SPACES:
+        known = gonio_name(name)
+        if known is None:
             report.add("Image", image.name, f"colour space '{name}' is not supported; sRGB is taken for bytes, linear Rec.709 for floats")
             return "lin_rec709" if image.is_float else "srgb_texture"
-        return COLOUR_SPACES[name]
+        return known
 
     def _source(self, image, user, report):
         """A key that changes with the pixels, and a function that gives the source: fields of the description, and buffers beside it."""
-        if image.source in ("GENERATED", "VIEWER", "MOVIE") or image.is_dirty:
-            return self._pixels(image, user, report)
         if image.source == "TILED":
             return self._tiled(image, report)
-        if image.packed_file is not None and image.file_format not in READABLE:
-            return self._pixels(image, user, report)
-        if image.packed_file is not None:
-            packed = image.packed_file
-            name = image.filepath or f"{image.name}.{image.file_format.lower()}"
-            key = ("packed", image.session_uid, packed.size)
-            return key, lambda: ({}, {"data": (os.path.basename(name), bytes(packed.data))})
-        path = _path(image, user)
+        is_known = gonio_name(image.colorspace_settings.name) is not None
+        if image.source in IN_MEMORY or image.source == "MOVIE" or image.is_dirty:
+            return self._pixels(image, report)
+        if image.packed_file is not None and image.source == "FILE":
+            return self._packed(image, report) if is_known else self._pixels(image, report)
+        path = path_of(image, user, self.frame)
         if not path or not os.path.isfile(path):
             report.add("Image", image.name, f"the file '{path or image.filepath}' was not found", severity="ERROR")
             return None, None
-        if image.file_format not in READABLE:
-            return self._pixels(image, user, report)
+        kind = kind_of_file(path)
+        if kind is None or not is_known:
+            return self._pixels(image, report)
+        self._kinds[image.session_uid] = kind
         return ("file", path, *file_version(path)), lambda: ({"source": {"File": path}}, {})
 
+    def _packed(self, image, report):
+        packed = image.packed_file
+        key = ("packed", image.session_uid, packed.size)
+        if key not in self._kinds:
+            self._kinds[key] = kind_of(bytes(packed.data[:16]))
+        if self._kinds[key] is None:
+            return self._pixels(image, report)
+        self._kinds[image.session_uid] = self._kinds[key]
+        name = image.filepath or f"{image.name}.{self._kinds[key].lower()}"
+        return key, lambda: ({}, {"data": (os.path.basename(name), bytes(packed.data))})
+
     def _tiled(self, image, report):
+        if image.is_dirty:
+            report.add("Image", image.name, "what was painted on its tiles and not saved is not seen")
         path = bpy.path.abspath(image.filepath_raw, library=image.library)
+        packed = {each.tile_number: each.packed_file for each in image.packed_files}
+        if packed:
+            sizes = tuple((number, file.size) for number, file in packed.items())
+            name = os.path.basename(path) or f"{image.name}.<UDIM>"
+            tiles = lambda: {number: bytes(file.data) for number, file in packed.items()}  # noqa: E731
+            return ("packed tiles", image.session_uid, sizes), lambda: ({}, {"data": (name, tiles())})
         present = [path.replace("<UDIM>", str(tile.number)) for tile in image.tiles]
         if "<UDIM>" not in path or not any(os.path.isfile(tile) for tile in present):
-            if len(image.packed_files):
-                report.add("Image", image.name, "packed tiles are not supported; unpack the image", severity="ERROR")
-            else:
-                report.add("Image", image.name, f"no tile of '{path}' was found", severity="ERROR")
+            report.add("Image", image.name, f"no tile of '{path}' was found", severity="ERROR")
             return None, None
         stamp = tuple(os.stat(tile).st_mtime_ns for tile in present if os.path.isfile(tile))
         return ("tiles", path, stamp), lambda: ({"source": {"File": path}}, {})
 
-    def _pixels(self, image, user, report):
-        width, height = image.size
-        if width == 0 or height == 0:
+    def _pixels(self, image, report):
+        pixels = self.linear(image, report)
+        if pixels is None:
             report.add("Image", image.name, "the image has no pixels", severity="ERROR")
             return None, None
-        pixels = linear_pixels(image)
         key = ("pixels", image.session_uid, hash(pixels.tobytes()))
         return key, lambda: ({}, {"pixels": np.ascontiguousarray(pixels[::-1])})
 
 
-def linear_pixels(image):
-    """Pixels as (height, width, 4), linear, the bottom row first."""
-    width, height = image.size
-    channels = max(1, image.channels)
-    flat = np.empty(width * height * channels, dtype=np.float32)
-    image.pixels.foreach_get(flat)
-    pixels = flat.reshape(height, width, channels)
-    if channels < 3:
-        alpha = pixels[..., 1:] if channels == 2 else np.ones_like(pixels)
-        pixels = np.concatenate([np.repeat(pixels[..., :1], 3, axis=-1), alpha], axis=-1)
-    elif channels == 3:
-        pixels = np.concatenate([pixels, np.ones_like(pixels[..., :1])], axis=-1)
-    if not image.is_float and COLOUR_SPACES.get(image.colorspace_settings.name, "srgb_texture").startswith("srgb"):
+def _linear(pixels, image, is_float, report):
+    """Blender's pixels of an image in linear Rec.709: floats are in the working space, bytes in the image's own."""
+    space = image.colorspace_settings.name
+    if image.colorspace_settings.is_data:
+        return pixels
+    if not is_float and gonio_name(space) == "srgb_texture":
         colour = pixels[..., :3]
-        low = colour / 12.92
         high = ((np.maximum(colour, 0.0) + 0.055) / 1.055) ** 2.4
-        pixels = np.concatenate([np.where(colour <= 0.04045, low, high), pixels[..., 3:]], axis=-1)
-    return np.ascontiguousarray(pixels, dtype=np.float32)
-
-
-def _path(image, user=None):
-    """The absolute path of the file at the frame of the image user."""
-    raw = image.filepath_from_user(image_user=user) if user is not None else image.filepath_raw
-    return os.path.normpath(bpy.path.abspath(raw, library=image.library)) if raw else ""
+        pixels[..., :3] = np.where(colour <= 0.04045, colour / 12.92, high)
+    elif not pixels_to_rec709(pixels, working_space() if is_float else space):
+        report.add("Image", image.name, f"colour space '{space}' is not supported; its numbers are taken as linear Rec.709")
+    return pixels

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .colour_management import to_rec709
 from .gather import SILENT
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .object_attribute import object_attribute
@@ -160,7 +161,7 @@ def _of_object(source, pass_index, wanted, count):
     for name in sorted(wanted):
         value = None
         if name == COLOUR:
-            value = tuple(source.color)
+            value = to_rec709(source.color)
         elif name == INDEX:
             value = [pass_index]
         elif name.startswith(OBJECT_PREFIX):

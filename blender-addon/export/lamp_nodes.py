@@ -26,7 +26,7 @@ def light_falloff(t, node, context, output):
 
 def emission(lamp, matrix, images, report):
     """Red, green and blue that a lamp's nodes multiply its strength by, and the goniogram of its IES texture."""
-    t = Translator(lamp, lamp.node_tree, Pictures(images), report, kind="Light")
+    t = Translator(lamp, lamp.node_tree, Pictures(images, report), report, kind="Light")
     end = active_output(lamp.node_tree, "Light")
     if end is None:
         return np.zeros(3), None

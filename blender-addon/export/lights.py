@@ -11,6 +11,7 @@ from . import (
     goniogram,  # noqa: F401 (it registers its node)
     photometry,
 )
+from .colour_management import to_rec709
 from .lamp_nodes import emission
 from .transforms import columns, without_scale
 from .visibility import RAYS
@@ -54,6 +55,7 @@ def colour_of(lamp, matrix, images, report):
     colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
         colour = colour * np.array(lamp.temperature_color, dtype=float)
+    colour = np.array(to_rec709(colour))
     if lamp.use_nodes and lamp.node_tree is not None:
         by_nodes, distribution = emission(lamp, matrix, images, report)
         return colour * by_nodes, distribution

@@ -5,6 +5,7 @@ import ctypes
 
 import numpy as np
 
+from .colour_management import colours_to_rec709
 from .material.inputs import ACTIVE_COLOUR, GENERATED, POSITION, UV
 
 # Data type of an attribute -> (property to read, numbers in it, numpy type).
@@ -35,7 +36,8 @@ def read(attribute):
     name, width, dtype = form
     values = np.empty(len(attribute.data) * width, dtype=dtype)
     attribute.data.foreach_get(name, values)
-    return values.reshape(-1, width)
+    values = values.reshape(-1, width)
+    return colours_to_rec709(values) if name == "color" else values
 
 
 def fingerprint(mesh):

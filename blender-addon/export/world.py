@@ -10,6 +10,7 @@ import numpy as np
 from ..units import LUMENS_PER_WATT
 from . import daylight
 from .bake import bake
+from .colour_management import to_rec709
 from .daylight import facing
 from .evaluate import Pictures
 from .light_description import at_infinity
@@ -84,7 +85,7 @@ def domes(world, images, report):
         return _with_visibility(world, daylight.lights(world, images, report))
     tree = world.node_tree
     if tree is None or not _uses_nodes(world):
-        return _with_visibility(world, [_even(world, np.array(world.color))])
+        return _with_visibility(world, [_even(world, np.array(to_rec709(world.color)))])
     seen, t = _dome(world, tree, images, report, is_camera_ray=False)
     if not t.asked_for_ray:
         return _with_visibility(world, seen)
@@ -116,7 +117,7 @@ def _with_visibility(world, descriptions):
 
 
 def _dome(world, tree, images, report, is_camera_ray):
-    t = WorldTranslator(world, tree, Pictures(images), report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
+    t = WorldTranslator(world, tree, Pictures(images, report), report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
     end = active_output(tree, "World")
     if end is None:
         return [], t

@@ -8,6 +8,7 @@ from enum import Enum
 import numpy
 
 from .. import compat
+from ..export.colour_management import to_working
 from ..units import LUMENS_PER_WATT
 from . import false_color
 from .tone_map import ToneMap
@@ -140,17 +141,17 @@ def write_passes(result, film, kinds: list[Pass], settings, samples: int) -> Non
 def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     """A pass of a film as Blender takes pixels."""
     if kind.scale is Scale.FALSE_COLOR:
-        return false_color.linear(film, false_color.Style.of_source(kind.source, settings))
+        return to_working(false_color.linear(film, false_color.Style.of_source(kind.source, settings)), len(kind.channels))
     if kind == COMBINED:
         return read_combined(film, settings.film_exposure, ToneMap.of(settings))
-    return read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
+    flat = read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
+    return to_working(flat, len(kind.channels)) if kind.type == "COLOR" else flat
 
 
 def read_combined(film, exposure: float, tone_map: ToneMap | None) -> numpy.ndarray:
     """The Combined pass as Blender takes pixels, in its watts or as a tone-mapped picture."""
-    if tone_map is not None:
-        return read_flat(tone_map.apply(film), COMBINED.source, 1.0)
-    return read_flat(film, COMBINED.source, COMBINED.factor(exposure, 1))
+    film, factor = (film, COMBINED.factor(exposure, 1)) if tone_map is None else (tone_map.apply(film), 1.0)
+    return to_working(read_flat(film, COMBINED.source, factor), len(COMBINED.channels))
 
 
 def read_flat(film, source: str, factor: float) -> numpy.ndarray:

@@ -44,11 +44,17 @@ def test_tiles_beyond_the_picture(tiles):
         gonio.Render(scene)
 
 
-def test_bundles_carry_images(tmp_path):
+def test_bundles_carry_images_and_tiles(tmp_path):
     scene = floor_scene()
-    scene.put_texture({"origin": {"name": "tiles"}, "source": {"File": "wood.<UDIM>.exr"}, "colour_space": "auto"})
-    with pytest.raises(gonio.SceneError, match="UDIM"):
-        scene.save(tmp_path / "scene", images=True)
+    for name in ("wood.1001.png", "wood.1012.png", "stone.png"):
+        (tmp_path / name).write_bytes(name.encode())
+    for name in ("wood.<UDIM>.png", "stone.png"):
+        scene.put_texture({"origin": {"name": name}, "source": {"File": str(tmp_path / name)}, "colour_space": "auto"})
+    scene.save(tmp_path / "scene", images=True)
+    wood, stone = (texture["source"] for texture in gonio.Scene.load(tmp_path / "scene").to_dict()["textures"])
+    tiles = [(tile["number"], bytes(tile["bytes"])) for tile in wood["Tiles"]["tiles"]]
+    assert tiles == [(1001, b"wood.1001.png"), (1012, b"wood.1012.png")]
+    assert bytes(stone["Encoded"]["bytes"]) == b"stone.png"
 
 
 class Client:

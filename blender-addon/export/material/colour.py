@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colour nodes: Mix with its blend modes, ramps, curves (of vectors too), hue, brightness, separate and combine, blackbody."""
 
+from ..colour_management import to_rec709
 from .translator import value_node
 
 TABLE_SIZE = 256
@@ -103,7 +104,7 @@ def mix_rgb(t, node, context, output):
 @value_node("ShaderNodeValToRGB")
 def colour_ramp(t, node, context, output):
     ramp = node.color_ramp
-    table = [list(ramp.evaluate(i / (TABLE_SIZE - 1))) for i in range(TABLE_SIZE)]
+    table = [list(to_rec709(ramp.evaluate(i / (TABLE_SIZE - 1)))) for i in range(TABLE_SIZE)]
     fields = {"table": table, "range": [0.0, 1.0], "linear": ramp.interpolation != "CONSTANT", "extrapolate": False}
     value = t.graph.add({"Curve": fields}, t.input(node, "Fac", context, 0.5), kind="RGBA")
     return value.component(3) if output.identifier == "Alpha" else value

@@ -3,6 +3,7 @@
 
 from math import pi
 
+from .box_projection import box_projection
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
@@ -24,13 +25,17 @@ def coordinates(t, node, context, default):
 
 @value_node("ShaderNodeTexImage")
 def image_texture(t, node, context, output):
-    uv = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(UV))
-    if node.projection in ("SPHERE", "TUBE"):
-        uv = _wrapped_around(t, uv, node.projection)
-    elif node.projection == "BOX":
-        t.say(node, context, "box projection is not supported; the image is laid flat")
-    texel = _sample(t, node, context, uv, WRAP[node.extension])
-    return texel if texel is None else _with_alpha(t, node, output, texel)
+    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(UV))
+    if node.projection == "BOX":
+        sides = box_projection(t, place, node.projection_blend)
+        texels = [_texel(t, node, context, output, uv) * weight for uv, weight in sides]
+        return texels[0] + texels[1] + texels[2]
+    uv = _wrapped_around(t, place, node.projection) if node.projection in ("SPHERE", "TUBE") else place
+    return _texel(t, node, context, output, uv)
+
+
+def _texel(t, node, context, output, uv):
+    return _with_alpha(t, node, output, _sample(t, node, context, uv, WRAP[node.extension]))
 
 
 def _sample(t, node, context, uv, wrap):

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import bpy
 
 from ...report import words_of
+from ..colour_management import to_rec709
 from .graph import Graph, Value
 from .sockets import KINDS, Context, follow, input_socket
 
@@ -121,7 +122,7 @@ class Translator:
             return Value(self.graph, kind, (0.0, 0.0, 0.0, 1.0) if kind == "RGBA" else (0.0,) * 4)
         if kind == "VALUE":
             return self.graph.scalar(shown)
-        components = [*shown, 0.0, 0.0][:3] if kind == "VECTOR" else list(shown)
+        components = [*shown, 0.0, 0.0][:3] if kind == "VECTOR" else to_rec709(shown)
         return self.graph.vector(components) if kind == "VECTOR" else self.graph.colour(components)
 
     def output(self, node, output, context):

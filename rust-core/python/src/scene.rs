@@ -16,7 +16,6 @@ use gonio::{
 };
 use pyo3::{
     prelude::*,
-    pybacked::PyBackedBytes,
     sync::PyOnceLock,
     types::{PyDict, PyType},
 };
@@ -160,14 +159,14 @@ impl Scene {
 
     /// Adds a texture described as in `to_dict`, or replaces texture `index`; gives its number.
     ///
-    /// In place of a source, `data` gives an encoded file's bytes, whose format `name` tells, or `pixels` linear RGBA floats (height, width, 4)
-    /// with the rows from the top.
+    /// In place of a source, `data` gives a name for messages and an encoded file's bytes, or those of UDIM tiles by number; `pixels` gives linear
+    /// RGBA floats (height, width, 4) with the rows from the top.
     #[pyo3(signature = (description, index = None, *, data = None, pixels = None))]
     fn put_texture(
         &mut self,
         description: &Bound<'_, PyDict>,
         index: Option<u32>,
-        data: Option<(String, PyBackedBytes)>,
+        data: Option<(String, description::Data)>,
         pixels: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<u32> {
         let texture = description::texture(description, data, pixels)?;
@@ -264,12 +263,11 @@ impl Scene {
         description::to_python(py, &self.scene)
     }
 
-    /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with
-    /// `images`; sets of UDIM tiles cannot.
+    /// Saves the scene as a bundle that renders again, bit for bit, without its host. Image files stay names, or travel along with `images`.
     #[pyo3(signature = (path, *, images = false))]
     fn save(&self, py: Python<'_>, path: PathBuf, images: bool) -> PyResult<()> {
         let save = || match images {
-            true => scene::save_bundle(&scene::with_images(&self.scene)?, &path),
+            true => scene::save_bundle(&scene::with_images(&self.scene), &path),
             false => scene::save_bundle(&self.scene, &path),
         };
         py.detach(save).map_err(exception)

@@ -3,15 +3,15 @@
 //! Layout: the line `gonio2`, a line with the lengths of both parts in bytes, the JSON, the arrays (little-endian) one behind the other.
 //! Textures stay files by path; those given in memory travel along.
 
-use super::{Scene, TextureSource, blob};
+use super::{Scene, TextureSource, Tile, blob};
 use crate::{
     atomic::write_atomically,
     digest::Digest,
     {Error, Result},
 };
-use gonio_image::texture::is_udim;
+use gonio_image::texture::{find_tiles, is_udim};
 use serde_json::Value;
-use std::{fs, io::Write, path::Path};
+use std::{fs, io::Write, path::Path, path::PathBuf};
 
 const MAGIC: &str = "gonio2\n";
 
@@ -28,21 +28,20 @@ pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
 }
 
 /// The scene with the bytes of its image files in memory; files that cannot be read stay names, as the picture is made without them.
-///
-/// Sets of UDIM tiles have no place in memory: they are an error.
-pub fn with_images(scene: &Scene) -> Result<Scene> {
+pub fn with_images(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     for texture in &mut scene.textures {
         let TextureSource::File(path) = &texture.source else { continue };
         let name = path.to_string_lossy().into_owned();
         if is_udim(&name) {
-            return Err(Error::scene(&texture.origin, format!("{name} is a set of UDIM tiles, which cannot travel along")));
-        }
-        if let Ok(bytes) = fs::read(path) {
+            let read = |(number, path): (u32, PathBuf)| Some(Tile { number, bytes: fs::read(path).ok()?.into() });
+            let tiles = find_tiles(&name).into_iter().filter_map(read).collect();
+            texture.source = TextureSource::Tiles { name, tiles };
+        } else if let Ok(bytes) = fs::read(path) {
             texture.source = TextureSource::Encoded { name, bytes: bytes.into() };
         }
     }
-    Ok(scene)
+    scene
 }
 
 /// Loads a scene.

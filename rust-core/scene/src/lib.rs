@@ -45,7 +45,7 @@ pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use settings::{Background, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
-pub use texture::{Texture, TextureFilter, TextureSource, WrapMode};
+pub use texture::{Texture, TextureFilter, TextureSource, Tile, WrapMode};
 pub use transform::Transform;
 
 use serde::{Deserialize, Serialize};

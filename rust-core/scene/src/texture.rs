@@ -9,13 +9,20 @@ use std::{path::PathBuf, sync::Arc};
 pub enum TextureSource {
     /// A file; `<UDIM>` in the name stands for the tile number.
     File(PathBuf),
-    /// An encoded file in memory, with a name that tells its format.
+    /// An encoded file in memory; its first bytes tell its format.
     Encoded {
-        /// Name for messages; its ending tells the format.
+        /// Name for messages.
         name: String,
         /// The file's bytes.
         #[serde(with = "super::blob")]
         bytes: Arc<[u8]>,
+    },
+    /// A set of UDIM tiles as encoded files in memory.
+    Tiles {
+        /// Name for messages.
+        name: String,
+        /// The tiles.
+        tiles: Vec<Tile>,
     },
     /// Linear float RGBA, rows from the top.
     Pixels {
@@ -27,6 +34,16 @@ pub enum TextureSource {
         #[serde(with = "super::blob")]
         rgba: Arc<[f32]>,
     },
+}
+
+/// One image of a set of UDIM tiles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tile {
+    /// 1001 for the unit square, one more to its right, ten more above it.
+    pub number: u32,
+    /// The file's bytes.
+    #[serde(with = "super::blob")]
+    pub bytes: Arc<[u8]>,
 }
 
 /// What lies beyond the image.

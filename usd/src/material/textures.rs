@@ -9,12 +9,14 @@ use crate::prim::{Attribute, Prim};
 use crate::pxr::Module;
 use crate::vt::AssetPath;
 use gonio::colour::ColourSpace;
-use gonio::scene::{Input, Operation, Origin, Texture, TextureId, TextureSource};
+use gonio::scene::{Input, Operation, Origin, Texture, TextureId, TextureSource, Tile};
 use pyo3::{intern, prelude::*};
 use std::{path::Path, sync::Arc};
 
 /// What stands for the tile number in a file name.
 const UDIM: &str = "<UDIM>";
+/// The tiles that UsdShade's own search looks for.
+const TILES: std::ops::RangeInclusive<u32> = 1001..=1100;
 
 /// The path of a tiled image with the tile number's place kept; empty if there is no tile.
 fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
@@ -52,6 +54,10 @@ fn resolve_text(attribute: &Attribute<'_>, authored: &str) -> String {
 
 /// The content of what a resolved path names.
 fn open(py: Python<'_>, place: &str) -> Result<TextureSource, String> {
+    if place.contains(UDIM) && place.ends_with(']') {
+        let tile = |number| Some(Tile { number, bytes: asset::bytes(py, &place.replace(UDIM, &format!("{number}"))).ok()?.into() });
+        return Ok(TextureSource::Tiles { name: place.to_owned(), tiles: TILES.filter_map(tile).collect() });
+    }
     if place.contains(UDIM) || Path::new(place).is_file() {
         return Ok(TextureSource::File(place.into()));
     }

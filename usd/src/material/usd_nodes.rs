@@ -104,7 +104,7 @@ fn is_unscaled<'py>(network: &mut Network<'_, '_, 'py>, texture: &Shader<'py>) -
 
 fn is_unsigned_format(file: &str) -> bool {
     let end = file.trim_end_matches(']').rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-    matches!(end.as_str(), "png" | "jpg" | "jpeg" | "tga" | "bmp")
+    matches!(end.as_str(), "png" | "jpg" | "jpeg" | "tga" | "bmp" | "webp" | "gif" | "avif")
 }
 
 /// The preview surface's `normal` input as a tangent-space normal in [-1, 1]; `None` if it is not connected.

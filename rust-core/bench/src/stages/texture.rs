@@ -4,7 +4,7 @@ use crate::{
     kernel::{Case, Kernel, Outcome},
     numbers::{BATCH, STEPS, column},
 };
-use gonio::colour::ColourSpace;
+use gonio::colour::{ColourSpace, Stated};
 use gonio::error::{Error, Result};
 use gonio::texture::{Filter, Image, MipMap, Texels, TextureTable, Wrap};
 use gonio_simd::{Column, Execution, Lanes, Vec2, dispatch};
@@ -27,8 +27,8 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
     let [small, large] = SIDES;
     let case = |name: &str, side: u32, texels: Texels, space: ColourSpace, texels_wide: f32, filter: Filter| {
         let channels = (texels.len() / (side * side) as usize) as u32;
-        let image = Image { width: side, height: side, channels, texels, primaries: None };
-        let map = MipMap::build(&image, space, None, cancel).map_err(|error| Error::Internal(error.to_string()))?;
+        let image = Image { width: side, height: side, channels, texels, stated: Stated::Nothing };
+        let map = MipMap::build(&image, space, cancel).map_err(|error| Error::Internal(error.to_string()))?;
         let mut table = TextureTable::new();
         table.push(Arc::new(map));
         let (uv, mut width) = ([column(STEPS[0]), column(STEPS[1])], column(STEPS[2]));

@@ -29,7 +29,7 @@ impl Stamp {
     pub(super) fn of(texture: &Texture) -> Self {
         let modified = match &texture.source {
             TextureSource::File(path) => fs::metadata(path).and_then(|file| file.modified()).ok(),
-            TextureSource::Encoded { .. } | TextureSource::Pixels { .. } => None,
+            TextureSource::Encoded { .. } | TextureSource::Tiles { .. } | TextureSource::Pixels { .. } => None,
         };
         Self { source: texture.source.clone(), colour_space: texture.colour_space.clone(), modified }
     }
@@ -37,6 +37,9 @@ impl Stamp {
         let same_source = match (&self.source, &other.source) {
             (TextureSource::File(a), TextureSource::File(b)) => a == b,
             (TextureSource::Encoded { bytes: a, .. }, TextureSource::Encoded { bytes: b, .. }) => Arc::ptr_eq(a, b),
+            (TextureSource::Tiles { tiles: a, .. }, TextureSource::Tiles { tiles: b, .. }) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.number == b.number && Arc::ptr_eq(&a.bytes, &b.bytes))
+            }
             (TextureSource::Pixels { rgba: a, .. }, TextureSource::Pixels { rgba: b, .. }) => Arc::ptr_eq(a, b),
             _ => false,
         };

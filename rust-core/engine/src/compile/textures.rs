@@ -1,16 +1,18 @@
 //! Images of materials as mip maps, images of lights as plain arrays.
 
 use super::kept::{KeptImages, Stamp, Tiles};
+use super::light_images::{LightImages, light_images};
 use crate::{
-    colour::{ColourSpace, file_rule},
-    error::{Diagnostic, Error, Result},
+    colour::{ColourSpace, Stated},
+    error::{Diagnostic, Result},
     light::LightTexture,
-    scene::{DomeFormat, LightShape, Operation, Scene, Texture, TextureId, TextureSource},
-    texture::{self, Image, LatLong, MipMap, Source, Texels, TextureRequest, TextureTable, find_tiles, is_udim},
+    scene::{Operation, Scene, Texture, TextureId, TextureSource, Tile},
+    texture::{self, Image, MipMap, Source, Texels, TextureError, TextureRequest, TextureTable, find_tiles, is_udim, tile_path},
 };
+use rayon::prelude::*;
 use std::{
-    path::Path,
     sync::{Arc, atomic::AtomicBool},
+    time::Instant,
 };
 
 /// Loaded images and where the scene's textures are among them.
@@ -23,6 +25,8 @@ pub(super) struct CompiledTextures {
     pub(super) light_numbers: Vec<Option<u32>>,
     /// For the next compilation.
     pub(super) kept: KeptImages,
+    /// What reading, decoding and filtering took.
+    pub(super) seconds: f64,
 }
 
 impl CompiledTextures {
@@ -39,50 +43,51 @@ struct Wanted {
     request: TextureRequest,
 }
 
-/// Loads all images that materials and lights use; those that fail are reported.
+/// Loads all images that materials and lights use, side by side; those that fail are reported.
 pub(super) fn compile(
     scene: &Scene,
     previous: &KeptImages,
     cancel: &AtomicBool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledTextures> {
+    let start = Instant::now();
     let used = used_by_materials(scene);
-    let mut wanted = Vec::new();
+    let (mut wanted, mut pixels) = (Vec::new(), Vec::new());
     let mut maps: Vec<Tiles> = vec![Vec::new(); scene.textures.len()];
-    let mut kept = KeptImages::default();
     let stamps: Vec<Stamp> = scene.textures.iter().map(Stamp::of).collect();
     for (number, texture) in scene.textures.iter().enumerate().filter(|(number, _)| used[*number]) {
-        if let Some(tiles) = previous.tiles(&stamps[number]) {
-            maps[number].clone_from(tiles);
-            continue;
-        }
-        match &texture.source {
-            TextureSource::Pixels { width, height, rgba } => {
-                let image = float_image(*width, *height, rgba.to_vec());
-                match MipMap::build(&image, ColourSpace::Raw, None, cancel) {
-                    Ok(map) => maps[number].push((0, Arc::new(map))),
-                    Err(error) => report(texture, &error.to_string(), diagnostics),
-                }
-            }
-            _ => wanted.extend(requests(number, texture, diagnostics)),
+        match (previous.tiles(&stamps[number]), &texture.source) {
+            (Some(tiles), _) => maps[number].clone_from(tiles),
+            (None, TextureSource::Pixels { .. }) => pixels.push(number),
+            (None, _) => wanted.extend(requests(number, texture, diagnostics)),
         }
     }
     let requests: Vec<TextureRequest> = wanted.iter().map(|w| w.request.clone()).collect();
-    let loaded = texture::load_set(&requests, cancel);
+    let build = |number: &usize| build(&scene.textures[*number], cancel);
+    let (loaded, (built, lights)) = rayon::join(
+        || texture::load_set(&requests, cancel),
+        || rayon::join(|| pixels.par_iter().map(build).collect::<Vec<_>>(), || light_images(scene, &stamps, previous)),
+    );
     super::check(cancel)?;
-    for (w, result) in wanted.iter().zip(loaded) {
+    let loaded = wanted.iter().map(|w| (w.texture, w.tile.unwrap_or(0))).zip(loaded);
+    for ((number, tile), result) in loaded.chain(pixels.iter().map(|number| (*number, 0)).zip(built)) {
+        let texture = &scene.textures[number];
         match result {
-            Ok(map) => maps[w.texture].push((w.tile.unwrap_or(0), map)),
-            Err(error) => report(&scene.textures[w.texture], &error.to_string(), diagnostics),
+            Ok(map) => {
+                diagnostics.extend(map.note().map(|note| unusable(texture, note)));
+                maps[number].push((tile, map));
+            }
+            Err(error) => report(texture, &error.to_string(), diagnostics),
         }
     }
+    let mut kept = KeptImages::default();
     for (number, tiles) in maps.iter().enumerate().filter(|(_, tiles)| !tiles.is_empty()) {
         kept.keep_tiles(stamps[number].clone(), tiles.clone());
     }
     let mut table = TextureTable::new();
     let numbers = maps.into_iter().map(|tiles| push(&mut table, tiles)).collect();
-    let (of_lights, light_numbers) = light_images(scene, &stamps, previous, &mut kept, diagnostics)?;
-    Ok(CompiledTextures { table, numbers, of_lights, light_numbers, kept })
+    let LightImages { images, numbers: light_numbers } = lights.finish(scene, &stamps, &mut kept, diagnostics);
+    Ok(CompiledTextures { table, numbers, of_lights: images, light_numbers, kept, seconds: start.elapsed().as_secs_f64() })
 }
 
 fn push(table: &mut TextureTable, mut tiles: Tiles) -> Option<u32> {
@@ -97,6 +102,16 @@ fn report(texture: &Texture, what: &str, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.push(Diagnostic::warning(&texture.origin, format!("{what}; the fallback value is used")));
 }
 
+/// What is told of a header that says of its colours what cannot be used.
+pub(super) fn unusable(texture: &Texture, note: &str) -> Diagnostic {
+    let name = match &texture.source {
+        TextureSource::File(path) => path.display().to_string(),
+        TextureSource::Encoded { name, .. } | TextureSource::Tiles { name, .. } => name.clone(),
+        TextureSource::Pixels { .. } => String::new(),
+    };
+    Diagnostic::warning(&texture.origin, format!("{name} {note}; it is read as if its header said nothing of colours"))
+}
+
 fn used_by_materials(scene: &Scene) -> Vec<bool> {
     let mut used = vec![false; scene.textures.len()];
     for node in scene.materials.iter().flat_map(|material| &material.graph.nodes) {
@@ -109,119 +124,45 @@ fn used_by_materials(scene: &Scene) -> Vec<bool> {
     used
 }
 
-fn colour_space(texture: &Texture, diagnostics: &mut Vec<Diagnostic>) -> ColourSpace {
+pub(super) fn colour_space(texture: &Texture, diagnostics: &mut Vec<Diagnostic>) -> ColourSpace {
     ColourSpace::parse(&texture.colour_space).unwrap_or_else(|error| {
         diagnostics.push(Diagnostic::warning(&texture.origin, format!("{error}; read as 'auto'")));
         ColourSpace::Auto
     })
 }
 
+/// The mip map of pixels that are linear floats already.
+fn build(texture: &Texture, cancel: &AtomicBool) -> std::result::Result<Arc<MipMap>, TextureError> {
+    let TextureSource::Pixels { width, height, rgba } = &texture.source else { unreachable!("only pixels are built") };
+    MipMap::build(&float_image(*width, *height, rgba.to_vec()), ColourSpace::Raw, cancel).map(Arc::new)
+}
+
 fn requests(number: usize, texture: &Texture, diagnostics: &mut Vec<Diagnostic>) -> Vec<Wanted> {
-    let space = colour_space(texture, diagnostics);
-    let request = |source: Source, name: &str| {
-        let mut request = match source {
-            Source::Path(path) => TextureRequest::path(path, space),
-            Source::Bytes { name, bytes } => TextureRequest::bytes(&name, bytes, space),
-        };
-        request.fallback = file_rule(name);
-        request
-    };
-    let name_of = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let colour_space = colour_space(texture, diagnostics);
+    let wanted = |tile: Option<u32>, source: Source| Wanted { texture: number, tile, request: TextureRequest { source, colour_space } };
     match &texture.source {
         TextureSource::Pixels { .. } => Vec::new(),
         TextureSource::Encoded { name, bytes } => {
-            let source = Source::Bytes { name: name.as_str().into(), bytes: bytes.clone() };
-            vec![Wanted { texture: number, tile: None, request: request(source, name) }]
+            vec![wanted(None, Source::Bytes { name: name.as_str().into(), bytes: bytes.clone() })]
+        }
+        TextureSource::Tiles { name, tiles } => {
+            if tiles.is_empty() {
+                report(texture, &format!("{name}: no tile of the UDIM set was found"), diagnostics);
+            }
+            let source = |tile: &Tile| Source::Bytes { name: tile_path(name, tile.number).into(), bytes: tile.bytes.clone() };
+            tiles.iter().map(|tile| wanted(Some(tile.number), source(tile))).collect()
         }
         TextureSource::File(path) if is_udim(&path.to_string_lossy()) => {
             let tiles = find_tiles(&path.to_string_lossy());
             if tiles.is_empty() {
                 report(texture, &format!("{}: no tile of the UDIM set was found", path.display()), diagnostics);
             }
-            let wanted = |(tile, path): (u32, std::path::PathBuf)| {
-                let name = name_of(&path);
-                Wanted { texture: number, tile: Some(tile), request: request(Source::Path(path), &name) }
-            };
-            tiles.into_iter().map(wanted).collect()
+            tiles.into_iter().map(|(tile, path)| wanted(Some(tile), Source::Path(path))).collect()
         }
-        TextureSource::File(path) => {
-            vec![Wanted { texture: number, tile: None, request: request(Source::Path(path.clone()), &name_of(path)) }]
-        }
+        TextureSource::File(path) => vec![wanted(None, Source::Path(path.clone()))],
     }
 }
 
-fn float_image(width: u32, height: u32, rgba: Vec<f32>) -> Image {
-    Image { width, height, channels: 4, texels: Texels::Float(rgba), primaries: None }
-}
-
-/// Images, and which of them each light of the scene has.
-type LightImages = (Vec<Arc<LightTexture>>, Vec<Option<u32>>);
-
-/// The images of rectangles and domes.
-fn light_images(
-    scene: &Scene,
-    stamps: &[Stamp],
-    previous: &KeptImages,
-    kept: &mut KeptImages,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<LightImages> {
-    let mut images = Vec::new();
-    let mut numbers = Vec::with_capacity(scene.lights.len());
-    for light in &scene.lights {
-        let Some(id) = light.texture.filter(|id| id.index() < scene.textures.len()) else {
-            numbers.push(None);
-            continue;
-        };
-        let (texture, stamp) = (&scene.textures[id.index()], &stamps[id.index()]);
-        let format = match light.shape {
-            LightShape::Dome { format } => dome_format(format),
-            _ => texture::DomeFormat::LatLong,
-        };
-        let image = match previous.light(stamp, format) {
-            Some(image) => Ok(image),
-            None => light_image(texture, format, diagnostics).map(Arc::new),
-        };
-        match image {
-            Ok(image) => {
-                kept.keep_light(stamp.clone(), format, image.clone());
-                numbers.push(Some(images.len() as u32));
-                images.push(image);
-            }
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            Err(error) => {
-                diagnostics.push(Diagnostic::warning(&light.origin, format!("{error}; the light shines without its texture")));
-                numbers.push(None);
-            }
-        }
-    }
-    Ok((images, numbers))
-}
-
-fn dome_format(format: DomeFormat) -> texture::DomeFormat {
-    match format {
-        DomeFormat::Automatic | DomeFormat::LatLong => texture::DomeFormat::LatLong,
-        DomeFormat::MirroredBall => texture::DomeFormat::MirroredBall,
-        DomeFormat::Angular => texture::DomeFormat::Angular,
-        DomeFormat::CubeMapVerticalCross => texture::DomeFormat::CubeMapVerticalCross,
-    }
-}
-
-fn light_image(texture: &Texture, format: texture::DomeFormat, diagnostics: &mut Vec<Diagnostic>) -> Result<LightTexture> {
-    let failed = |error: texture::TextureError| Error::scene(&texture.origin, error.to_string());
-    let (source, name) = match &texture.source {
-        TextureSource::File(path) => (Source::Path(path.clone()), path.to_string_lossy().into_owned()),
-        TextureSource::Encoded { name, bytes } => (Source::Bytes { name: name.as_str().into(), bytes: bytes.clone() }, name.clone()),
-        TextureSource::Pixels { width, height, rgba } => {
-            let image = float_image(*width, *height, rgba.to_vec());
-            let latlong = LatLong::from_image(&image, format, ColourSpace::Raw, None).map_err(failed)?;
-            return Ok(light_texture(latlong));
-        }
-    };
-    let image = texture::load_image(&source).map_err(failed)?;
-    let space = colour_space(texture, diagnostics);
-    Ok(light_texture(LatLong::from_image(&image, format, space, file_rule(&name)).map_err(failed)?))
-}
-
-fn light_texture(image: LatLong) -> LightTexture {
-    LightTexture { width: image.width, height: image.height, rgb: image.rgb.into_iter().flatten().collect() }
+pub(super) fn float_image(width: u32, height: u32, rgba: Vec<f32>) -> Image {
+    Image { width, height, channels: 4, texels: Texels::Float(rgba), stated: Stated::Nothing }
 }

@@ -93,6 +93,14 @@ impl Gamut {
     }
 }
 
+/// The matrix from the connection space of ICC profiles, XYZ under D50 (ICC.1:2022, 6.3.4.3), to linear Rec.709.
+pub(super) fn xyz_d50_to_rec709() -> Option<Matrix3> {
+    const WHITE: [f64; 3] = [0.9642, 1.0, 0.8249];
+    let sum: f64 = WHITE.iter().sum();
+    let adapted = adaptation([WHITE[0] / sum, WHITE[1] / sum], D65)?;
+    Some(product(&inverse(&REC709.to_xyz()?)?, &adapted))
+}
+
 /// XYZ of a white point with Y = 1.
 fn white_xyz([x, y]: [f64; 2]) -> Option<[f64; 3]> {
     (y.is_finite() && y.abs() > 1e-6).then(|| [x / y, 1.0, (1.0 - x - y) / y])

@@ -1,17 +1,23 @@
 //! Colour spaces: transfer functions, gamuts, and the names that USD, MaterialX, OCIO and Blender give them. The core renders in linear Rec.709.
 
+mod curve;
 mod gamut;
 mod matrix;
+mod profile;
 mod space;
+mod stated;
 mod transfer;
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests;
 
+pub use curve::Curve;
 pub use gamut::{Gamut, Primaries};
 pub use matrix::{Matrix3, apply, inverse, product};
-pub use space::{ColourSpace, UnknownColourSpace, file_rule};
+pub use profile::from_profile;
+pub use space::{ColourSpace, UnknownColourSpace};
+pub use stated::{Encoding, Stated};
 pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};
 
 /// Weights of luminance in linear Rec.709 (ITU-R BT.709).

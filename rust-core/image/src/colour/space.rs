@@ -5,7 +5,8 @@ use super::{Gamut, Transfer};
 /// How the numbers of an image file mean light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ColourSpace {
-    /// Decided by the file: sRGB for 8-bit images of three or four channels, else the primaries that the header states, else raw.
+    /// Decided by the file: what its header says of its colours, else sRGB for 8-bit images of three or four channels, else raw
+    /// (UsdPreviewSurface specification, `sourceColorSpace`).
     Auto,
     /// Numbers that are not colours (normals, roughness, heights): used as they stand.
     Raw,
@@ -78,40 +79,13 @@ impl core::fmt::Display for UnknownColourSpace {
 
 impl core::error::Error for UnknownColourSpace {}
 
-/// The colour space that a file name announces between dots or underscores (`wall.ACEScg.exr`, `sky_lin_rec709.hdr`), as OCIO's file rules
-/// read it: the last announcement counts. Only for callers that ask for such rules.
-pub fn file_rule(file_name: &str) -> Option<ColourSpace> {
-    let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem).to_ascii_lowercase();
-    let ends = |at: usize| stem[at..].chars().next().is_none_or(|c| !c.is_ascii_alphanumeric());
-    let starts = |at: usize| stem[..at].chars().next_back().is_none_or(|c| !c.is_ascii_alphanumeric());
-    let announced = FILE_RULES.iter().filter_map(|(word, space)| {
-        let at = stem.rfind(word)?;
-        (starts(at) && ends(at + word.len())).then_some((at + word.len(), word.len(), *space))
-    });
-    announced.max_by_key(|(end, length, _)| (*end, *length)).map(|(_, _, space)| space)
-}
-
-const FILE_RULES: &[(&str, ColourSpace)] = &[
-    ("acescg", ColourSpace::ACES_CG),
-    ("lin_ap1", ColourSpace::ACES_CG),
-    ("aces2065-1", ColourSpace::ACES_2065),
-    ("lin_ap0", ColourSpace::ACES_2065),
-    ("lin_rec709", ColourSpace::LINEAR_REC709),
-    ("lin_srgb", ColourSpace::LINEAR_REC709),
-    ("lin_rec2020", ColourSpace::LINEAR_REC2020),
-    ("lin_displayp3", ColourSpace::LINEAR_P3),
-    ("srgb_texture", ColourSpace::SRGB_TEXTURE),
-    ("srgb", ColourSpace::SRGB_TEXTURE),
-    ("raw", ColourSpace::Raw),
-];
-
 /// Names without case and punctuation, parted by spaces, and what they mean.
 const NAMES: &[(&str, ColourSpace)] = &[
     ("auto automatic", ColourSpace::Auto),
-    ("raw noncolor noncolour none data unknown identity utilityraw utraw", ColourSpace::Raw),
+    ("raw noncolor noncolour none data unknown identity utilityraw utraw inputraw", ColourSpace::Raw),
     (
-        "srgb srgbtexture srgbrec709 srgbrec709scene srgbencodedrec709srgb srgbencodedrec709scene utilitysrgbtexture inputgenericsrgbtexture srgbtx \
-         srgbdisplay outputsrgb",
+        "srgb srgbtexture srgbrec709 srgbrec709scene srgbrec709display srgbencodedrec709srgb srgbencodedrec709scene utilitysrgbtexture \
+         inputgenericsrgbtexture srgbtx srgbdisplay outputsrgb",
         ColourSpace::SRGB_TEXTURE,
     ),
     (
@@ -122,15 +96,22 @@ const NAMES: &[(&str, ColourSpace)] = &[
     ("acescg linap1 linap1scene linearap1 acesacescg lincg", ColourSpace::ACES_CG),
     ("aces20651 aces linap0 linap0scene linearap0 acesaces20651", ColourSpace::ACES_2065),
     ("linp3d65 lindisplayp3 linp3d65scene linearp3d65 lineardisplayp3 lineardcip3d65 utilitylinearp3d65", ColourSpace::LINEAR_P3),
-    ("displayp3 srgbdisplayp3 srgbp3d65 srgbp3d65scene srgbencodedp3d65", ColourSpace::DISPLAY_P3),
+    (
+        "displayp3 displayp3display srgbdisplayp3 srgbp3d65 srgbp3d65scene srgbp3d65display srgbencodedp3d65 srgbencodedp3d65texture",
+        ColourSpace::DISPLAY_P3,
+    ),
     ("linrec2020 linrec2020scene linearrec2020 linearbt2020 utilitylinearrec2020", ColourSpace::LINEAR_REC2020),
     ("g22rec709 g22rec709scene g22rec709tx gamma22 gamma22rec709texture gamma22encodedrec709", ColourSpace::G22),
     ("g18rec709 g18rec709scene gamma18rec709texture gamma18encodedrec709", colour(Transfer::Gamma18, Gamut::Rec709)),
-    ("rec709display g24rec709 rec1886 gamma24rec709texture gamma24encodedrec709", colour(Transfer::Gamma24, Gamut::Rec709)),
+    (
+        "rec709display g24rec709 g24rec709display rec1886 rec1886rec709display gamma24rec709texture gamma24encodedrec709",
+        colour(Transfer::Gamma24, Gamut::Rec709),
+    ),
     ("g22ap1 g22ap1scene gamma22ap1texture gamma22encodedap1", colour(Transfer::Gamma22, Gamut::Ap1)),
+    ("g18ap1 g18ap1scene gamma18ap1texture gamma18encodedap1", colour(Transfer::Gamma18, Gamut::Ap1)),
     ("srgbap1 srgbap1scene srgbencodedap1 srgbencodedap1texture", colour(Transfer::Srgb, Gamut::Ap1)),
-    ("adobergb g22adobergb g22adobergbscene", colour(Transfer::AdobeRgb, Gamut::AdobeRgb)),
+    ("adobergb g22adobergb g22adobergbscene gamma22encodedadobergb", colour(Transfer::AdobeRgb, Gamut::AdobeRgb)),
     ("linadobergb linadobergbscene linearadobergb", colour(Transfer::Linear, Gamut::AdobeRgb)),
-    ("linciexyzd65 linciexyzd65scene linearciexyzd65 ciexyzd65", colour(Transfer::Linear, Gamut::XyzD65)),
+    ("linciexyzd65 linciexyzd65scene linearciexyzd65 ciexyzd65 ciexyzd65scenereferred", colour(Transfer::Linear, Gamut::XyzD65)),
     ("ciexyz xyz linearciexyze linciexyze", colour(Transfer::Linear, Gamut::XyzE)),
 ];

@@ -116,13 +116,3 @@ fn names_are_known() {
     let error = ColourSpace::parse("Filmic Log").unwrap_err();
     assert!(error.to_string().contains("'Filmic Log'"), "{error}");
 }
-
-#[test]
-fn file_names_announce_spaces() {
-    assert_eq!(file_rule("wall_top.ACEScg.exr"), Some(ColourSpace::ACES_CG));
-    assert_eq!(file_rule("sky_lin_rec709.hdr"), Some(ColourSpace::LINEAR_REC709));
-    assert_eq!(file_rule("raw_brick_srgb.png"), Some(ColourSpace::SRGB_TEXTURE));
-    assert_eq!(file_rule("crawfish.png"), None);
-    assert_eq!(file_rule("straw.exr"), None);
-    assert_eq!(file_rule("é.srgb"), None);
-}

@@ -32,6 +32,11 @@ pub struct TextureError {
 }
 
 impl TextureError {
+    /// A sound file of a sort that is not supported where it is used.
+    pub fn unsupported(path: &str, what: &str) -> Self {
+        Self::new(TextureErrorKind::Unsupported, what).at(path)
+    }
+
     pub(crate) fn new(kind: TextureErrorKind, what: impl Into<String>) -> Self {
         Self { path: Arc::from(""), kind, what: one_line(&what.into()), hint: String::new() }
     }

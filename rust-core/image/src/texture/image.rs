@@ -1,6 +1,6 @@
 //! A decoded image, as its file stores it.
 
-use crate::colour::Primaries;
+use crate::colour::Stated;
 use half::f16;
 
 /// An image before any colour conversion.
@@ -14,8 +14,8 @@ pub struct Image {
     pub channels: u32,
     /// The values, row by row, channels interleaved.
     pub texels: Texels,
-    /// The primaries that the file's header states.
-    pub primaries: Option<Primaries>,
+    /// What the file's header says of its colours.
+    pub stated: Stated,
 }
 
 /// The values of an image; integers mean fractions of their largest.

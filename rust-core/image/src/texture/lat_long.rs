@@ -37,15 +37,15 @@ pub struct LatLong {
 }
 
 impl LatLong {
-    /// Converts an image of a format; `space` and `fallback` are as in [`super::TextureRequest`]. A lat-long image keeps its texels, others
-    /// are resampled bilinearly at a like density.
-    pub fn from_image(image: &Image, format: DomeFormat, space: ColourSpace, fallback: Option<ColourSpace>) -> Result<Self, TextureError> {
+    /// Converts an image of a format whose numbers mean `space`. A lat-long image keeps its texels, others are resampled bilinearly at a
+    /// like density.
+    pub fn from_image(image: &Image, format: DomeFormat, space: ColourSpace) -> Result<Self, TextureError> {
         if image.is_empty() || image.texels.len() != image.len() * image.channels as usize {
             return Err(TextureError::malformed("the image has no texels"));
         }
-        let conversion = Conversion::resolve(space, fallback, image);
+        let conversion = Conversion::resolve(space, image);
         let linear = |index: usize| {
-            let [r, g, b, _] = conversion.convert(image.rgba(index));
+            let [r, g, b, _] = conversion.texel(image, index);
             [r, g, b]
         };
         let rgb: Vec<_> = (0..image.len()).into_par_iter().map(linear).collect();

@@ -50,19 +50,17 @@ pub struct TextureRequest {
     pub source: Source,
     /// What its numbers mean.
     pub colour_space: ColourSpace,
-    /// What `ColourSpace::Auto` takes where the file's header says nothing, for example what [`crate::colour::file_rule`] reads in its name.
-    pub fallback: Option<ColourSpace>,
 }
 
 impl TextureRequest {
     /// A file in a colour space.
     pub fn path(path: impl Into<PathBuf>, colour_space: ColourSpace) -> Self {
-        Self { source: Source::Path(path.into()), colour_space, fallback: None }
+        Self { source: Source::Path(path.into()), colour_space }
     }
 
     /// Bytes in a colour space.
     pub fn bytes(name: &str, bytes: impl Into<Arc<[u8]>>, colour_space: ColourSpace) -> Self {
-        Self { source: Source::Bytes { name: Arc::from(name), bytes: bytes.into() }, colour_space, fallback: None }
+        Self { source: Source::Bytes { name: Arc::from(name), bytes: bytes.into() }, colour_space }
     }
 }
 
@@ -80,7 +78,7 @@ pub fn load(request: &TextureRequest, cancel: &AtomicBool) -> Result<MipMap, Tex
     let name = request.source.name();
     stop_if(cancel).map_err(|error| error.at(&name))?;
     let image = load_image(&request.source)?;
-    let built = stop_if(cancel).and_then(|()| MipMap::build(&image, request.colour_space, request.fallback, cancel));
+    let built = stop_if(cancel).and_then(|()| MipMap::build(&image, request.colour_space, cancel));
     built.map_err(|error| error.at(&name))
 }
 
@@ -94,9 +92,9 @@ pub fn load_set(requests: &[TextureRequest], cancel: &AtomicBool) -> Vec<Result<
 /// The distinct requests, and each request's place among them.
 fn deduplicate(requests: &[TextureRequest]) -> (Vec<&TextureRequest>, Vec<usize>) {
     let mut unique: Vec<&TextureRequest> = Vec::new();
-    let mut known: HashMap<(String, ColourSpace, Option<ColourSpace>), Vec<usize>> = HashMap::new();
+    let mut known: HashMap<(String, ColourSpace), Vec<usize>> = HashMap::new();
     let places = requests.iter().map(|request| {
-        let candidates = known.entry((request.source.name(), request.colour_space, request.fallback)).or_default();
+        let candidates = known.entry((request.source.name(), request.colour_space)).or_default();
         if let Some(place) = candidates.iter().find(|place| unique[**place].source.same(&request.source)) {
             return *place;
         }

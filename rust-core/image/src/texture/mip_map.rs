@@ -6,7 +6,7 @@ use super::image::{Image, Texels};
 use super::pyramid::{half_size, shrink};
 use super::resolve::Conversion;
 use super::texel::{TexelFormat, pack_bytes, pack_halves, unpack_halves};
-use crate::colour::{ColourSpace, Transfer};
+use crate::colour::{ColourSpace, Stated, Transfer};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -50,17 +50,18 @@ pub struct MipMap {
     pub(crate) table: Box<[f32; 256]>,
     pub(crate) levels: Levels,
     pub(crate) words: Vec<f32>,
+    note: Option<String>,
 }
 
 /// More words than hardware gathers can index.
 const MAX_WORDS: usize = i32::MAX as usize;
 
 impl MipMap {
-    /// Builds the pyramid of an image whose numbers mean `space`; `fallback` is the space that `Auto` takes where the file says nothing.
+    /// Builds the pyramid of an image whose numbers mean `space`.
     ///
     /// Errors: the image's values do not match its size, the pyramid is too large to index, or `cancel` was raised.
-    pub fn build(image: &Image, space: ColourSpace, fallback: Option<ColourSpace>, cancel: &AtomicBool) -> Result<Self, TextureError> {
-        let conversion = Conversion::resolve(space, fallback, image);
+    pub fn build(image: &Image, space: ColourSpace, cancel: &AtomicBool) -> Result<Self, TextureError> {
+        let conversion = Conversion::resolve(space, image);
         check(image)?;
         let format = choose_format(image, &conversion);
         let levels = Levels::new(image.width as usize, image.height as usize);
@@ -73,8 +74,12 @@ impl MipMap {
             )
             .hint("split the image into UDIM tiles"));
         }
-        let transfer = if format == TexelFormat::Byte { conversion.transfer } else { Transfer::Linear };
-        let mut map = Self { format, transfer, table: Box::new(transfer.table()), levels, words: vec![0.0; words] };
+        let transfer = conversion.transfer().filter(|_| format == TexelFormat::Byte).unwrap_or(Transfer::Linear);
+        let note = match &image.stated {
+            Stated::Unusable(what) if space == ColourSpace::Auto => Some(what.clone()),
+            _ => None,
+        };
+        let mut map = Self { format, transfer, table: Box::new(transfer.table()), levels, words: vec![0.0; words], note };
         map.fill_finest(image, &conversion);
         map.fill_coarser(cancel)?;
         Ok(map)
@@ -93,6 +98,11 @@ impl MipMap {
     /// How the texels are stored.
     pub fn format(&self) -> TexelFormat {
         self.format
+    }
+
+    /// What the file's header says of its colours but could not be used: words that follow the file's name.
+    pub fn note(&self) -> Option<&str> {
+        self.note.as_deref()
     }
 
     /// Bytes held.
@@ -142,7 +152,7 @@ impl MipMap {
         }
         let format = self.format;
         texels.par_chunks_exact_mut(format.words()).enumerate().for_each(|(index, words)| {
-            store(format, words, conversion.convert(image.rgba(index)));
+            store(format, words, conversion.texel(image, index));
         });
     }
 
@@ -199,7 +209,7 @@ fn check(image: &Image) -> Result<(), TextureError> {
 
 /// The smallest storage that keeps what the file says: bytes stay bytes, colours become halves, numbers that halves would round stay floats.
 fn choose_format(image: &Image, conversion: &Conversion) -> TexelFormat {
-    if image.is_byte() && conversion.gamut.is_none() {
+    if image.is_byte() && conversion.transfer().is_some() {
         return TexelFormat::Byte;
     }
     if image.channels == 1 {

@@ -1,50 +1,90 @@
 //! From the colour space asked for and the image at hand to what must be done with its numbers.
 
-use super::image::Image;
-use crate::colour::{ColourSpace, Matrix3, Transfer, apply};
+use super::image::{Image, Texels};
+use crate::colour::{ColourSpace, Curve, Encoding, Stated, Transfer, apply};
+use rayon::prelude::*;
 
 /// What turns stored numbers into linear Rec.709.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Conversion {
     /// From stored to linear, on colour channels only.
-    pub(crate) transfer: Transfer,
-    /// From the file's gamut; nothing where it is Rec.709 or the numbers are not colours.
-    pub(crate) gamut: Option<Matrix3>,
+    encoding: Encoding,
     /// Whether the numbers are colours, of which half precision is enough.
     pub(crate) is_colour: bool,
+    /// Linear values of all codes of an integer image, for red, green and blue; empty where numbers stay as they are.
+    codes: Vec<[f32; 3]>,
 }
 
 impl Conversion {
-    /// Resolves `space` for `image`; `fallback` is used by `Auto` where neither the image's depth nor its header decides.
-    pub(crate) fn resolve(space: ColourSpace, fallback: Option<ColourSpace>, image: &Image) -> Self {
-        let raw = Self { transfer: Transfer::Linear, gamut: None, is_colour: false };
-        match space {
-            ColourSpace::Raw => raw,
-            ColourSpace::Colour { transfer, gamut } => Self { transfer, gamut: gamut.to_rec709(), is_colour: true },
-            ColourSpace::Auto => {
-                let stated = image.primaries.filter(|p| !p.is_rec709()).and_then(|p| p.to_rec709());
-                match (stated, fallback) {
-                    (Some(matrix), _) => Self { gamut: Some(matrix), is_colour: true, ..raw },
-                    (None, Some(space)) if space != ColourSpace::Auto => Self::resolve(space, None, image),
-                    _ if image.is_byte() && image.channels >= 3 => Self { transfer: Transfer::Srgb, is_colour: true, ..raw },
-                    _ => raw,
-                }
+    /// Resolves `space` for `image`.
+    pub(crate) fn resolve(space: ColourSpace, image: &Image) -> Self {
+        let raw = || Self::new(Encoding::in_rec709(Curve::Named(Transfer::Linear)), false, image);
+        match (space, &image.stated) {
+            (ColourSpace::Raw, _) => raw(),
+            (ColourSpace::Colour { transfer, gamut }, _) => {
+                let curve = Curve::Named(transfer);
+                Self::new(Encoding { curves: Box::new([curve.clone(), curve.clone(), curve]), to_rec709: gamut.to_rec709() }, true, image)
             }
+            (ColourSpace::Auto, Stated::Encoding(encoding)) => {
+                let mut conversion = Self::new(encoding.clone(), true, image);
+                // Numbers that stay as they are stay whole too.
+                conversion.is_colour = !conversion.is_identity();
+                conversion
+            }
+            (ColourSpace::Auto, _) if image.is_byte() && image.channels >= 3 => {
+                Self::new(Encoding::in_rec709(Curve::Named(Transfer::Srgb)), true, image)
+            }
+            (ColourSpace::Auto, _) => raw(),
         }
+    }
+
+    fn new(mut encoding: Encoding, is_colour: bool, image: &Image) -> Self {
+        if image.channels < 3 {
+            // Grey is white times a number in every gamut.
+            encoding.to_rec709 = None;
+        }
+        let mut conversion = Self { encoding, is_colour, codes: Vec::new() };
+        let largest = match image.texels {
+            Texels::Byte(_) => 255_u32,
+            Texels::Short(_) => 65535,
+            Texels::Half(_) | Texels::Float(_) => 0,
+        };
+        if largest > 0 && !conversion.is_identity() {
+            conversion.codes =
+                (0..=largest).into_par_iter().map(|code| conversion.linear([f64::from(code) / f64::from(largest); 3])).collect();
+        }
+        conversion
+    }
+
+    /// The transfer function with a name that is all there is to do; nothing where more is to be done.
+    pub(crate) fn transfer(&self) -> Option<Transfer> {
+        self.encoding.transfer().filter(|_| self.encoding.to_rec709.is_none())
     }
 
     /// Whether stored numbers are used as they stand.
     pub(crate) fn is_identity(&self) -> bool {
-        self.transfer == Transfer::Linear && self.gamut.is_none()
+        self.transfer() == Some(Transfer::Linear)
     }
 
-    /// Linear Rec.709 of a stored texel; alpha passes.
-    pub(crate) fn convert(&self, texel: [f32; 4]) -> [f32; 4] {
+    fn linear(&self, stored: [f64; 3]) -> [f32; 3] {
+        let [r, g, b] = &*self.encoding.curves;
+        [r.decode(stored[0]) as f32, g.decode(stored[1]) as f32, b.decode(stored[2]) as f32]
+    }
+
+    /// Linear Rec.709 of the texel at `index` (row by row); alpha passes.
+    pub(crate) fn texel(&self, image: &Image, index: usize) -> [f32; 4] {
+        let stored = image.rgba(index);
         if self.is_identity() {
-            return texel;
+            return stored;
         }
-        let linear = [texel[0], texel[1], texel[2]].map(|x| self.transfer.decode(f64::from(x)));
-        let [r, g, b] = self.gamut.as_ref().map_or(linear, |matrix| apply(matrix, linear));
-        [r as f32, g as f32, b as f32, texel[3]]
+        let linear = match self.codes.len() {
+            0 => self.linear([stored[0], stored[1], stored[2]].map(f64::from)),
+            count => {
+                let code = |channel: usize| (stored[channel] * (count - 1) as f32 + 0.5) as usize;
+                [self.codes[code(0)][0], self.codes[code(1)][1], self.codes[code(2)][2]]
+            }
+        };
+        let [r, g, b] = self.encoding.to_rec709.as_ref().map_or(linear, |matrix| apply(matrix, linear.map(f64::from)).map(|x| x as f32));
+        [r, g, b, stored[3]]
     }
 }

@@ -389,7 +389,7 @@ class Scene:
         description: Mapping[str, Any],
         index: int | None = None,
         *,
-        data: tuple[str, bytes] | None = None,
+        data: tuple[str, bytes | Mapping[int, bytes]] | None = None,
         pixels: Buffer | None = None,
     ) -> int: ...
     def put_measured(self, measured: MeasuredBsdf, *, name: str = "measured", index: int | None = None) -> int: ...

@@ -6,12 +6,12 @@ mod reader;
 mod writer;
 
 use crate::{buffer::floats, error::setting};
-use gonio::scene::{Texture, TextureSource, Visibility};
+use gonio::scene::{Texture, TextureSource, Tile, Visibility};
 use pyo3::{prelude::*, pybacked::PyBackedBytes, types::PyDict};
 use reader::Reader;
 use serde::{Serialize, de, de::DeserializeOwned, ser};
 use std::{
-    collections::HashMap,
+    collections::{BTreeMap, HashMap},
     fmt::{self, Display},
     sync::Arc,
 };
@@ -68,14 +68,25 @@ pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, 
     Ok((visibility, [holdout, shadow_catcher]))
 }
 
+/// Encoded files given beside a texture's description: one, or UDIM tiles by number.
+#[derive(FromPyObject)]
+pub(crate) enum Data {
+    File(PyBackedBytes),
+    Tiles(BTreeMap<u32, PyBackedBytes>),
+}
+
 /// A texture whose source may be given beside the description.
 pub(crate) fn texture(
     description: &Bound<'_, PyDict>,
-    data: Option<(String, PyBackedBytes)>,
+    data: Option<(String, Data)>,
     pixels: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Texture> {
     let source = match (data, pixels) {
-        (Some((name, bytes)), _) => TextureSource::Encoded { name, bytes: Arc::from(&*bytes) },
+        (Some((name, Data::File(bytes))), _) => TextureSource::Encoded { name, bytes: Arc::from(&*bytes) },
+        (Some((name, Data::Tiles(tiles))), _) => {
+            let tile = |(number, bytes): (u32, PyBackedBytes)| Tile { number, bytes: Arc::from(&*bytes) };
+            TextureSource::Tiles { name, tiles: tiles.into_iter().map(tile).collect() }
+        }
         (None, Some(pixels)) => {
             let shape: [usize; 3] = pixels.getattr("shape")?.extract()?;
             let flat = pixels.call_method1("reshape", (-1,))?;

@@ -1,6 +1,6 @@
 //! OpenEXR: the first part, flat, of half, float or integer channels; scan lines or tiles (the finest level).
 
-use crate::colour::Primaries;
+use crate::colour::{Primaries, Stated};
 use crate::texture::error::{TextureError, TextureErrorKind};
 use crate::texture::image::{Image, Texels};
 use crate::texture::limits::check_size;
@@ -23,13 +23,13 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
     check_header(header, bytes.len())?;
     let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
     let window = Window::of(header);
-    let primaries = header.shared_attributes.chromaticities.map(primaries_of);
+    let stated = header.shared_attributes.chromaticities.map_or(Stated::Nothing, |stated| Stated::linear(&primaries_of(stated)));
     let chosen = choose_channels(&names);
     // Decoding in this thread: a damaged block must not panic in a thread of the crate's own pool.
     let reader = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes().non_parallel();
     let image = reader.from_chunks(chunks).map_err(from_decoder)?;
     let texels = interleave(&image.layer_data.channel_data, &chosen, &window)?;
-    Ok(Image { width: window.size.0 as u32, height: window.size.1 as u32, channels: chosen.len() as u32, texels, primaries })
+    Ok(Image { width: window.size.0 as u32, height: window.size.1 as u32, channels: chosen.len() as u32, texels, stated })
 }
 
 fn from_decoder(error: exr::error::Error) -> TextureError {

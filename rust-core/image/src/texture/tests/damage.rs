@@ -1,14 +1,20 @@
 //! Damaged files give errors, never panics or great allocations.
 
 use super::formats::{Exr, ramp};
-use super::made::{Random, bytes, hdr, jpeg, png};
+use super::made::{Random, bytes, coded, hdr, jpeg, png, tiff_of};
 use crate::texture::{TextureErrorKind, decode};
+use image::ImageFormat;
 
 fn samples() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("png", png(&bytes(24, 20, 4, 1))),
         ("jpeg", jpeg(&bytes(24, 20, 3, 2))),
         ("hdr", hdr(24, 20, &[[0.25, 1.5, 3.0]; 480])),
+        ("tiff", tiff_of(&bytes(24, 20, 3, 3))),
+        ("webp", coded(ImageFormat::WebP)),
+        ("gif", coded(ImageFormat::Gif)),
+        ("bmp", coded(ImageFormat::Bmp)),
+        ("tga", coded(ImageFormat::Tga)),
         ("exr", Exr::new(24, 20, vec![("R", ramp(480, 0.0)), ("G", ramp(480, 1.0)), ("B", ramp(480, 2.0))]).write()),
     ]
 }
@@ -71,7 +77,7 @@ fn claims_beyond_the_file_are_refused() {
     assert_eq!(error.kind, TextureErrorKind::Malformed, "{error}");
 }
 
-fn crc32(bytes: &[u8]) -> u32 {
+pub(super) fn crc32(bytes: &[u8]) -> u32 {
     !bytes
         .iter()
         .fold(!0_u32, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg())))
@@ -79,9 +85,13 @@ fn crc32(bytes: &[u8]) -> u32 {
 
 #[test]
 fn other_formats_are_named() {
-    for (file, name) in
-        [(&b"II*\0rest"[..], "TIFF"), (b"GIF89a", "GIF"), (b"version https://git-lfs", "Git LFS"), (b"garbage", "no known"), (b"", "empty")]
-    {
+    for (file, name) in [
+        (&b"8BPS\0\x01"[..], "Photoshop"),
+        (b"\0\0\0\x1cftypavif", "AVIF"),
+        (b"version https://git-lfs", "Git LFS"),
+        (b"garbage", "no known"),
+        (b"", "empty"),
+    ] {
         let error = decode(file).unwrap_err();
         assert!(error.what.contains(name), "{error}");
     }

@@ -1,6 +1,6 @@
 //! Environment formats: a smooth radiance of direction, drawn in each format, comes back as lat-long.
 
-use crate::colour::ColourSpace;
+use crate::colour::{ColourSpace, Stated};
 use crate::texture::{DomeFormat, Image, LatLong, Texels};
 use std::f64::consts::PI;
 
@@ -53,7 +53,7 @@ fn draw(format: DomeFormat, width: u32, height: u32) -> Image {
             values.extend(rgb.map(|value| value as f32));
         }
     }
-    Image { width, height, channels: 3, texels: Texels::Float(values), primaries: None }
+    Image { width, height, channels: 3, texels: Texels::Float(values), stated: Stated::Nothing }
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn every_format_shows_the_same_sky() {
     for (format, width, height) in
         [(DomeFormat::Angular, 200, 200), (DomeFormat::MirroredBall, 256, 256), (DomeFormat::CubeMapVerticalCross, 192, 256)]
     {
-        let sky = LatLong::from_image(&draw(format, width, height), format, ColourSpace::Raw, None).unwrap();
+        let sky = LatLong::from_image(&draw(format, width, height), format, ColourSpace::Raw).unwrap();
         assert_eq!(sky.width, 2 * sky.height);
         for y in 0..sky.height {
             for x in 0..sky.width {
@@ -91,7 +91,7 @@ fn lat_long_directions_are_those_of_openexr() {
 #[test]
 fn lat_long_keeps_its_texels() {
     let image = super::made::floats(8, 4, 3, 1);
-    let sky = LatLong::from_image(&image, DomeFormat::LatLong, ColourSpace::Raw, None).unwrap();
+    let sky = LatLong::from_image(&image, DomeFormat::LatLong, ColourSpace::Raw).unwrap();
     assert_eq!((sky.width, sky.height), (8, 4));
     assert_eq!(sky.rgb[9], [0, 1, 2].map(|c| image.rgba(9)[c]));
 }

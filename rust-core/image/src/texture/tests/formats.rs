@@ -1,13 +1,14 @@
 //! What is written is read: each format, depth and channel count.
 
-use super::made::{Random, bytes, hdr, jpeg, png};
-use crate::colour::{ColourSpace, Gamut, Primaries};
+use super::made::{Random, bytes, coded, hdr, jpeg, png};
+use crate::colour::{ColourSpace, Gamut, Primaries, Stated};
 use crate::texture::{DomeFormat, Image, LatLong, RadianceHeader, TexelFormat, Texels, decode};
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, write::WritableImage};
 use exr::math::Vec2;
 use exr::meta::attribute::{Chromaticities, IntegerBounds};
 use exr::meta::header::{ImageAttributes, LayerAttributes};
 use half::f16;
+use image::ImageFormat;
 use std::io::Cursor;
 
 #[test]
@@ -35,7 +36,7 @@ fn jpeg_grey_and_colour() {
     for channels in [1, 3] {
         let values =
             (0..32 * 16).flat_map(|i| [(i % 32) * 8, (i / 32) * 16, 128].into_iter().take(channels as usize)).map(|v| v as u8).collect();
-        let image = Image { width: 32, height: 16, channels, texels: Texels::Byte(values), primaries: None };
+        let image = Image { width: 32, height: 16, channels, texels: Texels::Byte(values), stated: Stated::Nothing };
         let found = decode(&jpeg(&image)).unwrap();
         assert_eq!((found.width, found.height, found.channels), (32, 16, channels));
         for i in 0..image.texels.len() {
@@ -53,6 +54,37 @@ fn jpeg_in_cmyk() {
         let expected = (1.0 - ink) * 0.9;
         assert!((image.texels.value(channel) - expected).abs() < 3.0 / 255.0, "{channel}: {}", image.texels.value(channel));
     }
+}
+
+#[test]
+fn webp_tga_bmp_and_gif() {
+    let Texels::Byte(values) = bytes(24, 20, 3, 4).texels else { unreachable!() };
+    for format in [ImageFormat::WebP, ImageFormat::Tga, ImageFormat::Bmp] {
+        let image = decode(&coded(format)).unwrap();
+        assert_eq!((image.width, image.height, image.channels), (24, 20, 3), "{format:?}");
+        assert_eq!(image.texels, Texels::Byte(values.clone()), "{format:?}");
+    }
+    // A palette of 256 colours is enough for four.
+    let colours = [[255, 0, 0], [0, 128, 0], [10, 20, 200], [255, 255, 255]];
+    let picture = image::RgbImage::from_fn(24, 20, |x, y| image::Rgb(colours[((x / 5 + y / 7) % 4) as usize]));
+    let mut file = Cursor::new(Vec::new());
+    picture.write_to(&mut file, ImageFormat::Gif).unwrap();
+    let gif = decode(file.get_ref()).unwrap();
+    assert_eq!((gif.width, gif.height, gif.channels), (24, 20, 4));
+    let expected = picture.pixels().flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2], 255]).collect();
+    assert_eq!(gif.texels, Texels::Byte(expected));
+}
+
+#[test]
+fn tga_with_origin_palette_and_runs() {
+    // 2 × 2 texels from the bottom left, a palette of blue and red (BGR), one run of three and a single one; no footer.
+    let header = [0, 1, 9, 0, 0, 2, 0, 24, 0, 0, 0, 0, 2, 0, 2, 0, 8, 0];
+    let file = [&header[..], &[255, 0, 0, 0, 0, 255], &[0x82, 1, 0x00, 0]].concat();
+    let image = decode(&file).unwrap();
+    let (red, blue) = ([255, 0, 0], [0, 0, 255]);
+    assert_eq!((image.channels, image.texels), (3, Texels::Byte([red, blue, red, red].concat())));
+    // A text file is none.
+    assert!(decode(b"two numbers, and then some more of them").unwrap_err().what.contains("no known"));
 }
 
 fn hdr_texels() -> Vec<[f32; 3]> {
@@ -84,13 +116,13 @@ fn radiance_xyze_and_primaries() {
     let at = file.windows(4).position(|word| word == b"rgbe").unwrap();
     let mut xyze = file.clone();
     xyze[at..at + 4].copy_from_slice(b"xyze");
-    assert_eq!(decode(&xyze).unwrap().primaries, Some(Gamut::XyzE.primaries()));
+    assert_eq!(decode(&xyze).unwrap().stated, Stated::linear(&Gamut::XyzE.primaries()));
     let line = file.iter().position(|byte| *byte == b'\n').unwrap() + 1;
     let mut stated = file.clone();
     stated.splice(line..line, b"PRIMARIES= 0.7 0.3 0.2 0.7 0.1 0.1 0.3333 0.3333\n".iter().copied());
     let primaries = Primaries { red: [0.7, 0.3], green: [0.2, 0.7], blue: [0.1, 0.1], white: [0.3333, 0.3333] };
-    assert_eq!(decode(&stated).unwrap().primaries, Some(primaries));
-    assert_eq!(decode(&file).unwrap().primaries, None);
+    assert_eq!(decode(&stated).unwrap().stated, Stated::linear(&primaries));
+    assert_eq!(decode(&file).unwrap().stated, Stated::Nothing);
 }
 
 /// A picture of 3 × 2 texels, each of another value, with lines in its header, in an order of scan lines.
@@ -282,7 +314,7 @@ fn exr_chromaticities_count_when_auto() {
     let expected = crate::colour::apply(&Gamut::Ap1.to_rec709().unwrap(), [0.5, 0.25, 0.125]);
     for (space, expected) in [(ColourSpace::Auto, expected), (ColourSpace::ACES_CG, expected), (ColourSpace::Raw, [0.5, 0.25, 0.125])] {
         let texel = super::made::build(&image, space).texel(0, 1, 1).unwrap();
-        let lat_long = LatLong::from_image(&image, DomeFormat::LatLong, space, None).unwrap().rgb[0];
+        let lat_long = LatLong::from_image(&image, DomeFormat::LatLong, space).unwrap().rgb[0];
         for channel in 0..3 {
             assert!((f64::from(texel[channel]) - expected[channel]).abs() < 3e-4, "{space:?}");
             assert!((f64::from(lat_long[channel]) - expected[channel]).abs() < 1e-6, "{space:?}");

@@ -46,10 +46,10 @@ fn a_raised_flag_stops_loading() {
 fn folders_and_bad_bytes_are_named() {
     let error = load_image(&Source::Path(std::env::temp_dir())).unwrap_err();
     assert_eq!(error.kind, TextureErrorKind::Unreadable);
-    let error = load_image(&Source::Bytes { name: Arc::from("x.png"), bytes: Arc::from(&b"II*\0"[..]) }).unwrap_err();
+    let error = load_image(&Source::Bytes { name: Arc::from("x.png"), bytes: Arc::from(&b"8BPS"[..]) }).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "x.png: the file is a TIFF file, expected PNG, JPEG, Radiance HDR or OpenEXR; convert it to one of these"
+        "x.png: the file is a Photoshop file, expected PNG, JPEG, TIFF, OpenEXR, Radiance HDR, WebP, TGA, BMP, GIF or DDS; convert it to one of these"
     );
 }
 

@@ -1,7 +1,7 @@
 //! Lookups on lanes against a plain implementation in `f64`.
 
 use super::made::{Random, build, bytes, floats, halves};
-use crate::colour::ColourSpace;
+use crate::colour::{ColourSpace, Stated};
 use crate::texture::{Filter, MipMap, TextureTable, Wrap};
 use gonio_simd::{Execution, Lanes, PADDING, Vec2, dispatch};
 use std::sync::Arc;
@@ -131,7 +131,7 @@ fn every_finite_half_is_read_exactly() {
     let values: Vec<_> = (0..=u16::MAX).map(half::f16::from_bits).map(|x| if x.is_finite() { x } else { half::f16::ONE }).collect();
     let expected: Vec<_> = values.iter().map(|x| x.to_f32()).collect();
     let texels = crate::texture::Texels::Half(values);
-    let map = build(&crate::texture::Image { width: 16_384, height: 1, channels: 4, texels, primaries: None }, ColourSpace::Raw);
+    let map = build(&crate::texture::Image { width: 16_384, height: 1, channels: 4, texels, stated: Stated::Nothing }, ColourSpace::Raw);
     let mut table = TextureTable::new();
     table.push(Arc::new(map));
     let lookups: Vec<_> = (0..16_384).map(|i| [(i as f32 + 0.5) / 16_384.0, 0.5, 0.0]).collect();
@@ -169,8 +169,13 @@ fn nearest_takes_the_texel_in_which_the_point_lies() {
 #[test]
 fn the_origin_is_the_bottom_left() {
     // Two texels, the top one bright.
-    let image =
-        crate::texture::Image { width: 1, height: 2, channels: 1, texels: crate::texture::Texels::Byte(vec![255, 0]), primaries: None };
+    let image = crate::texture::Image {
+        width: 1,
+        height: 2,
+        channels: 1,
+        texels: crate::texture::Texels::Byte(vec![255, 0]),
+        stated: Stated::Nothing,
+    };
     let mut table = TextureTable::new();
     table.push(Arc::new(build(&image, ColourSpace::Raw)));
     let mut batch = Batch::new(&[[0.5, 0.1, 0.0], [0.5, 0.9, 0.0]]);
@@ -209,7 +214,13 @@ fn odd_arguments_are_safe() {
 fn tiles_are_found_by_their_numbers() {
     let flat = |code: u8| {
         Arc::new(build(
-            &crate::texture::Image { width: 1, height: 1, channels: 1, texels: crate::texture::Texels::Byte(vec![code]), primaries: None },
+            &crate::texture::Image {
+                width: 1,
+                height: 1,
+                channels: 1,
+                texels: crate::texture::Texels::Byte(vec![code]),
+                stated: Stated::Nothing,
+            },
             ColourSpace::Raw,
         ))
     };

@@ -1,6 +1,6 @@
 //! Images made for tests.
 
-use crate::colour::ColourSpace;
+use crate::colour::{ColourSpace, Stated};
 use crate::texture::{Image, MipMap, Texels};
 use image::{ExtendedColorType, ImageEncoder};
 use std::sync::atomic::AtomicBool;
@@ -27,23 +27,23 @@ impl Random {
 pub(super) fn bytes(width: u32, height: u32, channels: u32, seed: u64) -> Image {
     let mut random = Random(seed);
     let values = (0..width * height * channels).map(|_| random.next() as u8).collect();
-    Image { width, height, channels, texels: Texels::Byte(values), primaries: None }
+    Image { width, height, channels, texels: Texels::Byte(values), stated: Stated::Nothing }
 }
 
 pub(super) fn floats(width: u32, height: u32, channels: u32, seed: u64) -> Image {
     let mut random = Random(seed);
     let values = (0..width * height * channels).map(|_| random.unit()).collect();
-    Image { width, height, channels, texels: Texels::Float(values), primaries: None }
+    Image { width, height, channels, texels: Texels::Float(values), stated: Stated::Nothing }
 }
 
 pub(super) fn halves(width: u32, height: u32, channels: u32, seed: u64) -> Image {
     let mut random = Random(seed);
     let values = (0..width * height * channels).map(|_| half::f16::from_f32(random.unit())).collect();
-    Image { width, height, channels, texels: Texels::Half(values), primaries: None }
+    Image { width, height, channels, texels: Texels::Half(values), stated: Stated::Nothing }
 }
 
 pub(super) fn build(image: &Image, space: ColourSpace) -> MipMap {
-    MipMap::build(image, space, None, &AtomicBool::new(false)).unwrap()
+    MipMap::build(image, space, &AtomicBool::new(false)).unwrap()
 }
 
 pub(super) fn png(image: &Image) -> Vec<u8> {
@@ -77,4 +77,22 @@ pub(super) fn hdr(width: usize, height: usize, texels: &[[f32; 3]]) -> Vec<u8> {
     let mut file = Vec::new();
     image::codecs::hdr::HdrEncoder::new(&mut file).encode(&texels, width, height).unwrap();
     file
+}
+
+/// 24 × 20 texels of RGB in a format of the crate `image`.
+pub(super) fn coded(format: image::ImageFormat) -> Vec<u8> {
+    let Texels::Byte(values) = bytes(24, 20, 3, 4).texels else { panic!("bytes are wanted") };
+    let image = image::RgbImage::from_raw(24, 20, values).unwrap();
+    let mut file = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut file, format).unwrap();
+    file.into_inner()
+}
+
+/// RGB in strips, compressed with LZW.
+pub(super) fn tiff_of(image: &Image) -> Vec<u8> {
+    let Texels::Byte(values) = &image.texels else { panic!("bytes are wanted") };
+    let mut file = std::io::Cursor::new(Vec::new());
+    let mut encoder = tiff::encoder::TiffEncoder::new(&mut file).unwrap().with_compression(tiff::encoder::Compression::Lzw);
+    encoder.write_image::<tiff::encoder::colortype::RGB8>(image.width, image.height, values).unwrap();
+    file.into_inner()
 }

@@ -4,5 +4,7 @@ mod formats;
 mod loading;
 mod lookup;
 mod made;
+mod profiles;
 mod pyramid;
 mod shared;
+mod tiff;

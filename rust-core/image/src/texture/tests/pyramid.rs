@@ -1,7 +1,7 @@
 //! Levels of the pyramid: sizes, means, rounding.
 
 use super::made::{build, bytes, floats, halves};
-use crate::colour::{ColourSpace, Transfer};
+use crate::colour::{ColourSpace, Stated, Transfer};
 use crate::texture::encoder::Encoder;
 use crate::texture::{Image, MipMap, TexelFormat, Texels};
 use std::sync::atomic::AtomicBool;
@@ -65,7 +65,7 @@ fn eight_bit_levels_keep_the_mean_in_linear_light() {
 
 #[test]
 fn black_and_white_mix_to_half_the_light() {
-    let image = Image { width: 2, height: 1, channels: 3, texels: Texels::Byte(vec![0, 0, 0, 255, 255, 255]), primaries: None };
+    let image = Image { width: 2, height: 1, channels: 3, texels: Texels::Byte(vec![0, 0, 0, 255, 255, 255]), stated: Stated::Nothing };
     let half = build(&image, ColourSpace::SRGB_TEXTURE).texel(1, 0, 0).unwrap()[0];
     // 188 is sRGB's code nearest to one half.
     assert_eq!(half, Transfer::Srgb.table()[188]);
@@ -122,6 +122,6 @@ fn inconsistent_images_are_refused() {
         Image { channels: 0, ..floats(4, 4, 3, 1) },
         Image { width: 0, texels: Texels::Byte(Vec::new()), ..floats(4, 4, 3, 1) },
     ] {
-        assert!(MipMap::build(&image, ColourSpace::Raw, None, &never).is_err());
+        assert!(MipMap::build(&image, ColourSpace::Raw, &never).is_err());
     }
 }

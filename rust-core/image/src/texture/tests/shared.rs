@@ -1,6 +1,6 @@
 //! Files of public scenes, where they are at hand.
 
-use crate::colour::{ColourSpace, file_rule};
+use crate::colour::ColourSpace;
 use crate::texture::{TextureRequest, load_set};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -14,10 +14,11 @@ fn images(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.path();
         if path.is_dir() {
             images(&path, found);
-        } else if path
-            .extension()
-            .is_some_and(|extension| ["png", "jpg", "jpeg", "hdr", "exr"].iter().any(|known| extension.eq_ignore_ascii_case(known)))
-        {
+        } else if path.extension().is_some_and(|extension| {
+            ["png", "jpg", "jpeg", "hdr", "exr", "tif", "tiff", "tx", "tga", "bmp", "webp", "gif"]
+                .iter()
+                .any(|known| extension.eq_ignore_ascii_case(known))
+        }) {
             found.push(path);
         }
     }
@@ -31,13 +32,7 @@ fn images_of_public_scenes_load() {
         eprintln!("skipped: no images under {}", shared().join("data/usd").display());
         return;
     }
-    let requests: Vec<_> = paths
-        .iter()
-        .map(|path| TextureRequest {
-            fallback: path.file_name().and_then(|name| file_rule(name.to_str()?)),
-            ..TextureRequest::path(path, ColourSpace::Auto)
-        })
-        .collect();
+    let requests: Vec<_> = paths.iter().map(|path| TextureRequest::path(path, ColourSpace::Auto)).collect();
     for (path, loaded) in paths.iter().zip(load_set(&requests, &AtomicBool::new(false))) {
         let map = loaded.unwrap_or_else(|error| panic!("{error}"));
         let last = map.texel(map.level_count() - 1, 0, 0).expect("a pyramid ends in one texel");

@@ -5,6 +5,7 @@ mod header;
 pub use header::RadianceHeader;
 
 use super::bitmap::from_decoder;
+use crate::colour::Stated;
 use crate::texture::error::TextureError;
 use crate::texture::image::{Image, Texels};
 use crate::texture::limits::check_size;
@@ -28,5 +29,6 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
     let texel = |b: &[u8; 12]| [0, 1, 2].map(|c| f32::from_ne_bytes([b[4 * c], b[4 * c + 1], b[4 * c + 2], b[4 * c + 3]]) * factors[c]);
     let texels: Vec<[f32; 3]> = buffer.as_chunks::<12>().0.iter().map(texel).collect();
     let [width, height] = header.size;
-    Ok(Image { width, height, channels: 3, texels: Texels::Float(header.upright(&texels)), primaries: header.primaries })
+    let stated = header.primaries.map_or(Stated::Nothing, |primaries| Stated::linear(&primaries));
+    Ok(Image { width, height, channels: 3, texels: Texels::Float(header.upright(&texels)), stated })
 }
