@@ -162,7 +162,7 @@ fn skies_are_selected_by_what_light_samples_bring() {
         // As bright in the mean as without an image.
         let mean: f32 = textures.iter().map(|image| image.rgb.iter().sum::<f32>() / image.rgb.len() as f32).sum();
         record.radiance = [if textures.is_empty() { 1.0 } else { 1.0 / mean }; 3];
-        let table = LightTable::build(&[record, LightRecord { radiance: [4e4; 3], ..sun.clone() }], textures, &[]);
+        let table = LightTable::build(&[record, LightRecord { radiance: [4e4; 3], ..sun }], textures, &[]);
         let (towards_sun, origin) = (Vec3::splat(One, [0.0, 0.0, 1.0]), Vec3::splat(One, [0.0; 3]));
         table.light_pmf(One, None, origin, towards_sun, One.u(0)).to_array()[0]
     };
