@@ -27,7 +27,7 @@ fn bits<L: Lanes>(x: F<L>) -> Vec<u32> {
 fn check_arithmetic<L: Lanes>(l: L) {
     let (a, b, s) = (colour(l, 0.37), colour(l, 2.9), l.iota().to_float() * 0.3 - 1.1);
     let (x, y, mask) = (Spectrum::from_rgb(a), Spectrum::from_rgb(b), s.gt(0.0));
-    same("sum", x + y, a + b);
+    same("sum", x + y, Rgb::new(a.r + b.r, a.g + b.g, a.b + b.b));
     same("difference", x - y, Rgb::new(a.r - b.r, a.g - b.g, a.b - b.b));
     same("product", x * y, Rgb::new(a.r * b.r, a.g * b.g, a.b * b.b));
     same("quotient", x / y, Rgb::new(a.r / b.r, a.g / b.g, a.b / b.b));
@@ -45,11 +45,13 @@ fn check_arithmetic<L: Lanes>(l: L) {
         #[inline(always)]
         |x, y| [x + y, x.min(y)],
     );
-    same("zip", sum, a + b);
+    same("zip", sum, Rgb::new(a.r + b.r, a.g + b.g, a.b + b.b));
     same("second of zip", least, Rgb::new(a.r.min(b.r), a.g.min(b.g), a.b.min(b.b)));
     assert_eq!(bits(x.luminance()), bits(a.luminance()));
     assert_eq!(bits(x.mean()), bits((a.r + a.g + a.b) * (1.0 / 3.0)));
-    assert_eq!(bits(x.max_component()), bits(a.max_component()));
+    assert_eq!(bits(x.max_component()), bits(a.r.max(a.g).max(a.b)));
+    assert_eq!(bits(x.min_component()), bits(a.r.min(a.g).min(a.b)));
+    assert_eq!(bits(x.dot(y)), bits(a.r.mul_add(b.r, a.g.mul_add(b.g, a.b * b.b))));
 }
 
 #[test]
@@ -103,10 +105,22 @@ fn check_columns<L: Lanes>(l: L) {
         same("appended to items", items.gather(l, place).0, Rgb::splat(l, expected));
         assert_eq!(items.gather(l, place).1.to_array()[0], number.to_array()[lane]);
     }
+    columns.multiply(3, &columns.clone(), 3);
+    let squared = colour.r.to_array()[0] * colour.r.to_array()[0];
+    assert_eq!(columns.columns()[0][3], squared);
     columns.copy(3, 40);
     items.copy(3, 40);
-    same("copied column", columns.gather(l, l.u(40)), Rgb::splat(l, [colour.r, colour.g, colour.b].map(|x| x.to_array()[0])));
+    assert_eq!(columns.columns()[0][40], squared);
+    let [r, g, b] = [0, 1, 2].map(|c| columns.columns()[c][40]);
+    assert_eq!(columns.sum_of(40), r + g + b);
     assert_eq!(items.gather(l, l.u(40)).1.to_array()[0], 0.5);
+    // One lane alone, to a place of its own: its spectrum is multiplied, its number is not.
+    items.scatter(light, number, &[50]);
+    items.multiply(light, &[50]);
+    let (twice, once) = items.gather(l, l.u(50));
+    assert_eq!((twice.to_rgb().r.to_array()[0], once.to_array()[0]), (squared, number.to_array()[0]));
+    columns.clear();
+    assert!(!columns.load(l, 40 / L::COUNT * L::COUNT).is_lit().any());
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::Spectrum;
 use crate::{Column, F, Lanes, M, U};
 
 /// Spectra in plain columns, one for each component.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SpectrumColumns([Column; 3]);
 
 impl SpectrumColumns {
@@ -44,6 +44,18 @@ impl SpectrumColumns {
         value.g.append(chosen, g, len);
         value.b.append(chosen, b, len);
     }
+    /// Sets all to no light.
+    pub fn clear(&mut self) {
+        self.0.iter_mut().for_each(|column| column.fill(0.0));
+    }
+    /// Sum of the components of one spectrum.
+    pub fn sum_of(&self, at: usize) -> f32 {
+        self.0.iter().map(|column| column[at]).sum()
+    }
+    /// Multiplies one spectrum by one of others.
+    pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {
+        self.0.iter_mut().zip(&factors.0).for_each(|(column, factors)| column[at] *= factors[from]);
+    }
     /// Copies one spectrum over another.
     pub fn copy(&mut self, from: usize, to: usize) {
         self.0.iter_mut().for_each(|column| column[to] = column[from]);
@@ -51,7 +63,7 @@ impl SpectrumColumns {
 }
 
 /// Spectra with a number each, in items of four words: one load a lane and a transposition read chosen ones.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SpectrumItems(Column);
 
 /// Words of an item.
@@ -77,6 +89,24 @@ impl SpectrumItems {
     #[inline(always)]
     pub fn append<L: Lanes>(&mut self, value: Spectrum<L>, number: F<L>, chosen: M<L>, len: usize) {
         number.lanes().append_quads([value.r, value.g, value.b, number], chosen, &mut self.0, len);
+    }
+    /// Writes the first lanes to items of these places.
+    #[inline(always)]
+    pub fn scatter<L: Lanes>(&mut self, value: Spectrum<L>, number: F<L>, places: &[u32]) {
+        let words = [value.r.to_array(), value.g.to_array(), value.b.to_array(), number.to_array()];
+        for (lane, place) in places.iter().enumerate() {
+            let item = &mut self.0[WORDS * *place as usize..][..WORDS];
+            item.iter_mut().zip(&words).for_each(|(word, lanes)| *word = lanes[lane]);
+        }
+    }
+    /// Multiplies the spectra of items of these places by the first lanes; their numbers stay.
+    #[inline(always)]
+    pub fn multiply<L: Lanes>(&mut self, factor: Spectrum<L>, places: &[u32]) {
+        let factors = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
+        for (lane, place) in places.iter().enumerate() {
+            let item = &mut self.0[WORDS * *place as usize..][..WORDS];
+            item.iter_mut().zip(&factors).for_each(|(word, lanes)| *word *= lanes[lane]);
+        }
     }
     /// Copies one item over another.
     pub fn copy(&mut self, from: usize, to: usize) {
