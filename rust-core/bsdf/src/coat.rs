@@ -37,7 +37,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     pub(super) fn coat_tint(&mut self, presence: F<L>, ior: F<L>) {
         let colour = self.spectrum(p::COAT_COLOR).max(1e-6);
         let view = (1.0 - (1.0 - self.coat_mu * self.coat_mu) / (ior * ior)).max(1e-4).inverse_root();
-        let tint = CoatTint { log: colour.map(F::ln), weight: presence, ior, view };
+        let tint = CoatTint { log: colour.ln(), weight: presence, ior, view };
         match self.surface.switches.coat_path {
             CoatPath::Both => {
                 self.lobes.coat = Some(tint);

@@ -80,7 +80,7 @@ fn airy<L: Lanes>(l: L, top: F<L>, bottom: Spectrum<L>, phase: Complex<L>, sensi
     let passed = 1.0 - top;
     let both = bottom * top;
     let inner = bottom * (passed * passed) / (white - both).max(1e-6);
-    let step = both.map(F::safe_sqrt);
+    let step = both.safe_sqrt();
     let mut sum = inner + Spectrum::constant(top);
     let mut factor = inner - Spectrum::constant(passed);
     let mut turn = phase;
@@ -206,7 +206,11 @@ impl<L: Lanes> Film<L> {
     #[inline(always)]
     pub(crate) fn over_f82(&self, c: F<L>, f0: Spectrum<L>, drop: Spectrum<L>) -> Spectrum<L> {
         let at_82 = f82_coefficients(f0, drop);
-        let [n, k] = f0.min(0.999).zip(at_82, gulbrandsen_channel);
+        let [n, k] = f0.min(0.999).zip(
+            at_82,
+            #[inline(always)]
+            |f0, at_82| gulbrandsen_channel(f0, at_82),
+        );
         conductor_film(c.lanes(), self, c, n, k, Some(at_82))
     }
 }

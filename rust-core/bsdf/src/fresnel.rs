@@ -197,7 +197,11 @@ impl<L: Lanes> Curve<L> {
     /// Gulbrandsen's conductor with normal reflectance `r` and edge tint `g`.
     #[inline(always)]
     pub(crate) fn gulbrandsen(r: Spectrum<L>, g: Spectrum<L>) -> Self {
-        let [n, k] = r.clamp(0.0, 0.99).zip(g, gulbrandsen_channel);
+        let [n, k] = r.clamp(0.0, 0.99).zip(
+            g,
+            #[inline(always)]
+            |r, g| gulbrandsen_channel(r, g),
+        );
         Self::Conductor { n, k }
     }
     /// Reflectance at half-angle cosine `c`.

@@ -134,7 +134,10 @@ impl<L: Lanes> Medium<L> {
             #[inline(always)]
             |colour| van_de_hulst(colour, g),
         );
-        let mut extinction = radius.max(1e-16).map(F::recip);
+        let mut extinction = radius.map(
+            #[inline(always)]
+            |radius| radius.max(1e-16).recip(),
+        );
         if matches!(method, SubsurfaceMethod::RandomWalkLegacy | SubsurfaceMethod::RandomWalkSkin) {
             let forward = g.ge(0.0);
             let fit = Fit::new(g.max(0.0));
@@ -177,10 +180,7 @@ impl<L: Lanes> Medium<L> {
         let depth = self.extinction * distance;
         // A common factor of all channels keeps the quotient from becoming 0 / 0.
         let least = depth.min_component();
-        let passed = depth.map(
-            #[inline(always)]
-            |depth| (least - depth).exp(),
-        );
+        let passed = (Spectrum::constant(least) - depth).exp();
         let density = passed * surface.select(white, self.extinction);
         let value = passed * surface.select(white, self.extinction * self.albedo);
         let pdf = flight.channels.dot(density);

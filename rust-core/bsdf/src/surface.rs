@@ -86,7 +86,7 @@ impl Surface {
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
         let colour = values.spectrum(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
         let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
-        colour.map(F::ln) * rate
+        colour.ln() * rate
     }
 }
 

@@ -55,12 +55,12 @@ impl<L: Lanes> Spectrum<L> {
         self.r.lanes()
     }
 
-    /// A function of each component. `f` asks to be inlined, as every function on lanes.
+    /// A function of each component. `f` is a closure that asks to be inlined; a function's name alone would stay a call.
     #[inline(always)]
     pub fn map(self, f: impl Fn(F<L>) -> F<L>) -> Self {
         Self { r: f(self.r), g: f(self.g), b: f(self.b) }
     }
-    /// Functions of each pair of components.
+    /// Functions of each pair of components, by a closure as for [`Self::map`].
     #[inline(always)]
     pub fn zip<const N: usize>(self, o: Self, f: impl Fn(F<L>, F<L>) -> [F<L>; N]) -> [Self; N] {
         let (r, g, b) = (f(self.r, o.r), f(self.g, o.g), f(self.b, o.b));
@@ -136,6 +136,21 @@ impl<L: Lanes> Spectrum<L> {
     #[inline(always)]
     pub fn pow(self, power: F<L>) -> Self {
         Self { r: self.r.pow(power), g: self.g.pow(power), b: self.b.pow(power) }
+    }
+    /// e to the power of the components.
+    #[inline(always)]
+    pub fn exp(self) -> Self {
+        Self { r: self.r.exp(), g: self.g.exp(), b: self.b.exp() }
+    }
+    /// Natural logarithms of the components.
+    #[inline(always)]
+    pub fn ln(self) -> Self {
+        Self { r: self.r.ln(), g: self.g.ln(), b: self.b.ln() }
+    }
+    /// Square roots of the components, 0 of negative ones.
+    #[inline(always)]
+    pub fn safe_sqrt(self) -> Self {
+        Self { r: self.r.safe_sqrt(), g: self.g.safe_sqrt(), b: self.b.safe_sqrt() }
     }
     /// Components held in `[0, 1]`.
     #[inline(always)]

@@ -39,7 +39,14 @@ fn check_arithmetic<L: Lanes>(l: L) {
     same("keep_if", x.keep_if(mask), a.keep_if(mask));
     same("clamp", x.clamp(-0.5, 0.25), Rgb::new(a.r.clamp(-0.5, 0.25), a.g.clamp(-0.5, 0.25), a.b.clamp(-0.5, 0.25)));
     same("pow", y.pow(s), Rgb::new(b.r.pow(s), b.g.pow(s), b.b.pow(s)));
-    same("map", x.map(F::abs), Rgb::new(a.r.abs(), a.g.abs(), a.b.abs()));
+    same("exp", x.exp(), Rgb::new(a.r.exp(), a.g.exp(), a.b.exp()));
+    same("ln", x.max(1e-6).ln(), Rgb::new(a.r.max(1e-6).ln(), a.g.max(1e-6).ln(), a.b.max(1e-6).ln()));
+    same("safe_sqrt", x.safe_sqrt(), Rgb::new(a.r.safe_sqrt(), a.g.safe_sqrt(), a.b.safe_sqrt()));
+    let turned = x.map(
+        #[inline(always)]
+        |x| -x,
+    );
+    same("map", turned, Rgb::new(-a.r, -a.g, -a.b));
     let [sum, least] = x.zip(
         y,
         #[inline(always)]

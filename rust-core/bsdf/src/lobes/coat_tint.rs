@@ -27,6 +27,6 @@ impl<L: Lanes> CoatTint<L> {
     #[inline(always)]
     pub(crate) fn along(&self, path: F<L>) -> Spectrum<L> {
         let white = Spectrum::one(path.lanes());
-        white.lerp((self.log * path).map(F::exp), self.weight)
+        white.lerp((self.log * path).exp(), self.weight)
     }
 }
