@@ -2,8 +2,8 @@
 
 use super::distant;
 use super::light_kind::LightKind;
+use super::mis::hit_weight;
 use super::row::field;
-use super::sample::power_heuristic;
 use super::table::{InfiniteLight, LightTable};
 use super::tree::LightCache;
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
@@ -33,7 +33,7 @@ impl LightTable {
             let mut weight = l.f(1.0);
             if weighed.any() {
                 let pdf = pdf * self.light_pmf(l, light_cache, from, n, l.u(infinite.light));
-                weight = weighed.select(power_heuristic(bsdf_pdf, pdf), weight);
+                weight = hit_weight(bsdf_pdf, pdf, weighed);
             }
             let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
             sum += (radiance * weight).keep_if(seen);

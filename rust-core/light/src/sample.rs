@@ -1,4 +1,4 @@
-//! Next event estimation (NEE): sampling a light and a direction towards it; the power heuristic of MIS (multiple importance sampling).
+//! Next event estimation (NEE): sampling a light and a direction towards it.
 
 use super::emitter::Aim;
 use super::facing_disk;
@@ -25,13 +25,6 @@ pub struct LightSample<L: Lanes> {
     pub light: U<L>,
     /// Whether things block the light.
     pub casts_shadow: M<L>,
-}
-
-/// MIS weight by the power heuristic for the first of two densities, safe for any magnitude.
-#[inline(always)]
-pub fn power_heuristic<L: Lanes>(own: F<L>, other: F<L>) -> F<L> {
-    let ratio = other / own.max(f32::MIN_POSITIVE);
-    (ratio * ratio + 1.0).recip()
 }
 
 impl LightTable {

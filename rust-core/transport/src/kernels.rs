@@ -8,6 +8,7 @@
 
 use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
+use crate::state::chunk::ChunkColumns;
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};
@@ -159,7 +160,6 @@ pub(crate) fn evaluate<L: Lanes>(
 }
 
 /// Surface points of a chunk of hits, and what a program computes there.
-#[expect(clippy::too_many_arguments, reason = "hits, scratch and results")]
 #[inline(always)]
 pub(crate) fn run_program<L: Lanes, H: HitSource + ?Sized>(
     l: L,
@@ -167,10 +167,9 @@ pub(crate) fn run_program<L: Lanes, H: HitSource + ?Sized>(
     program: &Program,
     hits: &H,
     source: &ChunkSource<'_>,
-    surface: &mut SurfaceColumns,
-    scratch: &mut GraphScratch,
-    outputs: &mut OutputColumns,
+    columns: &mut ChunkColumns,
 ) {
+    let ChunkColumns { surface, scratch, outputs, .. } = columns;
     surface_points(l, tables, program, hits, source, surface);
     if !program.is_empty() {
         evaluate(l, tables, program, surface, source.count, scratch, outputs);

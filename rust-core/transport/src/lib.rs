@@ -3,7 +3,7 @@
 //! In go the [`Tables`] of a compiled scene, a view's [`Transport`] and a [`Start`] (camera or sensors). Out come [`TileSums`]: radiance and
 //! AOVs by slot.
 //!
-//! Read `schedule/path.rs` first: [`Tracer`] calls the wavefront stages in order. `stage` has a file for each, `state` the columns that wait
+//! Read `schedule/path` first: it calls the wavefront stages in order, for a [`Tracer`]. `stage` has a file for each, `state` the columns that wait
 //! between them. `accumulate` adds to the sums. `tables` is what no stage changes. The design is that of pbrt's `WavefrontPathIntegrator`
 //! (Physically Based Rendering, 4th edition, chapter 15), on SIMD lanes in place of a GPU's threads.
 
@@ -18,19 +18,21 @@ mod statistics;
 mod tables;
 
 pub use accumulate::catcher_sums::CatcherSums;
+pub use accumulate::deposit::Deposits;
 pub use accumulate::light_sums::{LightSums, code};
 pub use accumulate::shader_sums::ShaderSums;
 pub use accumulate::tile_sums::TileSums;
-pub use schedule::path::{Start, Tracer};
+pub use schedule::tracer::{Start, Tracer};
 pub use stage::generate::{TileArea, generate};
 pub use stage::sensors::{Sensor, SensorTable};
 pub use stage::sort::order_by_material;
 pub use state::paths::Paths;
+pub use state::rays::Rays;
 pub use state::workspace::Workspace;
 pub use state::workspaces::Workspaces;
-pub use statistics::{LANE_BOUNCES, LANE_STAGES, LaneCount, STAGES, Statistics};
+pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
-pub use tables::transport::{FirstPasses, Mist, PathFilter, Transport};
+pub use tables::transport::{Estimator, Limits, Mist, Passes, PathFilter, Transport};
 pub use tables::{Tables, ray_mask};

@@ -3,10 +3,53 @@
 use std::time::Instant;
 
 /// The stages that are timed.
-pub const STAGES: [&str; 6] = ["generate", "intersect", "surface", "graph", "shade", "shadow"];
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Camera rays.
+    Generate,
+    /// Nearest hits, and the light of lights among them.
+    Intersect,
+    /// Surface points.
+    Surface,
+    /// Shading programs.
+    Graph,
+    /// Lobes, next event estimation and scattering.
+    Shade,
+    /// Walks under surfaces, and shadow rays.
+    Shadow,
+}
 
-/// What is counted lane by lane: rays that escaped, hits shaded, shadow rays sent by them, paths that go on.
-pub const LANE_STAGES: [&str; 4] = ["surroundings", "shade", "light", "scatter"];
+impl Stage {
+    /// All of them, in the order of [`Statistics::time_ns`], with their names.
+    pub const ALL: [(Self, &str); 6] = [
+        (Self::Generate, "generate"),
+        (Self::Intersect, "intersect"),
+        (Self::Surface, "surface"),
+        (Self::Graph, "graph"),
+        (Self::Shade, "shade"),
+        (Self::Shadow, "shadow"),
+    ];
+}
+
+/// What is counted lane by lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaneStage {
+    /// Rays that escaped.
+    Escaped,
+    /// Hits shaded.
+    Shade,
+    /// Shadow rays that these sent.
+    Light,
+    /// Paths that go on.
+    Scatter,
+}
+
+impl LaneStage {
+    /// All of them, in the order of [`Statistics::lanes`], with their names.
+    pub const ALL: [(Self, &str); 4] =
+        [(Self::Escaped, "escaped"), (Self::Shade, "shade"), (Self::Light, "light"), (Self::Scatter, "scatter")];
+}
+
 /// Bounces told apart; deeper ones count as the last.
 pub const LANE_BOUNCES: usize = 16;
 
@@ -28,22 +71,22 @@ pub struct Statistics {
     pub shadow_rays: u64,
     /// Camera rays: samples.
     pub camera_rays: u64,
-    /// Lanes by bounce, in the order of [`LANE_STAGES`].
-    pub lanes: [[LaneCount; LANE_STAGES.len()]; LANE_BOUNCES],
-    /// Nanoseconds spent in each stage, in the order of [`STAGES`].
-    pub time_ns: [u64; STAGES.len()],
+    /// Lanes by bounce, in the order of [`LaneStage::ALL`].
+    pub lanes: [[LaneCount; LaneStage::ALL.len()]; LANE_BOUNCES],
+    /// Nanoseconds spent in each stage, in the order of [`Stage::ALL`].
+    pub time_ns: [u64; Stage::ALL.len()],
 }
 
 impl Statistics {
     /// Adds the time since `start` to a stage and gives the time now.
-    pub(crate) fn spent(&mut self, stage: usize, start: Instant) -> Instant {
+    pub(crate) fn spent(&mut self, stage: Stage, start: Instant) -> Instant {
         let now = Instant::now();
-        self.time_ns[stage] += (now - start).as_nanos() as u64;
+        self.time_ns[stage as usize] += (now - start).as_nanos() as u64;
         now
     }
     /// Counts `alive` lanes of use among `run` at a depth.
-    pub(crate) fn count_lanes(&mut self, depth: u32, stage: usize, run: usize, alive: usize) {
-        let count = &mut self.lanes[(depth as usize).min(LANE_BOUNCES - 1)][stage];
+    pub(crate) fn count_lanes(&mut self, depth: u32, stage: LaneStage, run: usize, alive: usize) {
+        let count = &mut self.lanes[(depth as usize).min(LANE_BOUNCES - 1)][stage as usize];
         count.run += run as u64;
         count.alive += alive as u64;
     }

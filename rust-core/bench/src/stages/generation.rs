@@ -41,6 +41,6 @@ impl Kernel for Generation {
     }
     fn outcome(&self) -> Outcome {
         let count = self.paths.count;
-        Outcome::of(self.paths.direction.iter().chain(&self.paths.origin).map(|column| &column[..count]))
+        Outcome::of(self.paths.rays.direction.iter().chain(&self.paths.rays.origin).map(|column| &column[..count]))
     }
 }

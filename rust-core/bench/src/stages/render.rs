@@ -13,7 +13,7 @@ use gonio::compile::CompiledScene;
 use gonio::error::Result;
 use gonio::render::Render;
 use gonio::scene::{Aov, Scene, Settings, load_bundle};
-use gonio::transport::{LANE_STAGES, LaneCount, STAGES, Statistics};
+use gonio::transport::{LaneCount, LaneStage, Stage, Statistics};
 use gonio_simd::Execution;
 use std::{
     sync::{Arc, atomic::AtomicBool},
@@ -108,8 +108,8 @@ impl Kernel for Whole {
 
 /// Shares of the stages in all workers' time; the rest is films, threads and workspaces.
 fn shares(statistics: &Statistics, seconds: f64) -> Vec<Share> {
-    let share = |(stage, ns): (&&'static str, &u64)| Share { stage, share: *ns as f64 * 1e-9 / seconds };
-    let mut shares: Vec<Share> = STAGES.iter().zip(&statistics.time_ns).map(share).collect();
+    let mut shares =
+        Stage::ALL.map(|(stage, name)| Share { stage: name, share: statistics.time_ns[stage as usize] as f64 * 1e-9 / seconds }).to_vec();
     let rest = 1.0 - shares.iter().map(|share| share.share).sum::<f64>();
     shares.push(Share { stage: "rest", share: rest });
     shares
@@ -117,14 +117,19 @@ fn shares(statistics: &Statistics, seconds: f64) -> Vec<Share> {
 
 /// Bounces that any path reached.
 fn lanes(statistics: &Statistics) -> Vec<LanesAlive> {
-    let first = statistics.lanes[0][1].run.max(1) as f64;
-    let part = |(stage, count): (&&'static str, &LaneCount)| Share { stage, share: count.alive as f64 / count.run.max(1) as f64 };
-    let reached = statistics.lanes.iter().enumerate().take_while(|(_, counts)| counts[1].run > 0);
+    let shaded = |counts: &[LaneCount]| counts[LaneStage::Shade as usize].run;
+    let first = shaded(&statistics.lanes[0]).max(1) as f64;
+    let reached = statistics.lanes.iter().enumerate().take_while(|(_, counts)| shaded(*counts) > 0);
     reached
         .map(|(bounce, counts)| LanesAlive {
             bounce,
-            work: counts[1].run as f64 / first,
-            alive: LANE_STAGES.iter().zip(counts).map(part).collect(),
+            work: shaded(counts) as f64 / first,
+            alive: LaneStage::ALL
+                .map(|(stage, name)| {
+                    let count = counts[stage as usize];
+                    Share { stage: name, share: count.alive as f64 / count.run.max(1) as f64 }
+                })
+                .to_vec(),
         })
         .collect()
 }

@@ -60,10 +60,10 @@ impl Queue {
         let slots: Vec<u32> = (0..BATCH as u32).collect();
         for first in (0..self.targets.len()).step_by(BATCH) {
             let batch = first..(first + BATCH).min(self.targets.len());
-            ws.sums.clear_colour();
+            ws.deposits.sums.clear_colour();
             let places = [&self.places[0][batch.clone()], &self.places[1][batch.clone()]];
             task.tracer.trace_at(places, &slots[..batch.len()], ws, cancelled);
-            samples.add(&self.targets[batch], &ws.sums);
+            samples.add(&self.targets[batch], &ws.deposits.sums);
         }
         self.places.iter_mut().for_each(Vec::clear);
         self.targets.clear();
@@ -98,7 +98,7 @@ impl Antialiaser {
         self.list_suspects(task);
         self.trace_inner(task, ws, cancelled);
         self.trace_zigzags(task, ws, cancelled);
-        ws.sums.clear();
+        ws.deposits.sums.clear();
         if task.passes {
             trace_middles(task, ws, cancelled);
         }
@@ -186,7 +186,7 @@ impl Antialiaser {
     /// Puts colours and numbers of rays into the workspace's sums.
     fn write(&mut self, task: &TileTask<'_>, ws: &mut Workspace) {
         let execution = task.tracer.transport.execution;
-        let sums = &mut ws.sums;
+        let sums = &mut ws.deposits.sums;
         dispatch!(execution, l => average(l, &self.corners, &mut self.sums));
         for (code, [x, y]) in task.pixels() {
             let value = [0, 1, 2, 3].map(|channel| self.sums[channel][y * TILE + x]);

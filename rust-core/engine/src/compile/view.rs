@@ -7,7 +7,7 @@ use crate::{
     error::{Error, Result},
     film::{Film, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{FirstPasses, Mist, PathFilter, Transport},
+    transport::{Estimator, Limits, Mist, Passes, PathFilter, Transport},
 };
 use gonio_simd::Execution;
 
@@ -58,13 +58,21 @@ impl View {
 
 /// The light transport that settings ask for; `eye` and `forward` are the camera's, rebased world space.
 pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: Execution, eye: [f32; 3], forward: [f32; 3]) -> Transport {
+    let guides = [Aov::DenoisingAlbedo, Aov::DenoisingNormal, Aov::DenoisingLight].iter().any(|aov| settings.aovs.contains(aov));
+    let estimator = match settings.integrator {
+        Integrator::Whitted => Estimator::Trees(scene.tables.lights.fixed_samples(settings.light_samples).into()),
+        _ => Estimator::Paths,
+    };
     Transport {
         execution,
-        max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
-        kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
+        limits: Limits {
+            max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
+            kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
+            clamps: [settings.clamp_direct, settings.clamp_indirect],
+        },
         shows_environment: settings.background != Background::Transparent,
         environment_covers: settings.background == Background::Covering,
-        passes: FirstPasses {
+        passes: Passes {
             shader: shader_passes::programs(&scene.tables.materials, settings),
             groups: light_groups::passes(&scene.tables.groups, settings),
             surface: [Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo].iter().any(|aov| settings.aovs.contains(aov)),
@@ -74,19 +82,18 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
                 depth: settings.mist.depth,
                 falloff: settings.mist.falloff,
             }),
-            guides: [Aov::DenoisingAlbedo, Aov::DenoisingNormal, Aov::DenoisingLight].iter().any(|aov| settings.aovs.contains(aov)),
+            guides,
+            specular: guides && matches!(estimator, Estimator::Trees(_)),
+            illuminance: settings.aovs.contains(&Aov::Illuminance),
             numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
         },
-        measure: settings.aovs.contains(&Aov::Illuminance),
-        clamps: [settings.clamp_direct, settings.clamp_indirect],
         eye,
         forward,
         seed: settings.seed,
         samples: settings.samples,
         light_cache: None,
         path_filter: PathFilter::All,
-        fixed_samples: (settings.integrator == Integrator::Whitted)
-            .then(|| scene.tables.lights.fixed_samples(settings.light_samples).into()),
+        estimator,
     }
 }
 

@@ -212,7 +212,7 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
             channels[3 * BATCH..].copy_from_slice(&gathered.alpha[..BATCH]);
         }
         Aov::LightGroup(number) => expose3(channels, gathered.groups.part(u32::from(number)), exposure),
-        Aov::DenoisingLight => expose3(channels, &gathered.sharp, exposure),
+        Aov::DenoisingLight => expose3(channels, &gathered.specular, exposure),
         Aov::Alpha => channels.copy_from_slice(&gathered.alpha[..BATCH]),
         Aov::Depth => channels.copy_from_slice(&gathered.depth[..BATCH]),
         Aov::Normal => copy3(channels, &gathered.normal),

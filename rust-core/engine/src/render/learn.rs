@@ -51,7 +51,7 @@ fn from_paths(
 ) -> Option<Arc<LightCache>> {
     let mut workspace = scene.workspaces.take();
     workspace.prepare(&scene.tables, &tracer.transport, false);
-    workspace.arrivals = Some(Vec::new());
+    workspace.deposits.arrivals = Some(Vec::new());
     for y in (window.min[1]..window.max[1]).step_by(TILE) {
         for x in (window.min[0]..window.max[0]).step_by(TILE) {
             let end = [(x + TILE as u32).min(window.max[0]), (y + TILE as u32).min(window.max[1])];
@@ -63,7 +63,7 @@ fn from_paths(
             }
         }
     }
-    let arrivals = workspace.arrivals.take()?;
+    let arrivals = workspace.deposits.arrivals.take()?;
     scene.workspaces.leave(workspace);
     scene.tables.lights.learn(&arrivals).map(Arc::new)
 }

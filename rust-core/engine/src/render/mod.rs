@@ -17,7 +17,7 @@ use crate::{
     light::LightCache,
     scene::{Crop, Settings},
     threads::available_threads,
-    transport::{SensorTable, Statistics, Transport},
+    transport::{SensorTable, Statistics},
 };
 use schedule::Schedule;
 use source::Source;
@@ -80,7 +80,8 @@ impl Render {
 
     /// Starts measuring at sensors, whose picture has the resolution of the settings.
     pub(crate) fn sense(scene: Arc<CompiledScene>, sensors: SensorTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
-        let transport = Transport { measure: false, ..transport(&scene, settings, execution, [0.0; 3], [0.0; 3]) };
+        let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0; 3]);
+        transport.passes.illuminance = false;
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
         Self::run(scene, settings, Source::Sensors { sensors, transport }, film)

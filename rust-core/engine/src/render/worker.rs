@@ -63,7 +63,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
             .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
     }
     if let Some(rays) = sharp_rays {
-        tracer.trace_sharp([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
+        tracer.trace_specular([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
     if cancelled() {
         return;
@@ -74,7 +74,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let origin = shared.scene.tables.origin;
     // Where samples follow discontinuities every pixel has its own slot.
     let packed = if rule.is_some() { u64::MAX } else { zones };
-    let block = Block::new(&shared.film, &workspace.sums, zones, packed, origin);
+    let block = Block::new(&shared.film, &workspace.deposits.sums, zones, packed, origin);
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
     let state = shared.film.add(work.tile, work.block, block, white, || {

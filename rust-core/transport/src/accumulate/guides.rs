@@ -6,45 +6,27 @@
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
 use crate::accumulate::add::add_rgb;
+use crate::accumulate::tile_sums::TileSums;
 use crate::state::flag;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
+use crate::state::vertex::Vertex;
 use crate::tables::transport::{PathFilter, Transport};
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::BATCH;
-use gonio_simd::{Lanes, M, Rgb, U};
+use gonio_simd::{Lanes, M, U};
 
 /// Adds albedo and normal of the first surfaces that are not specular, times the throughput of the specular path to them.
 #[inline(always)]
-pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, lobes: &Lobes<'_, L>, present: M<L>, ws: &mut Workspace) {
-    if !stage.transport.passes.guides || stage.transport.path_filter == PathFilter::ExceptSpecular {
+pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lobes: &Lobes<'_, L>, present: M<L>, sums: &mut TileSums) {
+    if !transport.passes.guides || transport.path_filter == PathFilter::ExceptSpecular {
         return;
     }
     let seen = present.and_not(point.all_delta) & is_specular_path(point.flags, point.slot);
     if !seen.any() {
         return;
     }
-    let [albedo, normal] = &mut ws.sums.guides;
+    let [albedo, normal] = &mut sums.guides;
     add_rgb(albedo, point.slot, lobes.albedo() * point.throughput, seen);
-    add_rgb(normal, point.slot, (point.frame.z * point.throughput.max_component()).into(), seen);
-}
-
-/// Keeps the light that arrives on specular paths apart, and returns the lanes whose light counts under the path filter.
-#[inline(always)]
-pub(crate) fn see<L: Lanes>(transport: &Transport, flags: U<L>, slot: U<L>, value: Rgb<L>, arrives: M<L>, ws: &mut Workspace) -> M<L> {
-    if !transport.passes.guides {
-        return arrives;
-    }
-    let sharp = arrives & is_specular_path(flags, slot);
-    // Light on the specular paths of samples is noisy, that of trees of rays is not.
-    if transport.fixed_samples.is_some() {
-        add_rgb(&mut ws.sums.sharp, slot, value, sharp);
-    }
-    match transport.path_filter {
-        PathFilter::All => arrives,
-        PathFilter::SpecularOnly => sharp,
-        PathFilter::ExceptSpecular => arrives.and_not(sharp),
-    }
+    add_rgb(normal, point.slot, (point.at.frame.z * point.throughput.max_component()).into(), seen);
 }
 
 /// Whether a pixel's path has met nothing yet but mirrors and smooth glass.

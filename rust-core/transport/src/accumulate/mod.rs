@@ -1,13 +1,14 @@
 //! Adding light and AOVs to the sums of a sample block.
 //!
-//! In go registers of contributions with their slots, out come [`tile_sums::TileSums`], which the film takes. The other files hold what a
-//! kind of pass needs: light passes, light groups, shader AOVs, guides of denoisers, shadow catchers.
+//! In go registers of contributions with their slots, out come [`tile_sums::TileSums`], which the film takes. Light enters by
+//! [`deposit::Deposits::deposit`] alone. The other files hold what a kind of pass needs: first surfaces, shader AOVs, guides of denoisers, shadow
+//! catchers.
 
 pub(crate) mod add;
 pub(crate) mod arrivals;
 pub(crate) mod catcher_sums;
+pub(crate) mod deposit;
 pub(crate) mod guides;
-pub(crate) mod light_groups;
 pub(crate) mod light_sums;
 pub(crate) mod shader_passes;
 pub(crate) mod shader_sums;

@@ -1,36 +1,42 @@
 //! Shader AOVs: what materials compute for passes of their own, summed where the camera sees them first.
 
 use crate::accumulate::add::add;
-use crate::graph::Program;
+use crate::accumulate::tile_sums::TileSums;
+use crate::graph::{OutputColumns, Program};
 use crate::state::flag;
+use crate::state::paths::Paths;
 use crate::state::vertex::Vertex;
-use crate::state::workspace::Workspace;
-use crate::tables::transport::Transport;
+use crate::tables::shader_passes::ShaderPasses;
 use gonio_camera::sampler::pixel;
 use gonio_simd::{Lanes, M};
 
-impl Workspace {
-    /// The program of a surface's passes, if the camera sees any of the chunk's hits.
-    pub(crate) fn shader_program<'a>(&self, transport: &'a Transport, surface: usize, first: usize, count: usize) -> Option<&'a Program> {
-        let program = transport.passes.shader.programs.get(surface)?.as_ref()?;
-        let seen = |path: &u32| self.paths.flags(*path as usize) & flag::CAMERA != 0;
-        self.order[first..first + count].iter().any(seen).then_some(program)
-    }
+/// The program of a surface's passes, if the camera sees any of a chunk's hits; `order` has the chunk's paths.
+pub(crate) fn shader_program<'a>(passes: &'a ShaderPasses, surface: usize, order: &[u32], paths: &Paths) -> Option<&'a Program> {
+    let program = passes.programs.get(surface)?.as_ref()?;
+    let seen = |path: &u32| paths.flags(*path as usize) & flag::CAMERA != 0;
+    order.iter().any(seen).then_some(program)
 }
 
 /// Adds what a program computed at the chosen hits.
 #[inline(always)]
-pub(crate) fn record<L: Lanes>(l: L, program: &Program, point: &Vertex<L>, chosen: M<L>, at: usize, ws: &mut Workspace) {
-    let slot = pixel(point.slot);
+pub(crate) fn add_shader_passes<L: Lanes>(
+    program: &Program,
+    outputs: &OutputColumns,
+    point: &Vertex<L>,
+    chosen: M<L>,
+    at: usize,
+    sums: &mut TileSums,
+) {
+    let (l, slot) = (point.slot.lanes(), pixel(point.slot));
     let mut place = 0;
     for output in &program.outputs {
         for channel in 0..output.width {
-            let value = l.load(ws.shader_outputs.column(place), at);
-            add(&mut ws.sums.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
+            let value = l.load(outputs.column(place), at);
+            add(&mut sums.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
             place += 1;
         }
         if output.width == 3 {
-            add(&mut ws.sums.shader.columns[output.offset + 3], slot, point.share, chosen);
+            add(&mut sums.shader.columns[output.offset + 3], slot, point.share, chosen);
         }
     }
 }

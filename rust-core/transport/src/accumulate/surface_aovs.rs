@@ -1,22 +1,9 @@
-//! AOVs of the first surface that a camera ray meets, and the clamp of contributions.
+//! AOVs of the first surface that a camera ray meets.
 
 use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
-
-/// A contribution clamped to the user's limit against fireflies; zero means no limit.
-#[inline(always)]
-pub(crate) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
-    if limit > 0.0 {
-        let largest = value.max_component();
-        let over = largest.gt(limit);
-        let factor = over.select(largest.recip() * limit, largest.lanes().f(1.0));
-        value * factor
-    } else {
-        value
-    }
-}
 
 /// A first surface, by lane.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +34,7 @@ pub(crate) struct SurfaceLook<L: Lanes> {
 impl TileSums {
     /// Adds what the chosen lanes' camera rays met.
     #[inline(always)]
-    pub(crate) fn record<L: Lanes>(&mut self, l: L, surface: &FirstSurface<L>, chosen: M<L>) {
+    pub(crate) fn add_first_surface<L: Lanes>(&mut self, l: L, surface: &FirstSurface<L>, chosen: M<L>) {
         if !chosen.any() {
             return;
         }

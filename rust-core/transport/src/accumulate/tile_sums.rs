@@ -4,7 +4,7 @@ use crate::accumulate::catcher_sums::CatcherSums;
 use crate::accumulate::light_sums::LightSums;
 use crate::accumulate::shader_sums::ShaderSums;
 use crate::state::columns::{Columns3, add_scaled, columns3};
-use crate::tables::transport::FirstPasses;
+use crate::tables::transport::Passes;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::Column;
 
@@ -38,7 +38,7 @@ pub struct TileSums {
     /// Number of camera rays, for pixels whose number is not that of the block's samples.
     pub rays: Column,
     /// The radiance on specular paths: seen directly, in mirrors and through smooth glass.
-    pub sharp: Columns3,
+    pub specular: Columns3,
     /// Light passes.
     pub lights: LightSums,
     /// Light groups.
@@ -65,7 +65,7 @@ impl Default for TileSums {
             uv: Columns3::default(),
             clearness: Column::new(BATCH),
             rays: Column::new(BATCH),
-            sharp: Columns3::default(),
+            specular: Columns3::default(),
             lights: LightSums::default(),
             groups: LightSums::default(),
             shader: ShaderSums::default(),
@@ -76,14 +76,14 @@ impl Default for TileSums {
 
 impl TileSums {
     /// Makes room for what passes want, and for nothing else.
-    pub(crate) fn prepare_passes(&mut self, passes: &FirstPasses) {
+    pub(crate) fn prepare_passes(&mut self, passes: &Passes) {
         let [albedo, normal] = &mut self.guides;
         for (columns, wanted) in [
             (&mut self.normal, passes.surface),
             (&mut self.position, passes.surface),
             (&mut self.albedo, passes.surface),
             (&mut self.uv, passes.uv),
-            (&mut self.sharp, passes.guides),
+            (&mut self.specular, passes.guides),
             (albedo, passes.guides),
             (normal, passes.guides),
         ] {
@@ -111,9 +111,9 @@ impl TileSums {
     }
 
     /// Adds the sums of trees of specular rays, each ray counting as `factor` of a sample.
-    pub(crate) fn add_sharp(&mut self, rays: &Self, factor: f32) {
+    pub(crate) fn add_specular(&mut self, rays: &Self, factor: f32) {
         add_scaled(&mut self.radiance, &rays.radiance, factor);
-        add_scaled(&mut self.sharp, &rays.sharp, factor);
+        add_scaled(&mut self.specular, &rays.specular, factor);
         self.guides.iter_mut().zip(&rays.guides).for_each(|(to, from)| add_scaled(to, from, factor));
         self.lights.add_scaled(&rays.lights, factor);
         self.groups.add_scaled(&rays.groups, factor);
@@ -126,7 +126,7 @@ impl TileSums {
 
     /// Empties all sums.
     pub fn clear(&mut self) {
-        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.sharp];
+        let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.specular];
         let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays];
         threes
             .into_iter()

@@ -1,8 +1,8 @@
 //! Guides of denoisers: trees of specular rays find what mirrors and smooth glass show. `accumulate/guides.rs` sums it.
 
-use crate::schedule::path::Tracer;
+use crate::schedule::tracer::Tracer;
 use crate::state::workspace::Workspace;
-use crate::tables::transport::{FirstPasses, PathFilter, Transport};
+use crate::tables::transport::{Estimator, Limits, Passes, PathFilter, Transport};
 use gonio_camera::sampler::Runs;
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ const SEED: u32 = 0x5f35_6495;
 impl Tracer<'_> {
     /// Adds light and guides of specular paths by camera rays of their own, `rays` for each sample of some zones (see [`Runs::batches`]).
     /// The samples themselves must have been traced with [`PathFilter::ExceptSpecular`].
-    pub fn trace_sharp(
+    pub fn trace_specular(
         &self,
         [min, max]: [[u32; 2]; 2],
         zones: u64,
@@ -23,21 +23,25 @@ impl Tracer<'_> {
     ) {
         let own = &self.transport;
         let transport = Transport {
-            passes: FirstPasses { guides: own.passes.guides, groups: own.passes.groups.clone(), ..FirstPasses::default() },
-            measure: false,
+            passes: Passes {
+                guides: own.passes.guides,
+                specular: own.passes.guides,
+                groups: own.passes.groups.clone(),
+                ..Passes::default()
+            },
             path_filter: PathFilter::SpecularOnly,
-            fixed_samples: Some([].into()),
+            estimator: Estimator::Trees([].into()),
             // Paths see what emits beyond the last bounce.
-            max_bounces: own.max_bounces.saturating_add(1),
+            limits: Limits { max_bounces: own.limits.max_bounces.saturating_add(1), ..own.limits },
             seed: own.seed ^ SEED,
             samples: own.samples.saturating_mul(rays),
             ..own.clone()
         };
         let tracer = Tracer { tables: self.tables, start: self.start, transport };
-        ws.start_sharp(&tracer.transport);
+        ws.begin_specular();
         for runs in Runs::batches(zones, samples.start * rays..samples.end * rays).take_while(|_| !cancelled()) {
             tracer.trace(min, max, &runs, ws, cancelled);
         }
-        ws.end_sharp(rays);
+        ws.end_specular(rays);
     }
 }

@@ -4,15 +4,16 @@
 //! From there on slots tell the halves apart: slots of pixels come first, then measured points, then either half.
 
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::surface_aovs::clamped;
+use crate::accumulate::deposit::clamped;
+use crate::accumulate::tile_sums::TileSums;
 use crate::kernels;
+use crate::state::chunk::ChunkContext;
 use crate::state::flag;
 use crate::state::paths::Paths;
-use crate::state::shadow_rays::ShadowRays;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
+use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::vertex::Vertex;
 use crate::tables::{Tables, ray_mask};
-use gonio_accel::NONE;
+use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::{BATCH, pixel};
 use gonio_simd::{Lanes, M, Rgb, U};
 
@@ -22,23 +23,23 @@ const WITH_OBJECTS: u32 = 2 * BATCH as u32;
 const CATCHERS_ONLY: u32 = 3 * BATCH as u32;
 
 /// Splits the paths whose camera rays met a catcher.
-pub(crate) fn fork(tables: &Tables, ws: &mut Workspace) {
+pub(crate) fn fork(tables: &Tables, paths: &mut Paths, hits: &mut Hits) {
     let geometry = &tables.geometry;
     if geometry.set_catcher.is_empty() {
         return;
     }
-    for path in 0..ws.paths.count {
-        let instance = ws.hits.instance[path];
-        if instance == NONE || ws.paths.flags(path) & flag::CAMERA == 0 {
+    for path in 0..paths.count {
+        let instance = hits.instance[path];
+        if instance == NONE || paths.flags(path) & flag::CAMERA == 0 {
             continue;
         }
         if geometry.set_catcher[geometry.instances[instance as usize].set as usize] != 0 {
-            let twin = ws.paths.count;
-            ws.paths.copy(path, twin);
-            ws.hits.repeat(path);
-            *ws.paths.slot_mut(path) += WITH_OBJECTS;
-            *ws.paths.slot_mut(twin) += CATCHERS_ONLY;
-            ws.paths.count += 1;
+            let twin = paths.count;
+            paths.copy(path, twin);
+            hits.repeat(path);
+            *paths.slot_mut(path) += WITH_OBJECTS;
+            *paths.slot_mut(twin) += CATCHERS_ONLY;
+            paths.count += 1;
         }
     }
 }
@@ -68,7 +69,7 @@ pub(crate) fn set_masks(tables: &Tables, paths: &mut Paths) {
     if !tables.geometry.set_catcher.is_empty() {
         for path in 0..paths.count {
             if paths.slot(path) >= CATCHERS_ONLY {
-                paths.mask[path] = ray_mask::CATCHER_SCATTERED;
+                paths.rays.mask[path] = ray_mask::CATCHER_SCATTERED;
             }
         }
     }
@@ -78,13 +79,13 @@ pub(crate) fn set_masks(tables: &Tables, paths: &mut Paths) {
 pub(crate) fn set_shadow_masks(tables: &Tables, shadows: &mut ShadowRays) {
     if !tables.geometry.set_catcher.is_empty() {
         let mask = |slot: u32| if slot >= CATCHERS_ONLY { ray_mask::CATCHER_SHADOW } else { ray_mask::SHADOW };
-        shadows.mask.iter_mut().zip(&shadows.slot[..shadows.count]).for_each(|(place, slot)| *place = mask(*slot));
+        shadows.rays.mask.iter_mut().zip(&shadows.slot[..shadows.count]).for_each(|(place, slot)| *place = mask(*slot));
     }
 }
 
 /// Whether paths may sample a light: among catchers alone, lights on objects are absent.
 #[inline(always)]
-pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) -> M<L> {
+pub(crate) fn may_sample<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) -> M<L> {
     if tables.object_lights.is_empty() {
         return l.m(true);
     }
@@ -94,8 +95,8 @@ pub(crate) fn knows<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L>) ->
 /// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on the halves are no
 /// camera paths any more.
 #[inline(always)]
-pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Vertex<L>, present: M<L>, ws: &mut Workspace) {
-    let Stage { l, tables, transport, context, .. } = *stage;
+pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vertex<L>, present: M<L>, sums: &mut TileSums) {
+    let ChunkContext { l, tables, transport, sample, .. } = *chunk;
     let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WITH_OBJECTS);
     let caught = present & halved & point.slot.lt(CATCHERS_ONLY);
     point.flags = halved.select(point.flags & !flag::CAMERA, point.flags);
@@ -104,18 +105,18 @@ pub(crate) fn record<L: Lanes>(stage: &Stage<'_, L>, point: &mut Vertex<L>, pres
     }
     let pixel = pixel(point.slot);
     if transport.environment_covers {
-        add(&mut ws.sums.alpha, pixel, point.share, caught);
+        add(&mut sums.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
-    let from = ws.paths.vertex(l, point.path);
-    let Some((coverage, behind)) = &mut ws.sums.catchers.sums else { return };
+    let from = chunk.paths.vertex(l, point.path);
+    let Some((coverage, behind)) = &mut sums.catchers.sums else { return };
     if !transport.environment_covers {
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_environment {
         let radiance: Rgb<L> =
             kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
-        let value = clamped(radiance * point.throughput, transport.clamp(context.depth));
+        let value = clamped(radiance * point.throughput, transport.limits.clamp(sample.depth));
         add_rgb(behind, pixel, value, caught & value.is_lit());
     }
 }

@@ -6,30 +6,52 @@
 use crate::graph::{CHUNK, OutputColumns};
 use crate::kernels;
 use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::state::chunk::ChunkColumns;
+use crate::state::material_order::MaterialOrder;
+use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
-use crate::state::workspace::Workspace;
 use crate::tables::Tables;
 use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
-use gonio_accel::NONE;
+use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::dimension;
 use gonio_simd::{F, Lanes, PADDING, Rgb, dispatch};
 
 /// Chooses closures for all hits on mixes: material numbers become surface numbers.
-pub(crate) fn choose_closures(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
+pub(crate) fn choose_closures(
+    tables: &Tables,
+    transport: &Transport,
+    context: &SampleContext<'_>,
+    paths: &mut Paths,
+    hits: &Hits,
+    materials: &mut MaterialOrder,
+    columns: &mut ChunkColumns,
+) {
     if tables.materials.mixes.is_empty() {
         return;
     }
-    for_mixes(tables, ws, |mix, order, count, ws| {
-        dispatch!(transport.execution, l => choose_chunk(l, tables, context, mix, order, count, ws));
+    let MaterialOrder { material_of, mixed, .. } = materials;
+    for_mixes(tables, material_of, mixed, |mix, chunk, material_of| {
+        dispatch!(transport.execution, l => choose_chunk(l, tables, context, (mix, chunk), paths, hits, material_of, columns));
     });
 }
 
-/// Does something with the hits on each mix, a chunk at a time: the mix, the paths, and how many they are.
-pub(crate) fn for_mixes(tables: &Tables, ws: &mut Workspace, mut each: impl FnMut(&Mix, &[u32; CHUNK + PADDING], usize, &mut Workspace)) {
-    let mut mixed = std::mem::take(&mut ws.mixed);
+/// The paths at a mix that are looked at together: how many, and their numbers, padded to whole registers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MixChunk {
+    pub(crate) count: usize,
+    pub(crate) order: [u32; CHUNK + PADDING],
+}
+
+/// Does something with the hits on each mix, a chunk at a time: the mix, the paths, and the materials of all paths. `mixed` is scratch.
+pub(crate) fn for_mixes(
+    tables: &Tables,
+    material_of: &mut [u32],
+    mixed: &mut Vec<(u32, u32)>,
+    mut each: impl FnMut(&Mix, &MixChunk, &mut [u32]),
+) {
     mixed.clear();
-    for (path, material) in ws.material_of.iter().enumerate() {
+    for (path, material) in material_of.iter().enumerate() {
         if *material != NONE
             && let Shading::Mix(mix) = tables.materials.shading(*material)
         {
@@ -42,38 +64,41 @@ pub(crate) fn for_mixes(tables: &Tables, ws: &mut Workspace, mut each: impl FnMu
         for chunk in paths.chunks(CHUNK) {
             let mut order = [chunk[0].1; CHUNK + PADDING];
             order.iter_mut().zip(chunk).for_each(|(place, (_, path))| *place = *path);
-            each(mix, &order, chunk.len(), ws);
+            each(mix, &MixChunk { count: chunk.len(), order }, material_of);
         }
     }
-    ws.mixed = mixed;
 }
 
+#[expect(clippy::too_many_arguments, reason = "paths, their hits and their materials")]
 #[inline(always)]
 fn choose_chunk<L: Lanes>(
     l: L,
     tables: &Tables,
     context: &SampleContext<'_>,
-    mix: &Mix,
-    order: &[u32; CHUNK + PADDING],
-    count: usize,
-    ws: &mut Workspace,
+    (mix, chunk): (&Mix, &MixChunk),
+    paths: &mut Paths,
+    hits: &Hits,
+    material_of: &mut [u32],
+    columns: &mut ChunkColumns,
 ) {
-    let source = ChunkSource { order, count, rays: ChunkRays::Paths(&ws.paths) };
-    kernels::run_program(l, tables, &mix.program, &ws.hits, &source, &mut ws.surface, &mut ws.scratch, &mut ws.outputs);
+    let MixChunk { count, ref order } = *chunk;
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
+    kernels::run_program(l, tables, &mix.program, hits, &source, columns);
+    let outputs = &columns.outputs;
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
-        let index = context.index(l, ws.paths.track(l, path).slot);
+        let index = context.index(l, paths.track(l, path).slot);
         let [u, _] = context.sampler.pair(l, index, dimension);
         let mut total = l.f(0.0);
         for closure in 0..mix.count {
-            total += share(weight(l, &ws.outputs, closure, at));
+            total += share(weight(l, outputs, closure, at));
         }
         let mut point = u * total;
         let (mut chosen, mut factor) = (l.u(0), Rgb::zero(l));
         let mut found = l.m(false);
         for closure in 0..mix.count {
-            let weight = weight(l, &ws.outputs, closure, at);
+            let weight = weight(l, outputs, closure, at);
             let own = share(weight);
             let here = point.lt(own).and_not(found) & own.gt(0.0);
             chosen = here.select(l.u(closure as u32), chosen);
@@ -81,12 +106,12 @@ fn choose_chunk<L: Lanes>(
             found |= here;
             point -= own;
         }
-        let (chosen, paths) = (chosen.to_array(), path.to_array());
+        let (chosen, numbers) = (chosen.to_array(), path.to_array());
         let factor = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
         for lane in 0..L::COUNT.min(count - at) {
-            let path = paths[lane] as usize;
-            ws.material_of[path] = mix.first + chosen[lane];
-            for (channel, factor) in ws.paths.carried_mut(path).iter_mut().zip(&factor) {
+            let path = numbers[lane] as usize;
+            material_of[path] = mix.first + chosen[lane];
+            for (channel, factor) in paths.carried_mut(path).iter_mut().zip(&factor) {
                 *channel *= factor[lane];
             }
         }

@@ -1,25 +1,33 @@
 //! Exit of subsurface random walks: the point is lit (NEE) and scatters as a white Lambertian surface.
 
-use crate::stage::nee::light;
+use crate::accumulate::deposit::Deposits;
+use crate::stage::nee::sample_light;
 use crate::stage::scatter::scatter;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
+use crate::state::chunk::ChunkContext;
+use crate::state::queue::Queues;
+use crate::state::vertex::Vertex;
 use gonio_bsdf::subsurface;
 use gonio_camera::sampler::dimension;
-use gonio_simd::{Lanes, Vec3};
+use gonio_simd::Lanes;
 
 /// Lights and scatters walks that come out, as a white Lambertian surface; `base` is the first sampler dimension that it uses.
 #[inline(always)]
-pub(crate) fn leave<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, base: u32, ws: &mut Workspace) {
-    let Stage { l, tables, context, .. } = *stage;
+pub(crate) fn light_and_scatter<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    point: &Vertex<L>,
+    base: u32,
+    queues: &mut Queues,
+    deposits: &mut Deposits,
+) {
+    let ChunkContext { l, tables, sample, .. } = *chunk;
     let lobes = subsurface::exit(l);
-    let wo = Vec3::splat(l, [0.0, 0.0, 1.0]);
-    let index = context.index(l, point.slot);
-    let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+    let index = sample.index(l, point.slot);
+    let [u_light, u_roulette] = sample.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if !tables.lights.is_empty() {
-        let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
-        light(stage, point, wo, &lobes, [u_light, u, v], point.alive, ws);
+        let [u, v] = sample.sampler.pair(l, index, base + dimension::LIGHT);
+        sample_light(chunk, point, &lobes, [u_light, u, v], point.alive, &mut queues.shadows, deposits);
     }
-    let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
-    scatter(stage, point, wo, &lobes, [l.f(0.5), u, v, u_roulette], [point.alive, l.m(false)], ws);
+    let [u, v] = sample.sampler.pair(l, index, base + dimension::BSDF);
+    let random = [l.f(0.5), u, v, u_roulette];
+    scatter(chunk, point, &lobes, random, [point.alive, l.m(false)], &mut queues.next, &mut queues.walks);
 }

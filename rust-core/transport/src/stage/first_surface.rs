@@ -1,14 +1,12 @@
 //! First-surface AOVs: depth, normal, albedo, mist and indices where camera rays land; and holdouts, which hide them.
 
-use crate::accumulate::shader_passes;
+use crate::accumulate::deposit::Deposits;
+use crate::accumulate::shader_passes::add_shader_passes;
 use crate::accumulate::surface_aovs::{FirstSurface, SurfaceLook};
 use crate::stage::catcher;
-use crate::state::columns::append3;
+use crate::state::chunk::ChunkContext;
 use crate::state::flag;
-use crate::state::measure_points::MeasurePoints;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
-use crate::tables::Tables;
+use crate::state::vertex::Vertex;
 use crate::tables::material::SurfaceMaterial;
 use crate::tables::transport::Mist;
 use gonio_bsdf::Lobes;
@@ -17,20 +15,18 @@ use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// Leaves out what the camera sees of holdouts: paths end there without light or coverage.
 #[inline(always)]
-pub(crate) fn covered<L: Lanes>(
-    stage: &Stage<'_, L>,
+pub(crate) fn without_holdouts<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
     material: &SurfaceMaterial,
     point: &Vertex<L>,
     present: M<L>,
-    at: usize,
-    ws: &Workspace,
 ) -> M<L> {
-    let Stage { l, tables, .. } = *stage;
+    let ChunkContext { l, tables, .. } = *chunk;
     let camera = (point.flags & flag::CAMERA).ne(0);
     let hole = if material.holdout {
         l.m(true)
     } else {
-        let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at));
+        let set = tables.geometry.set_lanes(l, point.instance);
         l.gather_integers(&tables.geometry.set_holdout, set).ne(0)
     };
     present.and_not(hole & camera)
@@ -38,16 +34,16 @@ pub(crate) fn covered<L: Lanes>(
 
 /// Records the AOVs of first surfaces.
 #[inline(always)]
-pub(crate) fn record_first<L: Lanes>(
-    stage: &Stage<'_, L>,
+pub(crate) fn add_first_surface<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
     material: &SurfaceMaterial,
     point: &Vertex<L>,
     lobes: &Lobes<'_, L>,
     present: M<L>,
     at: usize,
-    ws: &mut Workspace,
+    deposits: &mut Deposits,
 ) {
-    let Stage { l, tables, transport, .. } = *stage;
+    let ChunkContext { l, transport, .. } = *chunk;
     let seen = present & (point.flags & flag::CAMERA).ne(0) & catcher::shown(point.slot);
     if !seen.any() {
         return;
@@ -57,38 +53,38 @@ pub(crate) fn record_first<L: Lanes>(
         slot: pixel(point.slot),
         share: point.share,
         covers: catcher::covers(point.slot),
-        look: if transport.passes.surface { Some(look(stage, point, lobes, eye)) } else { None },
-        numbers: if transport.passes.numbers { Some(numbers(stage, material, at, ws)) } else { None },
+        look: if transport.passes.surface { Some(look(chunk, point, lobes, eye)) } else { None },
+        numbers: if transport.passes.numbers { Some(numbers(chunk, material, point)) } else { None },
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         clearness: match &transport.passes.mist {
-            Some(mist) => Some(clearness(mist, point.position - eye)),
+            Some(mist) => Some(clearness(mist, point.at.position - eye)),
             None => None,
         },
-        uv: if transport.passes.uv { Some(texture_coordinates(l, tables, material, at, ws)) } else { None },
-        kinds: if ws.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
+        uv: if transport.passes.uv { Some(texture_coordinates(chunk, material, point, at)) } else { None },
+        kinds: if deposits.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
     };
-    ws.sums.record(l, &surface, seen);
-    if let Some(program) = stage.shader {
-        shader_passes::record(l, program, point, seen, at, ws);
+    deposits.sums.add_first_surface(l, &surface, seen);
+    if let Some(program) = chunk.shader {
+        add_shader_passes(program, &chunk.columns.shader_outputs, point, seen, at, &mut deposits.sums);
     }
 }
 
 /// Where the surface is, and what it is like.
 #[inline(always)]
-fn look<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, lobes: &Lobes<'_, L>, eye: Vec3<L>) -> SurfaceLook<L> {
+fn look<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, lobes: &Lobes<'_, L>, eye: Vec3<L>) -> SurfaceLook<L> {
     SurfaceLook {
-        depth: (point.position - eye).dot(Vec3::splat(stage.l, stage.transport.forward)),
-        normal: point.frame.z,
-        position: point.position,
+        depth: (point.at.position - eye).dot(Vec3::splat(chunk.l, chunk.transport.forward)),
+        normal: point.at.frame.z,
+        position: point.at.position,
         albedo: lobes.albedo(),
     }
 }
 
 /// The instance set, and the pass indices of the instance and of the material.
 #[inline(always)]
-fn numbers<L: Lanes>(stage: &Stage<'_, L>, material: &SurfaceMaterial, at: usize, ws: &Workspace) -> [U<L>; 3] {
-    let Stage { l, tables, .. } = *stage;
-    let set = tables.geometry.set_lanes(l, l.load_integers(&ws.surface.instance, at));
+fn numbers<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>) -> [U<L>; 3] {
+    let ChunkContext { l, tables, .. } = *chunk;
+    let set = tables.geometry.set_lanes(l, point.instance);
     [set, l.gather_integers(&tables.geometry.set_pass_index, set), l.u(material.pass_index)]
 }
 
@@ -102,27 +98,12 @@ fn clearness<L: Lanes>(mist: &Mist, from_eye: Vec3<L>) -> F<L> {
 
 /// The texture coordinates that the material's images follow.
 #[inline(always)]
-fn texture_coordinates<L: Lanes>(l: L, tables: &Tables, material: &SurfaceMaterial, at: usize, ws: &Workspace) -> [F<L>; 2] {
+fn texture_coordinates<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>, at: usize) -> [F<L>; 2] {
+    let ChunkContext { l, tables, columns, .. } = *chunk;
     let Some(column) = material.program.uv else { return [l.f(0.0); 2] };
-    let barycentric = [l.load(&ws.surface.barycentric[0], at), l.load(&ws.surface.barycentric[1], at)];
-    let (instance, primitive) = (l.load_integers(&ws.surface.instance, at), l.load_integers(&ws.surface.primitive, at));
-    let hit = tables.geometry.hit_lanes(l, instance, primitive, barycentric[0], barycentric[1]);
+    let barycentric = &columns.surface.barycentric;
+    let primitive = l.load_integers(&columns.surface.primitive, at);
+    let hit = tables.geometry.hit_lanes(l, point.instance, primitive, l.load(&barycentric[0], at), l.load(&barycentric[1], at));
     let ([u, v, ..], _) = tables.geometry.primvar(l, &hit, column);
     [u, v]
-}
-
-#[inline(always)]
-pub(crate) fn append_measure<L: Lanes>(point: &Vertex<L>, chosen: M<L>, out: &mut MeasurePoints) {
-    if !chosen.any() {
-        return;
-    }
-    let n = out.count;
-    append3(point.position, chosen, &mut out.position, n);
-    point.error.append(chosen, &mut out.error, n);
-    append3(point.geometric, chosen, &mut out.geometric_normal, n);
-    append3(point.frame.z, chosen, &mut out.shading_normal, n);
-    append3(point.throughput.into(), chosen, &mut out.throughput, n);
-    point.width.append(chosen, &mut out.width, n);
-    point.slot.append(chosen, &mut out.slot, n);
-    out.count += chosen.count();
 }

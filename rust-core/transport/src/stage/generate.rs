@@ -7,7 +7,7 @@ use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_camera::{CameraRay, CameraTable};
 use gonio_camera::{FilterTable, Placement};
-use gonio_simd::{F, Lanes, PADDING, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, PADDING, Rgb, U};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -101,12 +101,4 @@ fn filter_offset<L: Lanes>(l: L, filter: &FilterTable, u: F<L>) -> F<L> {
     let floor = place.floor();
     let [low, high] = l.gather_pairs(&filter.inverse, floor.to_i32());
     low.lerp(high, place - floor)
-}
-
-/// A direction of the cosine distribution about +z (Malley's method).
-#[inline(always)]
-pub(crate) fn cosine_hemisphere<L: Lanes>(u: [F<L>; 2]) -> Vec3<L> {
-    let [x, y] = gonio_camera::concentric_disk(u);
-    let z = (x.lanes().f(1.0) - x * x - y * y).safe_sqrt();
-    Vec3::new(x, y, z)
 }

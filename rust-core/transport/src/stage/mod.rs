@@ -1,12 +1,13 @@
-//! The wavefront stages. Each takes a batch one step further: it reads and writes columns of [`crate::state::workspace::Workspace`].
+//! The wavefront stages. Each takes a batch one step further: it takes the columns that it reads and writes.
 //!
-//! In the order in which `schedule/path.rs` calls them:
+//! In the order in which `schedule/path` calls them:
 //!
 //! - [`generate`] starts camera paths, [`sensors`] those of meters.
-//! - [`intersect`] traces them, adds the light of lights they hit, and forks at shadow catchers ([`catcher`]).
+//! - [`intersect`] traces them and adds the light of lights they hit; paths fork at shadow catchers ([`catcher`]).
 //! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
 //! - [`surface`] computes the surface points of a chunk.
-//! - [`shade`] runs emission, AOVs ([`first_surface`]), next event estimation ([`nee`], [`light_queue`]) and BSDF sampling ([`scatter`]).
+//! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`])
+//!   and BSDF sampling ([`scatter`]).
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
 //! - [`shadow`] traces shadow rays and adds what arrives.
@@ -16,6 +17,7 @@ pub(crate) mod closure;
 pub(crate) mod exit;
 pub(crate) mod first_surface;
 pub(crate) mod generate;
+pub(crate) mod integrator;
 pub(crate) mod intersect;
 pub(crate) mod light_queue;
 pub(crate) mod measure;

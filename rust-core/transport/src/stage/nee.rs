@@ -1,71 +1,61 @@
 //! Next event estimation (NEE): a light sampled at each hit, its MIS weight (power heuristic), and the shadow ray to it.
 
-use crate::accumulate::add::{add_sampled, code_of_sampled};
-use crate::accumulate::arrivals::note_lost;
-use crate::accumulate::light_groups::add_of_lights;
-use crate::accumulate::surface_aovs::clamped;
-use crate::geometry::shadow_ray_to;
+use crate::accumulate::deposit::{Contribution, Deposits, Source, clamped, code_of_sampled};
 use crate::kernels;
 use crate::stage::catcher;
-use crate::state::shadow_rays::ShadowLanes;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
+use crate::state::chunk::ChunkContext;
+use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::vertex::Vertex;
 use gonio_bsdf::Lobes;
-use gonio_light::{LightSample, power_heuristic};
+use gonio_light::{LightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
 #[inline(always)]
-pub(crate) fn light<L: Lanes>(
-    stage: &Stage<'_, L>,
+pub(crate) fn sample_light<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     u: [F<L>; 3],
     present: M<L>,
-    ws: &mut Workspace,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
 ) {
-    let Stage { l, tables, transport, .. } = *stage;
-    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.position, &point.frame.z, &u);
-    send(stage, point, wo, lobes, &sample, None, present, ws);
+    let ChunkContext { l, tables, transport, .. } = *chunk;
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.at.position, &point.at.frame.z, &u);
+    queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), present, shadows, deposits);
 }
 
-/// Queues the shadow ray to a light sample. Its weight is its `share` in the mean of several fixed samples, or else its MIS weight.
+/// Queues the shadow ray to a light sample, which counts by a weight. Where nothing can block the light, it is deposited at once.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "a surface and a light")]
-pub(crate) fn send<L: Lanes>(
-    stage: &Stage<'_, L>,
+pub(crate) fn queue_shadow_ray<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
-    sample: &LightSample<L>,
-    share: Option<f32>,
+    (sample, weight): (&LightSample<L>, SampleWeight),
     present: M<L>,
-    ws: &mut Workspace,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
 ) {
-    let Stage { l, tables, transport, context, .. } = *stage;
-    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::knows(l, tables, point.slot, sample.light);
+    let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
+    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.slot, sample.light);
     if !usable.any() {
-        note_lost(point.position, present, ws);
+        deposits.note_lost(point.at.position, present);
         return;
     }
-    let wi = point.frame.to_local(sample.wi);
-    let (value, pdf) = lobes.eval(l, wo, wi);
-    let weight = match share {
-        Some(share) => l.f(share),
-        None => sample.delta.select(l.f(1.0), power_heuristic(sample.pdf, pdf)),
-    };
-    let contribution = clamped(value * sample.radiance * point.throughput * (weight / sample.pdf), transport.clamp(context.depth));
-    let lit = usable & contribution.is_lit() & contribution.max_component().is_finite();
-    note_lost(point.position, present.and_not(lit), ws);
-    let free = lit.and_not(sample.casts_shadow);
+    let wi = point.at.frame.to_local(sample.wi);
+    let (f, pdf) = lobes.eval(l, point.local_wo, wi);
+    let weight = weight.of(sample, pdf);
+    let value = clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), transport.limits.clamp(context.depth));
+    let lit = usable & value.is_lit() & value.max_component().is_finite();
+    deposits.note_lost(point.at.position, present.and_not(lit));
     let code = code_of_sampled(point.flags);
-    let shares = if ws.sums.lights.wanted() { Some(shares(l, lobes, wo, wi, value)) } else { None };
-    add_sampled(&mut ws.sums, code, point.slot, contribution, shares, free);
-    add_of_lights(l, &transport.passes.groups, sample.light, point.slot, contribution, free, &mut ws.sums.groups);
-    let segment = shadow_ray_to(point.position, point.geometric, point.error, sample.wi, sample.distance);
-    let ray = ShadowLanes { segment, contribution, slot: point.slot, code, light: sample.light, shares };
-    ws.shadows.append(&ray, lit & sample.casts_shadow);
+    let shares = if deposits.sums.lights.wanted() { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
+    let light = Contribution { slot: point.slot, value, code, shares, specular: l.m(false), source: Source::Light(sample.light) };
+    deposits.deposit(transport, &light, lit.and_not(sample.casts_shadow));
+    let segment = point.at.shadow_ray(sample);
+    let ray = ShadowLanes { segment, contribution: value, slot: point.slot, code, light: sample.light, shares };
+    shadows.append(&ray, lit & sample.casts_shadow);
 }
 
 /// The diffuse and the glossy share of what all lobes scatter.

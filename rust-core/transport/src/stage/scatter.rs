@@ -1,44 +1,30 @@
 //! BSDF sampling and Russian roulette: paths go on from a surface, straight through it, or start a random walk under it.
 
-use crate::geometry::offset_ray_origin;
 use crate::kernels;
-use crate::state::paths::PathLanes;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, Stage, Vertex};
-use crate::state::walks::WalkLanes;
-use crate::state::workspace::Workspace;
-use crate::state::{event, flag};
-use crate::tables::transport::Transport;
+use crate::state::chunk::ChunkContext;
+use crate::state::flag::{self, event};
+use crate::state::paths::{PathLanes, Paths};
+use crate::state::queue::walks::{WalkLanes, Walks};
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use gonio_bsdf::{Lobes, subsurface::Medium};
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// First depths of Russian roulette, for paths that leave diffusely and for any path: highlights and glass show more of what comes later.
 const ROULETTE_FROM: [u32; 2] = [1, 5];
 /// A path survives with this times the root of its throughput: measured on the scenes of `tests/peers/render`, the least variance times seconds.
 const ROULETTE_SHARE: f32 = 1.25;
 
-/// Whether the bounces of each kind are within their limits.
-#[inline(always)]
-pub(crate) fn within<L: Lanes>(counts: U<L>, limits: [u32; 4]) -> M<L> {
-    let at = |kind: u32| (counts >> (kind * 8)) & 255;
-    at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
-}
-
-/// Whether a path may go straight through one more surface.
-#[inline(always)]
-pub(crate) fn straight_left<L: Lanes>(counts: U<L>, transport: &Transport) -> M<L> {
-    (counts >> 24).lt(transport.kind_bounces[3])
-}
-
 /// Sends paths straight on through a cut-out: only the ray's origin and the count of ways straight through change.
 #[inline(always)]
-pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Vertex<L>, chosen: M<L>, ws: &mut Workspace) {
+pub(crate) fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chosen: M<L>, next: &mut Paths) {
     if !chosen.any() {
         return;
     }
+    let l = chunk.l;
     let direction = -point.wo;
-    let from = ws.paths.vertex(l, point.path);
+    let from = chunk.paths.vertex(l, point.path);
     let state = PathLanes {
-        origin: offset_ray_origin(point.position, point.geometric, point.error, direction),
+        origin: point.at.ray_origin(direction),
         direction,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
@@ -53,19 +39,19 @@ pub(crate) fn pass_straight<L: Lanes>(l: L, point: &Vertex<L>, chosen: M<L>, ws:
         counts: point.counts + (1 << 24),
         medium: point.medium,
     };
-    ws.next.append(&state, chosen);
+    next.append(&state, chosen);
 }
 
 /// Starts subsurface random walks.
 #[inline(always)]
-fn enter<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, ws: &mut Workspace) {
+fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, walks: &mut Walks) {
     if !chosen.any() {
         return;
     }
     let walk = WalkLanes {
-        origin: point.position,
+        origin: point.at.position,
         direction: wi,
-        t_min: point.error / point.geometric.dot(wi).abs().max(0.05),
+        t_min: point.at.error / point.at.geometric.dot(wi).abs().max(0.05),
         throughput,
         medium: *medium,
         instance: point.instance,
@@ -74,14 +60,14 @@ fn enter<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &
         counts: point.counts,
         width: point.width,
     };
-    ws.walks.append(&walk, chosen);
+    walks.append(&walk, chosen);
 }
 
 /// The probability with which a path goes on: Russian roulette.
 #[inline(always)]
-fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -> F<L> {
-    let l = stage.l;
-    let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| stage.context.depth >= from);
+fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -> F<L> {
+    let l = chunk.l;
+    let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| chunk.sample.depth >= from);
     if !from_diffuse {
         return l.f(1.0);
     }
@@ -93,25 +79,25 @@ fn survival<L: Lanes>(stage: &Stage<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -
 /// through goes on, as the NEE before counted on it.
 #[inline(always)]
 pub(crate) fn scatter<L: Lanes>(
-    stage: &Stage<'_, L>,
+    chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     u: [F<L>; 4],
     [going_on, ending]: [M<L>; 2],
-    ws: &mut Workspace,
+    next: &mut Paths,
+    walks: &mut Walks,
 ) {
     if !(going_on | ending).any() {
         return;
     }
-    let l = stage.l;
-    let sample = kernels::sample(l, lobes, wo, [u[0], u[1], u[2]]);
-    let wi = point.frame.to_world(sample.wi).normalize();
+    let l = chunk.l;
+    let sample = kernels::sample(l, lobes, point.local_wo, [u[0], u[1], u[2]]);
+    let wi = point.at.frame.to_world(sample.wi).normalize();
     // A direction on the other side of the triangle than of the shading normal would leak light.
-    let across = point.geometric.dot(wi).lt(0.0);
+    let across = point.at.geometric.dot(wi).lt(0.0);
     let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
     let throughput = point.throughput * sample.value * sample.pdf.recip();
-    let passes = sample.straight & straight_left(point.counts, stage.transport);
+    let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
@@ -119,9 +105,9 @@ pub(crate) fn scatter<L: Lanes>(
     if let Some(medium) = lobes.medium() {
         let entered = alive & sample.entered;
         alive = alive.and_not(sample.entered);
-        enter(point, wi, throughput, medium, entered, ws);
+        start_walks(point, wi, throughput, medium, entered, walks);
     }
-    let survival = survival(stage, throughput, sample.diffuse);
+    let survival = survival(chunk, throughput, sample.diffuse);
     alive &= u[3].lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {
@@ -135,15 +121,15 @@ pub(crate) fn scatter<L: Lanes>(
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
-    let (mut vertex, mut normal, mut pdf) = (point.position, point.frame.z, sample.pdf);
+    let (mut vertex, mut normal, mut pdf) = (point.at.position, point.at.frame.z, sample.pdf);
     if straight.any() {
-        let from = ws.paths.vertex(l, point.path);
+        let from = chunk.paths.vertex(l, point.path);
         vertex = straight.select(from.position, vertex);
         normal = straight.select(from.normal, normal);
         pdf = straight.select(point.pdf, pdf);
     }
     let state = PathLanes {
-        origin: offset_ray_origin(point.position, point.geometric, point.error, wi),
+        origin: point.at.ray_origin(wi),
         direction: wi,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
@@ -158,5 +144,5 @@ pub(crate) fn scatter<L: Lanes>(
         counts: point.counts + straight.select(l.u(1 << 24), counted),
         medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
     };
-    ws.next.append(&state, alive);
+    next.append(&state, alive);
 }

@@ -4,10 +4,10 @@
 //! sampler's sequence, and the lanes of a register lie side by side.
 
 use crate::stage::generate::TileArea;
-use crate::state::columns::{append3, gather3};
+use crate::state::columns::gather3;
 use crate::state::flag;
-use crate::state::paths::PathLanes;
-use crate::state::workspace::Workspace;
+use crate::state::paths::{PathLanes, Paths};
+use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes, Rgb};
@@ -96,8 +96,16 @@ impl SensorTable {
 
 /// Queues the points that the tile's sensors measure in this batch, and starts the paths of those that measure luminance.
 #[inline(always)]
-pub(crate) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, area: TileArea, runs: &Runs, ws: &mut Workspace) {
-    (ws.paths.count, ws.next.count, ws.measure.count) = (0, 0, 0);
+pub(crate) fn start_sensors<L: Lanes>(
+    l: L,
+    sensors: &SensorTable,
+    sampler: &Sampler,
+    area: TileArea,
+    runs: &Runs,
+    points: &mut MeasurePoints,
+    paths: &mut Paths,
+) {
+    (paths.count, points.count) = (0, 0);
     for [slot, code, sample] in runs.registers(L::COUNT) {
         let (slot, pixel) = (l.iota() + slot, l.iota() + code);
         let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
@@ -112,17 +120,16 @@ pub(crate) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
-        let chosen = inside.and_not(looks);
-        let points = &mut ws.measure;
-        let count = points.count;
-        append3(position, chosen, &mut points.position, count);
-        l.gather(&sensors.error, sensor).append(chosen, &mut points.error, count);
-        append3(normal, chosen, &mut points.geometric_normal, count);
-        append3(normal, chosen, &mut points.shading_normal, count);
-        append3(Rgb::grey(l.f(1.0)).into(), chosen, &mut points.throughput, count);
-        l.f(0.0).append(chosen, &mut points.width, count);
-        slot.append(chosen, &mut points.slot, count);
-        points.count += chosen.count();
+        let point = MeasureLanes {
+            position,
+            error: l.gather(&sensors.error, sensor),
+            geometric_normal: normal,
+            shading_normal: normal,
+            throughput: Rgb::grey(l.f(1.0)),
+            width: l.f(0.0),
+            slot,
+        };
+        points.append(&point, inside.and_not(looks));
         let state = PathLanes {
             origin: position,
             direction: normal,
@@ -139,6 +146,6 @@ pub(crate) fn place<L: Lanes>(l: L, sensors: &SensorTable, sampler: &Sampler, ar
             counts: l.u(0),
             medium: Rgb::zero(l),
         };
-        ws.next.append(&state, inside & looks);
+        paths.append(&state, inside & looks);
     }
 }

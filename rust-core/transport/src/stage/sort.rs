@@ -1,29 +1,29 @@
 //! Material sort: hits in the order of their materials (pbrt's material queues), so that a chunk runs one program and one set of lobes.
 
-use crate::state::workspace::Workspace;
+use crate::state::material_order::MaterialOrder;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use gonio_accel::NONE;
+use gonio_accel::{Hits, NONE};
 use gonio_simd::{Execution, Lanes, M, PADDING, dispatch, padded};
 
 /// Looks up the material of every hit, [`NONE`] where there is none.
 #[inline(always)]
-pub(crate) fn list_materials<L: Lanes>(l: L, tables: &Tables, ws: &mut Workspace) {
-    let count = ws.hits.instance.len();
-    ws.material_of.resize(padded(count), NONE);
+pub(crate) fn list_materials<L: Lanes>(l: L, tables: &Tables, hits: &Hits, material_of: &mut Vec<u32>) {
+    let count = hits.instance.len();
+    material_of.resize(padded(count), NONE);
     for at in (0..padded(count)).step_by(L::COUNT) {
         let alive = l.first(count.saturating_sub(at));
-        let instance = l.load_integers_to_end(&ws.hits.instance, at);
+        let instance = l.load_integers_to_end(&hits.instance, at);
         let met = alive & instance.ne(NONE);
-        let material = tables.geometry.material_lanes(l, instance.keep_if(met), l.load_integers_to_end(&ws.hits.primitive, at));
-        met.select(material, l.u(NONE)).store(&mut ws.material_of, at);
+        let material = tables.geometry.material_lanes(l, instance.keep_if(met), l.load_integers_to_end(&hits.primitive, at));
+        met.select(material, l.u(NONE)).store(material_of, at);
     }
 }
 
 /// Sorts the paths at surfaces by material, once each has a closure; those of one material stay in their order.
-pub(crate) fn sort_by_material(tables: &Tables, transport: &Transport, ws: &mut Workspace) {
-    let Workspace { material_of, order, material_start, material_end, .. } = ws;
-    order_by_material(transport.execution, tables.materials.surfaces.len(), material_of, order, material_start, material_end);
+pub(crate) fn sort_by_material(tables: &Tables, transport: &Transport, materials: &mut MaterialOrder) {
+    let MaterialOrder { material_of, order, starts, ends, .. } = materials;
+    order_by_material(transport.execution, tables.materials.surfaces.len(), material_of, order, starts, ends);
 }
 
 /// Lists the paths of each material in their order: `order[starts[m]..ends[m]]`. Paths of material [`NONE`] are left out; `material_of` is padded

@@ -3,40 +3,62 @@
 //! All walks of a batch step together: sample a free flight, trace it within the instance, then exit or scatter. Chiang, Kutz, Burley:
 //! Practical and Controllable Subsurface Scattering for Production Path Tracing (2016).
 
+use crate::accumulate::deposit::Deposits;
 use crate::graph::{CHUNK, Program};
 use crate::kernels;
-use crate::stage::exit::leave;
+use crate::stage::exit::light_and_scatter;
 use crate::stage::surface::{ChunkRays, ChunkSource, store3};
+use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::columns::{gather3, load3};
 use crate::state::flag;
+use crate::state::paths::Paths;
+use crate::state::queue::Queues;
+use crate::state::queue::walks::{WalkHits, Walks};
 use crate::state::sample::SampleContext;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, Stage, Vertex};
-use crate::state::walks::Walks;
-use crate::state::workspace::Workspace;
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction, Vertex};
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Frame, Lanes, M, PADDING, Rgb, U, dispatch};
+use gonio_simd::{F, Frame, Lanes, M, PADDING, Rgb, U, Vec3, dispatch};
 
-/// Walks until all walks are out or lost; those that are out are lit and scatter.
-pub(crate) fn walk(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+/// What the walks of a batch read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WalkContext<'a> {
+    pub(crate) tables: &'a Tables,
+    pub(crate) transport: &'a Transport,
+    pub(crate) sample: &'a SampleContext<'a>,
+    pub(crate) paths: &'a Paths,
+}
+
+/// Walks until all walks are out or lost; those that are out are lit and scatter. Returns how many rays were traced.
+pub(crate) fn walk(
+    context: &WalkContext<'_>,
+    walk_hits: &mut WalkHits,
+    columns: &mut ChunkColumns,
+    queues: &mut Queues,
+    deposits: &mut Deposits,
+    cancelled: &dyn Fn() -> bool,
+) -> u64 {
+    let WalkContext { tables, transport, sample, .. } = *context;
+    let mut rays = 0;
     for step in 0..MAXIMUM_STEPS {
-        if ws.walks.count == 0 || cancelled() {
+        let walks = &mut queues.walks;
+        if walks.count == 0 || cancelled() {
             break;
         }
-        dispatch!(transport.execution, l => fly(l, context, step, &mut ws.walks));
-        let rays = ws.walks.rays(&ws.shadows.mask);
-        tables.bvh.first_hit_within(transport.execution, &rays, &ws.walks.instance, &mut ws.walk_hits);
-        ws.statistics.rays += ws.walks.count as u64;
-        ws.out.clear();
-        ws.out.extend(ws.walk_hits.instance.iter().enumerate().filter(|(_, hit)| **hit != NONE).map(|(walk, _)| walk as u32));
-        dispatch!(transport.execution, l => arrive(l, &mut ws.walks, &ws.walk_hits));
-        come_out(tables, transport, context, ws);
-        dispatch!(transport.execution, l => turn(l, context, step, &mut ws.walks, &ws.walk_hits));
+        dispatch!(transport.execution, l => sample_flights(l, sample, step, walks));
+        tables.bvh.first_hit_within(transport.execution, &walks.rays.batch(0..walks.count), &walks.instance, &mut walk_hits.hits);
+        rays += walks.count as u64;
+        walk_hits.out.clear();
+        walk_hits.out.extend(walk_hits.hits.instance.iter().enumerate().filter(|(_, hit)| **hit != NONE).map(|(walk, _)| walk as u32));
+        dispatch!(transport.execution, l => weigh_flights(l, walks, &walk_hits.hits));
+        exit_walks(context, walk_hits, columns, queues, deposits);
+        dispatch!(transport.execution, l => scatter_walks(l, sample, step, &mut queues.walks, &walk_hits.hits));
     }
-    ws.walks.count = 0;
+    queues.walks.count = 0;
+    rays
 }
 
 /// The random numbers of a step: two pairs beyond those of all surfaces.
@@ -51,7 +73,7 @@ fn random<L: Lanes>(l: L, context: &SampleContext<'_>, slot: U<L>, dimension: u3
 
 /// Draws the length of every walk's next flight.
 #[inline(always)]
-fn fly<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks) {
+fn sample_flights<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
         if step == REDUCED_FROM {
@@ -62,7 +84,7 @@ fn fly<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks
         }
         let u = random(l, context, walk.slot, step_dimension(context, step));
         let flight = walk.medium.flight(walk.throughput, u);
-        flight.distance.store(&mut walks.distance, at);
+        flight.distance.store(&mut walks.rays.t_max, at);
         store3(flight.channels.into(), &mut walks.channels, at);
     }
 }
@@ -79,10 +101,10 @@ fn surface_mask<L: Lanes>(l: L, hits: &Hits, at: usize, count: usize) -> M<L> {
 
 /// Weighs the flights, which end at the surface or at a scattering.
 #[inline(always)]
-fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
+fn weigh_flights<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let walk = walks.load(l, at);
-        let flight = Flight { distance: l.load(&walks.distance, at), channels: load3(l, &walks.channels, at).into() };
+        let flight = Flight { distance: l.load(&walks.rays.t_max, at), channels: load3(l, &walks.channels, at).into() };
         let here = L::COUNT.min(walks.count - at);
         let mut distance = [0.0; PADDING];
         distance[..here].copy_from_slice(&hits.t[at..at + here]);
@@ -93,55 +115,57 @@ fn arrive<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
 }
 
 /// Lights the walks that reached the surface and sends them on, a chunk at a time.
-fn come_out(tables: &Tables, transport: &Transport, context: &SampleContext<'_>, ws: &mut Workspace) {
-    let out = std::mem::take(&mut ws.out);
+fn exit_walks(context: &WalkContext<'_>, walk_hits: &WalkHits, columns: &mut ChunkColumns, queues: &mut Queues, deposits: &mut Deposits) {
     let nothing = Program::default();
-    for chunk in out.chunks(CHUNK) {
+    for chunk in walk_hits.out.chunks(CHUNK) {
         let mut order = [chunk[0]; CHUNK + PADDING];
         order[..chunk.len()].copy_from_slice(chunk);
-        dispatch!(transport.execution, l => come_out_chunk(l, tables, transport, context, &nothing, &order, chunk.len(), ws));
+        dispatch!(context.transport.execution, l => {
+            let source = ChunkSource { order: &order, count: chunk.len(), rays: ChunkRays::Directions(&queues.walks.rays.direction) };
+            kernels::surface_points(l, context.tables, &nothing, &walk_hits.hits, &source, &mut columns.surface);
+            exit_chunk(l, context, &walk_hits.hits, (&order, chunk.len()), columns, queues, deposits);
+        });
     }
-    ws.out = out;
 }
 
-#[expect(clippy::too_many_arguments, reason = "the whole state of a stage comes in here")]
 #[inline(always)]
-fn come_out_chunk<L: Lanes>(
+fn exit_chunk<L: Lanes>(
     l: L,
-    tables: &Tables,
-    transport: &Transport,
-    context: &SampleContext<'_>,
-    program: &Program,
-    order: &[u32; CHUNK + PADDING],
-    count: usize,
-    ws: &mut Workspace,
+    context: &WalkContext<'_>,
+    hits: &Hits,
+    (order, count): (&[u32], usize),
+    columns: &ChunkColumns,
+    queues: &mut Queues,
+    deposits: &mut Deposits,
 ) {
-    let source = ChunkSource { order, count, rays: ChunkRays::Directions(&ws.walks.direction) };
-    kernels::surface_points(l, tables, program, &ws.walk_hits, &source, &mut ws.surface);
-    let stage = Stage { l, tables, transport, context, shader: None, hits: 0..count };
-    let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
+    let WalkContext { tables, transport, sample, paths } = *context;
+    let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns };
+    let base = dimension::FIRST_BOUNCE + sample.depth * dimension::BOUNCE + dimension::MEASURE;
     for at in (0..count).step_by(L::COUNT) {
-        let point = exit_point(l, order, at, l.first(count - at), ws);
-        leave(&stage, &point, base, ws);
+        let point = exit_point(&chunk, at, &queues.walks);
+        light_and_scatter(&chunk, &point, base, queues, deposits);
     }
 }
 
 /// Where walks come out; the normal is the direction they are seen from.
 #[inline(always)]
-fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Workspace) -> Vertex<L> {
-    let walk = l.load_integers(order, at);
-    let (walks, surface) = (&ws.walks, &ws.surface);
+fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -> Vertex<L> {
+    let (l, surface) = (chunk.l, &chunk.columns.surface);
+    let walk = l.load_integers(chunk.order, at);
     // Surface columns face the ray's start, which is inside; the way out is the other one.
     let normal = -load3(l, &surface.shading_normal, at);
     let flags = l.gather_integers(&walks.flags, walk);
     Vertex {
-        alive,
+        alive: l.first(chunk.count - at),
         path: l.u(0),
-        position: load3(l, &surface.position, at),
-        error: l.load(&surface.error, at),
-        geometric: -load3(l, &surface.geometric_normal, at),
-        frame: Frame::from_normal(normal),
+        at: Interaction {
+            position: load3(l, &surface.position, at),
+            error: l.load(&surface.error, at),
+            geometric: -load3(l, &surface.geometric_normal, at),
+            frame: Frame::from_normal(normal),
+        },
         wo: normal,
+        local_wo: Vec3::splat(l, [0.0, 0.0, 1.0]),
         throughput: gather3(l, &walks.throughput, walk).into(),
         flags,
         counts: l.gather_integers(&walks.counts, walk),
@@ -160,12 +184,12 @@ fn exit_point<L: Lanes>(l: L, order: &[u32], at: usize, alive: M<L>, ws: &Worksp
 
 /// Scatters the walks that are still inside and closes the ranks.
 #[inline(always)]
-fn turn<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks, hits: &Hits) {
+fn scatter_walks<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks, hits: &Hits) {
     let count = walks.count;
     walks.count = 0;
     for at in (0..count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
-        let distance = l.load(&walks.distance, at);
+        let distance = l.load(&walks.rays.t_max, at);
         let lit = walk.throughput.max_component().gt(LEAST_THROUGHPUT) & l.first(count - at);
         let inside = lit.and_not(surface_mask(l, hits, at, count));
         walk.origin = walk.direction.mul_add(distance, walk.origin);

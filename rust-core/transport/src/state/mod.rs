@@ -2,18 +2,15 @@
 //!
 //! Paths, shadow rays, measured points, subsurface random walks and light samples. [`workspace::Workspace`] holds all of them for one worker.
 
-pub(crate) mod branches;
+pub(crate) mod chunk;
 pub(crate) mod columns;
-pub(crate) mod event;
 pub(crate) mod flag;
-pub(crate) mod light_samples;
-pub(crate) mod measure_points;
+pub(crate) mod material_order;
+pub(crate) mod nearest;
 pub(crate) mod paths;
-pub(crate) mod retraced;
+pub(crate) mod queue;
+pub(crate) mod rays;
 pub(crate) mod sample;
-pub(crate) mod shadow_order;
-pub(crate) mod shadow_rays;
 pub(crate) mod vertex;
-pub(crate) mod walks;
 pub(crate) mod workspace;
 pub(crate) mod workspaces;

@@ -4,6 +4,7 @@
 
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
+use crate::state::rays::Rays;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
@@ -13,12 +14,8 @@ use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
 pub struct Paths {
     /// Paths in the columns.
     pub count: usize,
-    /// Where rays start.
-    pub origin: Columns3,
-    /// Unit directions of rays.
-    pub direction: Columns3,
-    pub(crate) t_min: Column,
-    pub(crate) t_max: Column,
+    /// Their rays; visibility bits are those of [`Self::set_masks`].
+    pub rays: Rays,
     /// Absorption a metre of what the ray goes through.
     pub(crate) medium: Columns3,
     /// Items of throughput and pdf, see [`CarriedLanes`].
@@ -30,8 +27,6 @@ pub struct Paths {
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
     track: Column<u32>,
-    /// Visibility bits of the ray.
-    pub(crate) mask: Vec<u8>,
 }
 
 /// One register of paths, to be appended.
@@ -98,17 +93,13 @@ impl Default for Paths {
         let room = padded(CAPACITY) + gonio_simd::PADDING;
         Self {
             count: 0,
-            origin: columns3(room),
-            direction: columns3(room),
-            t_min: Column::new(room),
-            t_max: Column::new(room),
+            rays: Rays::new(room, 0),
             medium: columns3(room),
             carried: Column::new(4 * room),
             cone: Column::new(4 * room),
             vertex: Column::new(4 * room),
             normal: Column::new(4 * room),
             track: Column::new(4 * room),
-            mask: vec![0; room],
         }
     }
 }
@@ -118,10 +109,9 @@ impl Paths {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
         let (l, n) = (p.pdf.lanes(), self.count);
-        append3(p.origin, chosen, &mut self.origin, n);
-        append3(p.direction, chosen, &mut self.direction, n);
-        p.t_min.append(chosen, &mut self.t_min, n);
-        p.t_max.append(chosen, &mut self.t_max, n);
+        self.rays.append(p.origin, p.direction, chosen, n);
+        p.t_min.append(chosen, &mut self.rays.t_min, n);
+        p.t_max.append(chosen, &mut self.rays.t_max, n);
         append3(p.medium.into(), chosen, &mut self.medium, n);
         l.append_quads([p.throughput.r, p.throughput.g, p.throughput.b, p.pdf], chosen, &mut self.carried, n);
         l.append_quads([p.direction.x, p.direction.y, p.direction.z, p.width], chosen, &mut self.cone, n);
@@ -181,8 +171,8 @@ impl Paths {
 
     /// Moves a path to another place of the columns, over what is there.
     pub(crate) fn copy(&mut self, from: usize, to: usize) {
-        let threes = [&mut self.origin, &mut self.direction, &mut self.medium];
-        threes.into_iter().flatten().chain([&mut self.t_min, &mut self.t_max]).for_each(|column| column[to] = column[from]);
+        self.rays.copy(from, to);
+        self.medium.iter_mut().for_each(|column| column[to] = column[from]);
         let items = [&mut self.carried, &mut self.cone, &mut self.vertex, &mut self.normal];
         items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
         self.track.copy_within(4 * from..4 * from + 4, 4 * to);
@@ -190,7 +180,7 @@ impl Paths {
 
     /// Sets the visibility bits of all rays by their flags.
     pub(crate) fn set_masks(&mut self) {
-        for (mask, track) in self.mask[..self.count].iter_mut().zip(self.track.chunks_exact(4)) {
+        for (mask, track) in self.rays.mask[..self.count].iter_mut().zip(self.track.chunks_exact(4)) {
             let flags = track[FLAGS];
             *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3) };
         }

@@ -1,27 +1,46 @@
-//! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`), and what all hits of a chunk share.
+//! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
-use crate::graph::Program;
-use crate::state::sample::SampleContext;
-use crate::tables::Tables;
-use crate::tables::transport::Transport;
+use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
+use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
-use std::ops::Range;
 
 /// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
 
-/// One register of path vertices: what shading, NEE and scattering read of a hit.
+/// Where on a surface a path is, and how rays leave there (pbrt's `Interaction`).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Vertex<L: Lanes> {
-    pub(crate) alive: M<L>,
-    pub(crate) path: U<L>,
+pub(crate) struct Interaction<L: Lanes> {
     /// World space, rebased, and a bound on its error, metres.
     pub(crate) position: Vec3<L>,
     pub(crate) error: F<L>,
     /// Geometric normal on the side of `wo`; the frame's z is the shading normal.
     pub(crate) geometric: Vec3<L>,
     pub(crate) frame: Frame<L>,
+}
+
+impl<L: Lanes> Interaction<L> {
+    /// Where a ray in this direction starts, so that it does not meet the surface which it leaves.
+    #[inline(always)]
+    pub(crate) fn ray_origin(&self, direction: Vec3<L>) -> Vec3<L> {
+        offset_ray_origin(self.position, self.geometric, self.error, direction)
+    }
+
+    /// The shadow ray to a light sample.
+    #[inline(always)]
+    pub(crate) fn shadow_ray(&self, sample: &LightSample<L>) -> ShadowSegment<L> {
+        shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance)
+    }
+}
+
+/// One register of path vertices: what shading, NEE and scattering read of a hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertex<L: Lanes> {
+    pub(crate) alive: M<L>,
+    pub(crate) path: U<L>,
+    pub(crate) at: Interaction<L>,
+    /// Unit direction to the previous vertex: world space, and in the frame of `at`.
     pub(crate) wo: Vec3<L>,
+    pub(crate) local_wo: Vec3<L>,
     pub(crate) throughput: Rgb<L>,
     /// As in [`crate::state::paths::TrackLanes`].
     pub(crate) flags: U<L>,
@@ -41,17 +60,4 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) pdf: F<L>,
     /// Share of a camera ray's sample that is here; of no meaning for other rays.
     pub(crate) share: F<L>,
-}
-
-/// What all hits of a chunk share: the scene, the settings, the sample context.
-#[derive(Clone, Debug)]
-pub(crate) struct Stage<'a, L> {
-    pub(crate) l: L,
-    pub(crate) tables: &'a Tables,
-    pub(crate) transport: &'a Transport,
-    pub(crate) context: &'a SampleContext<'a>,
-    /// What computed the chunk's shader passes, where any are wanted.
-    pub(crate) shader: Option<&'a Program>,
-    /// Where the chunk is in the order of the paths.
-    pub(crate) hits: Range<usize>,
 }

@@ -1,11 +1,9 @@
 //! Settings of a view that stages read: bounce limits, clamps, wanted passes, seed. Nothing changes them during a render.
 
-use crate::graph::CHUNK;
-use crate::state::shadow_rays::SHADOW_ROOM;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
-use gonio_simd::{Execution, PADDING};
+use gonio_simd::{Execution, Lanes, M, U};
 use std::sync::Arc;
 
 /// Settings of a view that stages read, as pbrt's integrators hold them.
@@ -13,20 +11,14 @@ use std::sync::Arc;
 pub struct Transport {
     /// How kernels run.
     pub execution: Execution,
-    /// Most bounces: scatterings after the first surface.
-    pub max_bounces: u32,
-    /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
-    pub kind_bounces: [u32; 4],
+    /// How far paths go, and how much a contribution may bring.
+    pub limits: Limits,
     /// Whether the camera sees infinite lights.
     pub shows_environment: bool,
     /// Whether they cover the background.
     pub environment_covers: bool,
-    /// Which passes (AOVs) of first surfaces are wanted.
-    pub passes: FirstPasses,
-    /// Whether illuminance is measured.
-    pub measure: bool,
-    /// Limits of direct and indirect contributions; 0 is off.
-    pub clamps: [f32; 2],
+    /// Which passes (AOVs) are wanted.
+    pub passes: Passes,
     /// The camera's position and viewing direction, rebased world space.
     pub eye: [f32; 3],
     /// The camera's viewing direction, see `eye`.
@@ -39,8 +31,51 @@ pub struct Transport {
     pub light_cache: Option<Arc<LightCache>>,
     /// Which light counts, by the path that found it.
     pub path_filter: PathFilter,
-    /// The light samples that every point takes where trees of rays (Whitted) stand in for paths; `None` for path tracing.
-    pub fixed_samples: Option<Arc<[FixedLightSample]>>,
+    /// How light is gathered.
+    pub estimator: Estimator,
+}
+
+/// How light is gathered.
+#[derive(Clone, Debug)]
+pub enum Estimator {
+    /// Along paths: a light and a direction at random at each vertex.
+    Paths,
+    /// By trees of rays (Whitted): these light samples at every point, and all specular ways. The specular trees that guide denoisers have no
+    /// samples, as they end where lights would be sampled.
+    Trees(Arc<[FixedLightSample]>),
+}
+
+/// How far paths go, and how much a contribution may bring.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Most bounces: scatterings after the first surface.
+    pub max_bounces: u32,
+    /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
+    pub kind_bounces: [u32; 4],
+    /// Limits of direct and indirect contributions; 0 is off.
+    pub clamps: [f32; 2],
+}
+
+impl Limits {
+    /// The clamp of contributions at a depth (Cycles' clamping): direct up to depth 1, indirect beyond.
+    #[inline(always)]
+    pub(crate) fn clamp(&self, depth: u32) -> f32 {
+        self.clamps[usize::from(depth > 1)]
+    }
+
+    /// Whether the bounces of each kind are within their limits.
+    #[inline(always)]
+    pub(crate) fn allow<L: Lanes>(&self, counts: U<L>) -> M<L> {
+        let at = |kind: u32| (counts >> (kind * 8)) & 255;
+        let limits = self.kind_bounces;
+        at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
+    }
+
+    /// Whether a path may go straight through one more surface.
+    #[inline(always)]
+    pub(crate) fn allow_straight<L: Lanes>(&self, counts: U<L>) -> M<L> {
+        (counts >> 24).lt(self.kind_bounces[3])
+    }
 }
 
 /// Which light counts, by the path that found it. A path is specular while it has met nothing but mirrors and smooth glass.
@@ -55,9 +90,9 @@ pub enum PathFilter {
     ExceptSpecular,
 }
 
-/// Which passes (AOVs) of first surfaces are wanted, beyond those that are always summed.
+/// Which passes (AOVs) are wanted, beyond those that are always summed.
 #[derive(Clone, Debug, Default)]
-pub struct FirstPasses {
+pub struct Passes {
     /// Depth, normal, position and albedo.
     pub surface: bool,
     /// Texture coordinates.
@@ -66,6 +101,10 @@ pub struct FirstPasses {
     pub mist: Option<Mist>,
     /// Albedo and normal for denoisers.
     pub guides: bool,
+    /// With the guides, the light on specular paths: that of trees of rays has no noise, that of samples has.
+    pub specular: bool,
+    /// Illuminance.
+    pub illuminance: bool,
     /// Numbers and pass indices of instances and materials.
     pub numbers: bool,
     /// What materials compute for passes of their own.
@@ -83,22 +122,4 @@ pub struct Mist {
     pub depth: f32,
     /// Exponent of the share of the way.
     pub falloff: f32,
-}
-
-impl Transport {
-    /// The clamp of contributions at a depth (Cycles' clamping): direct up to depth 1, indirect beyond.
-    #[inline(always)]
-    pub(crate) fn clamp(&self, depth: u32) -> f32 {
-        self.clamps[usize::from(depth > 1)]
-    }
-
-    /// Shadow rays that a hit may send.
-    pub(crate) fn rays_per_hit(&self) -> usize {
-        self.fixed_samples.as_ref().map_or(1, |samples| samples.len().max(1))
-    }
-
-    /// Most hits that are lit together, whole registers: at most a chunk, and as many as have room for their shadow rays.
-    pub(crate) fn hits_together(&self) -> usize {
-        ((SHADOW_ROOM - PADDING) / self.rays_per_hit() / PADDING * PADDING).clamp(PADDING, CHUNK)
-    }
 }

@@ -10,56 +10,63 @@
 mod closures;
 mod surface;
 
-pub(crate) use gonio_camera::sampler::Runs;
-pub(crate) use surface::shade_lanes;
+pub(crate) use surface::WhittedIntegrator;
 
-use crate::schedule::path::{MOST_DEPTH, Tracer};
+use crate::schedule::tracer::Tracer;
+use crate::schedule::wavefront::{self, MOST_DEPTH};
 use crate::stage::catcher;
-use crate::stage::intersect::intersect;
-use crate::stage::measure::measure;
-use crate::stage::shadow::trace_shadows;
 use crate::stage::sort::sort_by_material;
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
-use gonio_camera::sampler::Sampler;
+use crate::statistics::Stage;
+use gonio_camera::sampler::{Runs, Sampler};
 use std::time::Instant;
 
 /// Follows the trees of all paths of the workspace to their ends.
-pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+pub(crate) fn follow(
+    tracer: &Tracer<'_>,
+    integrator: &WhittedIntegrator<'_>,
+    sampler: Sampler,
+    runs: &Runs,
+    first: u32,
+    ws: &mut Workspace,
+    cancelled: &dyn Fn() -> bool,
+) {
+    ws.queues.branches.prepare();
     let mut depth = first;
     loop {
         if cancelled() {
-            ws.branches.waiting.clear();
+            ws.queues.branches.waiting.clear();
             return;
         }
         if ws.paths.count > 0 && depth < MOST_DEPTH {
-            follow_batch(tracer, &SampleContext { sampler, runs, depth }, ws);
+            follow_batch(tracer, integrator, &SampleContext { sampler, runs, depth }, ws);
         }
-        match ws.branches.next(&mut ws.paths) {
+        match ws.queues.branches.next(&mut ws.paths) {
             Some(next) => depth = next,
             None => return,
         }
         catcher::join(tracer.tables, &mut ws.paths);
-        ws.paths.set_masks();
-        catcher::set_masks(tracer.tables, &mut ws.paths);
+        wavefront::set_masks(tracer.tables, &mut ws.paths);
     }
 }
 
 /// Finds and shades what a batch hits, one closure of mixes after the other.
-fn follow_batch(tracer: &Tracer<'_>, context: &SampleContext<'_>, ws: &mut Workspace) {
+fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let start = Instant::now();
-    intersect(tables, transport, context.depth, ws);
-    ws.statistics.spent(1, start);
-    closures::keep(tables, ws);
+    wavefront::intersect(tracer, sample.depth, ws);
+    ws.statistics.spent(Stage::Intersect, start);
+    closures::keep(tables, &ws.materials, &ws.paths, &mut ws.queues.branches.undivided);
     for closure in 0..closures::most(tables) {
-        closures::select(tables, transport, closure, ws);
-        sort_by_material(tables, transport, ws);
-        tracer.shade(context, ws);
+        let whole = closures::Whole { undivided: &ws.queues.branches.undivided, hits: &ws.nearest.hits };
+        closures::select(tables, transport, closure, &whole, &mut ws.paths, &mut ws.materials, &mut ws.chunk);
+        sort_by_material(tables, transport, &mut ws.materials);
+        wavefront::shade(tracer, integrator, sample, ws);
         let start = Instant::now();
-        measure(tables, transport, context, ws);
-        trace_shadows(tables, transport, context.depth == 0, ws);
-        ws.statistics.spent(5, start);
-        ws.branches.queue(context.depth + 1);
+        wavefront::measure(tracer, integrator, sample, ws);
+        wavefront::trace_shadows(tracer, sample.depth == 0, ws);
+        ws.statistics.spent(Stage::Shadow, start);
+        ws.queues.branches.queue(sample.depth + 1);
     }
 }

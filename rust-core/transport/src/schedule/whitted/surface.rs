@@ -1,25 +1,29 @@
 //! Whitted shading: every point takes all fixed light samples, and sends rays on all specular ways.
 
-use crate::geometry::offset_ray_origin;
+use crate::accumulate::deposit::Deposits;
 use crate::kernels;
-use crate::stage::nee::send;
-use crate::stage::scatter::{straight_left, within};
-use crate::stage::shade::{meet, show};
-use crate::state::paths::PathLanes;
-use crate::state::vertex::{Stage, Vertex};
-use crate::state::workspace::Workspace;
-use crate::state::{event, flag};
+use crate::stage::integrator::Integrator;
+use crate::stage::measure::{self, MeasureContext};
+use crate::stage::nee::queue_shadow_ray;
+use crate::stage::shade::{add_seen, guide_and_measure};
+use crate::state::chunk::ChunkContext;
+use crate::state::flag::{self, event};
+use crate::state::paths::{PathLanes, Paths};
+use crate::state::queue::Queues;
+use crate::state::queue::branches::Branches;
+use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, threshold};
 use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Lobes, Way};
 use gonio_camera::sampler::dimension;
-use gonio_light::FixedLightSample;
+use gonio_light::{FixedLightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Rays with less throughput than this end: half an 8-bit step of white at most.
 const LEAST_THROUGHPUT: f32 = 1.0 / 512.0;
 /// Below this throughput Russian roulette decides, where rays guide denoisers.
-const LEAST_SHARP: f32 = 1.0 / 16.0;
+const ROULETTE_BELOW: f32 = 1.0 / 16.0;
 
 /// A ray that leaves a point.
 struct Branch<L: Lanes> {
@@ -30,44 +34,62 @@ struct Branch<L: Lanes> {
     share: F<L>,
 }
 
-/// Lights a register of points and sends their specular rays.
-#[expect(clippy::too_many_arguments, reason = "a surface and what lights it")]
-#[inline(always)]
-pub(crate) fn shade_lanes<L: Lanes>(
-    stage: &Stage<'_, L>,
-    material: &SurfaceMaterial,
-    point: &mut Vertex<L>,
-    wo: Vec3<L>,
-    lobes: &Lobes<'_, L>,
-    samples: &[FixedLightSample],
-    at: usize,
-    ws: &mut Workspace,
-) {
-    let Stage { l, transport, .. } = *stage;
-    let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Rgb::zero(l), share: l.f(0.0) };
-    let mut present = point.alive;
-    if material.surface.lobes.cut_out {
-        present &= part_from_open(material, point, lobes, &mut straight);
+/// These light samples at every point, and all specular ways on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WhittedIntegrator<'a> {
+    pub(crate) samples: &'a [FixedLightSample],
+}
+
+impl Integrator for WhittedIntegrator<'_> {
+    const WALKS: bool = false;
+
+    fn rays_per_hit(&self) -> usize {
+        self.samples.len().max(1)
     }
-    let present = show(stage, material, point, lobes, present, at, ws);
-    let [smooth, lit] = meet(stage, point, lobes, present, ws);
-    if (smooth & lit).any() {
-        light(stage, point, wo, lobes, samples, lit & smooth, ws);
-    }
-    let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
-    for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, wo)) {
-        let throughput = (point.throughput * ray.weight).keep_if(present);
-        if way == Way::Straight {
-            straight.throughput += throughput;
-            // A pane has been seen itself.
-            straight.share += if material.surface.lobes.straight { point.share.keep_if(present) } else { l.f(0.0) };
-        } else {
-            let going_on = point.bounces.lt(transport.max_bounces) & within(point.counts, transport.kind_bounces);
-            let wi = point.frame.to_world(ray.wi).normalize();
-            branch(stage, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, ws);
+
+    #[inline(always)]
+    fn shade<L: Lanes>(
+        &self,
+        chunk: &ChunkContext<'_, L>,
+        material: &SurfaceMaterial,
+        point: &mut Vertex<L>,
+        lobes: &Lobes<'_, L>,
+        at: usize,
+        queues: &mut Queues,
+        deposits: &mut Deposits,
+    ) {
+        let ChunkContext { l, transport, .. } = *chunk;
+        let branches = &mut queues.branches;
+        let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Rgb::zero(l), share: l.f(0.0) };
+        let mut present = point.alive;
+        if material.surface.lobes.cut_out {
+            present &= part_from_open(material, point, lobes, &mut straight);
         }
+        let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        let [smooth, lit] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
+        if (smooth & lit).any() {
+            light_by_fixed_samples(chunk, point, lobes, self.samples, lit & smooth, &mut queues.shadows, deposits);
+        }
+        let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
+        for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, point.local_wo)) {
+            let throughput = (point.throughput * ray.weight).keep_if(present);
+            if way == Way::Straight {
+                straight.throughput += throughput;
+                // A pane has been seen itself.
+                straight.share += if material.surface.lobes.straight { point.share.keep_if(present) } else { l.f(0.0) };
+            } else {
+                let going_on = point.bounces.lt(transport.limits.max_bounces) & transport.limits.allow(point.counts);
+                let wi = point.at.frame.to_world(ray.wi).normalize();
+                branch(chunk, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, branches);
+            }
+        }
+        branch(chunk, point, &straight, transport.limits.allow_straight(point.counts), branches);
     }
-    branch(stage, point, &straight, straight_left(point.counts, transport), ws);
+
+    #[inline(always)]
+    fn measure<L: Lanes>(&self, chunk: &MeasureContext<'_, L>, shadows: &mut ShadowRays, _: &mut Paths, deposits: &mut Deposits) {
+        measure::light_by_fixed_samples(chunk, self.samples, shadows, deposits);
+    }
 }
 
 /// Splits throughput and share by opacity between the surface and the ray straight on; returns where there is a surface.
@@ -83,71 +105,71 @@ fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Vertex<L>, l
 
 /// Takes every fixed sample at each point.
 #[inline(always)]
-fn light<L: Lanes>(
-    stage: &Stage<'_, L>,
+fn light_by_fixed_samples<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    wo: Vec3<L>,
     lobes: &Lobes<'_, L>,
     samples: &[FixedLightSample],
     lit: M<L>,
-    ws: &mut Workspace,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
 ) {
-    let Stage { l, tables, .. } = *stage;
+    let ChunkContext { l, tables, .. } = *chunk;
     let (mut reached, mut before) = (lit, None);
     for fixed in samples {
         if !fixed.follows(before) {
-            reached = lit & tables.lights.reaches(l, fixed, point.position, point.frame.z);
+            reached = lit & tables.lights.reaches(l, fixed, point.at.position, point.at.frame.z);
         }
         before = Some(fixed);
         if reached.any() {
-            let sample = kernels::sample_fixed(l, tables, fixed, &point.position, &point.frame.z);
-            send(stage, point, wo, lobes, &sample, Some(fixed.share), reached, ws);
+            let sample = kernels::sample_fixed(l, tables, fixed, &point.at.position, &point.at.frame.z);
+            queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Fixed(fixed.share)), reached, shadows, deposits);
         }
     }
 }
 
 /// Appends the rays of a way that are worth following.
 #[inline(always)]
-fn branch<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, ray: &Branch<L>, goes: M<L>, ws: &mut Workspace) {
+fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch<L>, goes: M<L>, branches: &mut Branches) {
     let Branch { way, wi, throughput, share } = *ray;
-    let (throughput, worth) = worth(stage, point, way, throughput);
+    let (throughput, worth) = worth(chunk, point, way, throughput);
     // A direction on the other side of the triangle than of the shading normal would leak light.
-    let across = point.geometric.dot(wi).lt(0.0);
+    let across = point.at.geometric.dot(wi).lt(0.0);
     let consistent = if matches!(way, Way::Mirrored | Way::Coat) { !across } else { across };
     let alive = goes & consistent & worth;
     if !alive.any() {
         return;
     }
-    let l = stage.l;
+    let l = chunk.l;
     let counted = match way {
         Way::Mirrored | Way::Coat => 1 << 8,
         Way::Refracted => 1 << 16,
         Way::Straight => 1 << 24,
     };
     let state = PathLanes {
-        origin: offset_ray_origin(point.position, point.geometric, point.error, wi),
+        origin: point.at.ray_origin(wi),
         direction: wi,
         t_min: l.f(0.0),
         t_max: l.f(f32::MAX),
-        vertex: point.position,
-        normal: point.frame.z,
+        vertex: point.at.position,
+        normal: point.at.frame.z,
         throughput,
         pdf: share,
         width: point.width,
         spread: point.spread,
         slot: point.slot,
-        flags: flags(l, stage.transport.path_filter, point, way),
+        flags: flags(l, chunk.transport.path_filter, point, way),
         counts: point.counts + counted,
         medium: if way == Way::Refracted { point.behind } else { point.medium },
     };
-    ws.branches.ways[way as usize].append(&state, alive);
+    branches.ways[way as usize].append(&state, alive);
 }
 
 /// Which rays are followed, and with which throughput. For guides of denoisers Russian roulette decides: a lamp on a faint specular path may
 /// be bright. Other trees drop faint rays.
 #[inline(always)]
-fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
-    let Stage { l, transport, context, .. } = *stage;
+fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
+    let ChunkContext { l, transport, sample: context, .. } = *chunk;
     let brightest = throughput.max_component();
     let usable = brightest.gt(0.0) & brightest.is_finite();
     if transport.path_filter != PathFilter::SpecularOnly {
@@ -155,15 +177,15 @@ fn worth<L: Lanes>(stage: &Stage<'_, L>, point: &Vertex<L>, way: Way, throughput
     }
     let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + way as u32;
     let [chance, _] = context.sampler.pair(l, context.index(l, point.slot), dimension);
-    let survival = (brightest * LEAST_SHARP.recip()).min(1.0);
+    let survival = (brightest * ROULETTE_BELOW.recip()).min(1.0);
     (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
 }
 
 /// The path flags of a ray that went this way.
 #[inline(always)]
 fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -> U<L> {
-    let all_sharp = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
-    let measured = all_sharp.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
+    let all_delta = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
+    let measured = all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
         Way::Refracted => event::TRANSMISSION,

@@ -1,7 +1,9 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
-use gonio_accel::RayBatch;
+use crate::state::rays::Rays;
+use crate::tables::ray_mask;
+use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, Vec3, padded};
@@ -10,16 +12,14 @@ use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, Vec3, padded};
 #[derive(Debug)]
 pub(crate) struct Walks {
     pub(crate) count: usize,
-    pub(crate) origin: Columns3,
-    pub(crate) direction: Columns3,
-    /// Hits nearer than this are the surface that was entered: walks start on it, as an offset would count as depth.
-    pub(crate) t_min: Column,
+    /// Rays of the flights. Hits nearer than `t_min` are the surface that was entered: walks start on it, as an offset would count as depth.
+    /// A flight ends at `t_max`.
+    pub(crate) rays: Rays,
     pub(crate) throughput: Columns3,
     pub(crate) albedo: Columns3,
     pub(crate) extinction: Columns3,
     pub(crate) anisotropy: Column,
-    /// Length of the free flight, and the probabilities of the colour channels it was sampled by.
-    pub(crate) distance: Column,
+    /// Probabilities of the colour channels by which the flight was sampled.
     pub(crate) channels: Columns3,
     pub(crate) instance: Column<u32>,
     pub(crate) slot: Column<u32>,
@@ -34,14 +34,11 @@ impl Default for Walks {
         let three = || columns3(room);
         Self {
             count: 0,
-            origin: three(),
-            direction: three(),
-            t_min: Column::new(room),
+            rays: Rays::new(room, ray_mask::SHADOW),
             throughput: three(),
             albedo: three(),
             extinction: three(),
             anisotropy: Column::new(room),
-            distance: Column::new(room),
             channels: three(),
             instance: Column::new(room),
             slot: Column::new(room),
@@ -50,6 +47,14 @@ impl Default for Walks {
             width: Column::new(room),
         }
     }
+}
+
+/// What a step's flights met.
+#[derive(Debug, Default)]
+pub(crate) struct WalkHits {
+    pub(crate) hits: Hits,
+    /// Walks that reached the surface.
+    pub(crate) out: Vec<u32>,
 }
 
 /// One register of walks.
@@ -71,9 +76,8 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;
-        append3(w.origin, chosen, &mut self.origin, n);
-        append3(w.direction, chosen, &mut self.direction, n);
-        w.t_min.append(chosen, &mut self.t_min, n);
+        self.rays.append(w.origin, w.direction, chosen, n);
+        w.t_min.append(chosen, &mut self.rays.t_min, n);
         append3(w.throughput.into(), chosen, &mut self.throughput, n);
         append3(w.medium.albedo.into(), chosen, &mut self.albedo, n);
         append3(w.medium.extinction.into(), chosen, &mut self.extinction, n);
@@ -89,9 +93,9 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
         WalkLanes {
-            origin: load3(l, &self.origin, at),
-            direction: load3(l, &self.direction, at),
-            t_min: l.load(&self.t_min, at),
+            origin: load3(l, &self.rays.origin, at),
+            direction: load3(l, &self.rays.direction, at),
+            t_min: l.load(&self.rays.t_min, at),
             throughput: load3(l, &self.throughput, at).into(),
             medium: Medium {
                 albedo: load3(l, &self.albedo, at).into(),
@@ -103,17 +107,6 @@ impl Walks {
             flags: l.load_integers(&self.flags, at),
             counts: l.load_integers(&self.counts, at),
             width: l.load(&self.width, at),
-        }
-    }
-
-    pub(crate) fn rays<'a>(&'a self, mask: &'a [u8]) -> RayBatch<'a> {
-        let n = self.count;
-        RayBatch {
-            origin: [&self.origin[0][..n], &self.origin[1][..n], &self.origin[2][..n]],
-            direction: [&self.direction[0][..n], &self.direction[1][..n], &self.direction[2][..n]],
-            t_min: &self.t_min[..n],
-            t_max: &self.distance[..n],
-            mask: &mask[..n],
         }
     }
 }

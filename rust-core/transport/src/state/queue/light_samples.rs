@@ -24,7 +24,7 @@ pub(crate) struct LightSampleQueue {
     /// By hit: the light.
     pub(crate) light: Column<u32>,
     /// By hit, items of four: the light once more, its probability and two random numbers; the hit's position; its normal.
-    pub(crate) draw: Column,
+    pub(crate) selected: Column,
     pub(crate) position: Column,
     pub(crate) normal: Column,
     /// Where each hit's sample stands in `order`.
@@ -32,8 +32,8 @@ pub(crate) struct LightSampleQueue {
     /// The hits, group of lights by group; what fills a group's last register repeats a hit.
     pub(crate) order: Column<u32>,
     /// The samples in that order, items of four: direction and distance; radiance and pdf.
-    pub(crate) way: Column,
-    pub(crate) arriving: Column,
+    pub(crate) direction: Column,
+    pub(crate) radiance: Column,
     pub(crate) bits: Column<u32>,
 }
 
@@ -42,13 +42,13 @@ impl Default for LightSampleQueue {
         Self {
             made: false,
             light: Column::new(CHUNK),
-            draw: Column::new(4 * CHUNK),
+            selected: Column::new(4 * CHUNK),
             position: Column::new(4 * CHUNK),
             normal: Column::new(4 * CHUNK),
             place: Column::new(CHUNK),
             order: Column::new(ROOM),
-            way: Column::new(4 * ROOM),
-            arriving: Column::new(4 * ROOM),
+            direction: Column::new(4 * ROOM),
+            radiance: Column::new(4 * ROOM),
             bits: Column::new(ROOM),
         }
     }
@@ -66,7 +66,8 @@ impl LightSampleQueue {
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
         let place = l.load_integers(&self.place, at);
         let bits = l.gather_integers(&self.bits, place);
-        let ([x, y, z, distance], [r, g, b, pdf]) = (l.gather_quads(&self.way, place << 2), l.gather_quads(&self.arriving, place << 2));
+        let ([x, y, z, distance], [r, g, b, pdf]) =
+            (l.gather_quads(&self.direction, place << 2), l.gather_quads(&self.radiance, place << 2));
         LightSample {
             wi: Vec3::new(x, y, z),
             distance,
@@ -81,8 +82,8 @@ impl LightSampleQueue {
     #[inline(always)]
     pub(crate) fn store<L: Lanes>(&mut self, l: L, sample: &LightSample<L>, at: usize) {
         let (wi, radiance) = (sample.wi, sample.radiance);
-        l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.way, at);
-        l.store_quads([radiance.r, radiance.g, radiance.b, sample.pdf], &mut self.arriving, at);
+        l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.direction, at);
+        l.store_quads([radiance.r, radiance.g, radiance.b, sample.pdf], &mut self.radiance, at);
         let bits = l.u(bit::DELTA).keep_if(sample.delta) | l.u(bit::CASTS_SHADOW).keep_if(sample.casts_shadow);
         bits.store(&mut self.bits, at);
     }

@@ -1,7 +1,6 @@
 //! Trees of rays (Whitted): the rays that one generation sends on, and the batches that wait.
 
 use crate::state::paths::Paths;
-use crate::tables::transport::Transport;
 use gonio_bsdf::Way;
 use gonio_simd::Column;
 
@@ -18,11 +17,9 @@ pub(crate) struct Branches {
 }
 
 impl Branches {
-    /// Makes room where trees are asked for.
-    pub(crate) fn prepare(&mut self, transport: &Transport) {
-        if transport.fixed_samples.is_some() {
-            self.ways.resize_with(Way::ALL.len(), Paths::default);
-        }
+    /// Makes room for the ways.
+    pub(crate) fn prepare(&mut self) {
+        self.ways.resize_with(Way::ALL.len(), Paths::default);
     }
 
     /// Pushes what was sent on, so that it is taken in the order of the ways.

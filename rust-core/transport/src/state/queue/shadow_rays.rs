@@ -1,13 +1,20 @@
 //! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
 
 use crate::geometry::ShadowSegment;
+use crate::graph::CHUNK;
 use crate::state::columns::{Columns3, append3, columns3};
+use crate::state::rays::Rays;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, Lanes, M, Rgb, U, padded};
+use gonio_simd::{Column, Lanes, M, PADDING, Rgb, U, padded};
 
 /// Room for shadow rays: one for each path, and one for each subsurface walk that comes out in the same bounce.
-pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + gonio_simd::PADDING;
+pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + PADDING;
+
+/// Most hits that are lit together, whole registers: at most a chunk, and as many as have room for their shadow rays.
+pub(crate) fn hits_together(rays_per_hit: usize) -> usize {
+    ((SHADOW_ROOM - PADDING) / rays_per_hit / PADDING * PADDING).clamp(PADDING, CHUNK)
+}
 
 /// One register of shadow rays, to be appended.
 #[derive(Clone, Copy, Debug)]
@@ -24,9 +31,8 @@ pub(crate) struct ShadowLanes<L: Lanes> {
 #[derive(Debug)]
 pub(crate) struct ShadowRays {
     pub(crate) count: usize,
-    pub(crate) origin: Columns3,
-    pub(crate) direction: Columns3,
-    pub(crate) t_max: Column,
+    /// They start at once, and end short of the light.
+    pub(crate) rays: Rays,
     pub(crate) contribution: Columns3,
     pub(crate) slot: Column<u32>,
     /// The light pass that the contribution counts for, see [`crate::accumulate::light_sums::code`].
@@ -35,9 +41,6 @@ pub(crate) struct ShadowRays {
     pub(crate) light: Column<u32>,
     /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
     pub(crate) shares: [Columns3; 2],
-    /// Constant columns that the traversal wants.
-    pub(crate) t_min: Vec<f32>,
-    pub(crate) mask: Vec<u8>,
 }
 
 impl Default for ShadowRays {
@@ -45,27 +48,27 @@ impl Default for ShadowRays {
         let room = SHADOW_ROOM;
         Self {
             count: 0,
-            origin: columns3(room),
-            direction: columns3(room),
-            t_max: Column::new(room),
+            rays: Rays::new(room, ray_mask::SHADOW),
             contribution: columns3(room),
             slot: Column::new(room),
             code: Column::new(room),
             light: Column::new(room),
             shares: [columns3(room), columns3(room)],
-            t_min: vec![0.0; room],
-            mask: vec![ray_mask::SHADOW; room],
         }
     }
 }
 
 impl ShadowRays {
+    /// Whether the shadow rays of some more hits fit into the queue.
+    pub(crate) fn has_room(&self, hits: usize, rays_per_hit: usize) -> bool {
+        self.count + hits * rays_per_hit <= SHADOW_ROOM - PADDING
+    }
+
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        append3(ray.segment.origin, chosen, &mut self.origin, n);
-        append3(ray.segment.direction, chosen, &mut self.direction, n);
-        ray.segment.t_max.append(chosen, &mut self.t_max, n);
+        self.rays.append(ray.segment.origin, ray.segment.direction, chosen, n);
+        ray.segment.t_max.append(chosen, &mut self.rays.t_max, n);
         append3(ray.contribution.into(), chosen, &mut self.contribution, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);

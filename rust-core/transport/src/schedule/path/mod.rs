@@ -1,0 +1,48 @@
+//! The path tracer: the wavefront schedule, stage by stage and bounce by bounce (pbrt's `WavefrontPathIntegrator::Render`).
+
+mod surface;
+
+pub(crate) use surface::PathIntegrator;
+
+use crate::schedule::tracer::Tracer;
+use crate::schedule::wavefront::{self, MOST_DEPTH};
+use crate::stage::catcher;
+use crate::stage::closure::choose_closures;
+use crate::stage::sort::sort_by_material;
+use crate::stage::subsurface::{WalkContext, walk};
+use crate::state::sample::SampleContext;
+use crate::state::workspace::Workspace;
+use crate::statistics::Stage;
+use gonio_camera::sampler::{Runs, Sampler};
+use std::time::Instant;
+
+/// Follows all paths to their ends, bounce by bounce.
+pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+    for depth in first..MOST_DEPTH {
+        if ws.paths.count == 0 || cancelled() {
+            break;
+        }
+        follow_bounce(tracer, &SampleContext { sampler, runs, depth }, ws, cancelled);
+        std::mem::swap(&mut ws.paths, &mut ws.queues.next);
+        catcher::join(tracer.tables, &mut ws.paths);
+        wavefront::set_masks(tracer.tables, &mut ws.paths);
+    }
+}
+
+/// One bounce: what paths hit is shaded and lit, and sends on the next rays.
+fn follow_bounce(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+    let Tracer { tables, transport, .. } = tracer;
+    let time = Instant::now();
+    wavefront::intersect(tracer, sample.depth, ws);
+    choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk);
+    sort_by_material(tables, transport, &mut ws.materials);
+    ws.statistics.spent(Stage::Intersect, time);
+    ws.queues.next.count = 0;
+    wavefront::shade(tracer, &PathIntegrator, sample, ws);
+    let time = Instant::now();
+    let context = WalkContext { tables, transport, sample, paths: &ws.paths };
+    ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
+    wavefront::measure(tracer, &PathIntegrator, sample, ws);
+    wavefront::trace_shadows(tracer, sample.depth == 0, ws);
+    ws.statistics.spent(Stage::Shadow, time);
+}

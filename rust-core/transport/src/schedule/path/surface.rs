@@ -1,0 +1,77 @@
+//! Path tracing at a register of points: cut-outs, next event estimation (NEE) of one light, BSDF sampling.
+
+use crate::accumulate::deposit::Deposits;
+use crate::stage::integrator::Integrator;
+use crate::stage::light_queue::sample_queued;
+use crate::stage::measure::{self, MeasureContext};
+use crate::stage::nee::{queue_shadow_ray, sample_light};
+use crate::stage::scatter::{pass_straight, scatter};
+use crate::stage::shade::{add_seen, guide_and_measure};
+use crate::state::chunk::ChunkContext;
+use crate::state::paths::Paths;
+use crate::state::queue::Queues;
+use crate::state::queue::light_samples::LightSampleQueue;
+use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::vertex::Vertex;
+use crate::tables::material::{SurfaceMaterial, threshold};
+use gonio_bsdf::Lobes;
+use gonio_camera::sampler::dimension;
+use gonio_light::SampleWeight;
+use gonio_simd::Lanes;
+
+/// One light and one direction at random at each point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathIntegrator;
+
+impl Integrator for PathIntegrator {
+    const WALKS: bool = true;
+
+    fn rays_per_hit(&self) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(
+        &self,
+        chunk: &ChunkContext<'_, L>,
+        material: &SurfaceMaterial,
+        point: &mut Vertex<L>,
+        lobes: &Lobes<'_, L>,
+        at: usize,
+        queues: &mut Queues,
+        deposits: &mut Deposits,
+    ) {
+        let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
+        let index = context.index(l, point.slot);
+        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
+        let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
+        let present = if material.surface.lobes.cut_out {
+            let seen_through = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
+            pass_straight(chunk, point, seen_through & transport.limits.allow_straight(point.counts), &mut queues.next);
+            point.alive.and_not(seen_through)
+        } else {
+            point.alive
+        };
+        let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        let [smooth, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
+        let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+        if (smooth & going_on).any() && !tables.lights.is_empty() {
+            if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {
+                let sample = sample_queued(chunk, at, &mut queues.light_samples);
+                queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), going_on, &mut queues.shadows, deposits);
+            } else {
+                let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
+                sample_light(chunk, point, lobes, [u_light, u, v], going_on, &mut queues.shadows, deposits);
+            }
+        }
+        let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
+        let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
+        let random = [u_lobe, u, v, u_roulette];
+        scatter(chunk, point, lobes, random, [going_on, ending], &mut queues.next, &mut queues.walks);
+    }
+
+    #[inline(always)]
+    fn measure<L: Lanes>(&self, chunk: &MeasureContext<'_, L>, shadows: &mut ShadowRays, next: &mut Paths, deposits: &mut Deposits) {
+        measure::light_and_start(chunk, shadows, next, deposits);
+    }
+}

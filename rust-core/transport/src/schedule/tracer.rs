@@ -1,0 +1,120 @@
+//! The tracer: starts batches of paths at a camera or at sensors, and hands them to the schedule of the view's estimator.
+//!
+//! In go a tile's pixels and the samples of a batch, out come the sums of the [`Workspace`]. Stages are in `stage`, one file each.
+
+use crate::schedule::path::{self, PathIntegrator};
+use crate::schedule::wavefront;
+use crate::schedule::whitted::{self, WhittedIntegrator};
+use crate::stage::generate::{TileArea, generate, generate_at};
+use crate::stage::integrator::Integrator;
+use crate::stage::intersect::find_first;
+use crate::stage::sensors::{SensorTable, start_sensors};
+use crate::state::sample::SampleContext;
+use crate::state::workspace::Workspace;
+use crate::statistics::Stage;
+use crate::tables::Tables;
+use crate::tables::transport::{Estimator, Transport};
+use gonio_camera::sampler::{Runs, Sampler, TILE};
+use gonio_camera::{CameraTable, Placement};
+use gonio_simd::dispatch;
+use std::time::Instant;
+
+/// Where paths start.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// At a camera, at places in the pixels.
+    Camera(&'a CameraTable, &'a Placement),
+    /// At sensors; depth 1 is their first rays'.
+    Sensors(&'a SensorTable),
+}
+
+/// Traces batches of one view of a scene.
+#[derive(Debug)]
+pub struct Tracer<'a> {
+    /// The scene.
+    pub tables: &'a Tables,
+    /// Where paths start.
+    pub start: Start<'a>,
+    /// Settings of the view.
+    pub transport: Transport,
+}
+
+/// The pixels and samples of a batch.
+struct Batch<'a> {
+    area: TileArea,
+    sampler: Sampler,
+    runs: &'a Runs,
+}
+
+impl Tracer<'_> {
+    /// Adds the samples of a batch to the workspace's sums, those of pixels in `[min, max)` (at most a tile's width).
+    ///
+    /// `cancelled` is asked once a stage; a cancelled batch leaves the sums incomplete.
+    pub fn trace(&self, min: [u32; 2], max: [u32; 2], runs: &Runs, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+        let tile = [min[0] / TILE as u32, min[1] / TILE as u32];
+        let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
+        let batch = Batch { area: TileArea { min, max }, sampler, runs };
+        match &self.transport.estimator {
+            Estimator::Paths => {
+                let first = self.begin(&PathIntegrator, &batch, ws);
+                path::follow(self, sampler, runs, first, ws, cancelled);
+            }
+            Estimator::Trees(samples) => {
+                let integrator = WhittedIntegrator { samples };
+                let first = self.begin(&integrator, &batch, ws);
+                whitted::follow(self, &integrator, sampler, runs, first, ws, cancelled);
+            }
+        }
+    }
+
+    /// Adds a sample at each of some raster positions to the sums of its slot; slots differ. For cameras and trees of rays (Whitted).
+    ///
+    /// There are at most [`gonio_camera::sampler::BATCH`] of them; consecutive sixteen are a packet.
+    pub fn trace_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+        let Estimator::Trees(samples) = &self.transport.estimator else { return };
+        self.start_at(places, slots, ws);
+        ws.statistics.camera_rays += ws.paths.count as u64;
+        let sampler = Sampler::new(self.transport.seed, [0; 2], 1);
+        whitted::follow(self, &WhittedIntegrator { samples }, sampler, &Runs::whole(0), 0, ws, cancelled);
+    }
+
+    /// Finds the nearest hits of camera rays at some raster positions: [`Workspace::hits_by_slot`].
+    pub fn first_hits_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        self.start_at(places, slots, ws);
+        ws.statistics.rays += ws.paths.count as u64;
+        find_first(self.tables, &self.transport, true, &ws.paths, &mut ws.nearest);
+    }
+
+    fn start_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        if let Start::Camera(camera, _) = self.start {
+            dispatch!(self.transport.execution, l => generate_at(l, camera, places, slots, &mut ws.paths));
+        }
+    }
+
+    /// Starts the paths of a batch, and lights its sensors; returns the depth of the paths.
+    fn begin<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
+        let Batch { area, ref sampler, runs } = *batch;
+        let time = Instant::now();
+        let first = match self.start {
+            Start::Camera(camera, placement) => {
+                dispatch!(self.transport.execution, l => generate(l, camera, placement, sampler, area, runs, &mut ws.paths));
+                0
+            }
+            Start::Sensors(sensors) => {
+                let queues = &mut ws.queues;
+                dispatch!(self.transport.execution, l => {
+                    start_sensors(l, sensors, sampler, area, runs, &mut queues.measure, &mut queues.next);
+                });
+                let context = SampleContext { sampler: *sampler, runs, depth: 0 };
+                wavefront::measure(self, integrator, &context, ws);
+                wavefront::trace_shadows(self, true, ws);
+                std::mem::swap(&mut ws.paths, &mut ws.queues.next);
+                wavefront::set_masks(self.tables, &mut ws.paths);
+                1
+            }
+        };
+        ws.statistics.spent(Stage::Generate, time);
+        ws.statistics.camera_rays += ws.paths.count as u64;
+        first
+    }
+}

@@ -1,0 +1,129 @@
+//! Steps that schedules share: each hands the parts of the workspace to a stage, chunk by chunk.
+
+use crate::accumulate::shader_passes::shader_program;
+use crate::kernels;
+use crate::schedule::tracer::Tracer;
+use crate::stage::catcher;
+use crate::stage::integrator::Integrator;
+use crate::stage::measure::MeasureContext;
+use crate::stage::shade::shade_chunk;
+use crate::stage::sort::list_materials;
+use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::{intersect, shadow};
+use crate::state::chunk::{ChunkColumns, ChunkContext};
+use crate::state::flag;
+use crate::state::paths::Paths;
+use crate::state::queue::shadow_rays::hits_together;
+use crate::state::sample::SampleContext;
+use crate::state::workspace::Workspace;
+use crate::statistics::{LaneStage, Stage};
+use crate::tables::Tables;
+use gonio_simd::{Lanes, dispatch};
+use std::{ops::Range, time::Instant};
+
+/// Most surfaces of a path, those that it went straight through included: a guard against endless stacks of cut-outs.
+pub(crate) const MOST_DEPTH: u32 = 256;
+const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));
+
+/// Finds what all paths hit, adds the light of lights among it, forks at shadow catchers, and looks up materials.
+pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
+    let Tracer { tables, transport, .. } = tracer;
+    let Workspace { paths, nearest, deposits, statistics, .. } = ws;
+    statistics.rays += paths.count as u64;
+    intersect::intersect(tables, transport, depth, paths, nearest, deposits);
+    let escaped = nearest.escaped.len();
+    statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
+    catcher::fork(tables, paths, &mut nearest.hits);
+    dispatch!(transport.execution, l => list_materials(l, tables, &nearest.hits, &mut ws.materials.material_of));
+}
+
+/// Shades all surface hits, material by material, a chunk at a time.
+pub(crate) fn shade<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, context: &SampleContext<'_>, ws: &mut Workspace) {
+    let most = hits_together(integrator.rays_per_hit());
+    for surface in 0..tracer.tables.materials.surfaces.len() {
+        let Range { mut start, end } = ws.materials.hits_of(surface);
+        while start < end {
+            let count = (end - start).min(most);
+            make_room(tracer, integrator, context.depth == 0, count, ws);
+            let hits = start..start + count;
+            dispatch!(tracer.transport.execution, l => shade_hits(l, tracer, integrator, context, surface, hits.clone(), ws));
+            start += count;
+        }
+    }
+}
+
+/// Surface points, programs and shading of a chunk of hits.
+#[inline(always)]
+fn shade_hits<L: Lanes, I: Integrator>(
+    l: L,
+    tracer: &Tracer<'_>,
+    integrator: &I,
+    sample: &SampleContext<'_>,
+    surface: usize,
+    hits: Range<usize>,
+    ws: &mut Workspace,
+) {
+    let Tracer { tables, transport, .. } = tracer;
+    let Workspace { paths, nearest, materials, chunk: columns, queues, deposits, statistics, .. } = ws;
+    let (hits, count, order) = (&nearest.hits, hits.len(), &materials.order[hits.start..]);
+    let shader = shader_program(&transport.passes.shader, surface, &order[..count], paths);
+    let material = &tables.materials.surfaces[surface];
+    let start = Instant::now();
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
+    kernels::surface_points(l, tables, &material.program, hits, &source, &mut columns.surface);
+    let start = statistics.spent(Stage::Surface, start);
+    let ChunkColumns { surface, scratch, outputs, shader_outputs } = columns;
+    if let Some(program) = shader {
+        // Before the surface's own program bends the normals.
+        kernels::evaluate(l, tables, program, surface, count, scratch, shader_outputs);
+    }
+    if !material.program.is_empty() {
+        kernels::evaluate(l, tables, &material.program, surface, count, scratch, outputs);
+    }
+    let start = statistics.spent(Stage::Graph, start);
+    let (sent, going_on) = (queues.shadows.count, queues.next.count);
+    let chunk = ChunkContext { l, tables, transport, sample, shader, count, order, paths, hits, columns };
+    shade_chunk(integrator, &chunk, material, queues, deposits);
+    statistics.spent(Stage::Shade, start);
+    let run = count.next_multiple_of(L::COUNT);
+    let (sent, going_on) = (queues.shadows.count - sent, queues.next.count - going_on);
+    for (stage, alive) in [(LaneStage::Shade, count), (LaneStage::Light, sent), (LaneStage::Scatter, going_on)] {
+        statistics.count_lanes(sample.depth, stage, run, alive);
+    }
+}
+
+/// Lights the points whose illuminance is measured.
+pub(crate) fn measure<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample: &SampleContext<'_>, ws: &mut Workspace) {
+    let Tracer { tables, transport, .. } = tracer;
+    let (count, together) = (ws.queues.measure.count, hits_together(integrator.rays_per_hit()));
+    for first in (0..count).step_by(together) {
+        let range = first..(first + together).min(count);
+        make_room(tracer, integrator, sample.depth == 0, range.len(), ws);
+        let (queues, deposits) = (&mut ws.queues, &mut ws.deposits);
+        dispatch!(transport.execution, l => {
+            let chunk = MeasureContext { l, tables, transport, sample, points: &queues.measure, range: range.clone() };
+            integrator.measure(&chunk, &mut queues.shadows, &mut queues.next, deposits);
+        });
+    }
+    ws.queues.measure.count = 0;
+}
+
+/// Traces the queue of shadow rays if those of some more hits would not fit into it.
+fn make_room<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, coherent: bool, hits: usize, ws: &mut Workspace) {
+    if !ws.queues.shadows.has_room(hits, integrator.rays_per_hit()) {
+        trace_shadows(tracer, coherent, ws);
+    }
+}
+
+/// Traces the queued shadow rays and adds the light of those that arrive.
+pub(crate) fn trace_shadows(tracer: &Tracer<'_>, coherent: bool, ws: &mut Workspace) {
+    let Workspace { queues, shadow_trace, chunk, deposits, statistics, .. } = ws;
+    statistics.shadow_rays += queues.shadows.count as u64;
+    shadow::trace_shadows(tracer.tables, &tracer.transport, coherent, &mut queues.shadows, shadow_trace, chunk, deposits);
+}
+
+/// Sets the visibility bits of paths that are about to be traced.
+pub(crate) fn set_masks(tables: &Tables, paths: &mut Paths) {
+    paths.set_masks();
+    catcher::set_masks(tables, paths);
+}

@@ -1,0 +1,41 @@
+//! A chunk of hits of one material: its columns, and what all its registers share.
+
+use crate::graph::{CHUNK, GraphScratch, OutputColumns, Program, SurfaceColumns};
+use crate::state::paths::Paths;
+use crate::state::sample::SampleContext;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use gonio_accel::Hits;
+
+/// Surface points of a chunk, and what programs compute there.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkColumns {
+    pub(crate) surface: SurfaceColumns,
+    pub(crate) scratch: GraphScratch,
+    /// What the material's program computed.
+    pub(crate) outputs: OutputColumns,
+    /// What the program of shader passes computed.
+    pub(crate) shader_outputs: OutputColumns,
+}
+
+/// What shading reads of a chunk: the scene, the settings, the sample, the hits and the paths that made them.
+#[derive(Clone, Debug)]
+pub(crate) struct ChunkContext<'a, L> {
+    pub(crate) l: L,
+    pub(crate) tables: &'a Tables,
+    pub(crate) transport: &'a Transport,
+    pub(crate) sample: &'a SampleContext<'a>,
+    /// What computed the chunk's shader passes, where any are wanted.
+    pub(crate) shader: Option<&'a Program>,
+    /// Hits of the chunk.
+    pub(crate) count: usize,
+    /// By hit, the number of its path; padded to whole registers.
+    pub(crate) order: &'a [u32],
+    pub(crate) paths: &'a Paths,
+    /// By path.
+    pub(crate) hits: &'a Hits,
+    /// By hit of the chunk.
+    pub(crate) columns: &'a ChunkColumns,
+}
+
+const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

@@ -1,0 +1,64 @@
+//! The queue of points whose illuminance is to be measured: `stage/shade.rs` and `stage/sensors.rs` fill it, `stage/measure.rs` empties it.
+
+use crate::state::columns::{Columns3, append3, columns3};
+use gonio_camera::sampler::BATCH;
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+
+/// Points whose illuminance is measured.
+#[derive(Debug)]
+pub(crate) struct MeasurePoints {
+    pub(crate) count: usize,
+    pub(crate) position: Columns3,
+    pub(crate) error: Column,
+    pub(crate) geometric_normal: Columns3,
+    pub(crate) shading_normal: Columns3,
+    pub(crate) throughput: Columns3,
+    pub(crate) width: Column,
+    pub(crate) slot: Column<u32>,
+}
+
+impl Default for MeasurePoints {
+    fn default() -> Self {
+        let room = padded(BATCH) + gonio_simd::PADDING;
+        Self {
+            count: 0,
+            position: columns3(room),
+            error: Column::new(room),
+            geometric_normal: columns3(room),
+            shading_normal: columns3(room),
+            throughput: columns3(room),
+            width: Column::new(room),
+            slot: Column::new(room),
+        }
+    }
+}
+
+/// One register of points, to be appended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeasureLanes<L: Lanes> {
+    pub(crate) position: Vec3<L>,
+    pub(crate) error: F<L>,
+    pub(crate) geometric_normal: Vec3<L>,
+    pub(crate) shading_normal: Vec3<L>,
+    pub(crate) throughput: Rgb<L>,
+    pub(crate) width: F<L>,
+    pub(crate) slot: U<L>,
+}
+
+impl MeasurePoints {
+    #[inline(always)]
+    pub(crate) fn append<L: Lanes>(&mut self, point: &MeasureLanes<L>, chosen: M<L>) {
+        if !chosen.any() {
+            return;
+        }
+        let n = self.count;
+        append3(point.position, chosen, &mut self.position, n);
+        point.error.append(chosen, &mut self.error, n);
+        append3(point.geometric_normal, chosen, &mut self.geometric_normal, n);
+        append3(point.shading_normal, chosen, &mut self.shading_normal, n);
+        append3(point.throughput.into(), chosen, &mut self.throughput, n);
+        point.width.append(chosen, &mut self.width, n);
+        point.slot.append(chosen, &mut self.slot, n);
+        self.count += chosen.count();
+    }
+}

@@ -1,0 +1,66 @@
+//! Rays in columns, as the TLAS takes them (pbrt's ray queues). Paths, walks and shadow rays own theirs; sorting and retracing copy some.
+
+use crate::state::columns::{Columns3, append3, columns3};
+use gonio_accel::RayBatch;
+use gonio_simd::{Column, Lanes, M, Vec3};
+use std::ops::Range;
+
+/// Rays, an entry each; whoever owns them keeps their number.
+#[derive(Debug)]
+pub struct Rays {
+    /// Where they start, rebased world space.
+    pub origin: Columns3,
+    /// Unit directions.
+    pub direction: Columns3,
+    pub(crate) t_min: Column,
+    pub(crate) t_max: Column,
+    /// Visibility bits, see [`crate::tables::ray_mask`].
+    pub(crate) mask: Vec<u8>,
+}
+
+impl Rays {
+    /// Room for some rays; they start at once, and have these visibility bits until they get others.
+    pub(crate) fn new(room: usize, mask: u8) -> Self {
+        let (t_min, t_max) = (Column::new(room), Column::new(room));
+        Self { origin: columns3(room), direction: columns3(room), t_min, t_max, mask: vec![mask; room] }
+    }
+
+    /// A range of them, to be traced.
+    pub fn batch(&self, range: Range<usize>) -> RayBatch<'_> {
+        let (origin, direction) = (&self.origin, &self.direction);
+        RayBatch {
+            origin: [&origin[0][range.clone()], &origin[1][range.clone()], &origin[2][range.clone()]],
+            direction: [&direction[0][range.clone()], &direction[1][range.clone()], &direction[2][range.clone()]],
+            t_min: &self.t_min[range.clone()],
+            t_max: &self.t_max[range.clone()],
+            mask: &self.mask[range],
+        }
+    }
+
+    /// Writes start and direction of the chosen lanes behind the first `count` rays.
+    #[inline(always)]
+    pub(crate) fn append<L: Lanes>(&mut self, origin: Vec3<L>, direction: Vec3<L>, chosen: M<L>, count: usize) {
+        append3(origin, chosen, &mut self.origin, count);
+        append3(direction, chosen, &mut self.direction, count);
+    }
+
+    /// Copies a ray over another; visibility bits stay.
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+        let threes = [&mut self.origin, &mut self.direction];
+        threes.into_iter().flatten().chain([&mut self.t_min, &mut self.t_max]).for_each(|column| column[to] = column[from]);
+    }
+
+    /// Takes chosen rays of others, in that order.
+    pub(crate) fn select(&mut self, from: &Self, chosen: &[u32]) {
+        fn fill<T: Copy>(to: &mut [T], from: &[T], chosen: &[u32]) {
+            to.iter_mut().zip(chosen).for_each(|(to, ray)| *to = from[*ray as usize]);
+        }
+        for axis in 0..3 {
+            fill(&mut self.origin[axis], &from.origin[axis], chosen);
+            fill(&mut self.direction[axis], &from.direction[axis], chosen);
+        }
+        fill(&mut self.t_min, &from.t_min, chosen);
+        fill(&mut self.t_max, &from.t_max, chosen);
+        fill(&mut self.mask, &from.mask, chosen);
+    }
+}
