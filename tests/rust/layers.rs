@@ -118,6 +118,13 @@ fn light_has_four_doors() {
 }
 
 #[test]
+fn schedules_alone_know_the_workspace() {
+    let mut named = lines_with("rust-core/transport/src", "Workspace");
+    named.retain(|line| !["/schedule/", "/state/workspace", "src/lib.rs", "//"].iter().any(|known| line.contains(known)));
+    assert!(named.is_empty(), "stages take what they read and write: {named:#?}");
+}
+
+#[test]
 fn no_build_is_tied_to_one_machine() {
     let config = fs::read_to_string(root().join(".cargo/config.toml")).expect("the build's configuration");
     assert!(!config.lines().any(|line| !line.starts_with('#') && line.contains("native")));

@@ -125,25 +125,25 @@ def attribute(t, node, context, output):
     return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
 
 
+# The outputs of Light Path that shading knows.
+LIGHT_PATH = {
+    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission")),
+    *(f"{kind} Depth" for kind in ("Ray", "Diffuse", "Glossy", "Transmission", "Transparent")),
+    "Ray Length",
+}
+
+
 @value_node("ShaderNodeLightPath")
 def light_path(t, node, context, output):
     t.asked_for_ray = True
     name = output.identifier
     if t.is_world:
+        if name != "Is Camera Ray":
+            t.say(node, context, f"worlds tell rays of the camera from all others; {name} counts as 0")
         return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
-    kinds = {
-        "Is Camera Ray",
-        "Is Shadow Ray",
-        "Is Diffuse Ray",
-        "Is Glossy Ray",
-        "Is Singular Ray",
-        "Is Reflection Ray",
-        "Is Transmission Ray",
-    }
-    if name not in kinds:
-        return None
-    t.say(node, context, f"{name} is not known while shading; camera rays are assumed")
-    return t.graph.scalar(1.0 if name == "Is Camera Ray" else 0.0)
+    if name == "Is Volume Scatter Ray":
+        return t.graph.scalar(0.0)
+    return t.graph.add({"LightPath": name.replace(" ", "")}, kind="VALUE") if name in LIGHT_PATH else None
 
 
 @value_node("ShaderNodeFresnel")

@@ -52,6 +52,37 @@ pub enum Quantity {
     Normal,
 }
 
+/// What is known of the ray that shades a hit (Blender's Light Path node).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LightPathValue {
+    /// 1 for rays of the camera, straight ways through included; else 0.
+    IsCameraRay,
+    /// 1 for shadow rays.
+    IsShadowRay,
+    /// 1 after diffuse scattering.
+    IsDiffuseRay,
+    /// 1 after glossy or specular scattering, reflected or transmitted.
+    IsGlossyRay,
+    /// 1 after a mirror or smooth glass.
+    IsSingularRay,
+    /// 1 after reflection; diffuse scattering counts as reflection.
+    IsReflectionRay,
+    /// 1 after refraction.
+    IsTransmissionRay,
+    /// Metres from the ray's start.
+    RayLength,
+    /// Scatterings so far.
+    RayDepth,
+    /// Diffuse ones among them.
+    DiffuseDepth,
+    /// Glossy reflections among them.
+    GlossyDepth,
+    /// Refractions among them.
+    TransmissionDepth,
+    /// Surfaces that the path went straight through.
+    TransparentDepth,
+}
+
 /// What a node computes, in MaterialX's vocabulary; all values have four components.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Operation {
@@ -119,6 +150,8 @@ pub enum Operation {
     Incoming,
     /// 1 where the front is seen, 0 where the back is.
     FrontFacing,
+    /// What is known of the ray; for shadow rays its depths are zero.
+    LightPath(LightPathValue),
     /// The world-space vector in the surface to the next pixel along one of two directions that span it.
     PositionStep {
         /// 0 or 1: which of the two.

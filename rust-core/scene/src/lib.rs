@@ -35,7 +35,7 @@ pub use digest::{Digest, Digesting};
 pub use error::{Diagnostic, Error, Result, Severity};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use goniogram::Goniogram;
-pub use graph::{Channel, Graph, Input, Node, NodeId, Operation, Quantity, Space};
+pub use graph::{Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};

@@ -129,6 +129,10 @@ fn surface(
     program.free_normal = switches.bump == Bump::Cycles;
     program.coat_normal = step(closure.coat_normal);
     program.tangent = step(closure.tangent);
+    // Shader outputs run on the same surface points.
+    let outputs_ask = !material.shader_outputs.is_empty() && program.asks_for_ray();
+    let mut program = program.pruned();
+    program.light_path |= outputs_ask;
     let surface = match measured {
         Some(measured) => Surface::measured(constants, &varying, switches, measured.clone()),
         None => Surface::new(constants, &varying, switches),
@@ -141,7 +145,7 @@ fn surface(
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
         surface,
-        program: program.pruned(),
+        program,
         opacity_threshold: closure.opacity_threshold,
     }
 }

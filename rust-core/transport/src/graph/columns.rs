@@ -38,6 +38,12 @@ pub struct SurfaceColumns {
     pub side: Column,
     /// Unit directions to where the ray came from.
     pub wo: [Column; 3],
+    /// Flags of the paths, their counts of bounces by kind, and the lengths of the rays; only where the program asks for the ray.
+    pub ray_flags: Column<u32>,
+    /// See `ray_flags`.
+    pub ray_counts: Column<u32>,
+    /// See `ray_flags`, metres.
+    pub ray_length: Column,
 }
 
 impl Default for SurfaceColumns {
@@ -61,6 +67,9 @@ impl Default for SurfaceColumns {
             uv_width: column(),
             side: column(),
             wo: three(),
+            ray_flags: Column::new(CHUNK),
+            ray_counts: Column::new(CHUNK),
+            ray_length: column(),
         }
     }
 }

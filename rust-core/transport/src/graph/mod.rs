@@ -4,6 +4,7 @@ mod arithmetic;
 mod columns;
 mod curve;
 mod evaluate;
+mod light_path;
 mod normals;
 mod program;
 mod shading;
@@ -12,6 +13,7 @@ mod vector;
 pub use columns::{GraphScratch, OutputColumns, SurfaceColumns};
 pub use curve::Curve;
 pub use evaluate::evaluate;
+pub use light_path::LightPathValue;
 pub use program::{Arithmetic, HitValue, Output, Program, Quantity, Source, Step, VectorOperation};
 
 /// Hits of one material that are shaded together; the columns of a chunk stay in the first-level cache.

@@ -1,6 +1,6 @@
 //! A material's graph laid out for running: steps in order, each with a four-component register.
 
-use super::Curve;
+use super::{Curve, LightPathValue};
 use gonio_image::texture::{Filter, Wrap};
 use std::sync::Arc;
 
@@ -113,6 +113,8 @@ pub enum HitValue {
     Incoming,
     /// 1 on the front side, 0 on the back.
     FrontFacing,
+    /// What is known of the ray, in all components.
+    LightPath(LightPathValue),
 }
 
 /// What a vector stands for when spaces change.
@@ -276,12 +278,18 @@ pub struct Program {
     pub tangent: Option<u16>,
     /// Primvar column that tangents and footprints follow.
     pub uv: Option<usize>,
+    /// Whether surface points keep the ray, for this program or for one that runs on the same points.
+    pub light_path: bool,
 }
 
 impl Program {
     /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {
         self.outputs.is_empty() && self.normal.is_none() && self.coat_normal.is_none() && self.tangent.is_none()
+    }
+    /// Whether any step asks for the ray.
+    pub fn asks_for_ray(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step, Step::Hit(HitValue::LightPath(_))))
     }
     /// Leaves out the steps that nothing reads: closures of a material share its graph, and each wants a part of it.
     pub fn pruned(mut self) -> Self {
@@ -309,6 +317,7 @@ impl Program {
         self.steps.iter_mut().flat_map(Step::inputs).for_each(|input| input.renumber(&place));
         self.outputs.iter_mut().for_each(|output| output.source.renumber(&place));
         self.directions().into_iter().flatten().for_each(|number| *number = place[usize::from(*number)]);
+        self.light_path = self.asks_for_ray();
         self
     }
     /// The steps that give directions.

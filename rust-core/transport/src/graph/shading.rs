@@ -3,6 +3,7 @@
 use super::{
     HitValue, Quantity, SurfaceColumns,
     columns::load3,
+    light_path::light_path,
     vector::{from_vector, normalize, vector_of},
 };
 use crate::geometry::{GeometryTable, HitLanes};
@@ -29,6 +30,7 @@ pub(super) fn hit_value<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, valu
         HitValue::GeometricNormal => load3(l, &points.geometric_normal, at),
         HitValue::Incoming => load3(l, &points.wo, at),
         HitValue::FrontFacing => return [l.f(1.0).keep_if(l.load(&points.side, at).gt(0.0)); 4],
+        HitValue::LightPath(value) => return [light_path(l, points, at, value); 4],
     };
     from_vector(l, vector)
 }

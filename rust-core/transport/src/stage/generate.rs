@@ -1,7 +1,8 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths};
+use crate::state::paths::{PathLanes, Paths, VertexLanes};
+use crate::state::rays::RayLanes;
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
@@ -76,12 +77,8 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
 #[inline(always)]
 fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
     PathLanes {
-        origin: ray.origin,
-        direction: ray.direction,
-        t_min: ray.t_min,
-        t_max: ray.t_max,
-        vertex: ray.origin,
-        normal: ray.direction,
+        ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
+        from: VertexLanes { position: ray.origin, normal: ray.direction },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width: ray.width,

@@ -129,8 +129,8 @@ fn queue_shadow_ray<L: Lanes>(
     let source = Source::Light(sample.light);
     let light = Contribution { slot: point.slot, value, code: l.u(0), shares: None, specular: l.m(false), source };
     deposits.deposit(chunk.transport, &light, lit.and_not(sample.casts_shadow));
-    let segment = point.at.shadow_ray(sample);
-    let ray = ShadowLanes { segment, contribution: value, slot: point.slot, code: l.u(0), light: sample.light, shares: None };
+    let ray = point.at.spawn_ray_to(sample);
+    let ray = ShadowLanes { ray, contribution: value, slot: point.slot, code: l.u(0), light: sample.light, shares: None };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 
@@ -141,12 +141,8 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], next: &mut Path
     // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
     let alive = point.alive & local.z.gt(0.0) & point.at.geometric.dot(direction).gt(0.0);
     let state = PathLanes {
-        origin: point.at.ray_origin(direction),
-        direction,
-        t_min: l.f(0.0),
-        t_max: l.f(f32::MAX),
-        vertex: point.at.position,
-        normal: point.at.frame.z,
+        ray: point.at.spawn_ray(direction),
+        from: point.at.as_previous(),
         throughput: point.throughput * PI,
         pdf: local.z * FRAC_1_PI,
         width: point.width,

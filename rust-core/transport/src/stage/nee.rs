@@ -53,8 +53,8 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.sums.lights.wanted() { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution { slot: point.slot, value, code, shares, specular: l.m(false), source: Source::Light(sample.light) };
     deposits.deposit(transport, &light, lit.and_not(sample.casts_shadow));
-    let segment = point.at.shadow_ray(sample);
-    let ray = ShadowLanes { segment, contribution: value, slot: point.slot, code, light: sample.light, shares };
+    let ray = point.at.spawn_ray_to(sample);
+    let ray = ShadowLanes { ray, contribution: value, slot: point.slot, code, light: sample.light, shares };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -5,6 +5,7 @@ use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::walks::{WalkLanes, Walks};
+use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use gonio_bsdf::{Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
@@ -20,16 +21,9 @@ pub(crate) fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Verte
     if !chosen.any() {
         return;
     }
-    let l = chunk.l;
-    let direction = -point.wo;
-    let from = chunk.paths.vertex(l, point.path);
     let state = PathLanes {
-        origin: point.at.ray_origin(direction),
-        direction,
-        t_min: l.f(0.0),
-        t_max: l.f(f32::MAX),
-        vertex: from.position,
-        normal: from.normal,
+        ray: point.at.spawn_ray(-point.wo),
+        from: chunk.paths.vertex(chunk.l, point.path),
         throughput: point.throughput,
         pdf: point.pdf,
         width: point.width,
@@ -48,10 +42,9 @@ fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>
     if !chosen.any() {
         return;
     }
+    let t_min = point.at.error / point.at.geometric.dot(wi).abs().max(0.05);
     let walk = WalkLanes {
-        origin: point.at.position,
-        direction: wi,
-        t_min: point.at.error / point.at.geometric.dot(wi).abs().max(0.05),
+        ray: RayLanes { origin: point.at.position, direction: wi, t_min, t_max: t_min },
         throughput,
         medium: *medium,
         instance: point.instance,
@@ -95,7 +88,8 @@ pub(crate) fn scatter<L: Lanes>(
     let wi = point.at.frame.to_world(sample.wi).normalize();
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.at.geometric.dot(wi).lt(0.0);
-    let consistent = (sample.transmitted & across) | (!sample.transmitted).and_not(across);
+    // What facets refract goes on where bent normals send it, as in Cycles: lost, it would turn smooth rims black.
+    let consistent = (sample.transmitted & (across | !sample.diffuse)) | (!sample.transmitted).and_not(across);
     let throughput = point.throughput * sample.value * sample.pdf.recip();
     let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
@@ -121,20 +115,16 @@ pub(crate) fn scatter<L: Lanes>(
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
-    let (mut vertex, mut normal, mut pdf) = (point.at.position, point.at.frame.z, sample.pdf);
+    let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
     if straight.any() {
-        let from = chunk.paths.vertex(l, point.path);
-        vertex = straight.select(from.position, vertex);
-        normal = straight.select(from.normal, normal);
+        let before = chunk.paths.vertex(l, point.path);
+        from.position = straight.select(before.position, from.position);
+        from.normal = straight.select(before.normal, from.normal);
         pdf = straight.select(point.pdf, pdf);
     }
     let state = PathLanes {
-        origin: point.at.ray_origin(wi),
-        direction: wi,
-        t_min: l.f(0.0),
-        t_max: l.f(f32::MAX),
-        vertex,
-        normal,
+        ray: point.at.spawn_ray(wi),
+        from,
         throughput,
         pdf,
         width: point.width,

@@ -6,8 +6,9 @@
 use crate::stage::generate::TileArea;
 use crate::state::columns::gather3;
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths};
+use crate::state::paths::{PathLanes, Paths, VertexLanes};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
+use crate::state::rays::RayLanes;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes, Spectrum};
@@ -131,12 +132,8 @@ pub(crate) fn start_sensors<L: Lanes>(
         };
         points.append(&point, inside.and_not(looks));
         let state = PathLanes {
-            origin: position,
-            direction: normal,
-            t_min: l.f(0.0),
-            t_max: l.f(f32::MAX),
-            vertex: position,
-            normal,
+            ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+            from: VertexLanes { position, normal },
             throughput: Spectrum::one(l),
             pdf: l.f(1.0),
             width: l.f(0.0),

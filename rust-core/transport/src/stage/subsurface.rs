@@ -189,13 +189,12 @@ fn scatter_walks<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: 
     walks.count = 0;
     for at in (0..count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
-        let distance = l.load(&walks.rays.t_max, at);
         let lit = walk.throughput.max_component().gt(LEAST_THROUGHPUT) & l.first(count - at);
         let inside = lit.and_not(surface_mask(l, hits, at, count));
-        walk.origin = walk.direction.mul_add(distance, walk.origin);
-        walk.t_min = l.f(0.0);
+        walk.ray.origin = walk.ray.direction.mul_add(walk.ray.t_max, walk.ray.origin);
+        walk.ray.t_min = l.f(0.0);
         let u = random(l, context, walk.slot, step_dimension(context, step) + 1);
-        walk.direction = walk.medium.scatter(walk.direction, u);
+        walk.ray.direction = walk.medium.scatter(walk.ray.direction, u);
         // What is appended lies at or before what was just read.
         walks.append(&walk, inside);
     }

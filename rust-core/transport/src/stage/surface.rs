@@ -4,7 +4,8 @@
 
 use crate::graph::{Program, SurfaceColumns};
 use crate::state::columns::{Columns3, gather3};
-use crate::state::paths::{ConeLanes, Paths};
+use crate::state::flag;
+use crate::state::paths::{ConeLanes, Paths, TrackLanes};
 use crate::tables::Tables;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
@@ -92,8 +93,26 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
             }
             ChunkRays::Directions(columns) => (gather3(l, columns, hits.ray), l.f(0.0)),
         };
+        if program.light_path {
+            store_ray(l, &hits, source.rays, out, at);
+        }
         surface_lanes(l, tables, program, &hits, direction, width, out, at);
     }
+}
+
+/// What a program may ask of the rays; those without paths are shadow rays.
+#[inline(always)]
+fn store_ray<L: Lanes>(l: L, hits: &FoundHits<L>, rays: ChunkRays<'_>, out: &mut SurfaceColumns, at: usize) {
+    let (flags, counts) = match rays {
+        ChunkRays::Paths(paths) => {
+            let TrackLanes { flags, counts, .. } = paths.track(l, hits.ray);
+            (flags, counts)
+        }
+        ChunkRays::Directions(_) => (l.u(flag::SHADOW), l.u(0)),
+    };
+    flags.store(&mut out.ray_flags, at);
+    counts.store(&mut out.ray_counts, at);
+    hits.distance.store(&mut out.ray_length, at);
 }
 
 #[inline(always)]

@@ -10,6 +10,8 @@ pub(crate) const NON_SPECULAR_SEEN: u32 = 4;
 pub(crate) const LAST_SHIFT: u32 = 3;
 /// Above this bit, two bits: what the first scattering was; of use only once there was one.
 pub(crate) const FIRST_SHIFT: u32 = 5;
+/// Of hits, not of paths: a shadow ray is what passes here.
+pub(crate) const SHADOW: u32 = 128;
 /// Above this bit: the number of scatterings.
 pub(crate) const BOUNCE_SHIFT: u32 = 8;
 

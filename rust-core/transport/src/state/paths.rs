@@ -3,7 +3,7 @@
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
 use crate::state::flag;
-use crate::state::rays::Rays;
+use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, SpectrumItems, U, Vec3, padded};
@@ -31,12 +31,9 @@ pub struct Paths {
 /// One register of paths, to be appended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathLanes<L: Lanes> {
-    pub(crate) origin: Vec3<L>,
-    pub(crate) direction: Vec3<L>,
-    pub(crate) t_min: F<L>,
-    pub(crate) t_max: F<L>,
-    pub(crate) vertex: Vec3<L>,
-    pub(crate) normal: Vec3<L>,
+    pub(crate) ray: RayLanes<L>,
+    /// The vertex that the ray leaves.
+    pub(crate) from: VertexLanes<L>,
     pub(crate) throughput: Spectrum<L>,
     pub(crate) pdf: F<L>,
     pub(crate) width: F<L>,
@@ -108,14 +105,13 @@ impl Paths {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
         let (l, n) = (p.pdf.lanes(), self.count);
-        self.rays.append(p.origin, p.direction, chosen, n);
-        p.t_min.append(chosen, &mut self.rays.t_min, n);
-        p.t_max.append(chosen, &mut self.rays.t_max, n);
+        let (direction, from) = (p.ray.direction, &p.from);
+        self.rays.append(&p.ray, chosen, n);
         self.medium.append(p.medium, chosen, n);
         self.carried.append(p.throughput, p.pdf, chosen, n);
-        l.append_quads([p.direction.x, p.direction.y, p.direction.z, p.width], chosen, &mut self.cone, n);
-        l.append_quads([p.vertex.x, p.vertex.y, p.vertex.z, l.f(0.0)], chosen, &mut self.vertex, n);
-        l.append_quads([p.normal.x, p.normal.y, p.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
+        l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);
+        l.append_quads([from.position.x, from.position.y, from.position.z, l.f(0.0)], chosen, &mut self.vertex, n);
+        l.append_quads([from.normal.x, from.normal.y, from.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
         let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
         l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
         self.count += chosen.count();

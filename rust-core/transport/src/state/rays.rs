@@ -1,9 +1,20 @@
 //! Rays in columns, as the TLAS takes them (pbrt's ray queues). Paths, walks and shadow rays own theirs; sorting and retracing copy some.
 
-use crate::state::columns::{Columns3, append3, columns3};
+use crate::state::columns::{Columns3, append3, columns3, load3};
 use gonio_accel::RayBatch;
-use gonio_simd::{Column, Lanes, M, Vec3};
+use gonio_simd::{Column, F, Lanes, M, Vec3};
 use std::ops::Range;
+
+/// One register of rays.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RayLanes<L: Lanes> {
+    pub(crate) origin: Vec3<L>,
+    pub(crate) direction: Vec3<L>,
+    /// The ray sees points beyond this distance, metres.
+    pub(crate) t_min: F<L>,
+    /// And up to this one.
+    pub(crate) t_max: F<L>,
+}
 
 /// Rays, an entry each; whoever owns them keeps their number.
 #[derive(Debug)]
@@ -37,11 +48,20 @@ impl Rays {
         }
     }
 
-    /// Writes start and direction of the chosen lanes behind the first `count` rays.
+    /// Writes the chosen lanes behind the first `count` rays; visibility bits are set later.
     #[inline(always)]
-    pub(crate) fn append<L: Lanes>(&mut self, origin: Vec3<L>, direction: Vec3<L>, chosen: M<L>, count: usize) {
-        append3(origin, chosen, &mut self.origin, count);
-        append3(direction, chosen, &mut self.direction, count);
+    pub(crate) fn append<L: Lanes>(&mut self, ray: &RayLanes<L>, chosen: M<L>, count: usize) {
+        append3(ray.origin, chosen, &mut self.origin, count);
+        append3(ray.direction, chosen, &mut self.direction, count);
+        ray.t_min.append(chosen, &mut self.t_min, count);
+        ray.t_max.append(chosen, &mut self.t_max, count);
+    }
+
+    /// A register of rays.
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> RayLanes<L> {
+        let (origin, direction) = (load3(l, &self.origin, at), load3(l, &self.direction, at));
+        RayLanes { origin, direction, t_min: l.load(&self.t_min, at), t_max: l.load(&self.t_max, at) }
     }
 
     /// Copies a ray over another; visibility bits stay.

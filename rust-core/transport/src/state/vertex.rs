@@ -1,6 +1,8 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
+use crate::state::paths::VertexLanes;
+use crate::state::rays::RayLanes;
 use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
@@ -19,16 +21,26 @@ pub(crate) struct Interaction<L: Lanes> {
 }
 
 impl<L: Lanes> Interaction<L> {
-    /// Where a ray in this direction starts, so that it does not meet the surface which it leaves.
+    /// The ray in a direction (pbrt's `SpawnRay`): it does not meet the surface that it leaves.
     #[inline(always)]
-    pub(crate) fn ray_origin(&self, direction: Vec3<L>) -> Vec3<L> {
-        offset_ray_origin(self.position, self.geometric, self.error, direction)
+    pub(crate) fn spawn_ray(&self, direction: Vec3<L>) -> RayLanes<L> {
+        let l = self.error.lanes();
+        let origin = offset_ray_origin(self.position, self.geometric, self.error, direction);
+        RayLanes { origin, direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) }
     }
 
-    /// The shadow ray to a light sample.
+    /// The shadow ray to a light sample (pbrt's `SpawnRayTo`): it ends short of the light.
     #[inline(always)]
-    pub(crate) fn shadow_ray(&self, sample: &LightSample<L>) -> ShadowSegment<L> {
-        shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance)
+    pub(crate) fn spawn_ray_to(&self, sample: &LightSample<L>) -> RayLanes<L> {
+        let to = shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance);
+        let ShadowSegment { origin, direction, t_max } = to;
+        RayLanes { origin, direction, t_min: self.error.lanes().f(0.0), t_max }
+    }
+
+    /// What the next vertex's MIS weight needs of this one.
+    #[inline(always)]
+    pub(crate) fn as_previous(&self) -> VertexLanes<L> {
+        VertexLanes { position: self.position, normal: self.frame.z }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::{
         textures::CompiledTextures,
     },
     error::{Error, Result},
-    graph::{Arithmetic, Curve, HitValue, Program, Quantity, Source, Step, VectorOperation},
+    graph::{Arithmetic, Curve, HitValue, LightPathValue, Program, Quantity, Source, Step, VectorOperation},
     scene::{self, Channel, Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
@@ -95,7 +95,7 @@ fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
 /// Whether all four components of a node's value are the same.
 fn is_even(node: &Node, facts: &[NodeFacts]) -> bool {
     match node.operation {
-        Operation::Dot | Operation::Luminance | Operation::FrontFacing => true,
+        Operation::Dot | Operation::Luminance | Operation::FrontFacing | Operation::LightPath(_) => true,
         _ if arithmetic_of(&node.operation).is_some() => node.inputs.iter().all(|input| match input {
             Input::Constant([x, rest @ ..]) => rest.iter().all(|other| other.to_bits() == x.to_bits()),
             Input::Node(id, Channel::Rgb) => facts[usize::from(id.0)].even,
@@ -213,8 +213,27 @@ fn hit_value_of(operation: &Operation) -> Option<HitValue> {
         Operation::GeometricNormal => HitValue::GeometricNormal,
         Operation::Incoming => HitValue::Incoming,
         Operation::FrontFacing => HitValue::FrontFacing,
+        Operation::LightPath(value) => HitValue::LightPath(light_path_of(*value)),
         _ => return None,
     })
+}
+
+fn light_path_of(value: scene::LightPathValue) -> LightPathValue {
+    match value {
+        scene::LightPathValue::IsCameraRay => LightPathValue::Camera,
+        scene::LightPathValue::IsShadowRay => LightPathValue::Shadow,
+        scene::LightPathValue::IsDiffuseRay => LightPathValue::Diffuse,
+        scene::LightPathValue::IsGlossyRay => LightPathValue::Glossy,
+        scene::LightPathValue::IsSingularRay => LightPathValue::Singular,
+        scene::LightPathValue::IsReflectionRay => LightPathValue::Reflection,
+        scene::LightPathValue::IsTransmissionRay => LightPathValue::Transmission,
+        scene::LightPathValue::RayLength => LightPathValue::Length,
+        scene::LightPathValue::RayDepth => LightPathValue::Depth,
+        scene::LightPathValue::DiffuseDepth => LightPathValue::DepthOf(0),
+        scene::LightPathValue::GlossyDepth => LightPathValue::DepthOf(1),
+        scene::LightPathValue::TransmissionDepth => LightPathValue::DepthOf(2),
+        scene::LightPathValue::TransparentDepth => LightPathValue::DepthOf(3),
+    }
 }
 
 fn quantity_of(quantity: scene::Quantity) -> Quantity {

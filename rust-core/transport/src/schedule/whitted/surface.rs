@@ -135,7 +135,12 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
     let (throughput, worth) = worth(chunk, point, way, throughput);
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.at.geometric.dot(wi).lt(0.0);
-    let consistent = if matches!(way, Way::Mirrored | Way::Coat) { !across } else { across };
+    let consistent = match way {
+        Way::Mirrored | Way::Coat => !across,
+        // As in `stage/scatter.rs`.
+        Way::Refracted => chunk.l.m(true),
+        Way::Straight => across,
+    };
     let alive = goes & consistent & worth;
     if !alive.any() {
         return;
@@ -147,12 +152,8 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         Way::Straight => 1 << 24,
     };
     let state = PathLanes {
-        origin: point.at.ray_origin(wi),
-        direction: wi,
-        t_min: l.f(0.0),
-        t_max: l.f(f32::MAX),
-        vertex: point.at.position,
-        normal: point.at.frame.z,
+        ray: point.at.spawn_ray(wi),
+        from: point.at.as_previous(),
         throughput,
         pdf: share,
         width: point.width,

@@ -1,8 +1,7 @@
 //! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
 
-use crate::geometry::ShadowSegment;
 use crate::graph::CHUNK;
-use crate::state::rays::Rays;
+use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
@@ -18,7 +17,7 @@ pub(crate) fn hits_together(rays_per_hit: usize) -> usize {
 /// One register of shadow rays, to be appended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadowLanes<L: Lanes> {
-    pub(crate) segment: ShadowSegment<L>,
+    pub(crate) ray: RayLanes<L>,
     pub(crate) contribution: Spectrum<L>,
     pub(crate) slot: U<L>,
     pub(crate) code: U<L>,
@@ -66,8 +65,7 @@ impl ShadowRays {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
-        self.rays.append(ray.segment.origin, ray.segment.direction, chosen, n);
-        ray.segment.t_max.append(chosen, &mut self.rays.t_max, n);
+        self.rays.append(&ray.ray, chosen, n);
         self.contribution.append(ray.contribution, chosen, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);

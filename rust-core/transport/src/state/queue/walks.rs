@@ -1,12 +1,11 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
-use crate::state::columns::load3;
-use crate::state::rays::Rays;
+use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -60,9 +59,8 @@ pub(crate) struct WalkHits {
 /// One register of walks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WalkLanes<L: Lanes> {
-    pub(crate) origin: Vec3<L>,
-    pub(crate) direction: Vec3<L>,
-    pub(crate) t_min: F<L>,
+    /// The flight under way.
+    pub(crate) ray: RayLanes<L>,
     pub(crate) throughput: Spectrum<L>,
     pub(crate) medium: Medium<L>,
     pub(crate) instance: U<L>,
@@ -76,8 +74,7 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;
-        self.rays.append(w.origin, w.direction, chosen, n);
-        w.t_min.append(chosen, &mut self.rays.t_min, n);
+        self.rays.append(&w.ray, chosen, n);
         self.throughput.append(w.throughput, chosen, n);
         self.albedo.append(w.medium.albedo, chosen, n);
         self.extinction.append(w.medium.extinction, chosen, n);
@@ -93,9 +90,7 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
         WalkLanes {
-            origin: load3(l, &self.rays.origin, at),
-            direction: load3(l, &self.rays.direction, at),
-            t_min: l.load(&self.rays.t_min, at),
+            ray: self.rays.load(l, at),
             throughput: self.throughput.load(l, at),
             medium: Medium {
                 albedo: self.albedo.load(l, at),
