@@ -104,6 +104,20 @@ fn no_circle_has_more_than_four_files() {
 }
 
 #[test]
+fn light_has_four_doors() {
+    let found = |needle: &str| -> Vec<String> {
+        let folders = CRATES.iter().map(|(name, _)| *name).filter(|name| *name != "simd").chain(["python", "cli", "bench"]);
+        let lines = folders.flat_map(|name| lines_with(&format!("rust-core/{name}/src"), needle)).filter(|line| !line.contains("/tests/"));
+        let mut files: Vec<String> =
+            lines.filter_map(|line| Some(line.split_once("rust-core/")?.1.split_once(':')?.0.to_owned())).collect();
+        files.sort();
+        files
+    };
+    assert_eq!(found("Spectrum::from_rgb("), ["bsdf/src/parameter.rs", "light/src/row.rs", "table/src/colours.rs"]);
+    assert_eq!(found(".to_rgb()"), ["transport/src/accumulate/deposit.rs"]);
+}
+
+#[test]
 fn schedules_alone_know_the_workspace() {
     let mut named = lines_with("rust-core/transport/src", "Workspace");
     named.retain(|line| !["/schedule/", "/state/workspace", "src/lib.rs", "//"].iter().any(|known| line.contains(known)));

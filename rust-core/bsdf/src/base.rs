@@ -10,7 +10,7 @@ use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Anisotropy, Fresnel, Metal, Tint};
 use super::turn::turned;
-use gonio_simd::{F, Lanes, Rgb};
+use gonio_simd::{F, Lanes, Spectrum};
 
 /// The dielectric base at a hit.
 pub(super) struct Base<L: Lanes> {
@@ -25,7 +25,7 @@ pub(super) struct Base<L: Lanes> {
     /// Index that shapes it.
     pub(super) eta: F<L>,
     /// Its ends.
-    pub(super) ends: [Rgb<L>; 2],
+    pub(super) ends: [Spectrum<L>; 2],
 }
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {
@@ -87,7 +87,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// Factor for scattering between facets of a reflection, and the lobe's albedo with it.
     #[inline(always)]
-    pub(super) fn glossy(&self, curve: &Curve<L>, roughness: F<L>) -> [Rgb<L>; 2] {
+    pub(super) fn glossy(&self, curve: &Curve<L>, roughness: F<L>) -> [Spectrum<L>; 2] {
         let tinted = energy::tinted(self.l, curve, roughness, self.specular_mu);
         if !self.surface.switches.distribution.compensates() {
             return [self.white(), tinted];
@@ -99,7 +99,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// A dielectric's reflection between two colours.
     #[inline(always)]
-    pub(super) fn dielectric_curve(&self, eta: F<L>, f0: Rgb<L>, f90: Rgb<L>) -> Curve<L> {
+    pub(super) fn dielectric_curve(&self, eta: F<L>, f0: Spectrum<L>, f90: Spectrum<L>) -> Curve<L> {
         match self.surface.switches.fresnel {
             Fresnel::Exact => Curve::Dielectric { eta, f0, f90 },
             Fresnel::Schlick => Curve::Schlick { f0, f90 },
@@ -109,10 +109,10 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The metal's reflectance.
     #[inline(always)]
     pub(super) fn metal_curve(&self) -> Curve<L> {
-        let (base, edge) = (self.rgb(p::BASE_COLOR).saturate(), self.rgb(p::METAL_EDGE_TINT).saturate());
+        let (base, edge) = (self.spectrum(p::BASE_COLOR).saturate(), self.spectrum(p::METAL_EDGE_TINT).saturate());
         let curve = match self.surface.switches.metal {
             Metal::F82 => Curve::f82(base, edge),
-            Metal::Conductor => Curve::Conductor { n: self.rgb(p::METAL_N), k: self.rgb(p::METAL_K) },
+            Metal::Conductor => Curve::Conductor { n: self.spectrum(p::METAL_N), k: self.spectrum(p::METAL_K) },
             Metal::Gulbrandsen => Curve::gulbrandsen(base, edge),
             Metal::Schlick => Curve::Schlick { f0: base, f90: edge },
         };
@@ -124,7 +124,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// A lobe with a metal's reflectance.
     #[inline(always)]
-    pub(super) fn metal_lobe(&mut self, curve: Curve<L>, weight: Rgb<L>) {
+    pub(super) fn metal_lobe(&mut self, curve: Curve<L>, weight: Spectrum<L>) {
         let (widths, turn) = self.widths(self.base_roughness());
         let [factor, albedo] = self.glossy(&curve, widths.roughness());
         let lobe = ReflectLobe::new(turned(self.specular_wo, turn), widths, curve, self.surface.switches.distribution);
@@ -154,9 +154,9 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let shaped = (1.0 + root) / (1.0 - root);
         let moved = ior.lt(1.0).select(shaped.recip(), shaped);
         let eta = level.eq(1.0).select(ior, moved);
-        let (tint, scale) = (self.rgb(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
+        let (tint, scale) = (self.spectrum(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
         let ends = match switches.tint {
-            Tint::Normal => [(tint * normal).saturate() * scale, Rgb::grey(scale)],
+            Tint::Normal => [(tint * normal).saturate() * scale, Spectrum::constant(scale)],
             Tint::WholeLobe => [tint * (normal.min(1.0) * scale), tint * scale],
         };
         let roughness = self.base_roughness();

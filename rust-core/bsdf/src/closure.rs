@@ -11,13 +11,13 @@ use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Closure, Fuzz};
 use super::turn::turned;
-use gonio_simd::{Lanes, Rgb};
+use gonio_simd::{Lanes, Spectrum};
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The lobe that the switches name.
     #[inline(always)]
     fn single(&mut self) {
-        let colour = self.rgb(p::BASE_COLOR).max(0.0);
+        let colour = self.spectrum(p::BASE_COLOR).max(0.0);
         match self.surface.switches.closure {
             Closure::Diffuse => self.diffuse_lobe(colour, Side::Reflected, Normal::Base),
             Closure::Translucent => self.diffuse_lobe(colour, Side::Mirrored, Normal::Specular),
@@ -44,7 +44,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// A mirror of any roughness that has its colour at all angles; compensation deepens it.
     #[inline(always)]
-    fn single_glossy(&mut self, colour: Rgb<L>) {
+    fn single_glossy(&mut self, colour: Spectrum<L>) {
         let (widths, turn) = self.widths(self.base_roughness());
         let [factor, albedo] = self.glossy(&Curve::Schlick { f0: colour, f90: colour }, widths.roughness());
         let lobe = ReflectLobe::new(turned(self.specular_wo, turn), widths, Curve::One, self.surface.switches.distribution);
@@ -53,7 +53,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// Glass, or refraction alone.
     #[inline(always)]
-    fn single_interface(&mut self, colour: Rgb<L>) {
+    fn single_interface(&mut self, colour: Spectrum<L>) {
         let ior = self.get(p::IOR).max(1e-5);
         let eta = self.entering.select(ior, ior.recip());
         let film = self.film(self.entering.select(self.l.f(1.0), ior));
@@ -66,7 +66,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// A measurement, tinted and scaled, under what lies above.
     #[inline(always)]
-    pub(super) fn measured(&mut self, colour: Rgb<L>) {
+    pub(super) fn measured(&mut self, colour: Spectrum<L>) {
         let Some(bsdf) = &self.surface.measured else { return };
         let front = bsdf.front(self.l, self.entering);
         let turn = if self.surface.lobes.turned {
@@ -83,7 +83,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// Fuzz alone.
     #[inline(always)]
-    fn single_fuzz(&mut self, colour: Rgb<L>) {
+    fn single_fuzz(&mut self, colour: Spectrum<L>) {
         let roughness = self.get(p::FUZZ_ROUGHNESS).saturate();
         let (lobe, albedo) = match self.surface.switches.fuzz {
             Fuzz::Zeltner => FuzzLobe::zeltner(self.wo, roughness),

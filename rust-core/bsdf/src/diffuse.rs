@@ -5,7 +5,7 @@
 
 use super::switches::Diffuse;
 use core::f32::consts::FRAC_1_PI;
-use gonio_simd::{F, Lanes, Rgb, Vec3};
+use gonio_simd::{F, Lanes, Spectrum, Vec3};
 
 /// 1/2 − 2/(3π).
 const C: f32 = 0.287_793_4;
@@ -18,13 +18,13 @@ struct Rough<L: Lanes> {
     /// A and B of single scattering, 1/π in them.
     single: [F<L>; 2],
     /// Factor of the light's c − G/π in scattering between facets, colour in it.
-    between: Rgb<L>,
+    between: Spectrum<L>,
 }
 
 /// The lobe at one view.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DiffuseLobe<L: Lanes> {
-    colour: Rgb<L>,
+    colour: Spectrum<L>,
     rough: Option<Rough<L>>,
 }
 
@@ -39,30 +39,30 @@ fn spread<L: Lanes>(mu: F<L>) -> F<L> {
 impl<L: Lanes> DiffuseLobe<L> {
     /// Lambert's lobe.
     #[inline(always)]
-    pub(crate) fn lambert(colour: Rgb<L>) -> Self {
+    pub(crate) fn lambert(colour: Spectrum<L>) -> Self {
         Self { colour, rough: None }
     }
     /// The rough lobe of roughness `sigma` seen from `wo`.
     #[inline(always)]
-    pub(crate) fn rough(wo: Vec3<L>, colour: Rgb<L>, sigma: F<L>, model: Diffuse) -> Self {
+    pub(crate) fn rough(wo: Vec3<L>, colour: Spectrum<L>, sigma: F<L>, model: Diffuse) -> Self {
         let l = sigma.lanes();
         let kappa = sigma / (sigma * C + 1.0);
         let a = (sigma * C + 1.0).recip() * FRAC_1_PI;
         let rho = colour.saturate();
         let lost = kappa * (C - MEAN);
-        let white = Rgb::grey(l.f(1.0));
+        let white = Spectrum::one(l);
         let bounces = rho * rho * (1.0 - lost) / (white - rho * lost);
         let view = kappa * (C - spread(wo.z.saturate())) * (FRAC_1_PI / (C - MEAN));
         let between = match model {
             Diffuse::Eon => bounces * view,
             Diffuse::EonCubed => bounces * rho * view,
-            Diffuse::OrenNayar => Rgb::zero(l),
+            Diffuse::OrenNayar => Spectrum::zero(l),
         };
         Self { colour, rough: Some(Rough { single: [a, a * sigma], between }) }
     }
     /// Value × cosine and pdf.
     #[inline(always)]
-    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let cos = wi.z.max(0.0);
         let pdf = cos * FRAC_1_PI;
         let Some(rough) = self.rough else { return (self.colour * pdf, pdf) };

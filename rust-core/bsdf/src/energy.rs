@@ -7,7 +7,7 @@
 //! and clamped at the ends. The grids are those of Cycles, since interpolation at grazing angles is part of its look.
 
 use super::fresnel::{Curve, normal_reflectance};
-use gonio_simd::{F, Lanes, Rgb, U};
+use gonio_simd::{F, Lanes, Spectrum, U};
 
 const FINE: usize = 32;
 const COARSE: usize = 16;
@@ -115,22 +115,22 @@ pub(super) fn charlie<L: Lanes>(l: L, r: F<L>, mu: F<L>) -> F<L> {
 
 /// The colour between `f0` and `f90` that a lobe with Schlick's curve has of the white lobe's albedo.
 #[inline(always)]
-fn schlick<L: Lanes>(l: L, f0: Rgb<L>, f90: Rgb<L>, r: F<L>, mu: F<L>) -> Rgb<L> {
+fn schlick<L: Lanes>(l: L, f0: Spectrum<L>, f90: Spectrum<L>, r: F<L>, mu: F<L>) -> Spectrum<L> {
     f0.lerp(f90, bilinear(l, &SCHLICK, FINE as u32, r, mu))
 }
 
 /// The colour that a lobe with the curve has of the white lobe's albedo; for metals an estimate by Schlick's curve.
 #[inline(always)]
-pub(super) fn tinted<L: Lanes>(l: L, curve: &Curve<L>, r: F<L>, mu: F<L>) -> Rgb<L> {
+pub(super) fn tinted<L: Lanes>(l: L, curve: &Curve<L>, r: F<L>, mu: F<L>) -> Spectrum<L> {
     let bare = match *curve {
-        Curve::One => Rgb::grey(l.f(1.0)),
+        Curve::One => Spectrum::one(l),
         Curve::Dielectric { eta, f0, f90 } | Curve::FilmDielectric { eta, f0, f90, .. } => {
             let z = normal_reflectance(eta).sqrt().sqrt();
             f0.lerp(f90, trilinear(l, &DIELECTRIC, r, z, mu))
         }
         Curve::Schlick { f0, f90 } => schlick(l, f0, f90, r, mu),
-        Curve::F82 { f0, .. } | Curve::FilmF82 { f0, .. } => schlick(l, f0, Rgb::grey(l.f(1.0)), r, mu),
-        Curve::Conductor { .. } | Curve::FilmConductor { .. } => schlick(l, curve.plain(l.f(1.0)), Rgb::grey(l.f(1.0)), r, mu),
+        Curve::F82 { f0, .. } | Curve::FilmF82 { f0, .. } => schlick(l, f0, Spectrum::one(l), r, mu),
+        Curve::Conductor { .. } | Curve::FilmConductor { .. } => schlick(l, curve.plain(l.f(1.0)), Spectrum::one(l), r, mu),
     };
     match curve.through_film(mu) {
         // No table has films: the value of a smooth one at the view stands for the lobe's.
@@ -142,9 +142,9 @@ pub(super) fn tinted<L: Lanes>(l: L, curve: &Curve<L>, r: F<L>, mu: F<L>) -> Rgb
 /// Factor that makes up for scattering between facets (Turquin's gain with the colour of Kulla, Conty 2017), from a lobe's albedo and its
 /// mean, and the colour that one such bounce has.
 #[inline(always)]
-pub(super) fn compensation<L: Lanes>([albedo, mean]: [F<L>; 2], bounce: Rgb<L>) -> Rgb<L> {
+pub(super) fn compensation<L: Lanes>([albedo, mean]: [F<L>; 2], bounce: Spectrum<L>) -> Spectrum<L> {
     let l = albedo.lanes();
-    let white = Rgb::grey(l.f(1.0));
+    let white = Spectrum::one(l);
     let rest = (1.0 - albedo).max(0.0) / albedo.max(1e-4);
     let colour = bounce * mean / (white - bounce * (1.0 - mean));
     white + colour * rest

@@ -5,9 +5,10 @@
 //! Rec.709 over frequency, transformed and divided by their integrals. The grid is Cycles', whose interpolation is part of its look.
 
 use super::energy::floats;
-use super::fresnel::{f82_coefficients, gulbrandsen_channel, normal_reflectance};
+use super::fresnel::{f82_channel, f82_coefficients, gulbrandsen_channel, normal_reflectance};
 use core::f32::consts::PI;
-use gonio_simd::{F, Lanes, M, Rgb};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum};
+use gonio_table::spectrum;
 
 /// Nodes along the path difference.
 const NODES: usize = 512;
@@ -31,8 +32,8 @@ pub(crate) struct Film<L: Lanes> {
     thickness: F<L>,
 }
 
-/// Complex numbers, one for each colour channel.
-type Complex<L> = [Rgb<L>; 2];
+/// Complex numbers, one for each component of light.
+type Complex<L> = [Spectrum<L>; 2];
 
 /// Reflection of both polarisations at an interface between dielectrics.
 #[derive(Clone, Copy, Debug)]
@@ -68,24 +69,20 @@ fn sensitivity<L: Lanes>(l: L, difference: F<L>) -> Complex<L> {
         let [low, high] = l.gather_pairs(table, index);
         *value = low.lerp(high, t);
     }
-    [Rgb::new(values[0], values[1], values[2]), Rgb::new(values[3], values[4], values[5])]
-}
-
-#[inline(always)]
-fn root<L: Lanes>(x: Rgb<L>) -> Rgb<L> {
-    Rgb::new(x.r.safe_sqrt(), x.g.safe_sqrt(), x.b.safe_sqrt())
+    let [r, g, b, r_imaginary, g_imaginary, b_imaginary] = values;
+    [spectrum(Rgb::new(r, g, b)), spectrum(Rgb::new(r_imaginary, g_imaginary, b_imaginary))]
 }
 
 /// The sum for one polarisation: reflectance `top` of the film's upper side, `bottom` of its lower one, `phase` of both inner reflections.
 #[inline(always)]
-fn airy<L: Lanes>(l: L, top: F<L>, bottom: Rgb<L>, phase: Complex<L>, sensitivities: &[Complex<L>; ORDERS]) -> Rgb<L> {
-    let white = Rgb::grey(l.f(1.0));
+fn airy<L: Lanes>(l: L, top: F<L>, bottom: Spectrum<L>, phase: Complex<L>, sensitivities: &[Complex<L>; ORDERS]) -> Spectrum<L> {
+    let white = Spectrum::one(l);
     let passed = 1.0 - top;
     let both = bottom * top;
     let inner = bottom * (passed * passed) / (white - both).max(1e-6);
-    let step = root(both);
-    let mut sum = inner + Rgb::grey(top);
-    let mut factor = inner - Rgb::grey(passed);
+    let step = both.safe_sqrt();
+    let mut sum = inner + Spectrum::constant(top);
+    let mut factor = inner - Spectrum::constant(passed);
     let mut turn = phase;
     for s in sensitivities {
         factor = factor * step;
@@ -93,13 +90,6 @@ fn airy<L: Lanes>(l: L, top: F<L>, bottom: Rgb<L>, phase: Complex<L>, sensitivit
         turn = [turn[0] * phase[0] - turn[1] * phase[1], turn[0] * phase[1] + turn[1] * phase[0]];
     }
     sum
-}
-
-/// A metal's lower interface in one channel: reflectances s and p, and the phases' cosines and sines.
-#[derive(Clone, Copy, Debug)]
-struct Lower<L: Lanes> {
-    reflectance: [F<L>; 2],
-    phase: [[F<L>; 2]; 2],
 }
 
 #[inline(always)]
@@ -110,9 +100,10 @@ fn unit<L: Lanes>([re, im]: [F<L>; 2]) -> [F<L>; 2] {
     [usable.select(re * inverse, re.lanes().f(1.0)), im * inverse]
 }
 
-/// Reflection in a medium of index `near` at a conductor (Born, Wolf, Principles of Optics, 14.4.1).
+/// Reflection in a medium of index `near` at a conductor (Born, Wolf, Principles of Optics, 14.4.1): for s and for p the reflectance and the
+/// phase's cosine and sine.
 #[inline(always)]
-fn conductor<L: Lanes>(c: F<L>, near: F<L>, n: F<L>, k: F<L>) -> Lower<L> {
+fn conductor<L: Lanes>(c: F<L>, near: F<L>, n: F<L>, k: F<L>) -> [F<L>; 6] {
     let (n2, k2, near2, nk2) = (n * n, k * k, near * near, n * k * 2.0);
     let difference = n2 - k2 - near2 * (1.0 - c * c);
     let length = difference.mul_add(difference, nk2 * nk2).sqrt();
@@ -124,7 +115,8 @@ fn conductor<L: Lanes>(c: F<L>, near: F<L>, n: F<L>, k: F<L>) -> Lower<L> {
     let p = ((x - nu).squared() + (y - nv).squared()) / ((x + nu).squared() + (y + nv).squared()).max(1e-12);
     let phase_s = [a * a - u2 - v2, a * v * -2.0];
     let phase_p = [((n2 + k2) * c).squared() - near2 * (u2 + v2), a * 2.0 * (nk2 * u - (n2 - k2) * v)];
-    Lower { reflectance: [s, p], phase: [unit(phase_s), unit(phase_p)] }
+    let ([cos_s, sin_s], [cos_p, sin_p]) = (unit(phase_s), unit(phase_p));
+    [s, cos_s, sin_s, p, cos_p, sin_p]
 }
 
 impl<L: Lanes> Film<L> {
@@ -141,7 +133,7 @@ impl<L: Lanes> Film<L> {
     #[inline(always)]
     fn passages(&self, l: L, cos: F<L>) -> [Complex<L>; ORDERS] {
         let difference = self.ior * self.thickness * cos * 2.0;
-        let mut passages = [[Rgb::zero(l); 2]; ORDERS];
+        let mut passages = [[Spectrum::zero(l); 2]; ORDERS];
         for (order, passage) in passages.iter_mut().enumerate() {
             #[allow(clippy::cast_precision_loss, reason = "three passages")]
             let count = (order + 1) as f32;
@@ -151,88 +143,104 @@ impl<L: Lanes> Film<L> {
     }
     /// Reflectance of the film over a dielectric of index `eta`, at cosine `c` outside.
     #[inline(always)]
-    fn over_dielectric(&self, c: F<L>, eta: F<L>) -> Rgb<L> {
+    fn over_dielectric(&self, c: F<L>, eta: F<L>) -> Spectrum<L> {
         let l = c.lanes();
         let upper = polarised(c, self.ior);
         let lower = polarised(upper.cos, eta / self.ior);
         let passages = self.passages(l, upper.cos);
-        let mut sum = Rgb::zero(l);
+        let mut sum = Spectrum::zero(l);
         for side in 0..2 {
-            let phase = [Rgb::grey(-(upper.sign[side] * lower.sign[side])), Rgb::zero(l)];
-            sum += airy(l, upper.reflectance[side], Rgb::grey(lower.reflectance[side]), phase, &passages);
+            let phase = [Spectrum::constant(-(upper.sign[side] * lower.sign[side])), Spectrum::zero(l)];
+            sum += airy(l, upper.reflectance[side], Spectrum::constant(lower.reflectance[side]), phase, &passages);
         }
-        (upper.total | lower.total).select(Rgb::grey(l.f(1.0)), (sum * 0.5).saturate())
+        (upper.total | lower.total).select(Spectrum::one(l), (sum * 0.5).saturate())
     }
     /// Reflectance of the film over a conductor; with `at_82`, the reflectance at 82 degrees in vacuum, the lower interface's curve is F82.
     #[inline(always)]
-    fn conductor_sum(&self, c: F<L>, n: Rgb<L>, k: Rgb<L>, at_82: Option<Rgb<L>>) -> Rgb<L> {
+    fn conductor_sum(&self, c: F<L>, n: Spectrum<L>, k: Spectrum<L>, at_82: Option<Spectrum<L>>) -> Spectrum<L> {
         let l = c.lanes();
         let upper = polarised(c, self.ior);
-        let mut channels =
-            [conductor(upper.cos, self.ior, n.r, k.r), conductor(upper.cos, self.ior, n.g, k.g), conductor(upper.cos, self.ior, n.b, k.b)];
+        let [mut s, cos_s, sin_s, mut p, cos_p, sin_p] = n.zip(
+            k,
+            #[inline(always)]
+            |n, k| conductor(upper.cos, self.ior, n, k),
+        );
         if let Some(at_82) = at_82 {
-            for (channel, (n, k, at_82)) in channels.iter_mut().zip([(n.r, k.r, at_82.r), (n.g, k.g, at_82.g), (n.b, k.b, at_82.b)]) {
-                channel.reflectance = [f82_inside(upper.cos, n / self.ior, k / self.ior, at_82); 2];
-            }
+            s = f82_inside(upper.cos, self.ior, n, k, at_82);
+            p = s;
         }
         let passages = self.passages(l, upper.cos);
-        let mut sum = Rgb::zero(l);
-        for side in 0..2 {
-            let [red, green, blue] = &channels;
-            let bottom = Rgb::new(red.reflectance[side], green.reflectance[side], blue.reflectance[side]);
+        let mut sum = Spectrum::zero(l);
+        for (side, (bottom, cos, sin)) in [(s, cos_s, sin_s), (p, cos_p, sin_p)].into_iter().enumerate() {
             let turn = -upper.sign[side];
-            let part = |i: usize| Rgb::new(red.phase[side][i], green.phase[side][i], blue.phase[side][i]) * turn;
-            sum += airy(l, upper.reflectance[side], bottom, [part(0), part(1)], &passages);
+            sum += airy(l, upper.reflectance[side], bottom, [cos * turn, sin * turn], &passages);
         }
-        upper.total.select(Rgb::grey(l.f(1.0)), (sum * 0.5).saturate())
+        upper.total.select(Spectrum::one(l), (sum * 0.5).saturate())
     }
     /// Reflectance of the film over a dielectric whose curve is moved to normal reflectance `f0` and grazing reflectance `f90`.
     #[inline(always)]
-    pub(crate) fn over_tinted(&self, c: F<L>, eta: F<L>, f0: Rgb<L>, f90: Rgb<L>) -> Rgb<L> {
+    pub(crate) fn over_tinted(&self, c: F<L>, eta: F<L>, f0: Spectrum<L>, f90: Spectrum<L>) -> Spectrum<L> {
         self.tinted(dielectric_film(c.lanes(), self, c, eta), eta, f0, f90)
     }
     /// Reflectances over two such curves that differ in their ends alone.
     #[inline(always)]
-    pub(crate) fn over_two(&self, c: F<L>, eta: F<L>, [first, second]: [[Rgb<L>; 2]; 2]) -> [Rgb<L>; 2] {
+    pub(crate) fn over_two(&self, c: F<L>, eta: F<L>, [first, second]: [[Spectrum<L>; 2]; 2]) -> [Spectrum<L>; 2] {
         let plain = dielectric_film(c.lanes(), self, c, eta);
         [self.tinted(plain, eta, first[0], first[1]), self.tinted(plain, eta, second[0], second[1])]
     }
     /// The reflectance `plain` over a dielectric with the ends moved.
     #[inline(always)]
-    fn tinted(&self, plain: Rgb<L>, eta: F<L>, f0: Rgb<L>, f90: Rgb<L>) -> Rgb<L> {
+    fn tinted(&self, plain: Spectrum<L>, eta: F<L>, f0: Spectrum<L>, f90: Spectrum<L>) -> Spectrum<L> {
         let normal = normal_reflectance(eta);
-        let toward = (Rgb::grey(eta.lanes().f(1.0)) - plain) * (1.0 - normal).recip();
+        let toward = (Spectrum::one(eta.lanes()) - plain) * (1.0 - normal).recip();
         let factor = f0 * normal.max(1e-5).recip();
         let tint = f90 + (factor - f90) * toward.saturate();
         plain * normal.gt(1e-5).select(tint, f90)
     }
     /// Reflectance of the film over a conductor.
     #[inline(always)]
-    pub(crate) fn over_conductor(&self, c: F<L>, n: Rgb<L>, k: Rgb<L>) -> Rgb<L> {
+    pub(crate) fn over_conductor(&self, c: F<L>, n: Spectrum<L>, k: Spectrum<L>) -> Spectrum<L> {
         conductor_film(c.lanes(), self, c, n, k, None)
     }
     /// Reflectance of the film over a metal with the F82 curve of normal value `f0` and coefficient `drop`.
     #[inline(always)]
-    pub(crate) fn over_f82(&self, c: F<L>, f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
+    pub(crate) fn over_f82(&self, c: F<L>, f0: Spectrum<L>, drop: Spectrum<L>) -> Spectrum<L> {
         let at_82 = f82_coefficients(f0, drop);
-        let f0 = Rgb::new(f0.r.min(0.999), f0.g.min(0.999), f0.b.min(0.999));
-        let [red, green, blue] =
-            [gulbrandsen_channel(f0.r, at_82.r), gulbrandsen_channel(f0.g, at_82.g), gulbrandsen_channel(f0.b, at_82.b)];
-        conductor_film(c.lanes(), self, c, Rgb::new(red[0], green[0], blue[0]), Rgb::new(red[1], green[1], blue[1]), Some(at_82))
+        let [n, k] = f0.min(0.999).zip(
+            at_82,
+            #[inline(always)]
+            |f0, at_82| gulbrandsen_channel(f0, at_82),
+        );
+        conductor_film(c.lanes(), self, c, n, k, Some(at_82))
     }
 }
 
-/// The F82 curve inside a film: normal value by index and extinction relative to the film, the value at 82 degrees as in vacuum.
+/// Normal reflectance of a conductor.
 #[inline(always)]
-fn f82_inside<L: Lanes>(c: F<L>, n: F<L>, k: F<L>, at_82: F<L>) -> F<L> {
+fn conductor_normal<L: Lanes>(n: F<L>, k: F<L>) -> F<L> {
     let k2 = k * k;
-    let f0 = ((n - 1.0).squared() + k2) / ((n + 1.0).squared() + k2);
-    super::fresnel::f82_channel(c, f0, at_82)
+    ((n - 1.0).squared() + k2) / ((n + 1.0).squared() + k2)
+}
+
+/// The F82 curve inside a film of index `ior`: normal value by index and extinction relative to the film, the value at 82 degrees as in vacuum.
+#[inline(always)]
+fn f82_inside<L: Lanes>(c: F<L>, ior: F<L>, n: Spectrum<L>, k: Spectrum<L>, at_82: Spectrum<L>) -> Spectrum<L> {
+    let [f0] = n.zip(
+        k,
+        #[inline(always)]
+        |n, k| [conductor_normal(n / ior, k / ior)],
+    );
+    let [value] = f0.zip(
+        at_82,
+        #[inline(always)]
+        |f0, at_82| [f82_channel(c, f0, at_82)],
+    );
+    value
 }
 
 /// [`Film::over_dielectric`] as a function of its own: inlined at each use it would outgrow all other lobes together.
 #[inline(never)]
-fn dielectric_film<L: Lanes>(l: L, film: &Film<L>, c: F<L>, eta: F<L>) -> Rgb<L> {
+fn dielectric_film<L: Lanes>(l: L, film: &Film<L>, c: F<L>, eta: F<L>) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
         || film.over_dielectric(c, eta),
@@ -241,7 +249,7 @@ fn dielectric_film<L: Lanes>(l: L, film: &Film<L>, c: F<L>, eta: F<L>) -> Rgb<L>
 
 /// [`Film::conductor_sum`] as a function of its own.
 #[inline(never)]
-fn conductor_film<L: Lanes>(l: L, film: &Film<L>, c: F<L>, n: Rgb<L>, k: Rgb<L>, at_82: Option<Rgb<L>>) -> Rgb<L> {
+fn conductor_film<L: Lanes>(l: L, film: &Film<L>, c: F<L>, n: Spectrum<L>, k: Spectrum<L>, at_82: Option<Spectrum<L>>) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
         || film.conductor_sum(c, n, k, at_82),

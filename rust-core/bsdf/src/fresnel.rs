@@ -1,7 +1,7 @@
 //! Reflectance of smooth interfaces, and its mean over the cosine-weighted hemisphere.
 
 use super::film::Film;
-use gonio_simd::{F, Lanes, Rgb};
+use gonio_simd::{F, Lanes, Spectrum};
 
 /// Normal reflectance of an interface; `eta` = far over near index.
 #[inline(always)]
@@ -75,8 +75,8 @@ pub(super) fn gulbrandsen_channel<L: Lanes>(r: F<L>, g: F<L>) -> [F<L>; 2] {
 
 /// Mean of the F82 curve.
 #[inline(always)]
-fn f82_mean<L: Lanes>(l: L, f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
-    (f0.lerp(Rgb::grey(l.f(1.0)), l.f(1.0 / 21.0)) - drop * (1.0 / 126.0)).saturate()
+fn f82_mean<L: Lanes>(l: L, f0: Spectrum<L>, drop: Spectrum<L>) -> Spectrum<L> {
+    (f0.lerp(Spectrum::one(l), l.f(1.0 / 21.0)) - drop * (1.0 / 126.0)).saturate()
 }
 
 /// Factor between the drop of the F82 curve under Schlick's at c = 1/7 and its coefficient: 7 / (6/7)⁶.
@@ -86,9 +86,9 @@ const SHARE_82: f32 = 0.462_664_36;
 
 /// The F82 curve's value at c = 1/7.
 #[inline(always)]
-pub(super) fn f82_coefficients<L: Lanes>(f0: Rgb<L>, drop: Rgb<L>) -> Rgb<L> {
-    let l = f0.r.lanes();
-    (f0.lerp(Rgb::grey(l.f(1.0)), l.f(SHARE_82)) - drop * (1.0 / DROP)).saturate()
+pub(super) fn f82_coefficients<L: Lanes>(f0: Spectrum<L>, drop: Spectrum<L>) -> Spectrum<L> {
+    let l = f0.lanes();
+    (f0.lerp(Spectrum::one(l), l.f(SHARE_82)) - drop * (1.0 / DROP)).saturate()
 }
 
 /// The F82 curve at cosine `c` from its normal value and its value at c = 1/7.
@@ -109,30 +109,30 @@ pub(crate) enum Curve<L: Lanes> {
         /// Index that shapes the curve.
         eta: F<L>,
         /// Value at normal incidence.
-        f0: Rgb<L>,
+        f0: Spectrum<L>,
         /// Value at grazing.
-        f90: Rgb<L>,
+        f90: Spectrum<L>,
     },
     /// Schlick's curve.
     Schlick {
         /// Value at normal incidence.
-        f0: Rgb<L>,
+        f0: Spectrum<L>,
         /// Value at grazing.
-        f90: Rgb<L>,
+        f90: Spectrum<L>,
     },
     /// Schlick's curve less `drop` c (1 − c)⁶.
     F82 {
         /// Value at normal incidence.
-        f0: Rgb<L>,
+        f0: Spectrum<L>,
         /// Coefficient of the drop.
-        drop: Rgb<L>,
+        drop: Spectrum<L>,
     },
     /// The exact curve of a conductor.
     Conductor {
         /// Refractive index.
-        n: Rgb<L>,
+        n: Spectrum<L>,
         /// Extinction coefficient.
-        k: Rgb<L>,
+        k: Spectrum<L>,
     },
     /// A film over the moved exact curve.
     FilmDielectric {
@@ -141,27 +141,27 @@ pub(crate) enum Curve<L: Lanes> {
         /// Index that shapes the curve under it.
         eta: F<L>,
         /// The curve's value at normal incidence.
-        f0: Rgb<L>,
+        f0: Spectrum<L>,
         /// The curve's value at grazing.
-        f90: Rgb<L>,
+        f90: Spectrum<L>,
     },
     /// A film over a metal with the F82 curve.
     FilmF82 {
         /// The film.
         film: Film<L>,
         /// The curve's value at normal incidence.
-        f0: Rgb<L>,
+        f0: Spectrum<L>,
         /// Coefficient of the drop.
-        drop: Rgb<L>,
+        drop: Spectrum<L>,
     },
     /// A film over a conductor.
     FilmConductor {
         /// The film.
         film: Film<L>,
         /// Refractive index.
-        n: Rgb<L>,
+        n: Spectrum<L>,
         /// Extinction coefficient.
-        k: Rgb<L>,
+        k: Spectrum<L>,
     },
 }
 
@@ -171,7 +171,7 @@ impl<L: Lanes> Curve<L> {
     pub(crate) fn filmed(self, film: Film<L>, eta: F<L>) -> Self {
         match self {
             Self::Dielectric { f0, f90, .. } => Self::FilmDielectric { film, eta, f0, f90 },
-            Self::Schlick { f0, .. } => Self::FilmF82 { film, f0, drop: Rgb::zero(eta.lanes()) },
+            Self::Schlick { f0, .. } => Self::FilmF82 { film, f0, drop: Spectrum::zero(eta.lanes()) },
             Self::F82 { f0, drop } => Self::FilmF82 { film, f0, drop },
             Self::Conductor { n, k } => Self::FilmConductor { film, n, k },
             other => other,
@@ -179,7 +179,7 @@ impl<L: Lanes> Curve<L> {
     }
     /// The film's share and its reflectance, if there is a film.
     #[inline(always)]
-    pub(crate) fn through_film(&self, c: F<L>) -> Option<(F<L>, Rgb<L>)> {
+    pub(crate) fn through_film(&self, c: F<L>) -> Option<(F<L>, Spectrum<L>)> {
         match *self {
             Self::FilmDielectric { film, eta, f0, f90 } => Some((film.weight, film.over_tinted(c, eta, f0, f90))),
             Self::FilmF82 { film, f0, drop } => Some((film.weight, film.over_f82(c, f0, drop))),
@@ -189,21 +189,24 @@ impl<L: Lanes> Curve<L> {
     }
     /// The F82 curve from its normal value and its tint at 82 degrees.
     #[inline(always)]
-    pub(crate) fn f82(f0: Rgb<L>, tint: Rgb<L>) -> Self {
-        let white = Rgb::grey(f0.r.lanes().f(1.0));
-        let at_82 = f0.lerp(white, f0.r.lanes().f(SHARE_82));
+    pub(crate) fn f82(f0: Spectrum<L>, tint: Spectrum<L>) -> Self {
+        let white = Spectrum::one(f0.lanes());
+        let at_82 = f0.lerp(white, f0.lanes().f(SHARE_82));
         Self::F82 { f0, drop: (white - tint) * at_82 * DROP }
     }
     /// Gulbrandsen's conductor with normal reflectance `r` and edge tint `g`.
     #[inline(always)]
-    pub(crate) fn gulbrandsen(r: Rgb<L>, g: Rgb<L>) -> Self {
-        let r = Rgb::new(r.r.clamp(0.0, 0.99), r.g.clamp(0.0, 0.99), r.b.clamp(0.0, 0.99));
-        let (red, green, blue) = (gulbrandsen_channel(r.r, g.r), gulbrandsen_channel(r.g, g.g), gulbrandsen_channel(r.b, g.b));
-        Self::Conductor { n: Rgb::new(red[0], green[0], blue[0]), k: Rgb::new(red[1], green[1], blue[1]) }
+    pub(crate) fn gulbrandsen(r: Spectrum<L>, g: Spectrum<L>) -> Self {
+        let [n, k] = r.clamp(0.0, 0.99).zip(
+            g,
+            #[inline(always)]
+            |r, g| gulbrandsen_channel(r, g),
+        );
+        Self::Conductor { n, k }
     }
     /// Reflectance at half-angle cosine `c`.
     #[inline(always)]
-    pub(crate) fn reflectance(&self, c: F<L>) -> Rgb<L> {
+    pub(crate) fn reflectance(&self, c: F<L>) -> Spectrum<L> {
         match self.through_film(c) {
             Some((weight, filmed)) => self.plain(c).lerp(filmed, weight),
             None => self.plain(c),
@@ -211,27 +214,32 @@ impl<L: Lanes> Curve<L> {
     }
     /// Reflectance without a film.
     #[inline(always)]
-    pub(crate) fn plain(&self, c: F<L>) -> Rgb<L> {
+    pub(crate) fn plain(&self, c: F<L>) -> Spectrum<L> {
         match *self {
-            Self::One => Rgb::grey(c.lanes().f(1.0)),
+            Self::One => Spectrum::one(c.lanes()),
             Self::Dielectric { eta, f0, f90 } | Self::FilmDielectric { eta, f0, f90, .. } => f0.lerp(f90, dielectric_share(c, eta)),
             Self::Schlick { f0, f90 } => f0.lerp(f90, schlick_share(c)),
             Self::F82 { f0, drop } | Self::FilmF82 { f0, drop, .. } => {
-                let white = Rgb::grey(c.lanes().f(1.0));
+                let white = Spectrum::one(c.lanes());
                 let x = (1.0 - c).saturate();
                 let fifth = x.squared().squared() * x;
                 (f0.lerp(white, fifth) - drop * (c * fifth * x)).saturate()
             }
             Self::Conductor { n, k } | Self::FilmConductor { n, k, .. } => {
-                Rgb::new(conductor_channel(c, n.r, k.r), conductor_channel(c, n.g, k.g), conductor_channel(c, n.b, k.b))
+                let [reflectance] = n.zip(
+                    k,
+                    #[inline(always)]
+                    |n, k| [conductor_channel(c, n, k)],
+                );
+                reflectance
             }
         }
     }
     /// Mean reflectance over the cosine-weighted hemisphere, without the film.
     #[inline(always)]
-    pub(crate) fn mean(&self, l: L) -> Rgb<L> {
+    pub(crate) fn mean(&self, l: L) -> Spectrum<L> {
         match *self {
-            Self::One => Rgb::grey(l.f(1.0)),
+            Self::One => Spectrum::one(l),
             Self::Dielectric { eta, f0, f90 } | Self::FilmDielectric { eta, f0, f90, .. } => {
                 let normal = normal_reflectance(eta);
                 f0.lerp(f90, ((dielectric_mean(eta) - normal) / (1.0 - normal)).saturate())
@@ -240,7 +248,7 @@ impl<L: Lanes> Curve<L> {
             Self::F82 { f0, drop } | Self::FilmF82 { f0, drop, .. } => f82_mean(l, f0, drop),
             Self::Conductor { .. } | Self::FilmConductor { .. } => {
                 let f0 = self.plain(l.f(1.0));
-                let at_82 = f0.lerp(Rgb::grey(l.f(1.0)), l.f(SHARE_82));
+                let at_82 = f0.lerp(Spectrum::one(l), l.f(SHARE_82));
                 let drop = (at_82 - self.plain(l.f(1.0 / 7.0))) * DROP;
                 f82_mean(l, f0, drop)
             }

@@ -6,7 +6,7 @@ use super::film::Film;
 use super::fresnel::{dielectric_share, normal_reflectance, schlick_share};
 use super::microfacet::{MIRROR, Widths, beckmann};
 use super::switches::Distribution;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Relative index differences up to this pass straight through.
 const STRAIGHT: f32 = 1e-4;
@@ -17,13 +17,13 @@ pub(crate) struct Interface<L: Lanes> {
     /// Far over near index.
     pub(crate) eta: F<L>,
     /// Reflection at normal incidence.
-    pub(crate) f0: Rgb<L>,
+    pub(crate) f0: Spectrum<L>,
     /// Reflection at grazing.
-    pub(crate) f90: Rgb<L>,
+    pub(crate) f90: Spectrum<L>,
     /// What is kept from passing at normal incidence; everything at grazing.
-    pub(crate) kept: Rgb<L>,
+    pub(crate) kept: Spectrum<L>,
     /// Tint of what passes.
-    pub(crate) passed: Rgb<L>,
+    pub(crate) passed: Spectrum<L>,
     /// Whether Schlick's curve stands for the exact one.
     pub(crate) schlick: bool,
     /// Whether everything passes but what is totally reflected, and nothing is reflected.
@@ -36,17 +36,17 @@ impl<L: Lanes> Interface<L> {
     /// An interface of index `eta` that takes no colour.
     #[inline(always)]
     pub(crate) fn clear(eta: F<L>) -> Self {
-        let (normal, white) = (Rgb::grey(normal_reflectance(eta)), Rgb::grey(eta.lanes().f(1.0)));
+        let (normal, white) = (Spectrum::constant(normal_reflectance(eta)), Spectrum::one(eta.lanes()));
         Self { eta, f0: normal, f90: white, kept: normal, passed: white, schlick: false, refracts_only: false, film: None }
     }
     /// Reflected and passed colour at half-angle cosine `c`.
     #[inline(always)]
-    pub(crate) fn split(&self, c: F<L>) -> [Rgb<L>; 2] {
+    pub(crate) fn split(&self, c: F<L>) -> [Spectrum<L>; 2] {
         let l = c.lanes();
-        let white = Rgb::grey(l.f(1.0));
+        let white = Spectrum::one(l);
         if self.refracts_only {
             let total = (1.0 - c * c).ge(self.eta * self.eta);
-            return [Rgb::zero(l), self.passed.keep_if(!total)];
+            return [Spectrum::zero(l), self.passed.keep_if(!total)];
         }
         let share = if self.schlick {
             // Total internal reflection comes before the approximate curve.
@@ -63,7 +63,7 @@ impl<L: Lanes> Interface<L> {
     }
     /// Probability of reflection at half-angle cosine `c`.
     #[inline(always)]
-    fn reflects([reflected, passed]: [Rgb<L>; 2]) -> F<L> {
+    fn reflects([reflected, passed]: [Spectrum<L>; 2]) -> F<L> {
         let (r, t) = (reflected.mean(), passed.mean());
         r / (r + t).max(1e-20)
     }
@@ -95,7 +95,7 @@ impl<L: Lanes> GlassLobe<L> {
     }
     /// Value × cosine and pdf.
     #[inline(always)]
-    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let l = wo.x.lanes();
         let eta = self.interface.eta;
         let passes = wi.z.lt(0.0);
@@ -134,7 +134,7 @@ impl<L: Lanes> GlassLobe<L> {
     }
     /// Value and probability of the smooth lanes for the side that `wi` lies on.
     #[inline(always)]
-    pub(crate) fn smooth(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(crate) fn smooth(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let split = self.interface.split(wo.z.saturate());
         let reflects = Interface::reflects(split);
         let passes = wi.z.lt(0.0);

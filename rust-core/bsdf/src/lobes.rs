@@ -18,7 +18,7 @@ use super::diffuse::DiffuseLobe;
 pub(crate) use super::normals::Normal;
 use super::normals::Tilts;
 use super::subsurface::Medium;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Slots in a list.
 pub const MAXIMUM: usize = 8;
@@ -29,11 +29,11 @@ pub struct Lobes<'s, L: Lanes> {
     slots: [Option<Slot<'s, L>>; MAXIMUM],
     count: usize,
     total: F<L>,
-    albedo: Rgb<L>,
+    albedo: Spectrum<L>,
     /// Albedos by kind: diffuse, glossy, transmitted.
-    kinds: [Rgb<L>; 3],
+    kinds: [Spectrum<L>; 3],
     pub(crate) coat: Option<CoatTint<L>>,
-    pub(crate) emission: Rgb<L>,
+    pub(crate) emission: Spectrum<L>,
     pub(crate) opacity: F<L>,
     pub(crate) tilts: Tilts<L>,
     pub(crate) medium: Option<Medium<L>>,
@@ -48,10 +48,10 @@ impl<'s, L: Lanes> Lobes<'s, L> {
             slots: std::array::from_fn(|_| None),
             count: 0,
             total: l.f(0.0),
-            albedo: Rgb::zero(l),
-            kinds: [Rgb::zero(l); 3],
+            albedo: Spectrum::zero(l),
+            kinds: [Spectrum::zero(l); 3],
             coat: None,
-            emission: Rgb::zero(l),
+            emission: Spectrum::zero(l),
             opacity: l.f(1.0),
             tilts: Tilts::NONE,
             medium: None,
@@ -60,22 +60,22 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     /// Makes it [`Self::empty`] again; what stands in the slots is not looked at.
     #[inline(always)]
     pub(crate) fn clear(&mut self, l: L) {
-        (self.count, self.total, self.albedo, self.kinds) = (0, l.f(0.0), Rgb::zero(l), [Rgb::zero(l); 3]);
-        (self.coat, self.emission, self.opacity) = (None, Rgb::zero(l), l.f(1.0));
+        (self.count, self.total, self.albedo, self.kinds) = (0, l.f(0.0), Spectrum::zero(l), [Spectrum::zero(l); 3]);
+        (self.coat, self.emission, self.opacity) = (None, Spectrum::zero(l), l.f(1.0));
         self.tilts.clear();
         self.medium = None;
     }
     /// A Lambert lobe alone.
     #[inline(always)]
-    pub(crate) fn lambert(l: L, colour: Rgb<L>) -> Self {
+    pub(crate) fn lambert(l: L, colour: Spectrum<L>) -> Self {
         let mut lobes = Self::empty(l);
-        let (shape, weight) = (Shape::Diffuse(DiffuseLobe::lambert(colour)), Rgb::grey(l.f(1.0)));
+        let (shape, weight) = (Shape::Diffuse(DiffuseLobe::lambert(colour)), Spectrum::one(l));
         lobes.push(Slot { shape, weight, share: l.f(0.0), turn: None, side: Side::Reflected, normal: Normal::Base, coated: false }, colour);
         lobes
     }
     /// Adds a lobe whose albedo, weight included, is about `albedo`; its share in the choice is the albedo's mean.
     #[inline(always)]
-    pub(crate) fn push(&mut self, mut slot: Slot<'s, L>, albedo: Rgb<L>) {
+    pub(crate) fn push(&mut self, mut slot: Slot<'s, L>, albedo: Spectrum<L>) {
         slot.share = albedo.mean().max(0.0).keep_if(slot.weight.is_lit());
         self.total += slot.share;
         self.albedo += albedo;
@@ -111,31 +111,31 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     }
     /// Estimate of the directional albedo of all lobes together, for the albedo pass.
     #[inline(always)]
-    pub fn albedo(&self) -> Rgb<L> {
+    pub fn albedo(&self) -> Spectrum<L> {
         self.albedo
     }
     /// The same by kind: diffuse, glossy, transmitted; interfaces count as both of the latter.
     #[inline(always)]
-    pub fn albedo_kinds(&self) -> [Rgb<L>; 3] {
+    pub fn albedo_kinds(&self) -> [Spectrum<L>; 3] {
         self.kinds
     }
     /// Emitted radiance towards the view, of the part that opacity leaves.
     #[inline(always)]
-    pub fn emission(&self) -> Rgb<L> {
+    pub fn emission(&self) -> Spectrum<L> {
         self.emission
     }
     /// What passes straight through towards a light: what opacity leaves open, and smooth thin walls.
     #[inline(always)]
-    pub fn transmittance(&self, l: L, wo: Vec3<L>) -> Rgb<L> {
-        let mut sum = Rgb::zero(l);
+    pub fn transmittance(&self, l: L, wo: Vec3<L>) -> Spectrum<L> {
+        let mut sum = Spectrum::zero(l);
         for slot in self.slots[..self.count].iter().flatten().filter(|slot| slot.side == Side::Mirrored) {
             let tint = match (slot.coated, &self.coat) {
                 (true, Some(coat)) => coat.along(coat.view),
-                _ => Rgb::grey(l.f(1.0)),
+                _ => Spectrum::one(l),
             };
             sum += (slot.delta_eval(l, &self.tilts, wo, -wo).0 * tint).keep_if(slot.delta(l));
         }
-        sum.lerp(Rgb::grey(l.f(1.0)), 1.0 - self.opacity)
+        sum.lerp(Spectrum::one(l), 1.0 - self.opacity)
     }
     /// What samples marked as entered go into; none if there are no such samples.
     #[inline(always)]

@@ -2,6 +2,8 @@
 //!
 //! Front ends and node graphs address places by name through [`NAMES`]; kernels by the constants. Colours take three places.
 
+use gonio_simd::{Lanes, Rgb, Spectrum};
+
 /// A named run of places in the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
@@ -131,6 +133,12 @@ pub const DEFAULTS: [f32; COUNT] = {
     }
     values
 };
+
+/// Door for light: a parameter, or the weight of a closure, as what it does to light. The first of the four doors; see ARCHITECTURE.md.
+#[inline(always)]
+pub fn spectrum<L: Lanes>(stored: Rgb<L>) -> Spectrum<L> {
+    Spectrum::from_rgb(stored)
+}
 
 /// The parameter called `name`, if there is one.
 pub fn find(name: &str) -> Option<&'static Parameter> {

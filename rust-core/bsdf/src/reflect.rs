@@ -3,7 +3,7 @@
 use super::fresnel::Curve;
 use super::microfacet::{MIRROR, Widths, beckmann, phong, sample_phong};
 use super::switches::Distribution;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// The lobe at one view.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl<L: Lanes> ReflectLobe<L> {
     }
     /// Value × cosine and pdf of a white lobe with the curve's colour.
     #[inline(always)]
-    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let above = wo.z.gt(0.0) & wi.z.gt(0.0) & !self.delta;
         let l = wo.x.lanes();
         let h = (wo + wi).normalize_or(Vec3::splat(l, [0.0, 0.0, 1.0]));
@@ -73,7 +73,7 @@ impl<L: Lanes> ReflectLobe<L> {
     }
     /// Value of the mirror lanes.
     #[inline(always)]
-    pub(crate) fn mirror(&self, wo: Vec3<L>) -> Rgb<L> {
+    pub(crate) fn mirror(&self, wo: Vec3<L>) -> Spectrum<L> {
         self.curve.reflectance(wo.z.saturate()).keep_if(wo.z.gt(0.0))
     }
 }

@@ -9,7 +9,7 @@ use super::parameter as p;
 use super::subsurface::{EntryLobe, LEAST_RADIUS, medium};
 use super::surface::{ParameterValues, Surface};
 use super::switches::{Attenuation, Bump, Closure, EmissionOrder, Fuzz, FuzzAttenuation, FuzzOrder, SubsurfaceMethod};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// The layers' state on the way in.
 pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
@@ -28,7 +28,7 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     /// Whether light walks under the surface.
     pub(super) walks: bool,
     /// What the layers above leave.
-    pub(super) weight: Rgb<L>,
+    pub(super) weight: Spectrum<L>,
     /// Whether a coloured coat stands above.
     pub(super) coated: bool,
     pub(super) lobes: &'b mut Lobes<'s, L>,
@@ -89,7 +89,7 @@ impl Surface {
             coat_mu: coat_wo.z.clamp(1e-4, 1.0),
             entering,
             walks,
-            weight: Rgb::grey(l.f(1.0)),
+            weight: Spectrum::one(l),
             coated: false,
             lobes,
         }
@@ -120,10 +120,10 @@ impl Surface {
 
     /// What passes straight through towards a light: what opacity leaves open, and smooth thin walls.
     #[inline(always)]
-    pub fn transmittance<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Rgb<L> {
+    pub fn transmittance<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Spectrum<L> {
         if !(self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)) {
             let open = if self.lobes.cut_out { 1.0 - values.get(l, p::OPACITY, at).saturate() } else { l.f(0.0) };
-            return Rgb::grey(open);
+            return Spectrum::constant(open);
         }
         let mut lobes = Lobes::empty(l);
         resolve(l, self, &Hits { values, at, wo, entering, normals: None, walks: true }, &mut lobes);
@@ -138,13 +138,13 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     }
 
     #[inline(always)]
-    pub(super) fn rgb(&self, offset: usize) -> Rgb<L> {
-        self.values.rgb(self.l, offset, self.at)
+    pub(super) fn spectrum(&self, offset: usize) -> Spectrum<L> {
+        self.values.spectrum(self.l, offset, self.at)
     }
 
     #[inline(always)]
-    pub(super) fn white(&self) -> Rgb<L> {
-        Rgb::grey(self.l.f(1.0))
+    pub(super) fn white(&self) -> Spectrum<L> {
+        Spectrum::one(self.l)
     }
 
     #[inline(always)]
@@ -154,7 +154,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             self.lobes.opacity = self.get(p::OPACITY).saturate();
         }
         if set.emission && switches.emission_order == EmissionOrder::Top {
-            self.lobes.emission = self.rgb(p::EMISSION_COLOR);
+            self.lobes.emission = self.spectrum(p::EMISSION_COLOR);
         }
         if switches.closure != Closure::Layered {
             single(self.l, self);
@@ -174,10 +174,10 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
                 Some(coat) => coat.along(coat.view),
                 None => self.white(),
             };
-            self.lobes.emission = self.rgb(p::EMISSION_COLOR) * self.weight * tint;
+            self.lobes.emission = self.spectrum(p::EMISSION_COLOR) * self.weight * tint;
         }
         if self.surface.measured.is_some() {
-            self.measured(self.rgb(p::BASE_COLOR).max(0.0));
+            self.measured(self.spectrum(p::BASE_COLOR).max(0.0));
             return;
         }
         if set.metal {
@@ -204,8 +204,8 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     pub(super) fn push(
         &mut self,
         shape: Shape<'s, L>,
-        weight: Rgb<L>,
-        albedo: Rgb<L>,
+        weight: Spectrum<L>,
+        albedo: Spectrum<L>,
         turn: Option<[F<L>; 2]>,
         side: Side,
         normal: Normal,
@@ -216,10 +216,10 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
 
     /// Takes a layer's albedo (its share of what reaches it) from what lies under it.
     #[inline(always)]
-    pub(super) fn attenuate(&mut self, albedo: Rgb<L>) {
+    pub(super) fn attenuate(&mut self, albedo: Spectrum<L>) {
         let left = match self.surface.switches.attenuation {
             Attenuation::PerChannel => (self.white() - albedo).saturate(),
-            Attenuation::LargestChannel => Rgb::grey((1.0 - albedo.max_component()).saturate()),
+            Attenuation::LargestChannel => Spectrum::constant((1.0 - albedo.max_component()).saturate()),
         };
         self.weight = self.weight * left;
     }
@@ -235,13 +235,13 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             Fuzz::Velvet => FuzzLobe::velvet(roughness),
         };
         let presence = self.get(p::FUZZ_WEIGHT);
-        let colour = self.rgb(p::FUZZ_COLOR) * presence;
+        let colour = self.spectrum(p::FUZZ_COLOR) * presence;
         self.push(Shape::Fuzz(lobe), self.weight * colour, self.weight * colour * albedo, None, Side::Reflected, Normal::Fuzz);
         if switches.fuzz == Fuzz::Velvet {
             return;
         }
         self.attenuate(match switches.fuzz_attenuation {
-            FuzzAttenuation::Grey => Rgb::grey(presence * albedo),
+            FuzzAttenuation::Grey => Spectrum::constant(presence * albedo),
             FuzzAttenuation::Coloured => colour * albedo,
         });
     }
@@ -249,11 +249,11 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     #[inline(always)]
     pub(super) fn diffuse(&mut self) {
         let (set, switches) = (self.surface.lobes, self.surface.switches);
-        let mut base = self.deepened(self.rgb(p::BASE_COLOR).max(0.0));
+        let mut base = self.deepened(self.spectrum(p::BASE_COLOR).max(0.0));
         let mut passed = None;
         if set.subsurface {
             let presence = self.get(p::SUBSURFACE_WEIGHT).saturate();
-            let mut inner = self.deepened(self.rgb(p::SUBSURFACE_COLOR).max(0.0));
+            let mut inner = self.deepened(self.spectrum(p::SUBSURFACE_COLOR).max(0.0));
             if switches.thin_walled {
                 let forward = (self.get(p::SUBSURFACE_ANISOTROPY) + 1.0) * 0.5;
                 passed = Some(inner * (presence * forward));
@@ -273,16 +273,16 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
 
     /// Adds the way into the medium of this colour, and returns the colour of the channels that have no radius: of all where nothing walks.
     #[inline(always)]
-    pub(super) fn walk(&mut self, colour: Rgb<L>, presence: F<L>, eta: F<L>) -> Rgb<L> {
+    pub(super) fn walk(&mut self, colour: Spectrum<L>, presence: F<L>, eta: F<L>) -> Spectrum<L> {
         if !self.walks {
             return colour;
         }
         let method = self.surface.switches.subsurface;
-        let radius = self.rgb(p::SUBSURFACE_RADIUS);
-        let scattered = Rgb::new(
-            colour.r.keep_if(radius.r.ge(LEAST_RADIUS)),
-            colour.g.keep_if(radius.g.ge(LEAST_RADIUS)),
-            colour.b.keep_if(radius.b.ge(LEAST_RADIUS)),
+        let radius = self.spectrum(p::SUBSURFACE_RADIUS);
+        let [scattered] = colour.zip(
+            radius,
+            #[inline(always)]
+            |colour, radius| [colour.keep_if(radius.ge(LEAST_RADIUS))],
         );
         let (medium, factor) = medium(self.l, method, scattered, radius, self.get(p::SUBSURFACE_ANISOTROPY), eta);
         self.lobes.medium = Some(medium);
@@ -293,7 +293,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     }
 
     #[inline(always)]
-    pub(super) fn diffuse_lobe(&mut self, colour: Rgb<L>, side: Side, normal: Normal) {
+    pub(super) fn diffuse_lobe(&mut self, colour: Spectrum<L>, side: Side, normal: Normal) {
         let lobe = if self.surface.lobes.rough_diffuse {
             DiffuseLobe::rough(self.wo, colour, self.get(p::DIFFUSE_ROUGHNESS).saturate(), self.surface.switches.diffuse)
         } else {
@@ -304,12 +304,11 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
 
     /// A colour raised to the power that the coat asks for.
     #[inline(always)]
-    pub(super) fn deepened(&self, colour: Rgb<L>) -> Rgb<L> {
+    pub(super) fn deepened(&self, colour: Spectrum<L>) -> Spectrum<L> {
         if !self.surface.lobes.coat {
             return colour;
         }
         let power = self.get(p::COAT_AFFECT_COLOR).mul_add(self.get(p::COAT_WEIGHT), 1.0);
-        let deepened = Rgb::new(colour.r.pow(power), colour.g.pow(power), colour.b.pow(power));
-        power.eq(1.0).select(colour, deepened)
+        power.eq(1.0).select(colour, colour.pow(power))
     }
 }

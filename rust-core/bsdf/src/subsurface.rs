@@ -9,7 +9,7 @@ use super::lobes::Lobes;
 use super::microfacet::Widths;
 use super::switches::SubsurfaceMethod;
 use core::f32::consts::PI;
-use gonio_simd::{F, Frame, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, Vec3};
 
 /// Steps after which a walk is lost.
 pub const MAXIMUM_STEPS: u32 = 256;
@@ -28,9 +28,9 @@ const MOST_ALBEDO: f32 = 0.999_999;
 #[derive(Clone, Copy, Debug)]
 pub struct Medium<L: Lanes> {
     /// Single-scattering albedo.
-    pub albedo: Rgb<L>,
+    pub albedo: Spectrum<L>,
     /// Extinction coefficient, 1/m.
-    pub extinction: Rgb<L>,
+    pub extinction: Spectrum<L>,
     /// Mean cosine g of the phase function (Henyey, Greenstein).
     pub anisotropy: F<L>,
 }
@@ -41,15 +41,7 @@ pub struct Flight<L: Lanes> {
     /// Length of the flight if nothing is in the way, metres.
     pub distance: F<L>,
     /// Probabilities with which each channel's extinction was chosen.
-    pub channels: Rgb<L>,
-}
-
-/// Applies a function of one channel.
-macro_rules! channels {
-    (|$($colour:ident),+| $value:expr) => {{
-        let (r, g, b) = ({ $(let $colour = $colour.r;)+ $value }, { $(let $colour = $colour.g;)+ $value }, { $(let $colour = $colour.b;)+ $value });
-        Rgb::new(r, g, b)
-    }};
+    pub channels: Spectrum<L>,
 }
 
 /// Single-scattering albedo of a half-space with diffuse albedo `c` (van de Hulst's relation inverted; d'Eon, A Hitchhiker's Guide to
@@ -124,26 +116,45 @@ impl<L: Lanes> Medium<L> {
     /// The medium that gives a half-space about the colour `colour` from 0 to 1, and the factor on the throughput that goes in; `radius` in
     /// metres, `g` from −1 to 1, `eta` the index for the skin's lengths.
     #[inline(always)]
-    pub fn new(method: SubsurfaceMethod, colour: Rgb<L>, radius: Rgb<L>, g: F<L>, eta: F<L>) -> (Self, Rgb<L>) {
+    pub fn new(method: SubsurfaceMethod, colour: Spectrum<L>, radius: Spectrum<L>, g: F<L>, eta: F<L>) -> (Self, Spectrum<L>) {
         let l = g.lanes();
         let (g, radius) = match method {
             SubsurfaceMethod::RandomWalkLegacy => (g.clamp(-0.99, 0.9), radius * (0.25 / PI)),
-            SubsurfaceMethod::RandomWalkSkin => (g.clamp(-0.99, 0.9), radius * channels!(|colour| dipole_scale(colour, eta))),
+            SubsurfaceMethod::RandomWalkSkin => {
+                let scale = colour.map(
+                    #[inline(always)]
+                    |colour| dipole_scale(colour, eta),
+                );
+                (g.clamp(-0.99, 0.9), radius * scale)
+            }
             SubsurfaceMethod::Burley => (l.f(0.0), radius * (0.25 / PI)),
             SubsurfaceMethod::RandomWalk | SubsurfaceMethod::Diffuse => (g.clamp(-0.99, 0.99), radius),
         };
-        let mut albedo = channels!(|colour| van_de_hulst(colour, g));
-        let mut extinction = channels!(|radius| radius.max(1e-16).recip());
+        let mut albedo = colour.map(
+            #[inline(always)]
+            |colour| van_de_hulst(colour, g),
+        );
+        let mut extinction = radius.map(
+            #[inline(always)]
+            |radius| radius.max(1e-16).recip(),
+        );
         if matches!(method, SubsurfaceMethod::RandomWalkLegacy | SubsurfaceMethod::RandomWalkSkin) {
             let forward = g.ge(0.0);
             let fit = Fit::new(g.max(0.0));
-            let fitted = channels!(|colour| fit.albedo(colour));
+            let fitted = colour.map(
+                #[inline(always)]
+                |colour| fit.albedo(colour),
+            );
             albedo = forward.select(fitted, albedo);
             extinction = forward.select(extinction * (1.0 - g.max(0.0)).recip(), extinction);
         }
-        let albedo = channels!(|albedo| albedo.clamp(0.0, MOST_ALBEDO));
+        let albedo = albedo.clamp(0.0, MOST_ALBEDO);
         let raised = albedo.max(LEAST_ALBEDO);
-        let factor = channels!(|albedo, raised, colour| (albedo / raised).keep_if(colour.gt(0.0)));
+        let [factor] = (albedo / raised).zip(
+            colour,
+            #[inline(always)]
+            |factor, colour| [factor.keep_if(colour.gt(0.0))],
+        );
         (Self { albedo: raised, extinction, anisotropy: g }, factor)
     }
     /// The medium that scatters evenly and carries light as far (similarity theory).
@@ -156,29 +167,23 @@ impl<L: Lanes> Medium<L> {
     }
     /// A flight: `u[0]` chooses a channel by what its scattering would leave of the throughput, `u[1]` the distance.
     #[inline(always)]
-    pub fn flight(&self, throughput: Rgb<L>, u: [F<L>; 2]) -> Flight<L> {
-        let l = u[0].lanes();
-        let left = throughput * self.albedo;
-        let total = left.r + left.g + left.b;
-        let channels = total.gt(0.0).select(left * total.max(1e-30).recip(), Rgb::grey(l.f(1.0 / 3.0)));
-        let (red, green) = (u[0].lt(channels.r), u[0].lt(channels.r + channels.g));
-        // Rounding may lead beyond the last channel that has any probability.
-        let last = channels.b.gt(0.0).select(self.extinction.b, channels.g.gt(0.0).select(self.extinction.g, self.extinction.r));
-        let extinction = red.select(self.extinction.r, green.select(self.extinction.g, last));
+    pub fn flight(&self, throughput: Spectrum<L>, u: [F<L>; 2]) -> Flight<L> {
+        let channels = (throughput * self.albedo).shares();
+        let extinction = channels.choose(u[0], self.extinction);
         Flight { distance: -(1.0 - u[1]).max(1e-9).ln() / extinction, channels }
     }
     /// Throughput after `distance` of a flight that ended where `surface` is set at the surface and else at a scattering; balance heuristic
     /// over the channels.
     #[inline(always)]
-    pub fn arrive(&self, throughput: Rgb<L>, flight: &Flight<L>, distance: F<L>, surface: M<L>) -> Rgb<L> {
-        let white = Rgb::grey(distance.lanes().f(1.0));
+    pub fn arrive(&self, throughput: Spectrum<L>, flight: &Flight<L>, distance: F<L>, surface: M<L>) -> Spectrum<L> {
+        let white = Spectrum::one(distance.lanes());
         let depth = self.extinction * distance;
         // A common factor of all channels keeps the quotient from becoming 0 / 0.
         let least = depth.min_component();
-        let passed = channels!(|depth| (least - depth).exp());
+        let passed = (Spectrum::constant(least) - depth).exp();
         let density = passed * surface.select(white, self.extinction);
         let value = passed * surface.select(white, self.extinction * self.albedo);
-        let pdf = flight.channels.r.mul_add(density.r, flight.channels.g.mul_add(density.g, flight.channels.b * density.b));
+        let pdf = flight.channels.dot(density);
         throughput * value * pdf.max(1e-30).recip()
     }
     /// The direction after a scattering of light that goes along `direction`; its density is the phase function, so that no factor remains.
@@ -204,7 +209,14 @@ impl<L: Lanes> Medium<L> {
 
 /// [`Medium::new`] as a function of its own: the fit's powers would be most of a surface's code.
 #[inline(never)]
-pub(crate) fn medium<L: Lanes>(l: L, method: SubsurfaceMethod, colour: Rgb<L>, radius: Rgb<L>, g: F<L>, eta: F<L>) -> (Medium<L>, Rgb<L>) {
+pub(crate) fn medium<L: Lanes>(
+    l: L,
+    method: SubsurfaceMethod,
+    colour: Spectrum<L>,
+    radius: Spectrum<L>,
+    g: F<L>,
+    eta: F<L>,
+) -> (Medium<L>, Spectrum<L>) {
     l.vectorize(
         #[inline(always)]
         || Medium::new(method, colour, radius, g, eta),
@@ -214,7 +226,7 @@ pub(crate) fn medium<L: Lanes>(l: L, method: SubsurfaceMethod, colour: Rgb<L>, r
 /// The lobe through which a walk leaves: Lambert, white.
 #[inline(always)]
 pub fn exit<L: Lanes>(l: L) -> Lobes<'static, L> {
-    Lobes::lambert(l, Rgb::grey(l.f(1.0)))
+    Lobes::lambert(l, Spectrum::one(l))
 }
 
 /// The way in: through a facet without loss, or evenly.

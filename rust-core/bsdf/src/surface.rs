@@ -3,7 +3,7 @@
 use super::measured::MeasuredBsdf;
 use super::parameter::{self as p, COUNT};
 use super::switches::{Closure, SubsurfaceMethod, Switches};
-use gonio_simd::{F, Lanes, Rgb};
+use gonio_simd::{F, Lanes, Rgb, Spectrum};
 use std::sync::Arc;
 
 /// Which lobes and layers of a surface can ever differ from nothing.
@@ -82,11 +82,11 @@ impl Surface {
     }
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
-    pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Rgb<L> {
+    pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
-        let colour = values.rgb(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
+        let colour = values.spectrum(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
         let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
-        Rgb::new(colour.r.ln(), colour.g.ln(), colour.b.ln()) * rate
+        colour.ln() * rate
     }
 }
 
@@ -190,9 +190,9 @@ impl<'a> ParameterValues<'a> {
             None => l.f(self.constants[offset]),
         }
     }
-    /// A colour for the hits from `at` on.
+    /// A colour, or another parameter of three places, for the hits from `at` on, as what it does to light.
     #[inline(always)]
-    pub fn rgb<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Rgb<L> {
-        Rgb::new(self.get(l, offset, at), self.get(l, offset + 1, at), self.get(l, offset + 2, at))
+    pub fn spectrum<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
+        p::spectrum(Rgb::new(self.get(l, offset, at), self.get(l, offset + 1, at), self.get(l, offset + 2, at)))
     }
 }

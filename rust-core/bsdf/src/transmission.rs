@@ -11,7 +11,7 @@ use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Fresnel, Tint};
 use super::turn::turned;
-use gonio_simd::{F, Lanes, Rgb};
+use gonio_simd::{F, Lanes, Spectrum};
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Widths of the transmission.
@@ -26,14 +26,21 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let l = self.l;
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let normal = fresnel::normal_reflectance(base.bending);
-        let (tint, scale) = (self.rgb(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
+        let (tint, scale) = (self.spectrum(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
         let depth = self.get(p::TRANSMISSION_DEPTH).gt(0.0);
-        let passed = depth.select(self.white(), self.rgb(p::TRANSMISSION_COLOR).max(0.0));
+        let passed = depth.select(self.white(), self.spectrum(p::TRANSMISSION_COLOR).max(0.0));
         // From inside, the tint of a whole lobe stays off: it colours what comes from above.
         let interface = match self.surface.switches.tint {
             Tint::Normal => {
                 let f0 = (tint * normal).saturate();
-                Interface { eta: base.bending, f0: f0 * scale, f90: Rgb::grey(scale), kept: f0, passed, ..Interface::clear(base.bending) }
+                Interface {
+                    eta: base.bending,
+                    f0: f0 * scale,
+                    f90: Spectrum::constant(scale),
+                    kept: f0,
+                    passed,
+                    ..Interface::clear(base.bending)
+                }
             }
             Tint::WholeLobe => {
                 let above = self.entering.select(tint, self.white()) * scale;
@@ -41,7 +48,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
                     eta: base.bending,
                     f0: above * normal,
                     f90: above,
-                    kept: Rgb::grey(normal),
+                    kept: Spectrum::constant(normal),
                     passed,
                     ..Interface::clear(base.bending)
                 }
@@ -57,7 +64,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     /// A lobe that reflects and refracts.
     #[inline(always)]
-    pub(super) fn interface(&mut self, weight: Rgb<L>, widths: Widths<L>, turn: Option<[F<L>; 2]>, interface: Interface<L>) {
+    pub(super) fn interface(&mut self, weight: Spectrum<L>, widths: Widths<L>, turn: Option<[F<L>; 2]>, interface: Interface<L>) {
         let distribution = self.surface.switches.distribution;
         let mut factor = self.white();
         if distribution.compensates() && !interface.refracts_only {
@@ -76,16 +83,16 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let eta = base.bending.max(1.0);
         let cos = (1.0 - (1.0 - self.specular_mu * self.specular_mu) / (eta * eta)).max(1e-4).sqrt();
-        let colour = self.rgb(p::TRANSMISSION_COLOR).saturate().max(1e-6);
+        let colour = self.spectrum(p::TRANSMISSION_COLOR).saturate().max(1e-6);
         let path = cos.recip();
-        let through = Rgb::new(colour.r.pow(path), colour.g.pow(path), colour.b.pow(path));
+        let through = colour.pow(path);
         let normal = fresnel::normal_reflectance(eta);
         // Films are those of unpolarised light.
         let film = match self.film(self.l.f(1.0)) {
             Some(film) => Some((film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight)),
             None => None,
         };
-        let (mut reflected, mut passed) = (Rgb::zero(self.l), Rgb::zero(self.l));
+        let (mut reflected, mut passed) = (Spectrum::zero(self.l), Spectrum::zero(self.l));
         for reflectance in fresnel::dielectric_polarised(self.specular_mu, eta) {
             let mut first = base.ends[0].lerp(base.ends[1], (reflectance - normal) / (1.0 - normal)).saturate();
             if let Some((coloured, weight)) = film {

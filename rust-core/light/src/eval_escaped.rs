@@ -6,7 +6,7 @@ use super::mis::hit_weight;
 use super::row::field;
 use super::table::{InfiniteLight, LightTable};
 use super::tree::LightCache;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 impl LightTable {
     /// Light that a ray from `from` (normal `n` there, zero where there is no surface) along unit `wi` meets on leaving the scene: the sum of the infinite
@@ -25,8 +25,8 @@ impl LightTable {
         first: M<L>,
         delta: M<L>,
         only: Option<u32>,
-    ) -> Rgb<L> {
-        let mut sum = Rgb::zero(l);
+    ) -> Spectrum<L> {
+        let mut sum = Spectrum::zero(l);
         for infinite in self.infinite.iter().filter(|infinite| only.is_none_or(|only| infinite.light == only)) {
             let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
             let weighed = (!(first | delta)) & pdf.gt(0.0);
@@ -43,7 +43,7 @@ impl LightTable {
 
     /// Radiance of one infinite light along `wi` and the density of its sampling.
     #[inline(always)]
-    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let light = self.reader(l, l.u(infinite.light));
         if infinite.kind == LightKind::Distant {
             let (inside, density) = distant::density(&light, wi);

@@ -11,7 +11,7 @@ use super::sphere::Sphere;
 use super::table::LightTable;
 use super::tree::LightCache;
 use super::triangle::Triangle;
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 impl LightTable {
     /// Radiance towards `from` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
@@ -28,9 +28,9 @@ impl LightTable {
         wi: Vec3<L>,
         hit: Vec3<L>,
         mask: M<L>,
-    ) -> (Rgb<L>, F<L>) {
+    ) -> (Spectrum<L>, F<L>) {
         if self.count == 0 || !mask.any() {
-            return (Rgb::zero(l), l.f(0.0));
+            return (Spectrum::zero(l), l.f(0.0));
         }
         // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.
         let index = mask.select(light, l.u(light.to_array()[mask.bits().trailing_zeros() as usize]));

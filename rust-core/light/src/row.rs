@@ -1,7 +1,7 @@
 //! Rows of the light table: the words of one light, read lane by lane.
 
 use super::light_kind::LightKind;
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3};
 
 /// Values in a row: six cache lines, some of them spare.
 pub(crate) const ROW: usize = 96;
@@ -158,10 +158,16 @@ impl<'a, L: Lanes> Reader<'a, L> {
         let [x, y, z] = self.triple(field);
         Vec3::new(x, y, z)
     }
+    /// Door for light: a colour of the light table, of a row or of an image, as light. The second of the four doors; see ARCHITECTURE.md.
     #[inline(always)]
-    pub(crate) fn colour(&self, field: usize) -> Rgb<L> {
+    pub(crate) fn spectrum(&self, colour: Rgb<L>) -> Spectrum<L> {
+        Spectrum::from_rgb(colour)
+    }
+    /// Three values as light or as a factor on it.
+    #[inline(always)]
+    pub(crate) fn colour(&self, field: usize) -> Spectrum<L> {
         let [r, g, b] = self.triple(field);
-        Rgb::new(r, g, b)
+        self.spectrum(Rgb::new(r, g, b))
     }
     #[inline(always)]
     pub(crate) fn integer(&self, field: usize) -> U<L> {

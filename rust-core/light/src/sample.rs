@@ -6,7 +6,7 @@ use super::light_kind::LightKind;
 use super::row::{Reader, flag};
 use super::table::LightTable;
 use super::tree::LightCache;
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// Light that may arrive at a point.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub struct LightSample<L: Lanes> {
     /// Way to the light's point in metres, `f32::MAX` for infinite lights.
     pub distance: F<L>,
     /// Radiance towards the point with shaping and texture, zero where `pdf` is; for delta lights the illuminance on a facing surface.
-    pub radiance: Rgb<L>,
+    pub radiance: Spectrum<L>,
     /// Density per solid angle times the probability of the light; for delta lights that probability alone. Zero where nothing arrives.
     pub pdf: F<L>,
     /// Lights that no ray from here can hit: the sample stands for all of their light.
@@ -103,7 +103,7 @@ impl<L: Lanes> LightSample<L> {
         Self {
             wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
             distance: l.f(f32::MAX),
-            radiance: Rgb::zero(l),
+            radiance: Spectrum::zero(l),
             pdf: l.f(0.0),
             delta: l.m(false),
             light: l.u(0),

@@ -32,8 +32,9 @@
 //! # How to write a kernel
 //!
 //! - **Inline everything.** Each function with lanes in its signature carries `#[inline(always)]`, methods and closures passed on included: a
-//!   forgotten one costs a factor of ten without a warning. `tests/inlining.rs` reads the whole workspace for it. Where a kernel grows too large,
-//!   its body may be wrapped in `l.vectorize(|| …)`, which brings the level's instructions along.
+//!   forgotten one costs a factor of ten without a warning. So does a function's name passed on: write a closure that calls it.
+//!   `tests/inlining.rs` reads the whole workspace for it. Where a kernel grows too large, its body may be wrapped in `l.vectorize(|| …)`, which
+//!   brings the level's instructions along.
 //! - **One [`dispatch!`] for a stage and batch**, a single call to a generic function. The level is chosen once and handed down.
 //! - **Batches are [`Column`]s**: aligned to 64 bytes and padded to [`PADDING`], so there are no remainder loops. What the padding computes must be
 //!   harmless, not right.
@@ -62,6 +63,7 @@ mod one;
 mod prefetch;
 mod rgb;
 mod sort;
+mod spectrum;
 mod transcendental;
 mod vector;
 mod wide;
@@ -80,5 +82,6 @@ pub use one::One;
 pub use prefetch::{prefetch, prefetch_at};
 pub use rgb::Rgb;
 pub use sort::{Sort8, sorts_fast};
+pub use spectrum::{Spectrum, SpectrumColumns, SpectrumItems};
 pub use vector::{Vec2, Vec3};
 pub use wide::Wide;

@@ -1,7 +1,7 @@
-//! Linear Rec.709 colours, one per lane.
+//! Linear Rec.709 colours, one per lane: what is stored, as textures, parameters, film and passes. Light under way is a [`Spectrum`](crate::Spectrum).
 
 use crate::{F, Lanes, M, Select, Vec3};
-use core::ops::{Add, AddAssign, Div, Mul, Sub};
+use core::ops::Mul;
 
 /// A linear Rec.709 triple in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -59,21 +59,6 @@ impl<L: Lanes> Rgb<L> {
     pub fn luminance(self) -> F<L> {
         self.r.mul_add(0.2126, self.g.mul_add(0.7152, self.b * 0.0722))
     }
-    /// Mean of the components.
-    #[inline(always)]
-    pub fn mean(self) -> F<L> {
-        (self.r + self.g + self.b) * (1.0 / 3.0)
-    }
-    /// Largest component.
-    #[inline(always)]
-    pub fn max_component(self) -> F<L> {
-        self.r.max(self.g).max(self.b)
-    }
-    /// Smallest component.
-    #[inline(always)]
-    pub fn min_component(self) -> F<L> {
-        self.r.min(self.g).min(self.b)
-    }
     /// `self * s + o` with a scalar factor.
     #[inline(always)]
     pub fn mul_add(self, s: F<L>, o: Self) -> Self {
@@ -99,11 +84,6 @@ impl<L: Lanes> Rgb<L> {
     pub fn keep_if(self, mask: M<L>) -> Self {
         Self::new(self.r.keep_if(mask), self.g.keep_if(mask), self.b.keep_if(mask))
     }
-    /// Whether any component is above zero.
-    #[inline(always)]
-    pub fn is_lit(self) -> M<L> {
-        self.max_component().gt(0.0)
-    }
 }
 
 impl<L: Lanes> From<Vec3<L>> for Rgb<L> {
@@ -112,50 +92,10 @@ impl<L: Lanes> From<Vec3<L>> for Rgb<L> {
         Self::new(v.x, v.y, v.z)
     }
 }
-impl<L: Lanes> From<Rgb<L>> for Vec3<L> {
-    #[inline(always)]
-    fn from(c: Rgb<L>) -> Self {
-        Self::new(c.r, c.g, c.b)
-    }
-}
 impl<L: Lanes> Select<L> for Rgb<L> {
     #[inline(always)]
     fn select(mask: M<L>, a: Self, b: Self) -> Self {
         Self::new(mask.select(a.r, b.r), mask.select(a.g, b.g), mask.select(a.b, b.b))
-    }
-}
-impl<L: Lanes> Add for Rgb<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Self::new(self.r + o.r, self.g + o.g, self.b + o.b)
-    }
-}
-impl<L: Lanes> AddAssign for Rgb<L> {
-    #[inline(always)]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<L: Lanes> Sub for Rgb<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Self::new(self.r - o.r, self.g - o.g, self.b - o.b)
-    }
-}
-impl<L: Lanes> Mul for Rgb<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        Self::new(self.r * o.r, self.g * o.g, self.b * o.b)
-    }
-}
-impl<L: Lanes> Div for Rgb<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        Self::new(self.r / o.r, self.g / o.g, self.b / o.b)
     }
 }
 impl<L: Lanes> Mul<F<L>> for Rgb<L> {

@@ -12,7 +12,7 @@ use crate::state::chunk::ChunkColumns;
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// [`Surface::transmittance`].
 #[inline(never)]
@@ -23,7 +23,7 @@ pub(crate) fn transmittance<L: Lanes>(
     at: usize,
     wo: Vec3<L>,
     entering: M<L>,
-) -> Rgb<L> {
+) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
         || surface.transmittance(l, values, at, wo, entering),
@@ -32,7 +32,7 @@ pub(crate) fn transmittance<L: Lanes>(
 
 /// [`Lobes::eval_diffuse`].
 #[inline(never)]
-pub(crate) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+pub(crate) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.eval_diffuse(l, wo, wi),
@@ -100,7 +100,7 @@ pub(crate) fn eval_light<L: Lanes>(
     light_cache: Option<&LightCache>,
     hit: &LightHit<L>,
     mask: M<L>,
-) -> (Rgb<L>, F<L>) {
+) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || tables.lights.eval_hit(l, light_cache, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
@@ -119,7 +119,7 @@ pub(crate) fn eval_escaped<L: Lanes>(
     pdf: F<L>,
     first_and_delta: [M<L>; 2],
     only: Option<u32>,
-) -> Rgb<L> {
+) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
         || tables.lights.eval_escaped(l, light_cache, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),

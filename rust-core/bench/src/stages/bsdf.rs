@@ -8,7 +8,7 @@ use crate::{
 use gonio::bsdf::{Closure, Distribution, Hits, Lobes, MeasuredBsdf, ParameterValues, Surface, Switches, parameter as p};
 use gonio::error::Result;
 use gonio::transport::kernels;
-use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
+use gonio_simd::{Column, Execution, Lanes, Spectrum, SpectrumColumns, Vec3, dispatch};
 use std::sync::Arc;
 
 /// The view of sampling and evaluation: 40 degrees off the normal.
@@ -28,7 +28,7 @@ struct Shading {
     numbers: [Column; 3],
     /// Unit vectors over the upper hemisphere.
     directions: [Column; 3],
-    colour: [Column; 3],
+    light: SpectrumColumns,
     pdf: Column,
 }
 
@@ -70,7 +70,7 @@ pub(super) fn cases() -> Vec<Case> {
             task,
             numbers: cube(),
             directions: directions(),
-            colour: columns3(),
+            light: SpectrumColumns::new(BATCH),
             pdf: Column::new(BATCH),
         };
         Case::new(format!("{name}: {what}"), "hit", BATCH, kernel)
@@ -150,40 +150,40 @@ fn shade<L: Lanes>(l: L, job: &mut Shading) {
 
 #[inline(always)]
 fn resolve<L: Lanes>(l: L, job: &mut Shading) {
-    let Shading { surface, directions: [x, y, z], colour: [r, g, b], .. } = job;
+    let Shading { surface, directions: [x, y, z], light, .. } = job;
     let values = ParameterValues::constant(&surface.constants);
     let mut lobes = Lobes::empty(l);
     for at in (0..BATCH).step_by(L::COUNT) {
         let wo = Vec3::load(l, [&x[..], &y[..], &z[..]], at);
         surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true }, &mut lobes);
-        lobes.albedo().store([r, g, b], at);
+        light.store(lobes.albedo(), at);
     }
 }
 
 #[inline(always)]
 fn sample<L: Lanes>(l: L, job: &mut Shading) {
-    let Shading { surface, numbers: [u, v, w], colour: [r, g, b], pdf, .. } = job;
+    let Shading { surface, numbers: [u, v, w], light, pdf, .. } = job;
     let (values, wo) = (ParameterValues::constant(&surface.constants), Vec3::splat(l, VIEW));
     let mut lobes = Lobes::empty(l);
     surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true }, &mut lobes);
     for at in (0..BATCH).step_by(L::COUNT) {
         let sample = kernels::sample(l, &lobes, wo, [l.load(u, at), l.load(v, at), l.load(w, at)]);
-        // The colour goes with the direction, so that each is computed and shows in the outcome.
-        let turned = sample.value + sample.wi.into();
-        turned.store([r, g, b], at);
+        // The value goes with the direction, so that each is computed and shows in the outcome.
+        let wi = sample.wi;
+        light.store(sample.value + Spectrum::constant(wi.x + wi.y + wi.z), at);
         sample.pdf.min(1e3).store(pdf, at);
     }
 }
 
 #[inline(always)]
 fn evaluate<L: Lanes>(l: L, job: &mut Shading) {
-    let Shading { surface, directions: [x, y, z], colour: [r, g, b], pdf, .. } = job;
+    let Shading { surface, directions: [x, y, z], light, pdf, .. } = job;
     let (values, wo) = (ParameterValues::constant(&surface.constants), Vec3::splat(l, VIEW));
     let mut lobes = Lobes::empty(l);
     surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true }, &mut lobes);
     for at in (0..BATCH).step_by(L::COUNT) {
         let (value, density) = lobes.eval(l, wo, Vec3::load(l, [&x[..], &y[..], &z[..]], at));
-        value.store([r, g, b], at);
+        light.store(value, at);
         density.store(pdf, at);
     }
 }
@@ -194,6 +194,6 @@ impl Kernel for Shading {
         Ok(())
     }
     fn outcome(&self) -> Outcome {
-        Outcome::of(self.colour.iter().chain([&self.pdf]).map(|column| &column[..]))
+        Outcome::of(self.light.columns().iter().chain([&self.pdf]).map(|column| &column[..]))
     }
 }

@@ -12,8 +12,8 @@ use gonio::scene::{
     Closure, DomeFormat, Goniogram, Light, LightShape, Material, Mesh, Opening, OpeningShape, Origin, Scene, Shaping, Spot, Texture,
     Transform,
 };
-use gonio::transport::{Tables, kernels};
-use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
+use gonio::transport::kernels;
+use gonio_simd::{Column, Execution, Lanes, SpectrumColumns, Vec3, dispatch};
 use std::sync::{Arc, atomic::AtomicBool};
 
 struct Sampling {
@@ -21,7 +21,7 @@ struct Sampling {
     points: [Column; 3],
     numbers: [Column; 3],
     direction: [Column; 3],
-    radiance: [Column; 3],
+    radiance: SpectrumColumns,
     pdf: Column,
 }
 
@@ -110,14 +110,14 @@ fn triangle() -> Scene {
 }
 
 #[inline(always)]
-fn sample<L: Lanes>(l: L, tables: &Tables, job: [&[Column; 3]; 2], out: [&mut [Column; 3]; 2], pdf: &mut Column) {
-    let ([[x, y, z], [u, v, w]], [[dx, dy, dz], [r, g, b]]) = (job, out);
+fn sample<L: Lanes>(l: L, job: &mut Sampling) {
+    let Sampling { scene, points: [x, y, z], numbers: [u, v, w], direction: [dx, dy, dz], radiance, pdf } = job;
     let up = Vec3::splat(l, [0.0, 1.0, 0.0]);
     for at in (0..BATCH).step_by(L::COUNT) {
         let point = Vec3::load(l, [x, y, z], at);
-        let sample = kernels::sample_li(l, tables, None, &point, &up, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
+        let sample = kernels::sample_li(l, &scene.tables, None, &point, &up, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
         sample.wi.store([dx, dy, dz], at);
-        sample.radiance.store([r, g, b], at);
+        radiance.store(sample.radiance, at);
         sample.pdf.store(pdf, at);
     }
 }
@@ -133,18 +133,17 @@ impl Sampling {
                 column[i] = (f64::from(place[axis]) - origin[axis]) as f32;
             }
         }
-        Ok(Self { scene, points, numbers, direction: columns3(), radiance: columns3(), pdf: Column::new(BATCH) })
+        Ok(Self { scene, points, numbers, direction: columns3(), radiance: SpectrumColumns::new(BATCH), pdf: Column::new(BATCH) })
     }
 }
 
 impl Kernel for Sampling {
     fn run(&mut self, execution: Execution) -> Result<()> {
-        let Self { scene, points, numbers, direction, radiance, pdf } = self;
-        dispatch!(execution, l => sample(l, &scene.tables, [&*points, &*numbers], [&mut *direction, &mut *radiance], pdf));
+        dispatch!(execution, l => sample(l, self));
         Ok(())
     }
     fn outcome(&self) -> Outcome {
-        Outcome::of(self.direction.iter().chain(&self.radiance).chain([&self.pdf]).map(|column| &column[..]))
+        Outcome::of(self.direction.iter().chain(self.radiance.columns()).chain([&self.pdf]).map(|column| &column[..]))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Evaluation of all lobes.
 
 use super::{Lobes, Shape, Side};
-use gonio_simd::{F, Lanes, Rgb, Vec3};
+use gonio_simd::{F, Lanes, Spectrum, Vec3};
 
 /// What an evaluation is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,13 +17,13 @@ pub(super) enum Asked {
 impl<L: Lanes> Lobes<'_, L> {
     /// BSDF × |cos θi| of all lobes but delta ones, and the density with which [`Self::sample`] finds `wi`.
     #[inline(always)]
-    pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub fn eval(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         evaluate(l, self, wo, wi, Asked::All)
     }
     /// The same for what is asked for.
     #[inline(always)]
-    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
-        let mut sum = Rgb::zero(l);
+    fn sum(&self, l: L, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Spectrum<L>, F<L>) {
+        let mut sum = Spectrum::zero(l);
         let mut density = l.f(0.0);
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         let coat = match &self.coat {
@@ -49,14 +49,14 @@ impl<L: Lanes> Lobes<'_, L> {
     }
     /// The diffuse part of [`Self::eval`]: all but facets and interfaces.
     #[inline(always)]
-    pub fn eval_diffuse(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Rgb<L> {
+    pub fn eval_diffuse(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Spectrum<L> {
         evaluate(l, self, wo, wi, Asked::Diffuse).0
     }
 }
 
 /// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
 #[inline(never)]
-pub(super) fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Rgb<L>, F<L>) {
+pub(super) fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || lobes.sum(l, wo, wi, asked),

@@ -2,7 +2,7 @@
 
 use super::eval::{Asked, evaluate};
 use super::{Lobes, Shape, Side, Slot};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// A sampled direction. `value / pdf` is the throughput factor; `pdf` 0 is a failed sample.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +10,7 @@ pub struct BsdfSample<L: Lanes> {
     /// Direction towards the light, unit, in the shading frame.
     pub wi: Vec3<L>,
     /// BSDF × |cos θi|, or the weight of a delta lobe.
-    pub value: Rgb<L>,
+    pub value: Spectrum<L>,
     /// Density per solid angle over all lobes, or the probability of a delta lobe.
     pub pdf: F<L>,
     /// Perfect mirror or smooth refraction: lights cannot be sampled for this direction.
@@ -34,7 +34,7 @@ impl<L: Lanes> BsdfSample<L> {
         let nothing = l.m(false);
         Self {
             wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
-            value: Rgb::zero(l),
+            value: Spectrum::zero(l),
             pdf: l.f(0.0),
             delta: nothing,
             transmitted: nothing,

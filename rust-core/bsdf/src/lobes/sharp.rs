@@ -1,7 +1,7 @@
 //! All that a surface sends on sharply, instead of one lobe chosen by its share: for trees of rays.
 
 use super::{BsdfSample, Lobes, Normal, Shape, Side, Slot};
-use gonio_simd::{Lanes, M, Rgb, Vec3};
+use gonio_simd::{Lanes, M, Spectrum, Vec3};
 
 /// Ways that light goes on sharply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,14 +27,14 @@ pub struct SharpRay<L: Lanes> {
     /// Unit direction in the shading frame.
     pub wi: Vec3<L>,
     /// Factor on the radiance from there; zero where there is no such way.
-    pub weight: Rgb<L>,
+    pub weight: Spectrum<L>,
 }
 
 impl<L: Lanes> Lobes<'_, L> {
     /// The sharp directions of all lobes; lobes that go the same way add up.
     #[inline(always)]
     pub fn sharp(&self, l: L, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
-        let nothing = SharpRay { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), weight: Rgb::zero(l) };
+        let nothing = SharpRay { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), weight: Spectrum::zero(l) };
         let mut rays = [nothing; Way::ALL.len()];
         for slot in self.slots[..self.count].iter().flatten() {
             let here = slot.share.gt(0.0) & slot.delta(l);

@@ -8,7 +8,7 @@ use super::super::normals::{Normal, Tilts};
 use super::super::reflect::ReflectLobe;
 use super::super::subsurface::EntryLobe;
 use crate::turn::turned;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// The shape of a lobe.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ pub(crate) enum Side {
 pub(crate) struct Slot<'s, L: Lanes> {
     pub(crate) shape: Shape<'s, L>,
     /// Factor on the lobe's value.
-    pub(crate) weight: Rgb<L>,
+    pub(crate) weight: Spectrum<L>,
     /// Share in the choice of lobes, not normalised.
     pub(crate) share: F<L>,
     /// Cosine and sine of the tangent's turn.
@@ -83,7 +83,7 @@ impl<L: Lanes> Slot<'_, L> {
     }
     /// Value × cosine and pdf of the lobe alone, with its weight.
     #[inline(always)]
-    pub(super) fn eval(&self, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(super) fn eval(&self, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let wo = self.in_shape_frame(tilts, wo);
         let mut wi = self.in_shape_frame(tilts, wi);
         if self.side == Side::Mirrored {
@@ -95,10 +95,10 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Glass(lobe) => lobe.eval(wo, wi),
             Shape::Fuzz(lobe) => {
                 let (value, pdf) = lobe.eval(wo, wi);
-                (Rgb::grey(value), pdf)
+                (Spectrum::constant(value), pdf)
             }
             Shape::Measured(lobe) => lobe.eval(wo, wi),
-            Shape::Straight | Shape::Subsurface(_) => return (Rgb::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
+            Shape::Straight | Shape::Subsurface(_) => return (Spectrum::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
         };
         (value * self.weight, pdf)
     }
@@ -135,13 +135,13 @@ impl<L: Lanes> Slot<'_, L> {
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
     #[inline(always)]
-    pub(super) fn delta_eval(&self, l: L, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(super) fn delta_eval(&self, l: L, tilts: &Tilts<L>, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let (wo, wi) = (tilts.seen(self.normal, wo), tilts.seen(self.normal, wi));
         let (value, pdf) = match &self.shape {
             Shape::Reflect(lobe) => (lobe.mirror(wo), l.f(1.0)),
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
-            Shape::Straight | Shape::Subsurface(_) => (Rgb::grey(l.f(1.0)), l.f(1.0)),
-            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Measured(_) => (Rgb::zero(l), l.f(0.0)),
+            Shape::Straight | Shape::Subsurface(_) => (Spectrum::one(l), l.f(1.0)),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Measured(_) => (Spectrum::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
     }

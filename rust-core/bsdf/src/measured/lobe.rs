@@ -2,7 +2,8 @@
 
 use super::MeasuredBsdf;
 use super::angles::through;
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_table::spectrum;
 
 /// What was measured, seen from one side or the other.
 #[derive(Clone, Copy, Debug)]
@@ -30,19 +31,19 @@ impl<'s, L: Lanes> MeasuredLobe<'s, L> {
     }
     /// Share of light that leaves to the view.
     #[inline(always)]
-    pub(crate) fn albedo(&self, wo: Vec3<L>) -> Rgb<L> {
+    pub(crate) fn albedo(&self, wo: Vec3<L>) -> Spectrum<L> {
         let l = wo.x.lanes();
-        let mut albedo = Rgb::zero(l);
+        let mut albedo = Spectrum::zero(l);
         for (side, here) in [self.front, l.m(true).and_not(self.front)].into_iter().enumerate() {
             if here.any() {
-                albedo = here.select(self.bsdf.albedos.of_view(l, side, wo), albedo);
+                albedo = here.select(spectrum(self.bsdf.albedos.of_view(l, side, wo)), albedo);
             }
         }
         albedo
     }
     /// Value × cosine and pdf.
     #[inline(always)]
-    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+    pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         eval(wo.x.lanes(), self, wo, wi)
     }
     /// A direction with the pdf of [`Self::eval`], and whether there is one.
@@ -64,14 +65,14 @@ impl<'s, L: Lanes> MeasuredLobe<'s, L> {
 
 /// [`MeasuredLobe::eval`] as a function of its own: most surfaces should not carry its registers.
 #[inline(never)]
-fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> (Rgb<L>, F<L>) {
+fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || {
             let (wo, wi) = (lobe.seen(wo), lobe.seen(wi));
             let up = Vec3::new(wi.x, wi.y, wi.z.abs());
             let passes = wi.z.lt(0.0);
-            let mut sum = (Rgb::zero(l), l.f(0.0));
+            let mut sum = (Spectrum::zero(l), l.f(0.0));
             for (side, here) in lobe.sides(l).into_iter().enumerate() {
                 let here = here & wo.z.gt(0.0);
                 for (transmitted, through) in [(false, wi.z.gt(0.0)), (true, passes)] {
@@ -89,10 +90,13 @@ fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) ->
 
 /// [`MeasuredBsdf::eval_side`], compiled once however many sides there are.
 #[inline(never)]
-fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Rgb<L>, F<L>) {
+fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || bsdf.eval_side(l, side, kind == 1, wi, wo),
+        || {
+            let (value, pdf) = bsdf.eval_side(l, side, kind == 1, wi, wo);
+            (spectrum(value), pdf)
+        },
     )
 }
 

@@ -5,7 +5,7 @@ use super::rows::filmed;
 use crate::energy::floats;
 use crate::film::{Film, SENSITIVITY};
 use crate::parameter as p;
-use gonio_simd::{Execution, Lanes, Rgb, dispatch};
+use gonio_simd::{Execution, Lanes, Rgb, Spectrum, dispatch};
 
 /// Thickness in nanometres, cosine, normal reflectance, normal colour and drop of the metal, and both reflectances, for a film of index 1.33
 /// over an index of 1.5; from Cycles 5.2.
@@ -42,12 +42,20 @@ const CASES: [Case; 3] = [
 ];
 
 #[inline(always)]
+fn light<L: Lanes>(l: L, colour: [f32; 3]) -> Spectrum<L> {
+    Spectrum::from_rgb(Rgb::splat(l, colour))
+}
+
+#[inline(always)]
 fn reflectances<L: Lanes>(l: L, case: &Case, out: &mut [[f32; 3]; 2]) {
     let one = l.f(1.0);
     let film = Film::new(one, l.f(1.33), l.f(case.thickness), one);
-    let dielectric = film.over_tinted(l.f(case.cos), l.f(1.5), Rgb::splat(l, case.f0), Rgb::grey(one));
-    let metal = film.over_f82(l.f(case.cos), Rgb::splat(l, case.metal[0]), Rgb::splat(l, case.metal[1]));
-    *out = [dielectric, metal].map(|colour| [colour.r, colour.g, colour.b].map(|x| x.to_array()[0]));
+    let dielectric = film.over_tinted(l.f(case.cos), l.f(1.5), light(l, case.f0), Spectrum::constant(one));
+    let metal = film.over_f82(l.f(case.cos), light(l, case.metal[0]), light(l, case.metal[1]));
+    for (out, light) in out.iter_mut().zip([dielectric, metal]) {
+        let colour = light.to_rgb();
+        *out = [colour.r, colour.g, colour.b].map(|x| x.to_array()[0]);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Batches of samples and evaluations of one surface from one view, at any level.
 
 use crate::{BsdfSample, Hits, Lobes, ParameterValues, Surface};
-use gonio_simd::{Execution, F, Lanes, Rgb, Vec3, dispatch};
+use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
 
 /// A surface seen from one direction.
 #[derive(Clone)]
@@ -96,7 +96,8 @@ fn lanes<L: Lanes>(l: L, triples: &[[f32; 3]]) -> [F<L>; 3] {
 }
 
 #[inline(always)]
-fn rgb<L: Lanes>(colour: Rgb<L>) -> [[f32; 16]; 3] {
+fn rgb<L: Lanes>(light: Spectrum<L>) -> [[f32; 16]; 3] {
+    let colour = light.to_rgb();
     [colour.r.to_array(), colour.g.to_array(), colour.b.to_array()]
 }
 

@@ -25,7 +25,7 @@ fn answer<L: Lanes>(l: L, surface: &Surface, lean: f32, wo: [f32; 3], sun: Optio
     let mut lobes = Lobes::empty(l);
     surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true }, &mut lobes);
     if let Some(sun) = sun {
-        *out = f64::from(lobes.eval(l, wo, frame.to_local(Vec3::splat(l, sun))).0.r.to_array()[0]);
+        *out = f64::from(lobes.eval(l, wo, frame.to_local(Vec3::splat(l, sun))).0.to_rgb().r.to_array()[0]);
         return;
     }
     for chunk in spread(SAMPLES).chunks_exact(L::COUNT) {
@@ -36,7 +36,7 @@ fn answer<L: Lanes>(l: L, surface: &Surface, lean: f32, wo: [f32; 3], sun: Optio
         let u: [F<L>; 3] = [l.load(&u[0], 0), l.load(&u[1], 0), l.load(&u[2], 0)];
         let sample = harness::sample(l, &lobes, wo, u);
         let usable = sample.pdf.gt(0.0) & sample.wi.dot(up).gt(0.0);
-        let factor = (sample.value.r / sample.pdf.max(1e-20)).keep_if(usable);
+        let factor = (sample.value.to_rgb().r / sample.pdf.max(1e-20)).keep_if(usable);
         *out += factor.to_array()[..L::COUNT].iter().map(|x| f64::from(*x)).sum::<f64>() / SAMPLES as f64;
     }
 }
@@ -107,7 +107,8 @@ fn coat<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], normal: [f32; 3], out: 
     surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true }, &mut lobes);
     let sample = harness::sample(l, &lobes, wo, [l.f(0.0), l.f(0.3), l.f(0.7)]);
     let away = sample.wi - wo.reflect(normal);
-    *out = [away.length(), sample.value.r, sample.pdf, sample.value.r / sample.pdf, wo.dot(normal)].map(|x| x.to_array()[0]);
+    let value = sample.value.to_rgb().r;
+    *out = [away.length(), value, sample.pdf, value / sample.pdf, wo.dot(normal)].map(|x| x.to_array()[0]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::rows::{Values, surface};
 use crate::parameter as p;
 use crate::subsurface::{LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use crate::{Closure, Hits, Lobes, ParameterValues, SubsurfaceMethod, Surface, Switches};
-use gonio_simd::{Execution, F, Lanes, Rgb, Vec3, dispatch};
+use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
 
 /// Registers of walks.
 const WALKS: usize = 40_000;
@@ -66,6 +66,7 @@ fn albedo<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], sum: &mut [f64; 3]) {
             walking = walking.and_not(out) & throughput.max_component().gt(LEAST_THROUGHPUT);
             direction = here.scatter(direction, [numbers.next(l), numbers.next(l)]);
         }
+        let gone = gone.to_rgb();
         for (sum, channel) in sum.iter_mut().zip([gone.r, gone.g, gone.b]) {
             *sum += channel.to_array()[..L::COUNT].iter().map(|x| f64::from(*x)).sum::<f64>() / WALKS as f64;
         }
@@ -168,7 +169,7 @@ fn channels_without_radius_are_diffuse() {
 /// Sums of one kernel: mean cosine of scattered directions, and of the phase function over the sphere.
 #[inline(always)]
 fn phase<L: Lanes>(l: L, g: f32, out: &mut [f64; 3]) {
-    let colour = Rgb::grey(l.f(0.5));
+    let colour = Spectrum::constant(l.f(0.5));
     let method = SubsurfaceMethod::RandomWalk;
     let medium = crate::subsurface::Medium::new(method, colour, colour, l.f(g), l.f(1.4)).0;
     let before = Vec3::new(l.f(0.6), l.f(0.0), l.f(-0.8));

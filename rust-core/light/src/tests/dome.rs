@@ -33,7 +33,7 @@ fn constant_dome_gives_pi() {
 fn look<L: Lanes>(l: L, table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
     let yes = l.m(true);
     let zero = Vec3::splat(l, [0.0; 3]);
-    let seen = table.eval_escaped(l, None, zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None);
+    let seen = table.eval_escaped(l, None, zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None).to_rgb();
     [seen.r.to_array()[0], seen.g.to_array()[0], seen.b.to_array()[0]]
 }
 
@@ -120,12 +120,12 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
         let s = table.sample_li(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
-        let by_light = (s.radiance.g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
+        let by_light = (s.radiance.to_rgb().g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let by_bsdf =
-            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).g * std::f32::consts::PI;
+            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf).store(out, at);
     }
 }

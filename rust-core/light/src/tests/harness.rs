@@ -1,7 +1,7 @@
 //! Batches of samples through the kernels at any level.
 
 use crate::{LightCache, LightKind, LightRecord, LightSample, LightTable};
-use gonio_simd::{Column, Execution, F, Lanes, M, Rgb, Vec3, dispatch, padded};
+use gonio_simd::{Column, Execution, F, Lanes, M, Spectrum, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
 #[derive(Default)]
@@ -69,7 +69,7 @@ fn eval_hit<L: Lanes>(
     sample: &LightSample<L>,
     vertex: &[Vec3<L>; 2],
     placed: M<L>,
-) -> (Rgb<L>, F<L>) {
+) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || {
@@ -97,13 +97,13 @@ fn kernel<L: Lanes>(
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
         let [r, g, b] = &mut drawn.radiance;
-        s.radiance.store([r, g, b], at);
+        s.radiance.to_rgb().store([r, g, b], at);
         s.pdf.store(&mut drawn.pdf, at);
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
         let (radiance, pdf) = eval_hit(l, table, light_cache, &s, &[p, n], placed);
         let [r, g, b] = &mut drawn.eval_radiance;
-        radiance.store([r, g, b], at);
+        radiance.to_rgb().store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);
     }
 }

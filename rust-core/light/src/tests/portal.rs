@@ -116,12 +116,12 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
         let s = table.sample_li(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
-        let by_light = (s.radiance.g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
+        let by_light = (s.radiance.to_rgb().g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let by_bsdf =
-            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).g * std::f32::consts::PI;
+            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf.keep_if(open(wi))).store(out, at);
     }
 }

@@ -24,7 +24,7 @@ impl Deposits {
             if blocked[ray] != 0 {
                 return Arrival::nothing(position);
             }
-            let value = shadows.contribution.iter().map(|channel| channel[ray]).sum();
+            let value = shadows.contribution.sum_of(ray);
             Arrival { position, distance: shadows.rays.t_max[ray], light: Some(shadows.light[ray]), value }
         }));
     }

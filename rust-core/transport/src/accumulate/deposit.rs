@@ -7,7 +7,7 @@ use crate::state::flag;
 use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use crate::tables::transport::{PathFilter, Transport};
 use gonio_light::Arrival;
-use gonio_simd::{Lanes, M, Rgb, U};
+use gonio_simd::{Lanes, M, Rgb, Spectrum, U};
 
 /// What stages add to: the sums of the block, and what the light cache learns from.
 #[derive(Debug, Default)]
@@ -23,11 +23,11 @@ pub struct Deposits {
 pub(crate) struct Contribution<L: Lanes> {
     /// Where it goes: a pixel's slot, a measured point's, or a half's at shadow catchers.
     pub(crate) slot: U<L>,
-    pub(crate) value: Rgb<L>,
+    pub(crate) value: Spectrum<L>,
     /// The light pass, see [`code`].
     pub(crate) code: U<L>,
     /// Where light passes are wanted, the diffuse and the glossy share of what first surfaces scatter; the rest is transmitted.
-    pub(crate) shares: Option<[Rgb<L>; 2]>,
+    pub(crate) shares: Option<[Spectrum<L>; 2]>,
     /// Whether it came by mirrors and smooth glass alone.
     pub(crate) specular: M<L>,
     pub(crate) source: Source<L>,
@@ -49,7 +49,7 @@ impl Deposits {
     #[inline(always)]
     pub(crate) fn deposit<L: Lanes>(&mut self, transport: &Transport, light: &Contribution<L>, chosen: M<L>) -> M<L> {
         let counted = self.filter(transport, light, chosen);
-        add_rgb(&mut self.sums.radiance, light.slot, light.value, counted);
+        add_rgb(&mut self.sums.radiance, light.slot, to_film(light.value), counted);
         if self.sums.lights.wanted() {
             self.deposit_to_passes(light, counted);
         }
@@ -65,7 +65,7 @@ impl Deposits {
         }
         let specular = chosen & light.specular;
         if transport.passes.specular {
-            add_rgb(&mut self.sums.specular, light.slot, light.value, specular);
+            add_rgb(&mut self.sums.specular, light.slot, to_film(light.value), specular);
         }
         match transport.path_filter {
             PathFilter::All => chosen,
@@ -78,12 +78,12 @@ impl Deposits {
     fn deposit_to_passes<L: Lanes>(&mut self, light: &Contribution<L>, chosen: M<L>) {
         let Contribution { slot, value, code, .. } = *light;
         let at_first = code.eq(code::SHARED);
-        self.sums.lights.add(code, slot, value, chosen.and_not(at_first));
+        self.sums.lights.add(code, slot, to_film(value), chosen.and_not(at_first));
         let Some([diffuse, glossy]) = light.shares else { return };
         let (diffuse, glossy) = (value * diffuse, value * glossy);
         let transmitted = (value - diffuse - glossy).max(0.0);
         for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
-            self.sums.lights.add(slot.lanes().u(kind as u32), slot, part, chosen & at_first & part.is_lit());
+            self.sums.lights.add(slot.lanes().u(kind as u32), slot, to_film(part), chosen & at_first & part.is_lit());
         }
     }
 
@@ -99,13 +99,19 @@ impl Deposits {
             Source::Set(set) => l.gather_integers(&passes.of_set, set.keep_if(chosen)),
             Source::Several => return,
         };
-        self.sums.groups.add(group, light.slot, light.value, chosen & group.ne(UNSEEN));
+        self.sums.groups.add(group, light.slot, to_film(light.value), chosen & group.ne(UNSEEN));
     }
+}
+
+/// Door for light: light that arrived, or an albedo that a pass shows, as colour of the film. The last of the four doors; see ARCHITECTURE.md.
+#[inline(always)]
+pub(crate) fn to_film<L: Lanes>(light: Spectrum<L>) -> Rgb<L> {
+    light.to_rgb()
 }
 
 /// A contribution clamped to the user's limit against fireflies; zero means no limit.
 #[inline(always)]
-pub(crate) fn clamped<L: Lanes>(value: Rgb<L>, limit: f32) -> Rgb<L> {
+pub(crate) fn clamped<L: Lanes>(value: Spectrum<L>, limit: f32) -> Spectrum<L> {
     if limit > 0.0 {
         let largest = value.max_component();
         let over = largest.gt(limit);

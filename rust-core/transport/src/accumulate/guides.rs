@@ -6,6 +6,7 @@
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
 use crate::accumulate::add::add_rgb;
+use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
 use crate::state::flag;
 use crate::state::vertex::Vertex;
@@ -25,7 +26,7 @@ pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lob
         return;
     }
     let [albedo, normal] = &mut sums.guides;
-    add_rgb(albedo, point.slot, lobes.albedo() * point.throughput, seen);
+    add_rgb(albedo, point.slot, to_film(lobes.albedo() * point.throughput), seen);
     add_rgb(normal, point.slot, (point.at.frame.z * point.throughput.max_component()).into(), seen);
 }
 

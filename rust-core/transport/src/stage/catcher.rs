@@ -4,7 +4,7 @@
 //! From there on slots tell the halves apart: slots of pixels come first, then measured points, then either half.
 
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::deposit::clamped;
+use crate::accumulate::deposit::{clamped, to_film};
 use crate::accumulate::tile_sums::TileSums;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
@@ -15,7 +15,7 @@ use crate::state::vertex::Vertex;
 use crate::tables::{Tables, ray_mask};
 use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::{BATCH, pixel};
-use gonio_simd::{Lanes, M, Rgb, U};
+use gonio_simd::{Lanes, M, U};
 
 /// First slot of the halves that see all of the scene.
 const WITH_OBJECTS: u32 = 2 * BATCH as u32;
@@ -114,10 +114,9 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_environment {
-        let radiance: Rgb<L> =
-            kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
+        let radiance = kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
         let value = clamped(radiance * point.throughput, transport.limits.clamp(sample.depth));
-        add_rgb(behind, pixel, value, caught & value.is_lit());
+        add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
     }
 }
 

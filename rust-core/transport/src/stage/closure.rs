@@ -14,8 +14,9 @@ use crate::tables::Tables;
 use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
+use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Lanes, PADDING, Rgb, dispatch};
+use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, dispatch};
 
 /// Chooses closures for all hits on mixes: material numbers become surface numbers.
 pub(crate) fn choose_closures(
@@ -95,7 +96,7 @@ fn choose_chunk<L: Lanes>(
             total += share(weight(l, outputs, closure, at));
         }
         let mut point = u * total;
-        let (mut chosen, mut factor) = (l.u(0), Rgb::zero(l));
+        let (mut chosen, mut factor) = (l.u(0), Spectrum::zero(l));
         let mut found = l.m(false);
         for closure in 0..mix.count {
             let weight = weight(l, outputs, closure, at);
@@ -107,26 +108,23 @@ fn choose_chunk<L: Lanes>(
             point -= own;
         }
         let (chosen, numbers) = (chosen.to_array(), path.to_array());
-        let factor = [factor.r.to_array(), factor.g.to_array(), factor.b.to_array()];
-        for lane in 0..L::COUNT.min(count - at) {
-            let path = numbers[lane] as usize;
-            material_of[path] = mix.first + chosen[lane];
-            for (channel, factor) in paths.carried_mut(path).iter_mut().zip(&factor) {
-                *channel *= factor[lane];
-            }
+        let numbers = &numbers[..L::COUNT.min(count - at)];
+        paths.carried.multiply(factor, numbers);
+        for (path, chosen) in numbers.iter().zip(chosen) {
+            material_of[*path as usize] = mix.first + chosen;
         }
     }
 }
 
 /// The weight of a closure, not negative.
 #[inline(always)]
-pub(crate) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Rgb<L> {
+pub(crate) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Spectrum<L> {
     let channel = |c: usize| l.load(outputs.column(closure * 3 + c), at).max(0.0);
-    Rgb::new(channel(0), channel(1), channel(2))
+    spectrum(Rgb::new(channel(0), channel(1), channel(2)))
 }
 
 /// How likely a closure is taken, up to a factor.
 #[inline(always)]
-pub(crate) fn share<L: Lanes>(weight: Rgb<L>) -> F<L> {
-    weight.r + weight.g + weight.b
+pub(crate) fn share<L: Lanes>(weight: Spectrum<L>) -> F<L> {
+    weight.sum()
 }

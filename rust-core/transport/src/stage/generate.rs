@@ -8,7 +8,7 @@ use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_camera::{CameraRay, CameraTable};
 use gonio_camera::{FilterTable, Placement};
-use gonio_simd::{F, Lanes, PADDING, Rgb, U};
+use gonio_simd::{F, Lanes, PADDING, Spectrum, U};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -79,14 +79,14 @@ fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
     PathLanes {
         ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
         from: VertexLanes { position: ray.origin, normal: ray.direction },
-        throughput: Rgb::grey(l.f(1.0)),
+        throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width: ray.width,
         spread: ray.spread,
         slot,
         flags: l.u(flag::CAMERA | flag::DELTA),
         counts: l.u(0),
-        medium: Rgb::zero(l),
+        medium: Spectrum::zero(l),
     }
 }
 

@@ -16,7 +16,7 @@ use crate::tables::transport::Transport;
 use gonio_camera::sampler::BATCH;
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
-use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 use std::{
     f32::consts::{FRAC_1_PI, PI},
     ops::Range,
@@ -39,7 +39,7 @@ pub(crate) struct MeasureContext<'a, L> {
 struct MeasuredPoint<L: Lanes> {
     alive: M<L>,
     at: Interaction<L>,
-    throughput: Rgb<L>,
+    throughput: Spectrum<L>,
     width: F<L>,
     slot: U<L>,
 }
@@ -99,7 +99,7 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, points: &MeasurePoints) ->
             geometric: load3(l, &points.geometric_normal, at),
             frame: Frame::from_normal(load3(l, &points.shading_normal, at)),
         },
-        throughput: load3(l, &points.throughput, at).into(),
+        throughput: points.throughput.load(l, at),
         width: l.load(&points.width, at),
         slot: l.load_integers(&points.slot, at) + BATCH as u32,
     }
@@ -150,7 +150,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], next: &mut Path
         slot: point.slot,
         flags: l.u(flag::NON_SPECULAR_SEEN | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
-        medium: Rgb::zero(l),
+        medium: Spectrum::zero(l),
     };
     next.append(&state, alive);
 }

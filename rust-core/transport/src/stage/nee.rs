@@ -8,7 +8,7 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::vertex::Vertex;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
 #[inline(always)]
@@ -60,16 +60,15 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
 
 /// The diffuse and the glossy share of what all lobes scatter.
 #[inline(always)]
-fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Rgb<L>) -> [Rgb<L>; 2] {
+fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Spectrum<L>) -> [Spectrum<L>; 2] {
     let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
     // What facets send to the other side is transmitted.
     let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
     [share(diffuse, all), share(glossy, all)]
 }
 
-/// A part over the whole, channel by channel.
+/// A part over the whole, component by component.
 #[inline(always)]
-fn share<L: Lanes>(part: Rgb<L>, all: Rgb<L>) -> Rgb<L> {
-    let [r, g, b] = [part.r / all.r.max(1e-30), part.g / all.g.max(1e-30), part.b / all.b.max(1e-30)];
-    Rgb::new(r.saturate(), g.saturate(), b.saturate())
+fn share<L: Lanes>(part: Spectrum<L>, all: Spectrum<L>) -> Spectrum<L> {
+    (part / all.max(1e-30)).saturate()
 }

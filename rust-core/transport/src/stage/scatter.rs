@@ -8,7 +8,7 @@ use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use gonio_bsdf::{Lobes, subsurface::Medium};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// First depths of Russian roulette, for paths that leave diffusely and for any path: highlights and glass show more of what comes later.
 const ROULETTE_FROM: [u32; 2] = [1, 5];
@@ -38,7 +38,7 @@ pub(crate) fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Verte
 
 /// Starts subsurface random walks.
 #[inline(always)]
-fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, medium: &Medium<L>, chosen: M<L>, walks: &mut Walks) {
+fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>, medium: &Medium<L>, chosen: M<L>, walks: &mut Walks) {
     if !chosen.any() {
         return;
     }
@@ -58,7 +58,7 @@ fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Rgb<L>, med
 
 /// The probability with which a path goes on: Russian roulette.
 #[inline(always)]
-fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Rgb<L>, diffuse: M<L>) -> F<L> {
+fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diffuse: M<L>) -> F<L> {
     let l = chunk.l;
     let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| chunk.sample.depth >= from);
     if !from_diffuse {

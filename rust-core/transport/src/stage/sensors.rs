@@ -11,7 +11,7 @@ use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Rgb};
+use gonio_simd::{Column, Lanes, Spectrum};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,7 @@ pub(crate) fn start_sensors<L: Lanes>(
             error: l.gather(&sensors.error, sensor),
             geometric_normal: normal,
             shading_normal: normal,
-            throughput: Rgb::grey(l.f(1.0)),
+            throughput: Spectrum::one(l),
             width: l.f(0.0),
             slot,
         };
@@ -134,14 +134,14 @@ pub(crate) fn start_sensors<L: Lanes>(
         let state = PathLanes {
             ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
             from: VertexLanes { position, normal },
-            throughput: Rgb::grey(l.f(1.0)),
+            throughput: Spectrum::one(l),
             pdf: l.f(1.0),
             width: l.f(0.0),
             spread: l.f(0.0),
             slot,
             flags: l.u(flag::CAMERA | flag::DELTA),
             counts: l.u(0),
-            medium: Rgb::zero(l),
+            medium: Spectrum::zero(l),
         };
         paths.append(&state, inside & looks);
     }

@@ -12,7 +12,7 @@ use crate::stage::catcher;
 use crate::stage::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::integrator::Integrator;
 use crate::state::chunk::ChunkContext;
-use crate::state::columns::{gather3, load3};
+use crate::state::columns::load3;
 use crate::state::flag;
 use crate::state::paths::{CarriedLanes, TrackLanes};
 use crate::state::queue::Queues;
@@ -22,7 +22,7 @@ use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Hits, Lobes, ParameterValues, normals::Normals};
 use gonio_light::hit_weight;
-use gonio_simd::{Frame, Lanes, M, Rgb};
+use gonio_simd::{Frame, Lanes, M, Spectrum};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -79,8 +79,8 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
         width: l.load(&surface.cone, at),
         spread,
         bounces: flags >> flag::BOUNCE_SHIFT,
-        medium: Rgb::zero(l),
-        behind: Rgb::zero(l),
+        medium: Spectrum::zero(l),
+        behind: Spectrum::zero(l),
         all_delta: l.m(false),
         pdf,
         share: pdf,
@@ -112,11 +112,9 @@ fn absorb<L: Lanes>(
     at: usize,
 ) {
     let l = chunk.l;
-    let sigma = gather3(l, &chunk.paths.medium, point.path);
-    point.medium = sigma.into();
+    point.medium = chunk.paths.medium.gather(l, point.path);
     let distance = l.gather(&chunk.hits.t, point.path);
-    let depth = -sigma * distance;
-    point.throughput = point.throughput * Rgb::new(depth.x.exp(), depth.y.exp(), depth.z.exp());
+    point.throughput = point.throughput * (point.medium * -distance).exp();
     // Leaving a solid leads to the open.
     let inside = material.surface.absorption(l, values, at);
     point.behind = inside.keep_if(l.load(&chunk.columns.surface.side, at).gt(0.0));
@@ -185,7 +183,7 @@ pub(crate) fn add_seen<L: Lanes>(
 fn add_emission<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    emission: Rgb<L>,
+    emission: Spectrum<L>,
     present: M<L>,
     at: usize,
     deposits: &mut Deposits,

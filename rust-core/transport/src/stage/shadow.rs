@@ -16,8 +16,8 @@ use crate::tables::Tables;
 use crate::tables::material::{Shading, parameter_values, threshold};
 use crate::tables::transport::Transport;
 use gonio_accel::TransparentHit;
-use gonio_bsdf::parameter::OPACITY;
-use gonio_simd::{Frame, Lanes, Rgb, dispatch};
+use gonio_bsdf::parameter::{OPACITY, spectrum};
+use gonio_simd::{Frame, Lanes, Rgb, Spectrum, SpectrumColumns, dispatch};
 
 /// Traces the queued shadow rays and adds the contributions of those that arrive.
 pub(crate) fn trace_shadows(
@@ -65,9 +65,9 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
         let [diffuse, glossy] = &shadows.shares;
         let light = Contribution {
             slot: l.load_integers(&shadows.slot, at),
-            value: load3(l, &shadows.contribution, at).into(),
+            value: shadows.contribution.load(l, at),
             code: l.load_integers(&shadows.code, at),
-            shares: if deposits.sums.lights.wanted() { Some([load3(l, diffuse, at).into(), load3(l, glossy, at).into()]) } else { None },
+            shares: if deposits.sums.lights.wanted() { Some([diffuse.load(l, at), glossy.load(l, at)]) } else { None },
             specular: l.m(false),
             source: Source::Light(l.load_integers(&shadows.light, at)),
         };
@@ -77,7 +77,7 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
-    let ShadowTrace { passed, weights, .. } = trace;
+    let ShadowTrace { passed, weights, factors, .. } = trace;
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.
     let numbers = |hit: &TransparentHit| (hit.instance, hit.primitive);
@@ -88,7 +88,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
     for hits in passed.chunk_by(|a, b| material_of(a) == material_of(b)) {
         let material = material_of(&hits[0]);
         for chunk in hits.chunks(CHUNK) {
-            dispatch!(transport.execution, l => dim_chunk(l, tables, material, chunk, weights, shadows, columns));
+            dispatch!(transport.execution, l => dim_chunk(l, tables, material, chunk, (weights, factors), shadows, columns));
         }
     }
 }
@@ -99,7 +99,7 @@ fn dim_chunk<L: Lanes>(
     tables: &Tables,
     material: u32,
     hits: &[TransparentHit],
-    weights: &mut Vec<f32>,
+    (weights, factors): (&mut Vec<f32>, &mut SpectrumColumns),
     shadows: &mut ShadowRays,
     columns: &mut ChunkColumns,
 ) {
@@ -108,9 +108,9 @@ fn dim_chunk<L: Lanes>(
         *place = i as u32;
     }
     let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Directions(&shadows.rays.direction) };
-    let mut factors = [[0.0; CHUNK]; 3];
+    factors.clear();
     match tables.materials.shading(material) {
-        Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, (hits, &source), None, &mut factors, columns),
+        Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, (hits, &source), None, factors, columns),
         Shading::Mix(mix) => {
             let mix = &tables.materials.mixes[mix as usize];
             kernels::run_program(l, tables, &mix.program, hits, &source, columns);
@@ -118,14 +118,12 @@ fn dim_chunk<L: Lanes>(
             (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
             for closure in 0..mix.count {
                 let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..(closure * 3 + c + 1) * CHUNK]);
-                add_transmittance(l, tables, mix.first as usize + closure, (hits, &source), Some(own), &mut factors, columns);
+                add_transmittance(l, tables, mix.first as usize + closure, (hits, &source), Some(own), factors, columns);
             }
         }
     }
     for (i, hit) in hits.iter().enumerate() {
-        for (channel, factor) in shadows.contribution.iter_mut().zip(&factors) {
-            channel[hit.ray as usize] *= factor[i];
-        }
+        shadows.contribution.multiply(hit.ray as usize, factors, i);
     }
 }
 
@@ -137,7 +135,7 @@ fn add_transmittance<L: Lanes>(
     surface: usize,
     (hits, source): (&[TransparentHit], &ChunkSource<'_>),
     weights: Option<[&[f32]; 3]>,
-    sums: &mut [[f32; CHUNK]; 3],
+    sums: &mut SpectrumColumns,
     columns: &mut ChunkColumns,
 ) {
     let material = &tables.materials.surfaces[surface];
@@ -152,16 +150,13 @@ fn add_transmittance<L: Lanes>(
         let wo = frame.to_local(load3(l, &surface.wo, at));
         let entering = l.load(&surface.side, at).gt(0.0);
         let mut factor = if material.opacity_threshold > 0.0 {
-            Rgb::grey(1.0 - threshold(values.get(l, OPACITY, at), material.opacity_threshold))
+            Spectrum::constant(1.0 - threshold(values.get(l, OPACITY, at), material.opacity_threshold))
         } else {
             kernels::transmittance(l, &material.surface, &values, at, wo, entering)
         };
         if let Some([r, g, b]) = weights {
-            factor = factor * Rgb::new(l.load(r, at), l.load(g, at), l.load(b, at)).max(0.0);
+            factor = factor * spectrum(Rgb::load(l, [r, g, b], at)).max(0.0);
         }
-        let [r, g, b] = sums;
-        (l.load(r, at) + factor.r).store(r, at);
-        (l.load(g, at) + factor.g).store(g, at);
-        (l.load(b, at) + factor.b).store(b, at);
+        sums.store(sums.load(l, at) + factor, at);
     }
 }

@@ -7,9 +7,9 @@ use crate::accumulate::deposit::Deposits;
 use crate::graph::{CHUNK, Program};
 use crate::kernels;
 use crate::stage::exit::light_and_scatter;
-use crate::stage::surface::{ChunkRays, ChunkSource, store3};
+use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::{ChunkColumns, ChunkContext};
-use crate::state::columns::{gather3, load3};
+use crate::state::columns::load3;
 use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
@@ -21,7 +21,7 @@ use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Frame, Lanes, M, PADDING, Rgb, U, Vec3, dispatch};
+use gonio_simd::{F, Frame, Lanes, M, PADDING, Spectrum, U, Vec3, dispatch};
 
 /// What the walks of a batch read.
 #[derive(Clone, Copy, Debug)]
@@ -78,14 +78,14 @@ fn sample_flights<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks:
         let mut walk = walks.load(l, at);
         if step == REDUCED_FROM {
             walk.medium = walk.medium.reduced();
-            store3(walk.medium.albedo.into(), &mut walks.albedo, at);
-            store3(walk.medium.extinction.into(), &mut walks.extinction, at);
+            walks.albedo.store(walk.medium.albedo, at);
+            walks.extinction.store(walk.medium.extinction, at);
             walk.medium.anisotropy.store(&mut walks.anisotropy, at);
         }
         let u = random(l, context, walk.slot, step_dimension(context, step));
         let flight = walk.medium.flight(walk.throughput, u);
         flight.distance.store(&mut walks.rays.t_max, at);
-        store3(flight.channels.into(), &mut walks.channels, at);
+        walks.channels.store(flight.channels, at);
     }
 }
 
@@ -104,13 +104,13 @@ fn surface_mask<L: Lanes>(l: L, hits: &Hits, at: usize, count: usize) -> M<L> {
 fn weigh_flights<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let walk = walks.load(l, at);
-        let flight = Flight { distance: l.load(&walks.rays.t_max, at), channels: load3(l, &walks.channels, at).into() };
+        let flight = Flight { distance: l.load(&walks.rays.t_max, at), channels: walks.channels.load(l, at) };
         let here = L::COUNT.min(walks.count - at);
         let mut distance = [0.0; PADDING];
         distance[..here].copy_from_slice(&hits.t[at..at + here]);
         let surface = surface_mask(l, hits, at, walks.count);
         let throughput = walk.medium.arrive(walk.throughput, &flight, l.load(&distance, 0), surface);
-        store3(throughput.into(), &mut walks.throughput, at);
+        walks.throughput.store(throughput, at);
     }
 }
 
@@ -166,7 +166,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         },
         wo: normal,
         local_wo: Vec3::splat(l, [0.0, 0.0, 1.0]),
-        throughput: gather3(l, &walks.throughput, walk).into(),
+        throughput: walks.throughput.gather(l, walk),
         flags,
         counts: l.gather_integers(&walks.counts, walk),
         slot: l.gather_integers(&walks.slot, walk),
@@ -174,8 +174,8 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         width: l.gather(&walks.width, walk),
         spread: l.f(CONE_PER_ROUGHNESS),
         bounces: flags >> flag::BOUNCE_SHIFT,
-        medium: Rgb::zero(l),
-        behind: Rgb::zero(l),
+        medium: Spectrum::zero(l),
+        behind: Spectrum::zero(l),
         all_delta: l.m(false),
         pdf: l.f(0.0),
         share: l.f(0.0),

@@ -162,7 +162,7 @@ fn surface_lanes<L: Lanes>(
 }
 
 #[inline(always)]
-pub(crate) fn store3<L: Lanes>(v: Vec3<L>, columns: &mut [Column; 3], at: usize) {
+fn store3<L: Lanes>(v: Vec3<L>, columns: &mut [Column; 3], at: usize) {
     let [x, y, z] = columns;
     v.store([x, y, z], at);
 }

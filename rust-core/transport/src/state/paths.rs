@@ -2,12 +2,11 @@
 //!
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
-use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
 use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, SpectrumItems, U, Vec3, padded};
 
 /// Paths with a ray each.
 #[derive(Debug)]
@@ -17,9 +16,9 @@ pub struct Paths {
     /// Their rays; visibility bits are those of [`Self::set_masks`].
     pub rays: Rays,
     /// Absorption a metre of what the ray goes through.
-    pub(crate) medium: Columns3,
+    pub(crate) medium: SpectrumColumns,
     /// Items of throughput and pdf, see [`CarriedLanes`].
-    pub(crate) carried: Column,
+    pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
     /// Previous vertices: items of points and of normals, the fourth word unused, see [`VertexLanes`].
@@ -35,20 +34,20 @@ pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
     /// The vertex that the ray leaves.
     pub(crate) from: VertexLanes<L>,
-    pub(crate) throughput: Rgb<L>,
+    pub(crate) throughput: Spectrum<L>,
     pub(crate) pdf: F<L>,
     pub(crate) width: F<L>,
     pub(crate) spread: F<L>,
     pub(crate) slot: U<L>,
     pub(crate) flags: U<L>,
     pub(crate) counts: U<L>,
-    pub(crate) medium: Rgb<L>,
+    pub(crate) medium: Spectrum<L>,
 }
 
 /// Throughput of paths and the pdf of their directions: what light found along them counts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CarriedLanes<L: Lanes> {
-    pub(crate) throughput: Rgb<L>,
+    pub(crate) throughput: Spectrum<L>,
     /// Pdf of the direction per solid angle, for MIS; of a camera ray, the share of its sample that it stands for.
     pub(crate) pdf: F<L>,
 }
@@ -91,8 +90,8 @@ impl Default for Paths {
         Self {
             count: 0,
             rays: Rays::new(room, 0),
-            medium: columns3(room),
-            carried: Column::new(4 * room),
+            medium: SpectrumColumns::new(room),
+            carried: SpectrumItems::new(room),
             cone: Column::new(4 * room),
             vertex: Column::new(4 * room),
             normal: Column::new(4 * room),
@@ -108,8 +107,8 @@ impl Paths {
         let (l, n) = (p.pdf.lanes(), self.count);
         let (direction, from) = (p.ray.direction, &p.from);
         self.rays.append(&p.ray, chosen, n);
-        append3(p.medium.into(), chosen, &mut self.medium, n);
-        l.append_quads([p.throughput.r, p.throughput.g, p.throughput.b, p.pdf], chosen, &mut self.carried, n);
+        self.medium.append(p.medium, chosen, n);
+        self.carried.append(p.throughput, p.pdf, chosen, n);
         l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);
         l.append_quads([from.position.x, from.position.y, from.position.z, l.f(0.0)], chosen, &mut self.vertex, n);
         l.append_quads([from.normal.x, from.normal.y, from.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
@@ -121,8 +120,8 @@ impl Paths {
     /// Throughput and pdf of some paths.
     #[inline(always)]
     pub(crate) fn carried<L: Lanes>(&self, l: L, path: U<L>) -> CarriedLanes<L> {
-        let [r, g, b, pdf] = l.gather_quads(&self.carried, path << 2);
-        CarriedLanes { throughput: Rgb::new(r, g, b), pdf }
+        let (throughput, pdf) = self.carried.gather(l, path);
+        CarriedLanes { throughput, pdf }
     }
 
     /// The ray cones of some paths.
@@ -160,16 +159,12 @@ impl Paths {
         self.track[4 * path + FLAGS]
     }
 
-    /// Throughput and pdf of a path, four words.
-    pub(crate) fn carried_mut(&mut self, path: usize) -> &mut [f32] {
-        &mut self.carried[4 * path..][..4]
-    }
-
     /// Moves a path to another place of the columns, over what is there.
     pub(crate) fn copy(&mut self, from: usize, to: usize) {
         self.rays.copy(from, to);
-        self.medium.iter_mut().for_each(|column| column[to] = column[from]);
-        let items = [&mut self.carried, &mut self.cone, &mut self.vertex, &mut self.normal];
+        self.medium.copy(from, to);
+        self.carried.copy(from, to);
+        let items = [&mut self.cone, &mut self.vertex, &mut self.normal];
         items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
         self.track.copy_within(4 * from..4 * from + 4, 4 * to);
     }

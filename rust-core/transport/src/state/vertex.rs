@@ -4,7 +4,7 @@ use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
 use crate::state::paths::VertexLanes;
 use crate::state::rays::RayLanes;
 use gonio_light::LightSample;
-use gonio_simd::{F, Frame, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
 /// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
@@ -53,7 +53,7 @@ pub(crate) struct Vertex<L: Lanes> {
     /// Unit direction to the previous vertex: world space, and in the frame of `at`.
     pub(crate) wo: Vec3<L>,
     pub(crate) local_wo: Vec3<L>,
-    pub(crate) throughput: Rgb<L>,
+    pub(crate) throughput: Spectrum<L>,
     /// As in [`crate::state::paths::TrackLanes`].
     pub(crate) flags: U<L>,
     pub(crate) counts: U<L>,
@@ -64,8 +64,8 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) spread: F<L>,
     pub(crate) bounces: U<L>,
     /// Absorption a metre of what the path is in, and of what is behind the surface.
-    pub(crate) medium: Rgb<L>,
-    pub(crate) behind: Rgb<L>,
+    pub(crate) medium: Spectrum<L>,
+    pub(crate) behind: Spectrum<L>,
     /// Where all lobes are specular: mirrors or smooth glass.
     pub(crate) all_delta: M<L>,
     /// Pdf of the direction that found the vertex, per solid angle; of no meaning for camera rays.

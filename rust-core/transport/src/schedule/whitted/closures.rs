@@ -11,7 +11,7 @@ use crate::tables::Tables;
 use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
-use gonio_simd::{Lanes, Rgb, dispatch};
+use gonio_simd::{Lanes, dispatch};
 
 /// Most closures of a material.
 pub(crate) fn most(tables: &Tables) -> usize {
@@ -86,14 +86,12 @@ fn select_chunk<L: Lanes>(
             total += share(weight(l, &columns.outputs, one, at));
         }
         let own = weight(l, &columns.outputs, closure, at);
-        let [r, g, b, camera_share] = l.gather_quads(&whole.undivided.carried, path << 2);
-        let part = (camera_share * (share(own) / total.max(1e-20))).to_array();
-        let (numbers, throughput) = (path.to_array(), Rgb::new(r, g, b) * own);
-        let throughput = [throughput.r.to_array(), throughput.g.to_array(), throughput.b.to_array()];
-        for lane in 0..L::COUNT.min(count - at) {
-            let path = numbers[lane] as usize;
-            material_of[path] = if part[lane] > 0.0 { mix.first + closure as u32 } else { NONE };
-            paths.carried_mut(path).copy_from_slice(&[throughput[0][lane], throughput[1][lane], throughput[2][lane], part[lane]]);
+        let (throughput, camera_share) = whole.undivided.carried.gather(l, path);
+        let part = camera_share * (share(own) / total.max(1e-20));
+        let numbers = &path.to_array()[..L::COUNT.min(count - at)];
+        paths.carried.scatter(throughput * own, part, numbers);
+        for (path, part) in numbers.iter().zip(part.to_array()) {
+            material_of[*path as usize] = if part > 0.0 { mix.first + closure as u32 } else { NONE };
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Lobes, Way};
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, SampleWeight};
-use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// Rays with less throughput than this end: half an 8-bit step of white at most.
 const LEAST_THROUGHPUT: f32 = 1.0 / 512.0;
@@ -29,7 +29,7 @@ const ROULETTE_BELOW: f32 = 1.0 / 16.0;
 struct Branch<L: Lanes> {
     way: Way,
     wi: Vec3<L>,
-    throughput: Rgb<L>,
+    throughput: Spectrum<L>,
     /// Share of a camera ray's sample that it stands for, while the camera sees what it meets.
     share: F<L>,
 }
@@ -60,7 +60,7 @@ impl Integrator for WhittedIntegrator<'_> {
     ) {
         let ChunkContext { l, transport, .. } = *chunk;
         let branches = &mut queues.branches;
-        let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Rgb::zero(l), share: l.f(0.0) };
+        let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Spectrum::zero(l), share: l.f(0.0) };
         let mut present = point.alive;
         if material.surface.lobes.cut_out {
             present &= part_from_open(material, point, lobes, &mut straight);
@@ -169,7 +169,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
 /// Which rays are followed, and with which throughput. For guides of denoisers Russian roulette decides: a lamp on a faint specular path may
 /// be bright. Other trees drop faint rays.
 #[inline(always)]
-fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, throughput: Rgb<L>) -> (Rgb<L>, M<L>) {
+fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, throughput: Spectrum<L>) -> (Spectrum<L>, M<L>) {
     let ChunkContext { l, transport, sample: context, .. } = *chunk;
     let brightest = throughput.max_component();
     let usable = brightest.gt(0.0) & brightest.is_finite();

@@ -2,7 +2,7 @@
 
 use crate::state::paths::Paths;
 use gonio_bsdf::Way;
-use gonio_simd::Column;
+use gonio_simd::SpectrumItems;
 
 /// The rays that one generation sends on, and the batches that wait for their turn.
 #[derive(Debug, Default)]
@@ -44,5 +44,5 @@ impl Branches {
 #[derive(Debug, Default)]
 pub(crate) struct Undivided {
     pub(crate) material_of: Vec<u32>,
-    pub(crate) carried: Column,
+    pub(crate) carried: SpectrumItems,
 }

@@ -2,7 +2,7 @@
 
 use crate::graph::CHUNK;
 use gonio_light::{LightSample, LightTable};
-use gonio_simd::{Column, Lanes, PADDING, Rgb, Vec3};
+use gonio_simd::{Column, Lanes, PADDING, SpectrumItems, Vec3};
 use std::ops::Range;
 
 /// With more lights than this, groups are the kinds.
@@ -33,7 +33,7 @@ pub(crate) struct LightSampleQueue {
     pub(crate) order: Column<u32>,
     /// The samples in that order, items of four: direction and distance; radiance and pdf.
     pub(crate) direction: Column,
-    pub(crate) radiance: Column,
+    pub(crate) radiance: SpectrumItems,
     pub(crate) bits: Column<u32>,
 }
 
@@ -48,7 +48,7 @@ impl Default for LightSampleQueue {
             place: Column::new(CHUNK),
             order: Column::new(ROOM),
             direction: Column::new(4 * ROOM),
-            radiance: Column::new(4 * ROOM),
+            radiance: SpectrumItems::new(ROOM),
             bits: Column::new(ROOM),
         }
     }
@@ -66,12 +66,12 @@ impl LightSampleQueue {
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> LightSample<L> {
         let place = l.load_integers(&self.place, at);
         let bits = l.gather_integers(&self.bits, place);
-        let ([x, y, z, distance], [r, g, b, pdf]) =
-            (l.gather_quads(&self.direction, place << 2), l.gather_quads(&self.radiance, place << 2));
+        let [x, y, z, distance] = l.gather_quads(&self.direction, place << 2);
+        let (radiance, pdf) = self.radiance.gather(l, place);
         LightSample {
             wi: Vec3::new(x, y, z),
             distance,
-            radiance: Rgb::new(r, g, b),
+            radiance,
             pdf,
             delta: (bits & bit::DELTA).ne(0),
             light: l.load_integers(&self.light, at),
@@ -81,9 +81,9 @@ impl LightSampleQueue {
 
     #[inline(always)]
     pub(crate) fn store<L: Lanes>(&mut self, l: L, sample: &LightSample<L>, at: usize) {
-        let (wi, radiance) = (sample.wi, sample.radiance);
+        let wi = sample.wi;
         l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.direction, at);
-        l.store_quads([radiance.r, radiance.g, radiance.b, sample.pdf], &mut self.radiance, at);
+        self.radiance.store(sample.radiance, sample.pdf, at);
         let bits = l.u(bit::DELTA).keep_if(sample.delta) | l.u(bit::CASTS_SHADOW).keep_if(sample.casts_shadow);
         bits.store(&mut self.bits, at);
     }

@@ -2,7 +2,7 @@
 
 use crate::state::columns::{Columns3, append3, columns3};
 use gonio_camera::sampler::BATCH;
-use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, U, Vec3, padded};
 
 /// Points whose illuminance is measured.
 #[derive(Debug)]
@@ -12,7 +12,7 @@ pub(crate) struct MeasurePoints {
     pub(crate) error: Column,
     pub(crate) geometric_normal: Columns3,
     pub(crate) shading_normal: Columns3,
-    pub(crate) throughput: Columns3,
+    pub(crate) throughput: SpectrumColumns,
     pub(crate) width: Column,
     pub(crate) slot: Column<u32>,
 }
@@ -26,7 +26,7 @@ impl Default for MeasurePoints {
             error: Column::new(room),
             geometric_normal: columns3(room),
             shading_normal: columns3(room),
-            throughput: columns3(room),
+            throughput: SpectrumColumns::new(room),
             width: Column::new(room),
             slot: Column::new(room),
         }
@@ -40,7 +40,7 @@ pub(crate) struct MeasureLanes<L: Lanes> {
     pub(crate) error: F<L>,
     pub(crate) geometric_normal: Vec3<L>,
     pub(crate) shading_normal: Vec3<L>,
-    pub(crate) throughput: Rgb<L>,
+    pub(crate) throughput: Spectrum<L>,
     pub(crate) width: F<L>,
     pub(crate) slot: U<L>,
 }
@@ -56,7 +56,7 @@ impl MeasurePoints {
         point.error.append(chosen, &mut self.error, n);
         append3(point.geometric_normal, chosen, &mut self.geometric_normal, n);
         append3(point.shading_normal, chosen, &mut self.shading_normal, n);
-        append3(point.throughput.into(), chosen, &mut self.throughput, n);
+        self.throughput.append(point.throughput, chosen, n);
         point.width.append(chosen, &mut self.width, n);
         point.slot.append(chosen, &mut self.slot, n);
         self.count += chosen.count();

@@ -1,11 +1,10 @@
 //! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
 
 use crate::graph::CHUNK;
-use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, Lanes, M, PADDING, Rgb, U, padded};
+use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
 /// Room for shadow rays: one for each path, and one for each subsurface walk that comes out in the same bounce.
 pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + PADDING;
@@ -19,11 +18,11 @@ pub(crate) fn hits_together(rays_per_hit: usize) -> usize {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
-    pub(crate) contribution: Rgb<L>,
+    pub(crate) contribution: Spectrum<L>,
     pub(crate) slot: U<L>,
     pub(crate) code: U<L>,
     pub(crate) light: U<L>,
-    pub(crate) shares: Option<[Rgb<L>; 2]>,
+    pub(crate) shares: Option<[Spectrum<L>; 2]>,
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -32,14 +31,14 @@ pub(crate) struct ShadowRays {
     pub(crate) count: usize,
     /// They start at once, and end short of the light.
     pub(crate) rays: Rays,
-    pub(crate) contribution: Columns3,
+    pub(crate) contribution: SpectrumColumns,
     pub(crate) slot: Column<u32>,
     /// The light pass that the contribution counts for, see [`crate::accumulate::light_sums::code`].
     pub(crate) code: Column<u32>,
     /// The light that each ray leads to.
     pub(crate) light: Column<u32>,
     /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
-    pub(crate) shares: [Columns3; 2],
+    pub(crate) shares: [SpectrumColumns; 2],
 }
 
 impl Default for ShadowRays {
@@ -48,11 +47,11 @@ impl Default for ShadowRays {
         Self {
             count: 0,
             rays: Rays::new(room, ray_mask::SHADOW),
-            contribution: columns3(room),
+            contribution: SpectrumColumns::new(room),
             slot: Column::new(room),
             code: Column::new(room),
             light: Column::new(room),
-            shares: [columns3(room), columns3(room)],
+            shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
         }
     }
 }
@@ -67,13 +66,13 @@ impl ShadowRays {
     pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
         self.rays.append(&ray.ray, chosen, n);
-        append3(ray.contribution.into(), chosen, &mut self.contribution, n);
+        self.contribution.append(ray.contribution, chosen, n);
         ray.slot.append(chosen, &mut self.slot, n);
         ray.code.append(chosen, &mut self.code, n);
         ray.light.append(chosen, &mut self.light, n);
         if let Some(shares) = ray.shares {
-            append3(shares[0].into(), chosen, &mut self.shares[0], n);
-            append3(shares[1].into(), chosen, &mut self.shares[1], n);
+            self.shares[0].append(shares[0], chosen, n);
+            self.shares[1].append(shares[1], chosen, n);
         }
         self.count += chosen.count();
     }

@@ -1,12 +1,11 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
-use crate::state::columns::{Columns3, append3, columns3, load3};
 use crate::state::rays::{RayLanes, Rays};
 use crate::tables::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, PADDING, Rgb, U, padded};
+use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -15,12 +14,12 @@ pub(crate) struct Walks {
     /// Rays of the flights. Hits nearer than `t_min` are the surface that was entered: walks start on it, as an offset would count as depth.
     /// A flight ends at `t_max`.
     pub(crate) rays: Rays,
-    pub(crate) throughput: Columns3,
-    pub(crate) albedo: Columns3,
-    pub(crate) extinction: Columns3,
+    pub(crate) throughput: SpectrumColumns,
+    pub(crate) albedo: SpectrumColumns,
+    pub(crate) extinction: SpectrumColumns,
     pub(crate) anisotropy: Column,
-    /// Probabilities of the colour channels by which the flight was sampled.
-    pub(crate) channels: Columns3,
+    /// Probabilities of the components by which the flight was sampled.
+    pub(crate) channels: SpectrumColumns,
     pub(crate) instance: Column<u32>,
     pub(crate) slot: Column<u32>,
     pub(crate) flags: Column<u32>,
@@ -31,15 +30,15 @@ pub(crate) struct Walks {
 impl Default for Walks {
     fn default() -> Self {
         let room = padded(CAPACITY) + PADDING;
-        let three = || columns3(room);
+        let spectra = || SpectrumColumns::new(room);
         Self {
             count: 0,
             rays: Rays::new(room, ray_mask::SHADOW),
-            throughput: three(),
-            albedo: three(),
-            extinction: three(),
+            throughput: spectra(),
+            albedo: spectra(),
+            extinction: spectra(),
             anisotropy: Column::new(room),
-            channels: three(),
+            channels: spectra(),
             instance: Column::new(room),
             slot: Column::new(room),
             flags: Column::new(room),
@@ -62,7 +61,7 @@ pub(crate) struct WalkHits {
 pub(crate) struct WalkLanes<L: Lanes> {
     /// The flight under way.
     pub(crate) ray: RayLanes<L>,
-    pub(crate) throughput: Rgb<L>,
+    pub(crate) throughput: Spectrum<L>,
     pub(crate) medium: Medium<L>,
     pub(crate) instance: U<L>,
     pub(crate) slot: U<L>,
@@ -76,9 +75,9 @@ impl Walks {
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;
         self.rays.append(&w.ray, chosen, n);
-        append3(w.throughput.into(), chosen, &mut self.throughput, n);
-        append3(w.medium.albedo.into(), chosen, &mut self.albedo, n);
-        append3(w.medium.extinction.into(), chosen, &mut self.extinction, n);
+        self.throughput.append(w.throughput, chosen, n);
+        self.albedo.append(w.medium.albedo, chosen, n);
+        self.extinction.append(w.medium.extinction, chosen, n);
         w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
         w.instance.append(chosen, &mut self.instance, n);
         w.slot.append(chosen, &mut self.slot, n);
@@ -92,10 +91,10 @@ impl Walks {
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
         WalkLanes {
             ray: self.rays.load(l, at),
-            throughput: load3(l, &self.throughput, at).into(),
+            throughput: self.throughput.load(l, at),
             medium: Medium {
-                albedo: load3(l, &self.albedo, at).into(),
-                extinction: load3(l, &self.extinction, at).into(),
+                albedo: self.albedo.load(l, at),
+                extinction: self.extinction.load(l, at),
                 anisotropy: l.load(&self.anisotropy, at),
             },
             instance: l.load_integers(&self.instance, at),
