@@ -30,7 +30,7 @@ mod tests;
 mod transmission;
 mod turn;
 
-pub use lobes::{BsdfSample, Lobes, MAXIMUM, SharpRay, Way};
+pub use lobes::{BsdfSample, Lobes, MAXIMUM, SpecularRay, Way};
 pub use measured::MeasuredBsdf;
 pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};

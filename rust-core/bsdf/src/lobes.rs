@@ -6,13 +6,13 @@
 mod coat_tint;
 mod eval;
 mod sample;
-mod sharp;
 mod slot;
+mod specular_rays;
 
 pub(crate) use coat_tint::CoatTint;
 pub use sample::BsdfSample;
-pub use sharp::{SharpRay, Way};
 pub(crate) use slot::{Shape, Side, Slot};
+pub use specular_rays::{SpecularRay, Way};
 
 use super::diffuse::DiffuseLobe;
 pub(crate) use super::normals::Normal;
@@ -101,13 +101,13 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     /// Where some lobe is not a delta, so that lights can be sampled for it; and where every lobe there is is one, as in mirrors and clear glass.
     #[inline(always)]
     pub fn smoothness(&self, l: L) -> [M<L>; 2] {
-        let (mut smooth, mut sharp) = (l.m(false), l.m(false));
+        let (mut smooth, mut specular) = (l.m(false), l.m(false));
         for slot in self.slots[..self.count].iter().flatten() {
             let (present, delta) = (slot.share.gt(0.0), slot.delta(l));
             smooth |= present.and_not(delta);
-            sharp |= present & delta;
+            specular |= present & delta;
         }
-        [smooth, sharp.and_not(smooth)]
+        [smooth, specular.and_not(smooth)]
     }
     /// Estimate of the directional albedo of all lobes together, for the albedo pass.
     #[inline(always)]

@@ -10,7 +10,7 @@ use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
 use crate::tables::Tables;
-use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SharpRay, Surface, Way};
+use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SpecularRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -48,12 +48,12 @@ pub fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -
     )
 }
 
-/// [`Lobes::sharp`].
+/// [`Lobes::specular_rays`].
 #[inline(never)]
-pub(crate) fn sharp<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
+pub(crate) fn specular_rays<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -> [SpecularRay<L>; Way::ALL.len()] {
     l.vectorize(
         #[inline(always)]
-        || lobes.sharp(l, wo),
+        || lobes.specular_rays(l, wo),
     )
 }
 

@@ -14,8 +14,8 @@ use std::{
     sync::{PoisonError, atomic::Ordering},
 };
 
-/// Camera rays a pixel that show denoisers enough of what is seen sharply.
-const SHARP_RAYS: u32 = 32;
+/// Camera rays a pixel that show denoisers enough of what is seen in mirrors and smooth glass.
+const SPECULAR_RAYS: u32 = 32;
 
 /// What a worker keeps from block to block.
 struct Room {
@@ -47,8 +47,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let tables = &shared.scene.tables;
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
-    let sharp_rays = sharp_rays(shared);
-    let path_filter = if sharp_rays.is_some() { PathFilter::ExceptSpecular } else { PathFilter::All };
+    let specular_rays = specular_rays(shared);
+    let path_filter = if specular_rays.is_some() { PathFilter::ExceptSpecular } else { PathFilter::All };
     let transport = Transport { light_cache, path_filter, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
@@ -62,7 +62,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
             .take_while(|_| !cancelled())
             .for_each(|runs| tracer.trace(area.min, area.max, &runs, workspace, &cancelled)),
     }
-    if let Some(rays) = sharp_rays {
+    if let Some(rays) = specular_rays {
         tracer.trace_specular([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
     if cancelled() {
@@ -86,14 +86,14 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     shared.schedule.decided(work.tile, state);
 }
 
-/// For each sample, camera rays of their own for what is seen sharply, where denoisers ask for them and samples are drawn at random.
-fn sharp_rays(shared: &Shared) -> Option<u32> {
+/// For each sample, camera rays of their own for what is seen in mirrors and smooth glass, where denoisers ask for them and samples are drawn at random.
+fn specular_rays(shared: &Shared) -> Option<u32> {
     let wanted = shared.film.layout.offset(Aov::DenoisingLight).is_some();
     let settings = &shared.settings;
     let drawn = settings.integrator != Integrator::Whitted && settings.antialiasing == Antialiasing::Sampled;
     // What shadow catchers hide is compared path by path.
     let possible = wanted && drawn && shared.film.layout.catchers.is_none();
-    possible.then(|| SHARP_RAYS.div_ceil(settings.samples.max(1)))
+    possible.then(|| SPECULAR_RAYS.div_ceil(settings.samples.max(1)))
 }
 
 /// What is to be known before the first block.

@@ -71,7 +71,7 @@ impl Integrator for WhittedIntegrator<'_> {
             light_by_fixed_samples(chunk, point, lobes, self.samples, lit & smooth, &mut queues.shadows, deposits);
         }
         let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
-        for (way, ray) in Way::ALL.into_iter().zip(&kernels::sharp(l, lobes, point.local_wo)) {
+        for (way, ray) in Way::ALL.into_iter().zip(&kernels::specular_rays(l, lobes, point.local_wo)) {
             let throughput = (point.throughput * ray.weight).keep_if(present);
             if way == Way::Straight {
                 straight.throughput += throughput;

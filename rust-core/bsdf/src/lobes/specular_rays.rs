@@ -1,9 +1,9 @@
-//! All that a surface sends on sharply, instead of one lobe chosen by its share: for trees of rays.
+//! All that a surface sends on specularly, instead of one lobe chosen by its share: for trees of rays.
 
 use super::{BsdfSample, Lobes, Normal, Shape, Side, Slot};
 use gonio_simd::{Lanes, M, Spectrum, Vec3};
 
-/// Ways that light goes on sharply.
+/// Ways that light goes on specularly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// Mirrored by the base.
@@ -17,13 +17,13 @@ pub enum Way {
 }
 
 impl Way {
-    /// All ways, in the order of [`Lobes::sharp`].
+    /// All ways, in the order of [`Lobes::specular_rays`].
     pub const ALL: [Self; 4] = [Self::Mirrored, Self::Coat, Self::Refracted, Self::Straight];
 }
 
-/// A sharp direction.
+/// A specular direction.
 #[derive(Clone, Copy, Debug)]
-pub struct SharpRay<L: Lanes> {
+pub struct SpecularRay<L: Lanes> {
     /// Unit direction in the shading frame.
     pub wi: Vec3<L>,
     /// Factor on the radiance from there; zero where there is no such way.
@@ -31,10 +31,10 @@ pub struct SharpRay<L: Lanes> {
 }
 
 impl<L: Lanes> Lobes<'_, L> {
-    /// The sharp directions of all lobes; lobes that go the same way add up.
+    /// The specular directions of all lobes; lobes that go the same way add up.
     #[inline(always)]
-    pub fn sharp(&self, l: L, wo: Vec3<L>) -> [SharpRay<L>; Way::ALL.len()] {
-        let nothing = SharpRay { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), weight: Spectrum::zero(l) };
+    pub fn specular_rays(&self, l: L, wo: Vec3<L>) -> [SpecularRay<L>; Way::ALL.len()] {
+        let nothing = SpecularRay { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), weight: Spectrum::zero(l) };
         let mut rays = [nothing; Way::ALL.len()];
         for slot in self.slots[..self.count].iter().flatten() {
             let here = slot.share.gt(0.0) & slot.delta(l);
@@ -58,7 +58,7 @@ impl<L: Lanes> Lobes<'_, L> {
     /// Adds what a delta lobe sends one way.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a lobe and a way")]
-    fn add(&self, l: L, wo: Vec3<L>, slot: &Slot<'_, L>, side: f32, here: M<L>, way: Way, rays: &mut [SharpRay<L>; Way::ALL.len()]) {
+    fn add(&self, l: L, wo: Vec3<L>, slot: &Slot<'_, L>, side: f32, here: M<L>, way: Way, rays: &mut [SpecularRay<L>; Way::ALL.len()]) {
         let mut sample = BsdfSample::nothing(l);
         let usable = self.choose(l, wo, slot, here, [l.f(side), l.f(0.5), l.f(0.5)], &mut sample);
         let through = matches!(way, Way::Refracted | Way::Straight);
