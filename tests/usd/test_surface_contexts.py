@@ -75,7 +75,7 @@ def test_arnold_has_the_parameters_of_standard_surface(tmp_path):
 def test_arnold_nodes_feed_it(tmp_path, image):
     parts = [
         shader("S", "color3f inputs:base_color.connect = </M/I.outputs:out>\n        float inputs:specular_roughness.connect = </M/I.outputs:g>", "arnold:standard_surface"),
-        shader("I", f'string inputs:filename = "{image}"\n        float inputs:sscale = 2', "arnold:image"),
+        shader("I", f'string inputs:filename = "{image}"\n        float inputs:sscale = 2\n        float outputs:g', "arnold:image"),
     ]
     made = material(load(tmp_path, *parts, context="arnold"))
     assert [next(iter(n["operation"])) if isinstance(n["operation"], dict) else n["operation"] for n in made["graph"]["nodes"]] == ["Primvar", "Transform2d", "Image"]
