@@ -105,7 +105,8 @@ def test_stages_without_camera_are_framed(tmp_path, up):
     assert math.isfinite(columns[3][0])
 
 
-def test_stages_without_light_get_a_dome(tmp_path):
+def test_stages_without_light_get_one_at_the_camera(tmp_path):
     scene = load(tmp_path, MESH)
-    assert [list(light["shape"])[0] for light in scene["lights"]] == ["Dome"]
-    assert scene["lights"][0]["emission"]["radiance"] == [1, 1, 1]
+    (light,) = scene["lights"]
+    assert list(light["shape"]) == ["Distant"] and not light["casts_shadow"]
+    assert light["transform"] == scene["cameras"][scene["settings"]["camera"]]["transform"]

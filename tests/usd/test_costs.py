@@ -106,3 +106,13 @@ def test_all_characters_are_in_the_pose_of_the_frame(tmp_path):
         # The upper bone has turned by 90° about z: what stood above it lies to the left.
         assert points[-1] == pytest.approx([-2, 2.3, 0], abs=1e-3)
     assert len(scene["instances"]) == 3
+
+
+def test_meshes_without_points_are_waited_for(tmp_path):
+    """They are built beside the reading, and each time what is wrong with them is told."""
+    balls = "".join(f'def Sphere "b{i}"\n{{\n    double radius = {0.1 + 0.01 * i}\n}}\n' for i in range(20))
+    path = pictures.stage(tmp_path / "empty.usda", balls, 'def Sphere "Odd"\n{\n    double radius = 0\n}\n')
+    for _ in range(20):
+        scene = gonio.load_usd(str(path), camera_light=False)
+        assert [origin for origin, said in scene.diagnostics if "no face has a surface" in said] == ["/Odd"]
+        assert len(scene.to_dict()["meshes"]) == 20

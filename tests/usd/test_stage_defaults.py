@@ -55,7 +55,8 @@ def RectLight "Wall"
     float inputs:width = 4
     float inputs:height = 4
     double3 xformOp:translate = (0, 0, -3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
+    float xformOp:rotateY = 180
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateY"]
 }
 """
 INTERFACE = 0.04
@@ -169,3 +170,17 @@ def Xform "a" (instanceable = true
 }}
 """
     assert values(tmp_path, text) == [("Constant", [0.1, 0.2, 0.3])]
+
+
+def test_white_is_white_where_the_light_is_at_the_camera(run, tmp_path):
+    camera = FRONT.replace("TRANSLATE", "(0, 0, 5)").replace("ROTATE", "(0, 0, 0)")
+    unlit = pictures.stage(tmp_path / "unlit.usda", UNLIT, camera)
+    lit = pictures.stage(tmp_path / "lit.usda", UNLIT, camera, 'def DomeLight "Sky" {}\n')
+
+    def shown(stage, *options):
+        done = run("render", stage, "-o", tmp_path / "a.png", "--res", 16, 16, "--spp", 4, *options)
+        assert done.returncode == 0, done.stderr
+        return (tmp_path / "a.png").read_bytes()
+
+    assert shown(unlit) == shown(unlit, "--tonemap", "none") != shown(unlit, "--tonemap", "photographic")
+    assert shown(lit) == shown(lit, "--tonemap", "photographic")

@@ -75,7 +75,7 @@ def test_arnold_has_the_parameters_of_standard_surface(tmp_path):
 def test_arnold_nodes_feed_it(tmp_path, image):
     parts = [
         shader("S", "color3f inputs:base_color.connect = </M/I.outputs:out>\n        float inputs:specular_roughness.connect = </M/I.outputs:g>", "arnold:standard_surface"),
-        shader("I", f'string inputs:filename = "{image}"\n        float inputs:sscale = 2', "arnold:image"),
+        shader("I", f'string inputs:filename = "{image}"\n        float inputs:sscale = 2\n        float outputs:g', "arnold:image"),
     ]
     made = material(load(tmp_path, *parts, context="arnold"))
     assert [next(iter(n["operation"])) if isinstance(n["operation"], dict) else n["operation"] for n in made["graph"]["nodes"]] == ["Primvar", "Transform2d", "Image"]
@@ -97,17 +97,22 @@ def test_what_is_there_is_said_where_nothing_is_known(tmp_path):
     assert "'mdl:Carpet' (render context mdl) is not supported" in messages(load(tmp_path, shader("S", body), context="mdl"))
 
 
-@pytest.fixture
-def image(tmp_path):
-    """A picture of one colour, (0.5, 0.25, 1) as it is encoded."""
+def png(path):
+    """Writes a picture of one colour, (0.5, 0.25, 1) as it is encoded."""
+
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     pixels = zlib.compress(b"\x00" + bytes([128, 64, 255]))
     head = struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)
-    path = tmp_path / "texel.png"
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
     return path
+
+
+@pytest.fixture
+def image(tmp_path):
+    """A picture of one colour."""
+    return png(tmp_path / "texel.png")
 
 
 def test_realitykit_is_lit_like_a_preview_surface(tmp_path):
@@ -231,3 +236,51 @@ def test_a_mixed_ball_has_both_colours(picture, tmp_path):
     load(tmp_path, *parts)
     seen = picture(tmp_path / "stage.usda", size=8, spp=256)
     assert seen.rgb[seen["A"] > 0.999].mean(axis=0) == pytest.approx([1, 0, 2], rel=0.05, abs=0.02)
+
+
+BY_NAME = [
+    shader("S", "color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>", "UsdPreviewSurface"),
+    shader("T", "asset inputs:file.connect = </M/R.outputs:result>\n        float4 inputs:fallback = (0.1, 0.2, 0.3, 1)\n        float3 outputs:rgb", "UsdUVTexture"),
+    shader("R", 'string inputs:varname = "picture"\n        string outputs:result', "UsdPrimvarReader_string"),
+]
+
+
+def named(tmp_path, *shaders):
+    """Balls that name their images, one by its parent, one not at all."""
+    for name in ["one", "two"]:
+        png(tmp_path / f"{name}.png")
+    body = "    rel material:binding = </M>\n"
+    ball = lambda name, line: f'def Sphere "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])\n{{\n{body}    {line}\n}}\n'
+    text = ball("A", 'string primvars:picture = "one.png"') + ball("B", "asset primvars:picture = @two.png@") + ball("C", "")
+    text += ball("E", 'double radius = 3\n    string primvars:picture = "./one.png"')
+    text += 'def Xform "Group"\n{\n    string primvars:picture = "two.png"\n' + ball("D", "double radius = 2") + "}\n"
+    text += 'def Material "M"\n{\n    token outputs:surface.connect = </M/S.outputs:out>\n' + "".join(shaders) + "}\n"
+    path = tmp_path / "stage.usda"
+    path.write_text(HEADER + text)
+    return gonio.load_usd(str(path), camera_light=False)
+
+
+def image_of(scene, ball):
+    """The file's name of the first image of a ball's material; None without one."""
+    instances = next(i for i in scene["instances"] if i["origin"]["name"] == ball)
+    nodes = scene["materials"][instances["materials"][0]]["graph"]["nodes"]
+    images = [node["operation"]["Image"] for node in nodes if isinstance(node["operation"], dict) and "Image" in node["operation"]]
+    return scene["textures"][images[0]["texture"]]["source"]["File"].rsplit("/", 1)[-1] if images else None
+
+
+def test_primvars_name_images(tmp_path):
+    loaded = named(tmp_path, *BY_NAME)
+    scene = loaded.to_dict()
+    found = {name: image_of(scene, name) for name in ["/A", "/B", "/C", "/E", "/Group/D"]}
+    assert found == {"/A": "one.png", "/B": "two.png", "/C": None, "/E": "one.png", "/Group/D": "two.png"}
+    assert "no image file is named" in messages(loaded)
+
+
+def test_primvars_name_images_of_materialx(tmp_path):
+    parts = [
+        shader("S", "color3f inputs:base_color.connect = </M/T.outputs:out>", "ND_standard_surface_surfaceshader"),
+        shader("T", "asset inputs:file.connect = </M/R.outputs:out>", "ND_image_color3"),
+        shader("R", 'string inputs:geomprop = "picture"', "ND_geompropvalue_string"),
+    ]
+    scene = named(tmp_path, *parts).to_dict()
+    assert [image_of(scene, name) for name in ["/A", "/B", "/C"]] == ["one.png", "two.png", None]

@@ -1,6 +1,6 @@
 //! How a camera meets an image: aspect ratio policies, and a camera and a light for stages without them.
 
-use gonio::scene::{Camera, Emission, Light, LightShape, Origin, Transform};
+use gonio::scene::{Camera, Emission, Light, LightShape, Origin, Scene, Transform};
 
 /// Vertical field of view of the automatic camera, degrees.
 const AUTO_FIELD_OF_VIEW: f64 = 35.0;
@@ -110,12 +110,20 @@ pub fn auto_camera(bounds: [[f64; 3]; 2], is_z_up: bool, aspect: f64) -> Camera 
     camera
 }
 
+/// The name of the light at the camera.
+const CAMERA_LIGHT: &str = "camera light";
+
+/// Whether a scene has [`camera_light`], whose white is meant to be shown as white.
+pub fn is_camera_lit(scene: &Scene) -> bool {
+    scene.lights.iter().any(|light| &*light.origin.name == CAMERA_LIGHT)
+}
+
 /// A light for stages without any: it shines along the camera's view without shadows, as usdrecord's, and shows a white surface that faces it as
 /// white (1 cd/m²).
 pub fn camera_light(camera: &Camera) -> Light {
     let emission = Emission { radiance: [std::f32::consts::PI; 3], normalized: true, ..Emission::default() };
     let shape = LightShape::Distant { angle_deg: 0.0 };
-    Light { emission, casts_shadow: false, ..Light::new(Origin::new("camera light"), shape, camera.transform) }
+    Light { emission, casts_shadow: false, ..Light::new(Origin::new(CAMERA_LIGHT), shape, camera.transform) }
 }
 
 /// Width over height of a camera's aperture, for pictures whose height follows the camera.

@@ -181,11 +181,8 @@ fn to_eye(graph: &mut Graph, operation: Operation, camera: &Camera, is_point: bo
     graph.add(Operation::Transform3d { rows }, vec![Input::Node(world, Channel::Rgb)])
 }
 
-/// The layers of a picture that variables name, in their order, with their names. Without variables the picture stays as it is.
+/// The layers of a picture that variables name, in their order, with their names.
 pub fn layers(image: &Image, settings: &Settings, variables: &[RenderVariable]) -> Vec<Layer> {
-    if variables.is_empty() {
-        return image.layers.clone();
-    }
     let mut settings = settings.clone();
     let mut layers: Vec<Layer> = Vec::with_capacity(variables.len());
     for variable in variables {

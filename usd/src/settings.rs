@@ -187,9 +187,14 @@ fn read_product<'py>(context: &mut Context<'_, 'py>, settings: &Prim<'py>, prim:
         variables.extend(read.filter(|read| variables.iter().all(|known| known.name != read.name)));
     }
     let name = if stated.is_empty() { prim.name() } else { stated };
-    let has_ending = std::path::Path::new(&name).extension().is_some();
-    let name = if has_ending { name } else { format!("{name}.exr") };
+    let name = if has_ending(&name) { name } else { format!("{name}.exr") };
     Some(Product { framing: framing(context, settings, Some(prim)), origin, name, variables })
+}
+
+/// Whether a name tells a format: places for the frame number do not.
+fn has_ending(name: &str) -> bool {
+    let ending = std::path::Path::new(name).extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
+    ending.starts_with(|c: char| c.is_ascii_alphabetic())
 }
 
 impl RenderSettings {
@@ -226,5 +231,16 @@ pub fn conform_cameras(scene: &mut Scene, policy: ConformPolicy) {
         if index == scene.settings.camera as usize {
             scene.settings.pixel_aspect = conformed;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_ending;
+
+    #[test]
+    fn frame_numbers_are_no_endings() {
+        assert!(has_ending("a.exr") && has_ending("a.####.tif"));
+        assert!(!has_ending("a") && !has_ending("a.####") && !has_ending("a.$F4") && !has_ending("a.0001"));
     }
 }

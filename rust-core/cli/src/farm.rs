@@ -15,7 +15,7 @@ use gonio::{
     checkpoint::{merge, parts},
 };
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, SampleTime, Stage, StageOptions};
+use gonio_usd::{Loaded, SampleTime, Stage, StageOptions, framing::is_camera_lit};
 use pyo3::{
     prelude::*,
     types::{PyCFunction, PyDict, PyTuple},
@@ -94,7 +94,13 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
     image.layers.retain(|layer| !hidden.contains(&layer.aov));
     let variables = first.settings.as_ref().map(|settings| settings.variables()).unwrap_or_default();
     name_layers(options, &mut image, &scene.settings, &variables);
-    let notes = Notes { exposure: whole.identity.exposure, time, interrupted: false, attributes: &attributes(options, scene) };
+    let notes = Notes {
+        exposure: whole.identity.exposure,
+        time,
+        camera_lit: is_camera_lit(scene),
+        interrupted: false,
+        attributes: &attributes(options, scene),
+    };
     let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
     let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();
     writer.write_all(&outputs, &image, &notes, options.quiet)

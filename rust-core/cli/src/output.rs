@@ -20,6 +20,8 @@ pub(super) struct Notes<'a> {
     pub(super) exposure: f32,
     /// When the picture is, seconds.
     pub(super) time: f64,
+    /// White surfaces that face the camera are as bright as white is shown.
+    pub(super) camera_lit: bool,
     /// The render did not end by itself, and somebody waits.
     pub(super) interrupted: bool,
     /// Further text attributes.
@@ -30,6 +32,8 @@ pub(super) struct Notes<'a> {
 #[derive(Debug)]
 pub(super) struct Writer {
     look: Look,
+    /// Whether the command line says how radiance becomes display values.
+    is_stated: bool,
     /// What follows the brightness of an animation's frames.
     eye: Option<Mutex<Adaptation>>,
     half: bool,
@@ -58,14 +62,18 @@ impl Writer {
             make_folder(path)?;
         }
         let denoiser = options.denoise.then(Denoiser::new).transpose()?;
-        let (tone_map, space) = (ToneMap::by_name(&options.tonemap)?, DisplaySpace::by_name(&options.color_space)?);
+        let (tone_map, space) = (
+            options.tonemap.as_deref().map_or_else(|| Ok(ToneMap::default()), ToneMap::by_name)?,
+            DisplaySpace::by_name(&options.color_space)?,
+        );
         let look = Look::new(tone_map, options.exposure, options.white, None, space)?;
         let seconds = options.adaptation.filter(|_| tone_map.adapts());
         if let Some(wrong) = seconds.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
             return Err(Error::setting("adaptation", format!("{wrong} was found, expected seconds from 0 on")));
         }
         let eye = seconds.map(|seconds| Mutex::new(Adaptation::new(seconds)));
-        Ok(Self { look, eye, half: options.half, denoiser, execution })
+        let is_stated = options.tonemap.is_some();
+        Ok(Self { look, is_stated, eye, half: options.half, denoiser, execution })
     }
 
     /// Asks for the passes that writing needs; gives those that no file shows.
@@ -80,7 +88,8 @@ impl Writer {
 
     /// Writes all files at once: the wait is that for the slowest.
     pub(super) fn write_all(&self, paths: &[PathBuf], image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
-        let look = self.look_at(image, about.time);
+        let as_it_is = about.camera_lit && !self.is_stated;
+        let look = if as_it_is { Look { tone_map: ToneMap::None, ..self.look } } else { self.look_at(image, about.time) };
         paths.iter().try_for_each(|path| make_folder(path))?;
         let written: Vec<Result<()>> = std::thread::scope(|scope| {
             let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, &look, about))).collect();

@@ -21,6 +21,7 @@ use gonio::{
 use gonio_simd::Execution;
 use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
+    framing::is_camera_lit,
     render_variable::{self, RenderVariable, aov_by_name},
     view::{Resolution, ViewOptions, complete},
 };
@@ -314,7 +315,13 @@ impl Job<'_> {
     /// Writes all files at once: the wait is that for the slowest.
     fn write(&self, scene: &Scene, image: &mut Image, interrupted: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
-        let notes = Notes { exposure, time: self.time, interrupted, attributes: &attributes(self.options, scene) };
+        let notes = Notes {
+            exposure,
+            time: self.time,
+            camera_lit: is_camera_lit(scene),
+            interrupted,
+            attributes: &attributes(self.options, scene),
+        };
         let paths: Vec<PathBuf> = self.picture.files.iter().map(|file| file.path.clone()).collect();
         // All files of a picture show the same.
         let variables = self.picture.files.first().map(|file| file.variables.as_slice()).unwrap_or_default();
@@ -330,15 +337,16 @@ impl Job<'_> {
     }
 }
 
-/// Makes the layers of a picture those of the stage's render variables, unless the command line asks for others.
+/// Makes the layers of a picture those of the stage's render variables, unless there are none or the command line asks for others.
 pub(super) fn name_layers(options: &RenderOptions, image: &mut Image, settings: &Settings, variables: &[RenderVariable]) {
-    if options.aov.is_empty() {
-        let named = render_variable::layers(image, settings, variables);
-        // What nobody asked for by name is the colour, which costs nothing, and light groups.
-        let is_extra = |layer: &Layer| matches!(layer.aov, Aov::Color | Aov::LightGroup(_)) && named.iter().all(|own| own.aov != layer.aov);
-        image.layers.retain(is_extra);
-        image.layers.extend(named);
+    if !options.aov.is_empty() || variables.is_empty() {
+        return;
     }
+    let named = render_variable::layers(image, settings, variables);
+    // Beside them stay light groups, and the colour, which costs nothing.
+    let is_extra = |layer: &Layer| matches!(layer.aov, Aov::Color | Aov::LightGroup(_)) && named.iter().all(|own| own.aov != layer.aov);
+    image.layers.retain(is_extra);
+    image.layers.extend(named);
 }
 
 /// Waits until a render has ended or was interrupted, shows how far it is, and has `look` see its film now and then; what came of it is for [`Render::finish`] to say.

@@ -1,6 +1,7 @@
 //! Materials that ask for text of the prim that they shade, as the name of an image: one material for each set of answers.
 
 use super::convert;
+use super::textures::resolve_text;
 use super::value::{Source, Value};
 use crate::context::Context;
 use crate::prim::{Attribute, Prim};
@@ -45,7 +46,9 @@ pub(super) fn material_on<'py>(context: &mut Context<'_, 'py>, material: &Prim<'
 /// The path of the material and what the prim answers.
 fn key(context: &mut Context<'_, '_>, path: &str, names: &[String]) -> String {
     let answers = names.iter().map(|name| match named_text(context, name) {
-        Source::Value(value, _) => value.text().unwrap_or_default().to_owned(),
+        // One name may mean files in several folders.
+        Source::Value(Value::Asset(path), _) => path.authored + &path.resolved,
+        Source::Value(Value::Text(text), attribute) => resolve_text(&attribute, &text) + &text,
         _ => String::new(),
     });
     answers.fold(path.to_owned(), |key, answer| key + "\n" + &answer)

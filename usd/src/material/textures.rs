@@ -34,7 +34,7 @@ fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
 }
 
 /// Where a file lies whose name is text, relative to the layer that says it; empty if there is none.
-fn resolve_text(attribute: &Attribute<'_>, authored: &str) -> String {
+pub(super) fn resolve_text(attribute: &Attribute<'_>, authored: &str) -> String {
     let py = attribute.object().py();
     let resolve = || -> PyResult<String> {
         let time = Module::Usd.item(py, "TimeCode")?.call_method0(intern!(py, "EarliestTime"))?;

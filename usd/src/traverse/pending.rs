@@ -29,8 +29,7 @@ pub(super) struct Pending {
     sender: Sender<Outcome>,
     receiver: Receiver<Outcome>,
     outcomes: Vec<Outcome>,
-    /// Meshes and their floats that are not built yet.
-    count: usize,
+    /// Floats of meshes that are not built yet.
     floats: usize,
     stop: Arc<AtomicBool>,
     /// Time that reading has waited.
@@ -41,7 +40,7 @@ impl Default for Pending {
     fn default() -> Self {
         let (sender, receiver) = channel();
         let stop = Arc::default();
-        Self { sender, receiver, outcomes: Vec::new(), count: 0, floats: 0, stop, waited: Duration::ZERO }
+        Self { sender, receiver, outcomes: Vec::new(), floats: 0, stop, waited: Duration::ZERO }
     }
 }
 
@@ -54,7 +53,6 @@ impl Drop for Pending {
 
 impl Pending {
     fn take(&mut self, outcome: Outcome) {
-        self.count -= 1;
         self.floats -= outcome.floats;
         self.outcomes.push(outcome);
     }
@@ -65,9 +63,9 @@ impl Walker<'_, '_, '_> {
     pub(super) fn submit(&mut self, source: MeshSource) -> Result<MeshId> {
         let id = self.context.scene.add_mesh(Mesh { origin: source.origin.clone(), ..Mesh::default() });
         let primvar_floats: usize = source.polygons.primvars.iter().map(|primvar| primvar.values.len()).sum();
-        let floats = source.polygons.points.len() * 3 + source.polygons.corners.len() + primvar_floats;
+        // At least one, so that meshes without points are waited for too.
+        let floats = 1 + source.polygons.points.len() * 3 + source.polygons.corners.len() + primvar_floats;
         let pending = &mut self.pending;
-        pending.count += 1;
         pending.floats += floats;
         let (sender, stop) = (pending.sender.clone(), pending.stop.clone());
         // Without a receiver the reading has ended.
@@ -82,7 +80,7 @@ impl Walker<'_, '_, '_> {
             self.pending.take(outcome);
         }
         let start = Instant::now();
-        while self.pending.count > 0 && self.pending.floats > limit {
+        while self.pending.floats > limit {
             let received = self.receive();
             match received {
                 Ok(outcome) => self.pending.take(outcome),

@@ -12,9 +12,9 @@ pub(crate) struct OutputArguments {
     /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
     pub(crate) exposure: f32,
-    /// How radiance becomes display values: 'photographic', 'local' (the same, compressed by each pixel's surroundings), 'none' (the display's curve as it is), or 'ev100=12'.
-    #[arg(long, value_name = "OPERATOR", default_value = "photographic")]
-    pub(crate) tonemap: String,
+    /// How radiance becomes display values: 'photographic', 'local' (the same, compressed by each pixel's surroundings), 'none' (the display's curve as it is), or 'ev100=12'. Without it 'photographic', and 'none' for stages that are lit from the camera.
+    #[arg(long, value_name = "OPERATOR")]
+    pub(crate) tonemap: Option<String>,
     /// Luminance that the photographic operators show as white, where the picture's log-average is 0.18.
     #[arg(long, value_name = "LUMINANCE", default_value_t = 6.0, allow_hyphen_values = true)]
     pub(crate) white: f32,
