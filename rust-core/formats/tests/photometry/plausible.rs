@@ -65,6 +65,7 @@ fn decimal_commas_are_understood() {
         ("1 1000 1 7 1 1 2 0.1 0.1 0", "1000,5 966,1 866,0 707,1 500,0 259,0 0,0"),
         ("1 1000,0 1,0 7 1 1 2 0,1 0,1 0", "1000,5 966,1 866,0 707,1\n500,0 259,0 0"),
         ("1 1000 1 7 1 1 2 0.1 0.1 0", "1000,5, 966,1, 866,0, 707,1, 500,0, 259,0, 0"),
+        ("1,1000,1,7,1,1,2,0.1,0.1,0", "1000,5 966,1 866,0 707,1 500,0 259,0 0"),
     ] {
         let found = ies::read(downlight(head, candela).as_bytes()).unwrap();
         assert_eq!(found.intensities, [1000.5, 966.1, 866.0, 707.1, 500.0, 259.0, 0.0], "{candela}");
@@ -88,6 +89,14 @@ fn commas_that_fit_neither_way_are_refused_by_their_line() {
     assert_eq!(error.to_string(), "line 9: '1000,5' was found: its comma fits the counts neither as a separator nor as a decimal sign");
     let error = ies::read(downlight("1 1000 1 7 1 1 2 0.1 0.1 0", "1.000,5 966 866 707 500 259 0 1,2").as_bytes()).unwrap_err();
     assert!(error.to_string().starts_with("line 9: "), "{error}");
+}
+
+#[test]
+fn long_lists_take_no_longer_than_their_length() {
+    // A megabyte of separators and numbers without a blank: quadratic time would be minutes.
+    for (list, is_read) in [("1,".repeat(500_000), true), (",".repeat(1_000_000), false), ("1,5 ".repeat(250_000), false)] {
+        assert_eq!(ies::read(downlight("1 1000 1 7 1 1 2 0.1 0.1 0", &list).as_bytes()).is_ok(), is_read, "{}", &list[..8]);
+    }
 }
 
 #[test]

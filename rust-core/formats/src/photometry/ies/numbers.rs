@@ -102,36 +102,42 @@ impl<'a> Numbers<'a> {
 
     /// The next piece of text, whatever it is.
     pub(super) fn token(&mut self) -> Option<&'a str> {
-        let blank = |c: char| c.is_whitespace() || c == '\u{1a}';
         loop {
-            let rest = self.rest.trim_start_matches(|c| blank(c) || c == ',');
+            // Behind a comma that a number follows at once, a further comma separates: `0,15,30`.
+            let in_list = self.rest.starts_with(',') && !self.rest.trim_start_matches(',').starts_with(is_blank);
+            let rest = self.rest.trim_start_matches(|c| is_blank(c) || c == ',');
             if rest.is_empty() {
                 self.rest = self.lines.next()?.1;
                 continue;
             }
-            let (piece, after) = rest.split_at(rest.find(blank).unwrap_or(rest.len()));
-            let piece = piece.trim_end_matches(',');
-            let is_doubtful = is_decimal(piece);
-            if is_doubtful {
-                self.doubtful = self.doubtful.or(Some((piece, self.line())));
+            let mut length = end_of(rest);
+            if let Some(pair) = decimal_at(rest, length).filter(|_| !in_list) {
+                self.doubtful = self.doubtful.or(Some((pair, self.line())));
+                length = if self.comma == Comma::Decimal { pair.len() } else { length };
             }
-            if is_doubtful && self.comma == Comma::Decimal {
-                self.rest = after;
-                return Some(piece);
-            }
-            let (token, rest) = rest.split_at(piece.find(',').unwrap_or(piece.len()));
+            let (token, rest) = rest.split_at(length);
             self.rest = rest;
             return Some(token);
         }
     }
 }
 
-/// Whether a piece of text between blanks may be meant as one number with a decimal comma: digits to both sides of a single comma, and no point
-/// behind it.
-fn is_decimal(piece: &str) -> bool {
-    piece.split_once(',').is_some_and(|(whole, fraction)| {
-        whole.ends_with(|c: char| c.is_ascii_digit())
-            && fraction.starts_with(|c: char| c.is_ascii_digit())
-            && !fraction.contains([',', '.'])
-    })
+fn is_blank(c: char) -> bool {
+    c.is_whitespace() || c == '\u{1a}'
+}
+
+/// Bytes up to the first blank or comma.
+fn end_of(text: &str) -> usize {
+    text.find(|c| is_blank(c) || c == ',').unwrap_or(text.len())
+}
+
+/// What a text begins with, if it may be meant as one number with a decimal comma, which stands behind `whole` bytes: digits to both sides of a single
+/// comma, and no point behind it.
+fn decimal_at(text: &str, whole: usize) -> Option<&str> {
+    let fraction = text[whole..].strip_prefix(',')?;
+    let fraction = &fraction[..end_of(fraction)];
+    let (pair, behind) = text.split_at(whole + 1 + fraction.len());
+    let is_last = behind.trim_start_matches(',').chars().next().is_none_or(is_blank);
+    let ends_in_digit = text[..whole].ends_with(|c: char| c.is_ascii_digit());
+    (is_last && ends_in_digit && fraction.starts_with(|c: char| c.is_ascii_digit()) && !fraction.contains('.')).then_some(pair)
 }
