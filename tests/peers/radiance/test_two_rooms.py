@@ -1,0 +1,83 @@
+"""Gonio, Radiance and the independent tracer agree on the two rooms, with few samples; what else the comparison rests on."""
+
+import os
+from pathlib import Path
+
+import environments
+import equal_error
+import measured_by
+import numpy
+import pytest
+import tracer
+import two_rooms
+import usd_stage
+from equal_error import CACHED, GONIO, TRACED, Equal, Row, Setting
+
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
+
+# Of the mean illuminance of the office.
+MOST_APART = 0.01
+# The noise of the office's mean is below 0.2 % with each of these.
+SAMPLES, PATHS, BATCHES = 1024, 64, 8
+OPTIONS = "-ab 6 -ad 128 -aa 0 -ds .05 -lw 2e-3".split()
+
+
+@pytest.fixture(scope="module")
+def ours(tmp_path_factory: pytest.TempPathFactory) -> dict[str, float]:
+    """Gonio's mean illuminances by grid, in lux."""
+    found = measured_by.by_gonio(usd_stage.write(tmp_path_factory.mktemp("stage")), SAMPLES, 1)
+    return {name: float(part.mean()) for name, part in two_rooms.each_grid(found.lux).items()}
+
+
+def test_the_office_has_radiances_mean(ours: dict[str, float], tmp_path: Path) -> None:
+    try:
+        python = os.environ.get("GONIO_PEER_RADIANCE") or environments.python_of("radiance")
+        peer = measured_by.radiance(Path(python), tmp_path)
+    except (environments.Unavailable, measured_by.Unavailable) as reason:
+        pytest.skip(f"no pyradiance: {reason}")
+    office = two_rooms.each_grid(peer.measure(OPTIONS).lux)["office"].mean()
+    assert ours["office"] == pytest.approx(office, rel=MOST_APART)
+
+
+def test_both_rooms_have_the_tracers_means(ours: dict[str, float]) -> None:
+    found = two_rooms.each_grid(tracer.traced(PATHS, BATCHES, 1))
+    assert ours["office"] == pytest.approx(found["office"].mean(), rel=MOST_APART)
+    # The corridor's mean is some 5 % uncertain with so few paths.
+    means = found["corridor"].mean(axis=1)
+    assert ours["corridor"] == pytest.approx(means.mean(), abs=5 * means.std(ddof=1) / BATCHES**0.5)
+
+
+def test_points_of_both_grids_lie_in_their_rooms() -> None:
+    places = two_rooms.each_grid(two_rooms.points().T)
+    assert {name: each.shape[1] for name, each in places.items()} == {"office": 70, "corridor": 18}
+    assert places["office"][1].max() < two_rooms.OFFICE_DEPTH < two_rooms.CORRIDOR_START < places["corridor"][1].min()
+
+
+def test_rectangles_close_both_rooms_and_face_inwards() -> None:
+    # From the middle of a closed room every ray meets a front.
+    around = tracer.cosine(numpy.repeat([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]], 2000, axis=0), numpy.random.default_rng(1).random((4000, 2)))
+    rooms = tracer.made()
+    for middle in ([1.0, 1.0, 1.4], [1.0, 5.5, 1.4]):
+        distance, hit = rooms.nearest(numpy.broadcast_to(middle, around.shape), around)
+        assert numpy.isfinite(distance).all()
+        assert ((rooms.normal[hit] * around).sum(axis=1) < 0).all()
+
+
+def made(curve: str, seconds: float, error: float) -> Row:
+    """A setting with the same error everywhere."""
+    everywhere = {grid.name: error for grid in two_rooms.GRIDS}
+    return Row(Setting(curve, "of a test"), everywhere, everywhere, seconds)
+
+
+def test_time_at_equal_error_goes_along_the_front() -> None:
+    # Half the error in four times the time; a slow setting that is worse does not count.
+    rows = [made(GONIO, 1.0, 0.04), made(GONIO, 16.0, 0.01), made(GONIO, 8.0, 0.5)]
+    rows += [made(TRACED, 10.0, 0.04), made(TRACED, 160.0, 0.01), made(CACHED, 0.5, 0.05)]
+    found = {(each.grid, each.error): each for each in equal_error.equals(rows)}
+    at: Equal = found["office", 0.02]
+    assert at.seconds[GONIO] == pytest.approx(4.0)
+    assert at.ratio(TRACED) == pytest.approx(10.0)
+    assert at.ratio(CACHED) is None
+    # What the quickest setting reaches already takes its time.
+    assert found["office", 0.1].ratio(CACHED) == pytest.approx(0.5)
+    assert ("office", 0.005) not in found
