@@ -21,16 +21,23 @@ class Images:
 
     def __init__(self, scene, slots):
         self._scene, self._slots = scene, slots
-        # The scene's, which says which picture of a sequence or a movie is shown.
-        self.frame = None
+        # The scene's, which says which picture of a sequence or a movie is shown; and whether there is any.
+        self.frame, self._is_animated = None, False
         # By the image's number in the session: the format of its file, and who used it last.
         self._kinds, self._users = {}, {}
         # Owner of a picture that changes -> what its pixels were, and which of its two places they have.
         self._changing = {}
 
+    def go_to(self, frame):
+        """Shows the pictures of a scene's frame; gives whether some of them may be others than before."""
+        changed = self._is_animated and frame != self.frame
+        self.frame = frame
+        return changed
+
     def texture(self, image, user, report):
         """The number of an image as it is at this frame; None, with a report line, where there is nothing to show."""
         self._users[image.session_uid] = user
+        self._is_animated |= image.source in ("SEQUENCE", "MOVIE")
         key, make = self._source(image, user, report)
         if key is None:
             return None

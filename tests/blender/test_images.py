@@ -51,6 +51,36 @@ def test_sequences_show_the_frames_picture_without_being_loaded(tmp_path):
 
 
 @pytest.mark.blender
+def test_another_frame_shows_another_picture_in_the_viewport(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, material, quad
+
+    empty()
+    for number in (1, 2):
+        _file(tmp_path / f"{number}.png", (number / 8, 0, 0))
+    image = bpy.data.images.load(str(tmp_path / "1.png"))
+    image.source = "SEQUENCE"
+    made, tree, end = material()
+    node, light = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeEmission")
+    node.image, user = image, node.image_user
+    user.frame_duration, user.frame_start, user.use_auto_refresh = 2, 1, True
+    tree.links.new(node.outputs[0], light.inputs[0])
+    tree.links.new(light.outputs[0], end.inputs["Surface"])
+    mesh = quad()
+    mesh.materials.append(made)
+    link(bpy.data.objects.new("Quad", mesh))
+    export, _ = exporter()
+    bpy.context.scene.frame_set(1)
+    scene = export.sync(depsgraph())
+    assert scene.textures[0]["source"] == {"File": str(tmp_path / "1.png")}
+    assert not export.update(depsgraph()).anything
+    bpy.context.scene.frame_set(2)
+    assert export.update(depsgraph()).shading
+    [lookup] = [n["operation"]["Image"] for n in scene.materials[-1]["graph"]["nodes"] if "Image" in n["operation"]]
+    assert scene.textures[lookup["texture"]]["source"] == {"File": str(tmp_path / "2.png")}
+
+
+@pytest.mark.blender
 def test_sequences_that_only_blender_reads_give_pixels(tmp_path):
     import bpy
     from recorder import empty, material
