@@ -103,6 +103,26 @@ def test_sequences_that_only_blender_reads_give_pixels(tmp_path):
 
 
 @pytest.mark.blender
+def test_what_is_missing_is_named_and_never_fails(tmp_path):
+    import bpy
+    from recorder import empty, material
+
+    empty()
+    (tmp_path / "gone.avi").write_bytes(b"no movie")
+    _file(tmp_path / "gone_1.tga", (1, 0, 0), "TARGA")
+    movie, sequence = (bpy.data.images.load(str(tmp_path / name)) for name in ("gone.avi", "gone_1.tga"))
+    movie.source, sequence.source = "MOVIE", "SEQUENCE"
+    _, tree, _ = material()
+    user = tree.nodes.new("ShaderNodeTexImage").image_user
+    user.frame_duration, user.frame_start = 9, 1
+    for image in (movie, sequence):
+        images, scene, report = _images(7)
+        assert images.texture(image, user, report) is None and not scene.textures
+        assert [line.name for line in report.diagnostics] == [image.name]
+        assert images.linear(image, report) is None
+
+
+@pytest.mark.blender
 def test_movies_show_the_frames_picture(tmp_path):
     import bpy
     from recorder import empty, material
