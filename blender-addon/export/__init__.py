@@ -37,7 +37,7 @@ class Exporter:
 
     def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
         """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
-        self._images.frame = depsgraph.scene_eval.frame_current
+        self._images.go_to(depsgraph.scene_eval.frame_current)
         self._textures.begin()
         self._measured.begin()
         self._materials.shader_aovs = shader_aovs
@@ -52,8 +52,10 @@ class Exporter:
         if not self._synced:
             self.sync(depsgraph)
             return Changes(True, True, True, True, True, True)
-        self._images.frame = depsgraph.scene_eval.frame_current
         found = touched(depsgraph)
+        if self._images.go_to(depsgraph.scene_eval.frame_current):
+            # No update tells of the pictures of a sequence.
+            found.every_material = found.world = True
         changes = Changes()
         if found.nothing:
             return changes

@@ -75,16 +75,18 @@ def pixels_of_frame(image, number):
     """As `pixels_of`, of one picture of a movie: an image shows the one that was scaled last."""
     copy = image.copy()
     try:
-        width, height = image.size
-        copy.scale(max(width, 1), max(height, 1), frame=number)
+        copy.scale(*image.size, frame=number)
         return pixels_of(copy)
     finally:
         bpy.data.images.remove(copy)
 
 
 def pixels_of_file(image, path):
-    """As `pixels_of`, of one file of a sequence, read as the image says."""
-    single = bpy.data.images.load(path, check_existing=False)
+    """As `pixels_of`, of one file of a sequence, read as the image says, and whether they are floats; None where it cannot be read."""
+    try:
+        single = bpy.data.images.load(path, check_existing=False)
+    except RuntimeError:
+        return None, False
     try:
         single.colorspace_settings.name = image.colorspace_settings.name
         single.alpha_mode = image.alpha_mode

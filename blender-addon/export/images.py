@@ -21,16 +21,23 @@ class Images:
 
     def __init__(self, scene, slots):
         self._scene, self._slots = scene, slots
-        # The scene's, which says which picture of a sequence or a movie is shown.
-        self.frame = None
+        # The scene's, which says which picture of a sequence or a movie is shown; and whether there is any.
+        self.frame, self._is_animated = None, False
         # By the image's number in the session: the format of its file, and who used it last.
         self._kinds, self._users = {}, {}
         # Owner of a picture that changes -> what its pixels were, and which of its two places they have.
         self._changing = {}
 
+    def go_to(self, frame):
+        """Shows the pictures of a scene's frame; gives whether some of them may be others than before."""
+        changed = self._is_animated and frame != self.frame
+        self.frame = frame
+        return changed
+
     def texture(self, image, user, report):
         """The number of an image as it is at this frame; None, with a report line, where there is nothing to show."""
         self._users[image.session_uid] = user
+        self._is_animated |= image.source in ("SEQUENCE", "MOVIE")
         key, make = self._source(image, user, report)
         if key is None:
             return None
@@ -78,12 +85,14 @@ class Images:
     def linear(self, image, report):
         """Pixels as (height, width, 4), linear Rec.709, the bottom row first; None where there are none."""
         user = self._users.get(image.session_uid)
-        if image.source == "MOVIE" and user is not None and self.frame is not None:
-            pixels, is_float = pixels_of_frame(image, frame_of(user, self.frame)), image.is_float
-        elif image.source == "SEQUENCE":
+        if image.source == "SEQUENCE":
             pixels, is_float = pixels_of_file(image, path_of(image, user, self.frame))
+        elif not (image.size[0] and image.size[1]):
+            return None
+        elif image.source == "MOVIE" and user is not None and self.frame is not None:
+            pixels, is_float = pixels_of_frame(image, frame_of(user, self.frame)), image.is_float
         else:
-            pixels, is_float = pixels_of(image) if image.size[0] and image.size[1] else None, image.is_float
+            pixels, is_float = pixels_of(image), image.is_float
         return None if pixels is None else _linear(pixels, image, is_float, report)
 
     @staticmethod
@@ -133,8 +142,8 @@ class Images:
         if packed:
             sizes = tuple((number, file.size) for number, file in packed.items())
             name = os.path.basename(path) or f"{image.name}.<UDIM>"
-            tiles = lambda: {number: bytes(file.data) for number, file in packed.items()}  # noqa: E731
-            return ("packed tiles", image.session_uid, sizes), lambda: ({}, {"data": (name, tiles())})
+            key = ("packed tiles", image.session_uid, sizes)
+            return key, lambda: ({}, {"data": (name, {number: bytes(file.data) for number, file in packed.items()})})
         present = [path.replace("<UDIM>", str(tile.number)) for tile in image.tiles]
         if "<UDIM>" not in path or not any(os.path.isfile(tile) for tile in present):
             report.add("Image", image.name, f"no tile of '{path}' was found", severity="ERROR")

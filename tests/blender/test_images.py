@@ -51,6 +51,36 @@ def test_sequences_show_the_frames_picture_without_being_loaded(tmp_path):
 
 
 @pytest.mark.blender
+def test_another_frame_shows_another_picture_in_the_viewport(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, material, quad
+
+    empty()
+    for number in (1, 2):
+        _file(tmp_path / f"{number}.png", (number / 8, 0, 0))
+    image = bpy.data.images.load(str(tmp_path / "1.png"))
+    image.source = "SEQUENCE"
+    made, tree, end = material()
+    node, light = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeEmission")
+    node.image, user = image, node.image_user
+    user.frame_duration, user.frame_start, user.use_auto_refresh = 2, 1, True
+    tree.links.new(node.outputs[0], light.inputs[0])
+    tree.links.new(light.outputs[0], end.inputs["Surface"])
+    mesh = quad()
+    mesh.materials.append(made)
+    link(bpy.data.objects.new("Quad", mesh))
+    export, _ = exporter()
+    bpy.context.scene.frame_set(1)
+    scene = export.sync(depsgraph())
+    assert scene.textures[0]["source"] == {"File": str(tmp_path / "1.png")}
+    assert not export.update(depsgraph()).anything
+    bpy.context.scene.frame_set(2)
+    assert export.update(depsgraph()).shading
+    [lookup] = [n["operation"]["Image"] for n in scene.materials[-1]["graph"]["nodes"] if "Image" in n["operation"]]
+    assert scene.textures[lookup["texture"]]["source"] == {"File": str(tmp_path / "2.png")}
+
+
+@pytest.mark.blender
 def test_sequences_that_only_blender_reads_give_pixels(tmp_path):
     import bpy
     from recorder import empty, material
@@ -70,6 +100,26 @@ def test_sequences_that_only_blender_reads_give_pixels(tmp_path):
     # 0.5 in sRGB.
     assert pixels[4, 4, 0] == pytest.approx(0.216, abs=3e-3) and not report.diagnostics
     assert len(bpy.data.images) == before
+
+
+@pytest.mark.blender
+def test_what_is_missing_is_named_and_never_fails(tmp_path):
+    import bpy
+    from recorder import empty, material
+
+    empty()
+    (tmp_path / "gone.avi").write_bytes(b"no movie")
+    _file(tmp_path / "gone_1.tga", (1, 0, 0), "TARGA")
+    movie, sequence = (bpy.data.images.load(str(tmp_path / name)) for name in ("gone.avi", "gone_1.tga"))
+    movie.source, sequence.source = "MOVIE", "SEQUENCE"
+    _, tree, _ = material()
+    user = tree.nodes.new("ShaderNodeTexImage").image_user
+    user.frame_duration, user.frame_start = 9, 1
+    for image in (movie, sequence):
+        images, scene, report = _images(7)
+        assert images.texture(image, user, report) is None and not scene.textures
+        assert [line.name for line in report.diagnostics] == [image.name]
+        assert images.linear(image, report) is None
 
 
 @pytest.mark.blender

@@ -27,8 +27,8 @@ def _object_normal(t):
 
 
 def _weights(t, n, blend):
-    """The normal as barycentric coordinates in a triangle whose corners are the sides: one side near a corner, two along the edges, three in
-    the middle (Cycles, `svm/image.h`)."""
+    """The normal as barycentric coordinates in a triangle whose corners are the sides, as in Cycles: one side near a corner, two along the
+    edges, three in the middle."""
     limit = 0.5 * (1.0 + blend)
     total = n[0] + n[1] + n[2]
     n = [each / total for each in n]
