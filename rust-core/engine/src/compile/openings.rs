@@ -8,6 +8,10 @@ use gonio_simd::{One, Vec3};
 
 /// What is flat and shines beyond its plane is as thick as this share of its greatest extent.
 const THINNEST: f64 = 0.01;
+/// Of light beyond the plane with less than this share of the peak the thickness is less in proportion: it would only make glare less than it is.
+const STRAY: f64 = 0.01;
+/// But no thinner than this share of the extent.
+const LEAST: f64 = 1e-4;
 /// Directions that decide whether a plane's side is lit lie this far off the plane, radians.
 const OFF_PLANE: f64 = 2e-3;
 /// As many of them.
@@ -81,10 +85,11 @@ fn solid(opening: &Opening, goniogram: Option<&Goniogram>) -> Option<(Opening, b
     opening.size = std::array::from_fn(|k| if k == axis { 0.0 } else { size[k].max(thinnest) });
     let mut behind = [0.0; 3];
     behind[axis] = if axis == 2 { 1.0 } else { -1.0 };
-    if !is_lit(goniogram, behind) {
+    let beyond = brightest(goniogram, behind);
+    if beyond <= 0.0 {
         return Some((opening, true));
     }
-    opening.size[axis] = thinnest;
+    opening.size[axis] = thinnest * (beyond / STRAY).clamp(LEAST / THINNEST, 1.0);
     opening.heights = [opening.size[2]; 4];
     opening.shape = match opening.shape {
         OpeningShape::Rectangle => OpeningShape::Box,
@@ -97,15 +102,21 @@ fn solid(opening: &Opening, goniogram: Option<&Goniogram>) -> Option<(Opening, b
 
 /// Whether a luminaire sends light into the half space that a unit vector points to; without a goniogram it does.
 fn is_lit(goniogram: Option<&Goniogram>, normal: [f64; 3]) -> bool {
-    let Some(goniogram) = goniogram else { return true };
-    let factor = |w: [f64; 3]| goniogram.factor(One, Vec3::splat(One, w.map(|x| x as f32))).to_array()[0];
+    brightest(goniogram, normal) > 0.0
+}
+
+/// The highest intensity in the half space that a unit vector points to, over the peak; 1 without a goniogram.
+fn brightest(goniogram: Option<&Goniogram>, normal: [f64; 3]) -> f64 {
+    let Some(goniogram) = goniogram else { return 1.0 };
+    let factor = |w: [f64; 3]| f64::from(goniogram.factor(One, Vec3::splat(One, w.map(|x| x as f32))).to_array()[0]);
     let along = |w: [f64; 3]| (0..3).map(|k| w[k] * normal[k]).sum::<f64>();
     let [horizontal, vertical] = goniogram.angles();
     let angular_type: AngularType = goniogram.angular_type();
     let direction = |h: &f32, v: &f32| angular_type.direction(f64::from(*h), f64::from(*v));
-    let tabulated = horizontal.iter().any(|h| vertical.iter().map(|v| direction(h, v)).any(|w| along(w) > OFF_PLANE && factor(w) > 0.0));
+    let tabulated = horizontal.iter().flat_map(|h| vertical.iter().map(move |v| direction(h, v))).filter(|w| along(*w) > OFF_PLANE);
     // Between the last dark knot and the first lit one light may still cross the plane.
-    tabulated || (0..AROUND).map(|k| beside(normal, f64::from(k) / f64::from(AROUND))).any(|w| factor(w) > 0.0)
+    let around = (0..AROUND).map(|k| beside(normal, f64::from(k) / f64::from(AROUND)));
+    tabulated.chain(around).map(factor).fold(0.0, f64::max) / f64::from(goniogram.peak()).max(f64::MIN_POSITIVE)
 }
 
 /// A direction that rises a little from the plane across a coordinate axis, at a share of a turn.
