@@ -70,7 +70,7 @@ pub(crate) fn goniogram_figures<'py>(
 /// ceiling, walls and plane, and the ratings `crosswise` (along C0–C180) and `endwise`, a row for each room; None where nothing glares.
 /// spacing: distance of the luminaires over H.
 #[pyfunction]
-#[pyo3(signature = (data, name, *, spacing = photometry::CATALOGUE_SPACING, lamp_set = None, tilt = 0.0))]
+#[pyo3(signature = (data, name, *, spacing = 0.25, lamp_set = None, tilt = 0.0))]
 pub(crate) fn ugr_table<'py>(
     py: Python<'py>,
     data: &[u8],
