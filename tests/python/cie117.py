@@ -81,6 +81,21 @@ class Room:
         exitance = np.linalg.solve(np.eye(len(direct)) - reflectance[:, None] * exchange, reflectance * direct)
         self.radiance = exitance / math.pi
 
+    def glare(self, way, ahead, parts=32):
+        """L² ω / p² of a luminaire this way from the eye, summed over parts of its length: near it each has a place of its own."""
+        total, area = 0.0, self.luminaire.sides[0] * self.luminaire.sides[1] / parts
+        for k in range(parts):
+            part = way + np.array([0.0, ((k + 0.5) / parts - 0.5) * self.luminaire.sides[1], 0.0])
+            r, h = part @ ahead, part[2]
+            t = np.linalg.norm(part - r * ahead - h * np.array([0, 0, 1]))
+            tau, sigma = math.degrees(math.atan2(t, h)), math.degrees(math.atan(math.hypot(h, t) / r))
+            first = (35.2 - 0.31889 * tau - 1.22 * math.exp(-2 * tau / 9)) * 1e-3 * sigma
+            index = math.exp(first + (21 + 0.26667 * tau - 0.002963 * tau**2) * 1e-5 * sigma**2)
+            square = part @ part
+            intensity = float(self.luminaire.intensity(-part[None])[0]) / parts
+            total += intensity**2 / (area * h / math.sqrt(square)) / square / index**2
+        return total
+
     def ugr(self, eye, ahead):
         """The rating, and how many luminaires ahead are left out: H/R above 1.9 or T/R above 3."""
         eye, ahead = np.array(eye, float), np.array(ahead, float)
@@ -96,10 +111,5 @@ class Room:
             if h / r > 1.9 or t / r > 3:
                 left_out += 1
                 continue
-            tau, sigma = math.degrees(math.atan2(t, h)), math.degrees(math.atan(math.hypot(h, t) / r))
-            first = (35.2 - 0.31889 * tau - 1.22 * math.exp(-2 * tau / 9)) * 1e-3 * sigma
-            index = math.exp(first + (21 + 0.26667 * tau - 0.002963 * tau**2) * 1e-5 * sigma**2)
-            square = way @ way
-            area = self.luminaire.sides[0] * self.luminaire.sides[1] * way[2] / math.sqrt(square)
-            total += float(self.luminaire.intensity(-way[None])[0]) ** 2 / area / square / index**2
+            total += self.glare(way, ahead)
         return 8 * math.log10(0.25 / background * total), left_out

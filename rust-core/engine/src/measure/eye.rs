@@ -15,6 +15,8 @@ use crate::{
 use gonio_formats::photometry::NoIndex;
 use gonio_simd::{Execution, Lanes, One, Vec3};
 
+/// The position index at the end of CIE 117's table.
+const LAST_INDEX: f64 = 16.0;
 /// Square metres of luminous area below which a source counts as small (CIE 147).
 const SMALL: f64 = 0.005;
 /// Share of the way to a luminous part that must be free: the luminaire's own housing may begin there.
@@ -59,7 +61,7 @@ impl Eye {
     }
 
     /// Σ L² ω / p² over the parts of a luminaire that nothing opaque hides: L is the luminance towards the eye, p the position index. A luminaire of a
-    /// maker's file is one source with its centre's index (CIE 117); other lights, of any size, are rated part by part. What has no index is left out, and
+    /// maker's file counts or not by its centre (CIE 117); other lights, of any size, part by part. What has no index is left out, and
     /// counted. What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too.
     pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene, coverage: &mut Coverage) -> f64 {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
@@ -70,8 +72,13 @@ impl Eye {
         if is_below(middle, solid_angle(&parts)) {
             parts.iter_mut().filter(|part| part.weight != Err(NoIndex::Behind)).for_each(|part| part.weight = Err(NoIndex::Below));
         } else if luminaire.is_one {
-            let weight = weight(middle);
-            parts.iter_mut().for_each(|part| part.weight = weight);
+            // Near a long one each part has an index of its own; beyond the table's end the last, and below the line of sight the centre's.
+            let of_centre = weight(middle);
+            let of_part = |found| match found {
+                Err(NoIndex::High | NoIndex::Aside) => Ok(LAST_INDEX.powi(-2)),
+                found => found.or(of_centre),
+            };
+            parts.iter_mut().for_each(|part| part.weight = of_centre.and(of_part(part.weight)));
         }
         let area = solid_angle(&parts) * dot(way, way);
         parts.retain(|part| part.strength > 0.0 && part.weight != Err(NoIndex::Behind));

@@ -2,7 +2,7 @@
 
 use super::made::{Random, bytes, coded, hdr, jpeg, png};
 use crate::colour::{ColourSpace, Gamut, Primaries, Stated};
-use crate::texture::{DomeFormat, Image, LatLong, RadianceHeader, TexelFormat, Texels, decode};
+use crate::texture::{DomeFormat, Image, LatLong, RadianceHeader, TexelFormat, Texels, TextureErrorKind, decode};
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, write::WritableImage};
 use exr::math::Vec2;
 use exr::meta::attribute::{Chromaticities, IntegerBounds};
@@ -73,6 +73,21 @@ fn webp_tga_bmp_and_gif() {
     assert_eq!((gif.width, gif.height, gif.channels), (24, 20, 4));
     let expected = picture.pixels().flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2], 255]).collect();
     assert_eq!(gif.texels, Texels::Byte(expected));
+}
+
+#[test]
+fn dds_with_block_compression() {
+    // 8 × 4 texels in two blocks of BC1 between red and blue: all red, all blue.
+    let words = |values: &[u32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+    let header = |four: &[u8; 4]| {
+        let sizes = words(&[124, 0x1007, 4, 8, 0, 0, 0]);
+        [b"DDS ".to_vec(), sizes, vec![0; 44], words(&[32, 4]), four.to_vec(), vec![0; 20], words(&[0x1000, 0, 0, 0, 0])].concat()
+    };
+    let block = |indices: u8| [[0x00, 0xf8, 0x1f, 0x00].as_slice(), &[indices; 4]].concat();
+    let image = decode(&[header(b"DXT1"), block(0), block(0b0101_0101)].concat()).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (8, 4, 3));
+    assert_eq!((image.rgba(0), image.rgba(31)), ([1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]));
+    assert_eq!(decode(&header(b"ATI2")).unwrap_err().kind, TextureErrorKind::Unsupported);
 }
 
 #[test]
