@@ -7,6 +7,7 @@ import environments
 import equal_error
 import measured_by
 import numpy
+import pictured
 import pytest
 import tracer
 import two_rooms
@@ -19,7 +20,7 @@ pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
 MOST_APART = 0.01
 # The noise of the office's mean is below 0.2 % with each of these.
 SAMPLES, PATHS, BATCHES = 1024, 64, 8
-OPTIONS = "-ab 6 -ad 128 -aa 0 -ds .05 -lw 2e-3".split()
+OPTIONS = "-ab 6 -ad 128 -as 0 -aa 0 -ds .05 -lw 2e-3".split()
 
 
 @pytest.fixture(scope="module")
@@ -81,3 +82,16 @@ def test_time_at_equal_error_goes_along_the_front() -> None:
     # What the quickest setting reaches already takes its time.
     assert found["office", 0.1].ratio(CACHED) == pytest.approx(0.5)
     assert ("office", 0.005) not in found
+
+
+def test_figures_come_between_the_markers_and_curves_beside_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page, drawing = tmp_path / "page.md", tmp_path / "curves.svg"
+    monkeypatch.setattr(pictured, "DOCS", page)
+    monkeypatch.setattr(pictured, "DRAWING", drawing)
+    page.write_text(f"before\n{pictured.FIRST_MARKER}\nold\n{pictured.LAST_MARKER}\nafter\n")
+    rows = [made(curve, seconds, error) for curve in (GONIO, TRACED, CACHED) for seconds, error in ((1.0, 0.1), (9.0, 0.02))]
+    for found in ("first", "second"):
+        pictured.write_docs(found, rows)
+        assert page.read_text() == f"before\n{pictured.FIRST_MARKER}\n\n{found}\n\n{pictured.LAST_MARKER}\nafter\n"
+    # A panel a grid, a line a curve.
+    assert drawing.read_text().count("<polyline") == 3 * len(two_rooms.GRIDS)
