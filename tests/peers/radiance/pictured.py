@@ -128,5 +128,6 @@ def write_docs(found: str, rows: list[Row]) -> None:
     page = DOCS.read_text(encoding="utf-8")
     before, rest = page.split(FIRST_MARKER)
     after = rest.split(LAST_MARKER)[1]
-    DOCS.write_text(f"{before}{FIRST_MARKER}\n\n{found}\n\n{LAST_MARKER}{after}", encoding="utf-8")
+    curves = f"![Error against processor time]({DRAWING.name})"
+    DOCS.write_text(f"{before}{FIRST_MARKER}\n\n{curves}\n\n{found}\n\n{LAST_MARKER}{after}", encoding="utf-8")
     DRAWING.write_text(drawn(rows), encoding="utf-8")
