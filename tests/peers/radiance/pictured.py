@@ -81,7 +81,7 @@ def agreements(reference: Reference) -> str:
         found = reference.agreements[grid.name]
         means = f"{found.ours:.2f} ± {found.our_error:.2f}", f"{found.theirs:.2f} ± {found.their_error:.2f}"
         apart = f"{found.apart:.1f} of {found.most:.1f}" + ("" if found.holds else " **no**")
-        left = f"{reference.errors[grid.name]:.2%}"
+        left = percent(reference.errors[grid.name], ".2f")
         lines.append([grid.name, str(len(grid.points())), *means, apart, f"{found.chi:.2f}", left])
     return table(head, lines, 1)
 
@@ -92,7 +92,7 @@ def runs(rows: list[Row]) -> str:
     head = ["engine", "setting", *(f"error, {name}" for name in names), *(f"mean, {name}" for name in names), "processor s"]
     lines = []
     for row in rows:
-        figures = [f"{row.errors[name]:.2%}" for name in names] + [f"{row.biases[name]:+.2%}" for name in names]
+        figures = [percent(row.errors[name], ".2f") for name in names] + [percent(row.biases[name], "+.2f") for name in names]
         lines.append([row.setting.curve, f"`{row.setting.options}`", *figures, f"{row.seconds:.2f}"])
     return table(head, lines, 2)
 
@@ -103,8 +103,13 @@ def at_equal_error(equals: list[Equal]) -> str:
     lines = []
     for equal in equals:
         seconds = [figure(equal.seconds[curve], ".2f") for curve in COLOURS]
-        lines.append([equal.grid, f"{equal.error:.1%}", *seconds, *(figure(equal.ratio(curve), ".2g") for curve in (TRACED, CACHED))])
+        lines.append([equal.grid, percent(equal.error, "g"), *seconds, *(figure(equal.ratio(curve), ".2g") for curve in (TRACED, CACHED))])
     return table(head, lines, 2)
+
+
+def percent(value: float, form: str) -> str:
+    """A share in per cent."""
+    return f"{format(100 * value, form)} %"
 
 
 def figure(value: float | None, form: str) -> str:
@@ -123,5 +128,6 @@ def write_docs(found: str, rows: list[Row]) -> None:
     page = DOCS.read_text(encoding="utf-8")
     before, rest = page.split(FIRST_MARKER)
     after = rest.split(LAST_MARKER)[1]
-    DOCS.write_text(f"{before}{FIRST_MARKER}\n\n{found}\n\n{LAST_MARKER}{after}", encoding="utf-8")
+    curves = f"![Error against processor time]({DRAWING.name})"
+    DOCS.write_text(f"{before}{FIRST_MARKER}\n\n{curves}\n\n{found}\n\n{LAST_MARKER}{after}", encoding="utf-8")
     DRAWING.write_text(drawn(rows), encoding="utf-8")

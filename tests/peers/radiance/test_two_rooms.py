@@ -3,10 +3,12 @@
 import os
 from pathlib import Path
 
+import bench
 import environments
 import equal_error
 import measured_by
 import numpy
+import pictured
 import pytest
 import tracer
 import two_rooms
@@ -19,7 +21,18 @@ pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
 MOST_APART = 0.01
 # The noise of the office's mean is below 0.2 % with each of these.
 SAMPLES, PATHS, BATCHES = 1024, 64, 8
-OPTIONS = "-ab 6 -ad 128 -aa 0 -ds .05 -lw 2e-3".split()
+OPTIONS = "-ab 6 -ad 128 -as 0 -aa 0 -ds .05 -lw 2e-3".split()
+
+
+@pytest.fixture(scope="module")
+def python() -> Path:
+    """A Python that has pyradiance."""
+    try:
+        named = Path(os.environ.get("GONIO_PEER_RADIANCE") or environments.python_of("radiance"))
+        measured_by.packaged(named)
+    except (environments.Unavailable, measured_by.Unavailable) as reason:
+        pytest.skip(f"no pyradiance: {reason}")
+    return named
 
 
 @pytest.fixture(scope="module")
@@ -29,14 +42,23 @@ def ours(tmp_path_factory: pytest.TempPathFactory) -> dict[str, float]:
     return {name: float(part.mean()) for name, part in two_rooms.each_grid(found.lux).items()}
 
 
-def test_the_office_has_radiances_mean(ours: dict[str, float], tmp_path: Path) -> None:
-    try:
-        python = os.environ.get("GONIO_PEER_RADIANCE") or environments.python_of("radiance")
-        peer = measured_by.radiance(Path(python), tmp_path)
-    except (environments.Unavailable, measured_by.Unavailable) as reason:
-        pytest.skip(f"no pyradiance: {reason}")
+def test_the_office_has_radiances_mean(ours: dict[str, float], python: Path, tmp_path: Path) -> None:
+    peer = measured_by.radiance(python, tmp_path)
     office = two_rooms.each_grid(peer.measure(OPTIONS).lux)["office"].mean()
     assert ours["office"] == pytest.approx(office, rel=MOST_APART)
+
+
+def test_the_bench_runs_through(python: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    sizes = "--rounds 1 --most-samples 16 --most-settings 1 --reference-samples 64 --reference-seeds 4 --tracer-paths 64"
+    monkeypatch.setattr("sys.argv", ["bench.py", *sizes.split()])
+    monkeypatch.setattr(bench, "OUT", tmp_path)
+    monkeypatch.setenv("GONIO_PEER_RADIANCE", str(python))
+    # So small a reference need not agree.
+    assert bench.main() in (0, 1)
+    said = capsys.readouterr().out
+    for curve in (GONIO, TRACED, CACHED):
+        assert f"| {curve} | `" in said
+    assert (tmp_path / "radiance.svg").exists()
 
 
 def test_both_rooms_have_the_tracers_means(ours: dict[str, float]) -> None:
@@ -81,3 +103,17 @@ def test_time_at_equal_error_goes_along_the_front() -> None:
     # What the quickest setting reaches already takes its time.
     assert found["office", 0.1].ratio(CACHED) == pytest.approx(0.5)
     assert ("office", 0.005) not in found
+
+
+def test_figures_come_between_the_markers_and_curves_beside_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page, drawing = tmp_path / "page.md", tmp_path / "curves.svg"
+    monkeypatch.setattr(pictured, "DOCS", page)
+    monkeypatch.setattr(pictured, "DRAWING", drawing)
+    page.write_text(f"before\n{pictured.FIRST_MARKER}\nold\n{pictured.LAST_MARKER}\nafter\n")
+    rows = [made(curve, seconds, error) for curve in (GONIO, TRACED, CACHED) for seconds, error in ((1.0, 0.1), (9.0, 0.02))]
+    curves = "![Error against processor time](curves.svg)"
+    for found in ("first", "second"):
+        pictured.write_docs(found, rows)
+        assert page.read_text() == f"before\n{pictured.FIRST_MARKER}\n\n{curves}\n\n{found}\n\n{pictured.LAST_MARKER}\nafter\n"
+    # A panel a grid, a line a curve.
+    assert drawing.read_text().count("<polyline") == 3 * len(two_rooms.GRIDS)
