@@ -221,7 +221,6 @@ mod tests {
     use crate::intersect::scalar::Scalar;
     use crate::intersect::transform::Affine;
     use crate::intersect::wide::Wide;
-    use fearless_simd::Level;
     use gonio_simd::dispatch_level;
 
     /// Starts, directions and ends: axes, ties, both zeros, what is too small, too large, not finite, or ends before it begins.
@@ -255,7 +254,7 @@ mod tests {
             let alone = Scalar.prepare(origin, direction, t_min, t_max);
             of_use += usize::from(alone.is_some());
             let image = alone.and_then(|ray| Scalar.image(&map, &ray, t_max));
-            for level in [Level::new(), Level::baseline()] {
+            for level in crate::tests::levels() {
                 let lanes = dispatch_level!(level, simd => Wide(simd).prepare(origin, direction, t_min, t_max));
                 let lanes_image = alone.and_then(|ray| dispatch_level!(level, simd => Wide(simd).image(&map, &ray, t_max)));
                 assert_eq!(bits(lanes), bits(alone), "{level:?} {origin:?} {direction:?}");
@@ -274,7 +273,7 @@ mod tests {
             let Some(ray) = Scalar.prepare(origin, direction, t_min, t_max) else { continue };
             let image = Scalar.image(&map, &ray, t_max);
             of_use += usize::from(image.is_some());
-            for level in [Level::new(), Level::baseline()] {
+            for level in crate::tests::levels() {
                 let mut shifted = PreparedRay { direction, ..PreparedRay::NOTHING };
                 let may_hit = dispatch_level!(level, simd => shifted.shift(simd, &ray, map.translation(simd), t_max));
                 assert_eq!(bits(may_hit.then_some(shifted)), bits(image), "{level:?} {origin:?} {direction:?}");

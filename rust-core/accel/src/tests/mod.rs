@@ -135,16 +135,13 @@ fn scene(meshes: Vec<Arc<Blas>>, instances: &[Instance]) -> Tlas {
     scene
 }
 
-/// Every level of this machine.
-fn levels() -> Vec<Level> {
-    let level = Level::new();
-    let mut levels = vec![level];
-    #[cfg(target_arch = "x86_64")]
-    {
-        levels.extend(level.as_avx2().filter(|_| level.as_avx512().is_some()).map(Level::Avx2));
-        levels.extend(level.as_sse4_2().filter(|_| level.as_avx2().is_some()).map(Level::Sse4_2));
-    }
-    levels
+/// Every SIMD level of this machine that is built.
+pub(crate) fn levels() -> Vec<Level> {
+    let vector = |execution| match execution {
+        Execution::Vector(level) => Some(level),
+        Execution::Scalar => None,
+    };
+    Execution::all().into_iter().filter_map(vector).collect()
 }
 
 fn first_hits(scene: &Tlas, level: Level, rays: &OwnedRays) -> Hits {

@@ -160,7 +160,6 @@ impl<S: Simd> Group<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Level;
     use gonio_simd::dispatch_level;
 
     /// What the tests of boxes and triangles read of a ray.
@@ -203,7 +202,7 @@ mod tests {
         let of = |lane: usize| (directions[lane % 6], [lane as f32 - 7.5, 0.0, 1e3 * lane as f32]);
         let origin = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).1[axis]));
         let direction = [0, 1, 2].map(|axis| std::array::from_fn(|lane| of(lane).0[axis]));
-        for level in [Level::new(), Level::baseline()] {
+        for level in crate::tests::levels() {
             let singles = dispatch_level!(level, simd => singles(simd, &origin, &direction));
             for (lane, single) in singles.iter().enumerate() {
                 let ([dx, dy, dz], [x, y, z]) = of(lane);
