@@ -11,6 +11,8 @@ use std::collections::HashMap;
 
 /// Metres from row to row of the section, and along a row from one look at the next row to another.
 const STEP: f64 = 0.1;
+/// Share of a step by which rows lie beside the place: walls stand at round numbers of centimetres, and a row within a wall would see past it.
+const BESIDE: f64 = 0.1372;
 /// Share of the way from the place to the ceiling at which the section lies: above doors, windows and furniture.
 const SECTION: f64 = 0.9;
 /// Most looks: those of a hall of 200 m by 200 m.
@@ -51,7 +53,8 @@ impl Room {
         let [x, y, z] = self.axes.map(|axis| dot(axis, subtract(place, self.place)));
         let [above, below] = REACH;
         // The rows on both sides, since a wall may stand between them.
-        let mut rows = [(y / STEP).floor(), (y / STEP).ceil()].into_iter().filter_map(|row| self.rows.get(&(row as i64))).flatten();
+        let row = y / STEP - BESIDE;
+        let mut rows = [row.floor(), row.ceil()].into_iter().filter_map(|row| self.rows.get(&(row as i64))).flatten();
         z > -below && z < self.height + above && rows.any(|[from, to]| x > from - AT_WALL && x < to + AT_WALL)
     }
 
@@ -59,7 +62,7 @@ impl Room {
     fn at(&self, x: f64, row: i64) -> Vector {
         let [along, across, up] = self.axes;
         let level = add(self.place, scaled(up, SECTION * self.height));
-        add(level, add(scaled(along, x), scaled(across, row as f64 * STEP)))
+        add(level, add(scaled(along, x), scaled(across, (row as f64 + BESIDE) * STEP)))
     }
 
     /// Row by row from the place on; none where a row has no end.
