@@ -100,14 +100,14 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     }
     /// Where some lobe is not a delta, so that lights can be sampled for it; and where every lobe there is is one, as in mirrors and clear glass.
     #[inline(always)]
-    pub fn smoothness(&self, l: L) -> [M<L>; 2] {
-        let (mut smooth, mut specular) = (l.m(false), l.m(false));
+    pub fn specularity(&self, l: L) -> [M<L>; 2] {
+        let (mut non_specular, mut specular) = (l.m(false), l.m(false));
         for slot in self.slots[..self.count].iter().flatten() {
             let (present, delta) = (slot.share.gt(0.0), slot.delta(l));
-            smooth |= present.and_not(delta);
+            non_specular |= present.and_not(delta);
             specular |= present & delta;
         }
-        [smooth, specular.and_not(smooth)]
+        [non_specular, specular.and_not(non_specular)]
     }
     /// Estimate of the directional albedo of all lobes together, for the albedo pass.
     #[inline(always)]

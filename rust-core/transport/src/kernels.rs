@@ -1,4 +1,4 @@
-//! The large kernels as functions of their own, never inlined: BSDF sampling, light sampling, surface points, shading programs.
+//! The large kernels that several stages call, as functions of their own that are never inlined: BSDF sampling, light sampling, surface points, shading programs.
 //!
 //! Inlined at every call they would make stages of a hundred thousand instructions, which compile for minutes and run no faster: a call costs
 //! nanoseconds where a register's worth of shading costs microseconds. Each enables its level's instructions again.

@@ -7,7 +7,7 @@ use std::time::Instant;
 pub enum Stage {
     /// Camera rays.
     Generate,
-    /// Nearest hits, and the light of lights among them.
+    /// Nearest hits, the light of lights among them, closures and the sort.
     Intersect,
     /// Surface points.
     Surface,
@@ -15,7 +15,7 @@ pub enum Stage {
     Graph,
     /// Lobes, next event estimation and scattering.
     Shade,
-    /// Walks under surfaces, and shadow rays.
+    /// Walks under surfaces, measured points and shadow rays; of sensors' first batch they count as generation.
     Shadow,
 }
 

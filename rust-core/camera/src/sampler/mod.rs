@@ -36,6 +36,6 @@ pub mod dimension {
     pub const LOBE: u32 = 3;
     /// Choice of the closure, within a bounce.
     pub const CLOSURE: u32 = 7;
-    /// Added for the paths that measure illuminance.
+    /// Added for the paths that measure illuminance, and for walks that come out of surfaces.
     pub const MEASURE: u32 = 4;
 }

@@ -18,7 +18,7 @@ pub struct Deposits {
     pub arrivals: Option<Vec<Arrival>>,
 }
 
-/// One register of light that paths found or sampled, clamped.
+/// One register of light that paths found or sampled, clamped; what measured points are sent at once is not.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution<L: Lanes> {
     /// Where it goes: a pixel's slot, a measured point's, or a half's at shadow catchers.

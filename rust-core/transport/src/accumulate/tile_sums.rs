@@ -25,7 +25,7 @@ pub struct TileSums {
     pub albedo: Columns3,
     /// Albedo and normal for denoisers.
     pub guides: [Columns3; 2],
-    /// Instance sets; of the block's first sample that met one, plus one, zero for none.
+    /// Instance sets (Hydra's primId, not triangles); of the block's first sample that met one, plus one, zero for none.
     pub prim_id: Column<u32>,
     /// Pass indices of instances and of materials, kept like `prim_id`.
     pub object_index: Column<u32>,

@@ -3,7 +3,7 @@
 //! In go a tile's pixels and the samples of a batch, out come the sums of the [`Workspace`]. Stages are in `stage`, one file each.
 
 use crate::schedule::path::{self, PathIntegrator};
-use crate::schedule::wavefront;
+use crate::schedule::steps;
 use crate::schedule::whitted::{self, WhittedIntegrator};
 use crate::stage::generate::{TileArea, generate, generate_at};
 use crate::stage::integrator::Integrator;
@@ -106,10 +106,10 @@ impl Tracer<'_> {
                     start_sensors(l, sensors, sampler, area, runs, &mut queues.measure, &mut queues.next);
                 });
                 let context = SampleContext { sampler: *sampler, runs, depth: 0 };
-                wavefront::measure(self, integrator, &context, ws);
-                wavefront::trace_shadows(self, true, ws);
+                steps::measure(self, integrator, &context, ws);
+                steps::trace_shadows(self, true, ws);
                 std::mem::swap(&mut ws.paths, &mut ws.queues.next);
-                wavefront::set_masks(self.tables, &mut ws.paths);
+                steps::set_masks(self.tables, &mut ws.paths);
                 1
             }
         };

@@ -108,7 +108,7 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
         add(&mut sums.alpha, pixel, point.share, caught);
     }
     let direction = -point.wo;
-    let from = chunk.paths.vertex(l, point.path);
+    let from = chunk.paths.previous(l, point.path);
     let Some((coverage, behind)) = &mut sums.catchers.sums else { return };
     if !transport.environment_covers {
         add(coverage, pixel, point.share, caught);

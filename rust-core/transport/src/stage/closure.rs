@@ -93,14 +93,14 @@ fn choose_chunk<L: Lanes>(
         let [u, _] = context.sampler.pair(l, index, dimension);
         let mut total = l.f(0.0);
         for closure in 0..mix.count {
-            total += share(weight(l, outputs, closure, at));
+            total += likelihood(weight(l, outputs, closure, at));
         }
         let mut point = u * total;
         let (mut chosen, mut factor) = (l.u(0), Spectrum::zero(l));
         let mut found = l.m(false);
         for closure in 0..mix.count {
             let weight = weight(l, outputs, closure, at);
-            let own = share(weight);
+            let own = likelihood(weight);
             let here = point.lt(own).and_not(found) & own.gt(0.0);
             chosen = here.select(l.u(closure as u32), chosen);
             factor = here.select(weight * (total / own.max(1e-20)), factor);
@@ -125,6 +125,6 @@ pub(crate) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at
 
 /// How likely a closure is taken, up to a factor.
 #[inline(always)]
-pub(crate) fn share<L: Lanes>(weight: Spectrum<L>) -> F<L> {
+pub(crate) fn likelihood<L: Lanes>(weight: Spectrum<L>) -> F<L> {
     weight.sum()
 }

@@ -1,7 +1,7 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths, VertexLanes};
+use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
@@ -31,8 +31,8 @@ pub fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.count = 0;
-    for [slot, code, sample] in runs.registers(L::COUNT) {
-        let pixel = l.iota() + code;
+    for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
+        let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
         let inside = (x + area.min[0]).lt(area.max[0]) & (y + area.min[1]).lt(area.max[1]);
         if !inside.any() {
@@ -78,7 +78,7 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
 fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
     PathLanes {
         ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
-        from: VertexLanes { position: ray.origin, normal: ray.direction },
+        from: PreviousLanes { position: ray.origin, normal: ray.direction },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width: ray.width,

@@ -11,13 +11,13 @@ use crate::tables::material::SurfaceMaterial;
 use gonio_bsdf::Lobes;
 use gonio_simd::Lanes;
 
-/// An estimator of light transport. Schedules choose it; stages never ask which one it is.
+/// The part of a schedule that shades, one for each [`crate::tables::transport::Estimator`]. Stages never ask which one it is.
 pub(crate) trait Integrator {
     /// Whether light that enters a surface walks under it.
     const WALKS: bool;
 
     /// Most shadow rays that a hit sends.
-    fn rays_per_hit(&self) -> usize;
+    fn shadow_rays_per_hit(&self) -> usize;
 
     /// Lights a register of points and sends rays on.
     #[expect(clippy::too_many_arguments, reason = "a surface, and what lighting it fills")]

@@ -10,7 +10,7 @@ use crate::kernels::{self, LightHit};
 use crate::state::columns::gather3;
 use crate::state::flag;
 use crate::state::nearest::NearestHits;
-use crate::state::paths::{CarriedLanes, Paths, TrackLanes, VertexLanes};
+use crate::state::paths::{CarriedLanes, Paths, PreviousLanes, TrackLanes};
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_accel::NONE;
@@ -85,7 +85,7 @@ fn add_shapes<L: Lanes>(
         let instance = l.gather_integers(&hits.instance, path);
         let light = l.gather_integers(&tables.instance_light, instance - tables.first_light_instance);
         let direction = paths.cone(l, path).direction;
-        let from = paths.vertex(l, path);
+        let from = paths.previous(l, path);
         let point = direction.mul_add(l.gather(&hits.t, path), gather3(l, &paths.rays.origin, path));
         let hit = LightHit { light, from: from.position, normal: from.normal, direction, point };
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
@@ -149,15 +149,16 @@ fn add_environment<L: Lanes>(
         let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
         if transport.environment_covers {
+            // The pdf of camera rays is their share of the sample.
             add(&mut deposits.sums.alpha, slot, pdf, alive & camera);
         }
         let alive = if transport.shows_environment { alive } else { alive.and_not(camera) };
         let delta = (flags & flag::DELTA).ne(0);
-        let VertexLanes { position, normal } = paths.vertex(l, path);
+        let PreviousLanes { position, normal } = paths.previous(l, path);
         let from = [position, normal];
         let direction = paths.cone(l, path).direction;
-        let (light_cache, first) = (transport.light_cache.as_deref(), [camera, delta]);
-        let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, None) * throughput;
+        let (light_cache, camera_and_delta) = (transport.light_cache.as_deref(), [camera, delta]);
+        let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None) * throughput;
         let value = clamped(unclamped, transport.limits.clamp(depth));
         let (code, specular) = (code_of_found(flags, code::ENVIRONMENT), is_specular_path(flags, slot));
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
@@ -166,7 +167,9 @@ fn add_environment<L: Lanes>(
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
-                let value = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, first, Some(number)) * throughput * share;
+                let value = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number))
+                    * throughput
+                    * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
                 deposits.deposit_to_group(&transport.passes.groups, &part, counted & value.is_lit());
             }

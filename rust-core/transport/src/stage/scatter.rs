@@ -23,7 +23,7 @@ pub(crate) fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Verte
     }
     let state = PathLanes {
         ray: point.at.spawn_ray(-point.wo),
-        from: chunk.paths.vertex(chunk.l, point.path),
+        from: chunk.paths.previous(chunk.l, point.path),
         throughput: point.throughput,
         pdf: point.pdf,
         width: point.width,
@@ -108,16 +108,16 @@ pub(crate) fn scatter<L: Lanes>(
         return;
     }
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
-    let measured = (point.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
+    let non_specular = (point.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
-    let scattered = delta | measured | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let scattered = delta | non_specular | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
     if straight.any() {
-        let before = chunk.paths.vertex(l, point.path);
+        let before = chunk.paths.previous(l, point.path);
         from.position = straight.select(before.position, from.position);
         from.normal = straight.select(before.normal, from.normal);
         pdf = straight.select(point.pdf, pdf);
@@ -130,7 +130,7 @@ pub(crate) fn scatter<L: Lanes>(
         width: point.width,
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,
-        flags: straight.select(point.flags | measured, scattered),
+        flags: straight.select(point.flags | non_specular, scattered),
         counts: point.counts + straight.select(l.u(1 << 24), counted),
         medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
     };

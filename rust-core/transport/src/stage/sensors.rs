@@ -6,7 +6,7 @@
 use crate::stage::generate::TileArea;
 use crate::state::columns::gather3;
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths, VertexLanes};
+use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
@@ -107,8 +107,8 @@ pub(crate) fn start_sensors<L: Lanes>(
     paths: &mut Paths,
 ) {
     (paths.count, points.count) = (0, 0);
-    for [slot, code, sample] in runs.registers(L::COUNT) {
-        let (slot, pixel) = (l.iota() + slot, l.iota() + code);
+    for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
+        let (slot, pixel) = (l.iota() + slot, l.iota() + first_pixel);
         let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
         let sensor = ((y >> sensors.side_log2) << sensors.across_log2) + (x >> sensors.side_log2);
         let inside = x.lt(area.max[0]) & y.lt(area.max[1]) & sensor.lt(sensors.count);
@@ -133,7 +133,7 @@ pub(crate) fn start_sensors<L: Lanes>(
         points.append(&point, inside.and_not(looks));
         let state = PathLanes {
             ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-            from: VertexLanes { position, normal },
+            from: PreviousLanes { position, normal },
             throughput: Spectrum::one(l),
             pdf: l.f(1.0),
             width: l.f(0.0),

@@ -131,7 +131,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     deposits: &mut Deposits,
 ) -> [M<L>; 2] {
     let transport = chunk.transport;
-    let [smooth, all_delta] = lobes.smoothness(chunk.l);
+    let [non_specular, all_delta] = lobes.specularity(chunk.l);
     point.all_delta = all_delta;
     add_guides(transport, point, lobes, present, &mut deposits.sums);
     // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
@@ -148,7 +148,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
         };
         points.append(&measured, going_on.and_not(all_delta) & is_specular_path(point.flags, point.slot));
     }
-    [smooth, going_on]
+    [non_specular, going_on]
 }
 
 /// Adds emission and first-surface AOVs; returns the lanes that are there, holdouts left out.
@@ -195,7 +195,7 @@ fn add_emission<L: Lanes>(
         let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
         if sampled.any() {
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(sampled);
-            let from = chunk.paths.vertex(l, point.path);
+            let from = chunk.paths.previous(l, point.path);
             let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.at.position };
             let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
             value = value * hit_weight(point.pdf, pdf, sampled);

@@ -62,18 +62,18 @@ pub(crate) fn walk(
 }
 
 /// The random numbers of a step: two pairs beyond those of all surfaces.
-fn step_dimension(context: &SampleContext<'_>, step: u32) -> u32 {
-    (1 << 16) + (context.depth * MAXIMUM_STEPS + step) * 2
+fn step_dimension(sample: &SampleContext<'_>, step: u32) -> u32 {
+    (1 << 16) + (sample.depth * MAXIMUM_STEPS + step) * 2
 }
 
 #[inline(always)]
-fn random<L: Lanes>(l: L, context: &SampleContext<'_>, slot: U<L>, dimension: u32) -> [F<L>; 2] {
-    context.sampler.pair(l, context.index(l, slot), dimension)
+fn random<L: Lanes>(l: L, sample: &SampleContext<'_>, slot: U<L>, dimension: u32) -> [F<L>; 2] {
+    sample.sampler.pair(l, sample.index(l, slot), dimension)
 }
 
 /// Draws the length of every walk's next flight.
 #[inline(always)]
-fn sample_flights<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks) {
+fn sample_flights<L: Lanes>(l: L, sample: &SampleContext<'_>, step: u32, walks: &mut Walks) {
     for at in (0..walks.count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
         if step == REDUCED_FROM {
@@ -82,7 +82,7 @@ fn sample_flights<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks:
             walks.extinction.store(walk.medium.extinction, at);
             walk.medium.anisotropy.store(&mut walks.anisotropy, at);
         }
-        let u = random(l, context, walk.slot, step_dimension(context, step));
+        let u = random(l, sample, walk.slot, step_dimension(sample, step));
         let flight = walk.medium.flight(walk.throughput, u);
         flight.distance.store(&mut walks.rays.t_max, at);
         walks.channels.store(flight.channels, at);
@@ -184,7 +184,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
 
 /// Scatters the walks that are still inside and closes the ranks.
 #[inline(always)]
-fn scatter_walks<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: &mut Walks, hits: &Hits) {
+fn scatter_walks<L: Lanes>(l: L, sample: &SampleContext<'_>, step: u32, walks: &mut Walks, hits: &Hits) {
     let count = walks.count;
     walks.count = 0;
     for at in (0..count).step_by(L::COUNT) {
@@ -193,7 +193,7 @@ fn scatter_walks<L: Lanes>(l: L, context: &SampleContext<'_>, step: u32, walks: 
         let inside = lit.and_not(surface_mask(l, hits, at, count));
         walk.ray.origin = walk.ray.direction.mul_add(walk.ray.t_max, walk.ray.origin);
         walk.ray.t_min = l.f(0.0);
-        let u = random(l, context, walk.slot, step_dimension(context, step) + 1);
+        let u = random(l, sample, walk.slot, step_dimension(sample, step) + 1);
         walk.ray.direction = walk.medium.scatter(walk.ray.direction, u);
         // What is appended lies at or before what was just read.
         walks.append(&walk, inside);

@@ -4,7 +4,7 @@
 pub(crate) const CAMERA: u32 = 1;
 /// The last scattering was specular (a delta lobe), so next event estimation has no share and the MIS weight is 1.
 pub(crate) const DELTA: u32 = 2;
-/// A surface that is not a mirror has been met.
+/// A surface that is neither mirror nor smooth glass has been met.
 pub(crate) const NON_SPECULAR_SEEN: u32 = 4;
 /// Above this bit, two bits: what the last scattering was, see [`event`].
 pub(crate) const LAST_SHIFT: u32 = 3;

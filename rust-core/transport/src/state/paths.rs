@@ -21,7 +21,7 @@ pub struct Paths {
     pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Previous vertices: items of points and of normals, the fourth word unused, see [`VertexLanes`].
+    /// Previous vertices: items of points and of normals, the fourth word unused, see [`PreviousLanes`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -33,8 +33,9 @@ pub struct Paths {
 pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
     /// The vertex that the ray leaves.
-    pub(crate) from: VertexLanes<L>,
+    pub(crate) from: PreviousLanes<L>,
     pub(crate) throughput: Spectrum<L>,
+    /// As in [`CarriedLanes`].
     pub(crate) pdf: F<L>,
     pub(crate) width: F<L>,
     pub(crate) spread: F<L>,
@@ -60,9 +61,9 @@ pub(crate) struct ConeLanes<L: Lanes> {
     pub(crate) width: F<L>,
 }
 
-/// The previous vertex of paths: NEE sampled lights from there, so MIS asks for its pdf from there.
+/// The previous vertex of paths (pbrt's `LightSampleContext`): NEE sampled lights from there, so MIS asks for its pdf from there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct VertexLanes<L: Lanes> {
+pub(crate) struct PreviousLanes<L: Lanes> {
     pub(crate) position: Vec3<L>,
     pub(crate) normal: Vec3<L>,
 }
@@ -133,8 +134,8 @@ impl Paths {
 
     /// The previous vertices of some paths.
     #[inline(always)]
-    pub(crate) fn vertex<L: Lanes>(&self, l: L, path: U<L>) -> VertexLanes<L> {
-        VertexLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
+    pub(crate) fn previous<L: Lanes>(&self, l: L, path: U<L>) -> PreviousLanes<L> {
+        PreviousLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
     }
 
     /// Slots, flags, bounce counts and cone growth of some paths.

@@ -1,7 +1,7 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
-use crate::state::paths::VertexLanes;
+use crate::state::paths::PreviousLanes;
 use crate::state::rays::RayLanes;
 use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
@@ -39,8 +39,8 @@ impl<L: Lanes> Interaction<L> {
 
     /// What the next vertex's MIS weight needs of this one.
     #[inline(always)]
-    pub(crate) fn as_previous(&self) -> VertexLanes<L> {
-        VertexLanes { position: self.position, normal: self.frame.z }
+    pub(crate) fn as_previous(&self) -> PreviousLanes<L> {
+        PreviousLanes { position: self.position, normal: self.frame.z }
     }
 }
 

@@ -34,14 +34,14 @@ impl SurfaceMaterial {
     }
 }
 
-/// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight.
+/// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight; trees of rays shade all.
 #[derive(Clone, Debug)]
 pub struct Mix {
     /// Number of the first closure among the surfaces.
     pub first: u32,
     /// Closures.
     pub count: usize,
-    /// What computes the weights: output `i` is the colour of closure `i`.
+    /// What computes the weights: output `i` is the weight of closure `i`, a colour.
     pub program: Program,
     /// Whether any closure may let straight light pass.
     pub transparent: bool,

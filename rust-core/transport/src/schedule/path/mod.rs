@@ -4,8 +4,8 @@ mod surface;
 
 pub(crate) use surface::PathIntegrator;
 
+use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::Tracer;
-use crate::schedule::wavefront::{self, MOST_DEPTH};
 use crate::stage::catcher;
 use crate::stage::closure::choose_closures;
 use crate::stage::sort::sort_by_material;
@@ -25,7 +25,7 @@ pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: 
         follow_bounce(tracer, &SampleContext { sampler, runs, depth }, ws, cancelled);
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         catcher::join(tracer.tables, &mut ws.paths);
-        wavefront::set_masks(tracer.tables, &mut ws.paths);
+        steps::set_masks(tracer.tables, &mut ws.paths);
     }
 }
 
@@ -33,16 +33,16 @@ pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: 
 fn follow_bounce(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
     let Tracer { tables, transport, .. } = tracer;
     let time = Instant::now();
-    wavefront::intersect(tracer, sample.depth, ws);
+    steps::intersect(tracer, sample.depth, ws);
     choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk);
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);
     ws.queues.next.count = 0;
-    wavefront::shade(tracer, &PathIntegrator, sample, ws);
+    steps::shade(tracer, &PathIntegrator, sample, ws);
     let time = Instant::now();
     let context = WalkContext { tables, transport, sample, paths: &ws.paths };
     ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
-    wavefront::measure(tracer, &PathIntegrator, sample, ws);
-    wavefront::trace_shadows(tracer, sample.depth == 0, ws);
+    steps::measure(tracer, &PathIntegrator, sample, ws);
+    steps::trace_shadows(tracer, sample.depth == 0, ws);
     ws.statistics.spent(Stage::Shadow, time);
 }

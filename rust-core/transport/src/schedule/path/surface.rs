@@ -26,7 +26,7 @@ pub(crate) struct PathIntegrator;
 impl Integrator for PathIntegrator {
     const WALKS: bool = true;
 
-    fn rays_per_hit(&self) -> usize {
+    fn shadow_rays_per_hit(&self) -> usize {
         1
     }
 
@@ -53,9 +53,9 @@ impl Integrator for PathIntegrator {
             point.alive
         };
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
-        let [smooth, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
+        let [non_specular, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
-        if (smooth & going_on).any() && !tables.lights.is_empty() {
+        if (non_specular & going_on).any() && !tables.lights.is_empty() {
             if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {
                 let sample = sample_queued(chunk, at, &mut queues.light_samples);
                 queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), going_on, &mut queues.shadows, deposits);

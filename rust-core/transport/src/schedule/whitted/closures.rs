@@ -1,7 +1,7 @@
 //! Materials that are sums of closures: all of them are shaded, one after the other, each with its weight.
 
 use crate::kernels;
-use crate::stage::closure::{MixChunk, for_mixes, share, weight};
+use crate::stage::closure::{MixChunk, for_mixes, likelihood, weight};
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::material_order::MaterialOrder;
@@ -83,11 +83,11 @@ fn select_chunk<L: Lanes>(
         let path = l.load_integers(order, at);
         let mut total = l.f(0.0);
         for one in 0..mix.count {
-            total += share(weight(l, &columns.outputs, one, at));
+            total += likelihood(weight(l, &columns.outputs, one, at));
         }
         let own = weight(l, &columns.outputs, closure, at);
         let (throughput, camera_share) = whole.undivided.carried.gather(l, path);
-        let part = camera_share * (share(own) / total.max(1e-20));
+        let part = camera_share * (likelihood(own) / total.max(1e-20));
         let numbers = &path.to_array()[..L::COUNT.min(count - at)];
         paths.carried.scatter(throughput * own, part, numbers);
         for (path, part) in numbers.iter().zip(part.to_array()) {

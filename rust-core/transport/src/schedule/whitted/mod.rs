@@ -12,8 +12,8 @@ mod surface;
 
 pub(crate) use surface::WhittedIntegrator;
 
+use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::Tracer;
-use crate::schedule::wavefront::{self, MOST_DEPTH};
 use crate::stage::catcher;
 use crate::stage::sort::sort_by_material;
 use crate::state::sample::SampleContext;
@@ -47,7 +47,7 @@ pub(crate) fn follow(
             None => return,
         }
         catcher::join(tracer.tables, &mut ws.paths);
-        wavefront::set_masks(tracer.tables, &mut ws.paths);
+        steps::set_masks(tracer.tables, &mut ws.paths);
     }
 }
 
@@ -55,17 +55,17 @@ pub(crate) fn follow(
 fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let start = Instant::now();
-    wavefront::intersect(tracer, sample.depth, ws);
+    steps::intersect(tracer, sample.depth, ws);
     ws.statistics.spent(Stage::Intersect, start);
     closures::keep(tables, &ws.materials, &ws.paths, &mut ws.queues.branches.undivided);
     for closure in 0..closures::most(tables) {
         let whole = closures::Whole { undivided: &ws.queues.branches.undivided, hits: &ws.nearest.hits };
         closures::select(tables, transport, closure, &whole, &mut ws.paths, &mut ws.materials, &mut ws.chunk);
         sort_by_material(tables, transport, &mut ws.materials);
-        wavefront::shade(tracer, integrator, sample, ws);
+        steps::shade(tracer, integrator, sample, ws);
         let start = Instant::now();
-        wavefront::measure(tracer, integrator, sample, ws);
-        wavefront::trace_shadows(tracer, sample.depth == 0, ws);
+        steps::measure(tracer, integrator, sample, ws);
+        steps::trace_shadows(tracer, sample.depth == 0, ws);
         ws.statistics.spent(Stage::Shadow, start);
         ws.queues.branches.queue(sample.depth + 1);
     }

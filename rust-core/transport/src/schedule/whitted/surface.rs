@@ -43,7 +43,7 @@ pub(crate) struct WhittedIntegrator<'a> {
 impl Integrator for WhittedIntegrator<'_> {
     const WALKS: bool = false;
 
-    fn rays_per_hit(&self) -> usize {
+    fn shadow_rays_per_hit(&self) -> usize {
         self.samples.len().max(1)
     }
 
@@ -66,9 +66,9 @@ impl Integrator for WhittedIntegrator<'_> {
             present &= part_from_open(material, point, lobes, &mut straight);
         }
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
-        let [smooth, lit] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
-        if (smooth & lit).any() {
-            light_by_fixed_samples(chunk, point, lobes, self.samples, lit & smooth, &mut queues.shadows, deposits);
+        let [non_specular, lit] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
+        if (non_specular & lit).any() {
+            light_by_fixed_samples(chunk, point, lobes, self.samples, lit & non_specular, &mut queues.shadows, deposits);
         }
         let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
         for (way, ray) in Way::ALL.into_iter().zip(&kernels::specular_rays(l, lobes, point.local_wo)) {
@@ -186,13 +186,13 @@ fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, thr
 #[inline(always)]
 fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -> U<L> {
     let all_delta = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
-    let measured = all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
+    let non_specular = all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
         Way::Refracted => event::TRANSMISSION,
-        Way::Straight => return point.flags | measured,
+        Way::Straight => return point.flags | non_specular,
     };
     let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.flags & (3 << flag::FIRST_SHIFT));
-    let before = (point.flags & flag::NON_SPECULAR_SEEN) | measured | first;
+    let before = (point.flags & flag::NON_SPECULAR_SEEN) | non_specular | first;
     before | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
 }

@@ -1,4 +1,4 @@
-//! What shading sends on: the queues of later stages and of the next bounce (pbrt's work queues).
+//! What shading sends on: the queues of later stages and of the next bounce (pbrt's work queues), and the scratch of the shadow stage.
 
 pub(crate) mod branches;
 pub(crate) mod light_samples;

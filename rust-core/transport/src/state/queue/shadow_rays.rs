@@ -10,8 +10,8 @@ use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded
 pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + PADDING;
 
 /// Most hits that are lit together, whole registers: at most a chunk, and as many as have room for their shadow rays.
-pub(crate) fn hits_together(rays_per_hit: usize) -> usize {
-    ((SHADOW_ROOM - PADDING) / rays_per_hit / PADDING * PADDING).clamp(PADDING, CHUNK)
+pub(crate) fn hits_together(shadow_rays_per_hit: usize) -> usize {
+    ((SHADOW_ROOM - PADDING) / shadow_rays_per_hit / PADDING * PADDING).clamp(PADDING, CHUNK)
 }
 
 /// One register of shadow rays, to be appended.
@@ -58,8 +58,8 @@ impl Default for ShadowRays {
 
 impl ShadowRays {
     /// Whether the shadow rays of some more hits fit into the queue.
-    pub(crate) fn has_room(&self, hits: usize, rays_per_hit: usize) -> bool {
-        self.count + hits * rays_per_hit <= SHADOW_ROOM - PADDING
+    pub(crate) fn has_room(&self, hits: usize, shadow_rays_per_hit: usize) -> bool {
+        self.count + hits * shadow_rays_per_hit <= SHADOW_ROOM - PADDING
     }
 
     #[inline(always)]

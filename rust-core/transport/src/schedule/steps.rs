@@ -1,4 +1,4 @@
-//! Steps that schedules share: each hands the parts of the workspace to a stage, chunk by chunk.
+//! Steps that schedules share: each hands the parts of the workspace to a stage, some chunk by chunk.
 
 use crate::accumulate::shader_passes::shader_program;
 use crate::kernels;
@@ -39,12 +39,14 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
 
 /// Shades all surface hits, material by material, a chunk at a time.
 pub(crate) fn shade<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, context: &SampleContext<'_>, ws: &mut Workspace) {
-    let most = hits_together(integrator.rays_per_hit());
+    let most = hits_together(integrator.shadow_rays_per_hit());
     for surface in 0..tracer.tables.materials.surfaces.len() {
         let Range { mut start, end } = ws.materials.hits_of(surface);
         while start < end {
             let count = (end - start).min(most);
+            let time = Instant::now();
             make_room(tracer, integrator, context.depth == 0, count, ws);
+            ws.statistics.spent(Stage::Shadow, time);
             let hits = start..start + count;
             dispatch!(tracer.transport.execution, l => shade_hits(l, tracer, integrator, context, surface, hits.clone(), ws));
             start += count;
@@ -95,7 +97,7 @@ fn shade_hits<L: Lanes, I: Integrator>(
 /// Lights the points whose illuminance is measured.
 pub(crate) fn measure<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
-    let (count, together) = (ws.queues.measure.count, hits_together(integrator.rays_per_hit()));
+    let (count, together) = (ws.queues.measure.count, hits_together(integrator.shadow_rays_per_hit()));
     for first in (0..count).step_by(together) {
         let range = first..(first + together).min(count);
         make_room(tracer, integrator, sample.depth == 0, range.len(), ws);
@@ -110,7 +112,7 @@ pub(crate) fn measure<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample
 
 /// Traces the queue of shadow rays if those of some more hits would not fit into it.
 fn make_room<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, coherent: bool, hits: usize, ws: &mut Workspace) {
-    if !ws.queues.shadows.has_room(hits, integrator.rays_per_hit()) {
+    if !ws.queues.shadows.has_room(hits, integrator.shadow_rays_per_hit()) {
         trace_shadows(tracer, coherent, ws);
     }
 }
