@@ -102,21 +102,27 @@ fn solid(opening: &Opening, goniogram: Option<&Goniogram>) -> Option<(Opening, b
 
 /// Whether a luminaire sends light into the half space that a unit vector points to; without a goniogram it does.
 fn is_lit(goniogram: Option<&Goniogram>, normal: [f64; 3]) -> bool {
-    brightest(goniogram, normal) > 0.0
+    goniogram.is_none_or(|goniogram| beyond(goniogram, normal).any(|factor| factor > 0.0))
 }
 
 /// The highest intensity in the half space that a unit vector points to, over the peak; 1 without a goniogram.
 fn brightest(goniogram: Option<&Goniogram>, normal: [f64; 3]) -> f64 {
     let Some(goniogram) = goniogram else { return 1.0 };
-    let factor = |w: [f64; 3]| f64::from(goniogram.factor(One, Vec3::splat(One, w.map(|x| x as f32))).to_array()[0]);
-    let along = |w: [f64; 3]| (0..3).map(|k| w[k] * normal[k]).sum::<f64>();
+    beyond(goniogram, normal).fold(0.0, f64::max) / f64::from(goniogram.peak()).max(f64::MIN_POSITIVE)
+}
+
+/// The factors in the half space that a unit vector points to, one after the other: who looks for any light stops at the first.
+fn beyond(goniogram: &Goniogram, normal: [f64; 3]) -> impl Iterator<Item = f64> {
+    let factor = move |w: [f64; 3]| f64::from(goniogram.factor(One, Vec3::splat(One, w.map(|x| x as f32))).to_array()[0]);
+    let along = move |w: [f64; 3]| (0..3).map(|k| w[k] * normal[k]).sum::<f64>();
     let [horizontal, vertical] = goniogram.angles();
     let angular_type: AngularType = goniogram.angular_type();
-    let direction = |h: &f32, v: &f32| angular_type.direction(f64::from(*h), f64::from(*v));
-    let tabulated = horizontal.iter().flat_map(|h| vertical.iter().map(move |v| direction(h, v))).filter(|w| along(*w) > OFF_PLANE);
+    let direction = move |h: &f32, v: &f32| angular_type.direction(f64::from(*h), f64::from(*v));
+    let tabulated =
+        horizontal.iter().flat_map(move |h| vertical.iter().map(move |v| direction(h, v))).filter(move |w| along(*w) > OFF_PLANE);
     // Between the last dark knot and the first lit one light may still cross the plane.
-    let around = (0..AROUND).map(|k| beside(normal, f64::from(k) / f64::from(AROUND)));
-    tabulated.chain(around).map(factor).fold(0.0, f64::max) / f64::from(goniogram.peak()).max(f64::MIN_POSITIVE)
+    let around = (0..AROUND).map(move |k| beside(normal, f64::from(k) / f64::from(AROUND)));
+    tabulated.chain(around).map(factor)
 }
 
 /// A direction that rises a little from the plane across a coordinate axis, at a share of a turn.
