@@ -44,6 +44,14 @@ pub(crate) enum Source<L: Lanes> {
     Several,
 }
 
+impl<L: Lanes> Contribution<L> {
+    /// Light of a light sample: never on a specular path, as those end in no sample.
+    #[inline(always)]
+    pub(crate) fn sampled(light: U<L>, slot: U<L>, value: Spectrum<L>, code: U<L>, shares: Option<[Spectrum<L>; 2]>) -> Self {
+        Self { slot, value, code, shares, specular: slot.lanes().m(false), source: Source::Light(light) }
+    }
+}
+
 impl Deposits {
     /// Adds the chosen lanes' light; returns those that count under the path filter.
     #[inline(always)]

@@ -86,7 +86,7 @@ fn choose_chunk<L: Lanes>(
     let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
     kernels::run_program(l, tables, &mix.program, hits, &source, columns);
     let outputs = &columns.outputs;
-    let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::CLOSURE;
+    let dimension = context.dimension(dimension::CLOSURE);
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
         let index = context.index(l, paths.track(l, path).slot);

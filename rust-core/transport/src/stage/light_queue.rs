@@ -42,7 +42,7 @@ fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, queue: &mut L
     let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
     let path = l.load_integers(chunk.order, at);
     let index = context.index(l, chunk.paths.track(l, path).slot);
-    let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
+    let base = context.dimension(0);
     let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let surface = &chunk.columns.surface;

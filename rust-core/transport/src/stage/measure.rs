@@ -2,13 +2,14 @@
 //!
 //! Irradiance E = ∫ L cosθ dω equals π times the radiance that a white Lambertian surface sends out, so the same estimators serve.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source};
+use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
+use crate::stage::nee::send;
 use crate::state::columns::load3;
 use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::MeasurePoints;
-use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;
@@ -77,7 +78,7 @@ pub(crate) fn light_and_start<L: Lanes>(
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         let index = context.index(l, point.slot);
-        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + dimension::MEASURE;
+        let base = context.dimension(dimension::MEASURE);
         let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
@@ -115,7 +116,6 @@ fn queue_shadow_ray<L: Lanes>(
     shadows: &mut ShadowRays,
     deposits: &mut Deposits,
 ) {
-    let l = chunk.l;
     let cosine = point.at.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
     if !usable.any() {
@@ -126,12 +126,8 @@ fn queue_shadow_ray<L: Lanes>(
     let value = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(point.at.position, point.alive.and_not(lit));
-    let source = Source::Light(sample.light);
-    let light = Contribution { slot: point.slot, value, code: l.u(0), shares: None, specular: l.m(false), source };
-    deposits.deposit(chunk.transport, &light, lit.and_not(sample.casts_shadow));
-    let ray = point.at.spawn_ray_to(sample);
-    let ray = ShadowLanes { ray, contribution: value, slot: point.slot, code: l.u(0), light: sample.light, shares: None };
-    shadows.append(&ray, lit & sample.casts_shadow);
+    let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
+    send(chunk.transport, &point.at, sample, &light, lit, shadows, deposits);
 }
 
 #[inline(always)]

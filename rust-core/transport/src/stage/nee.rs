@@ -1,11 +1,12 @@
 //! Next event estimation (NEE): a light sampled at each hit, its MIS weight (power heuristic), and the shadow ray to it.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source, clamped, code_of_sampled};
+use crate::accumulate::deposit::{Contribution, Deposits, clamped, code_of_sampled};
 use crate::kernels;
 use crate::stage::catcher;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
-use crate::state::vertex::Vertex;
+use crate::state::vertex::{Interaction, Vertex};
+use crate::tables::transport::Transport;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
@@ -51,10 +52,24 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     deposits.note_lost(point.at.position, present.and_not(lit));
     let code = code_of_sampled(point.flags);
     let shares = if deposits.sums.lights.wanted() { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
-    let light = Contribution { slot: point.slot, value, code, shares, specular: l.m(false), source: Source::Light(sample.light) };
-    deposits.deposit(transport, &light, lit.and_not(sample.casts_shadow));
-    let ray = point.at.spawn_ray_to(sample);
-    let ray = ShadowLanes { ray, contribution: value, slot: point.slot, code, light: sample.light, shares };
+    let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
+    send(transport, &point.at, sample, &light, lit, shadows, deposits);
+}
+
+/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray.
+#[inline(always)]
+pub(crate) fn send<L: Lanes>(
+    transport: &Transport,
+    at: &Interaction<L>,
+    sample: &LightSample<L>,
+    light: &Contribution<L>,
+    lit: M<L>,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
+) {
+    deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
+    let Contribution { slot, value: contribution, code, shares, .. } = *light;
+    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -2,7 +2,7 @@
 //!
 //! In goes the queue [`ShadowRays`], out go contributions to the sums. A ray passes transparent surfaces up to the first opaque one.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source};
+use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::catcher;
@@ -63,14 +63,10 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
         }
         let arrived = gonio_simd::M(l.mask_from_bits(bits)) & l.first(shadows.count - at);
         let [diffuse, glossy] = &shadows.shares;
-        let light = Contribution {
-            slot: l.load_integers(&shadows.slot, at),
-            value: shadows.contribution.load(l, at),
-            code: l.load_integers(&shadows.code, at),
-            shares: if deposits.sums.lights.wanted() { Some([diffuse.load(l, at), glossy.load(l, at)]) } else { None },
-            specular: l.m(false),
-            source: Source::Light(l.load_integers(&shadows.light, at)),
-        };
+        let shares = if deposits.sums.lights.wanted() { Some([diffuse.load(l, at), glossy.load(l, at)]) } else { None };
+        let [light, slot, code] =
+            [l.load_integers(&shadows.light, at), l.load_integers(&shadows.slot, at), l.load_integers(&shadows.code, at)];
+        let light = Contribution::sampled(light, slot, shadows.contribution.load(l, at), code, shares);
         deposits.deposit(transport, &light, arrived);
     }
 }

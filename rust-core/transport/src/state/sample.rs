@@ -1,6 +1,6 @@
 //! The sample context: sampler, slot runs and depth. With a slot they determine every random number.
 
-use gonio_camera::sampler::{Runs, Sampler};
+use gonio_camera::sampler::{Runs, Sampler, dimension};
 use gonio_simd::{Lanes, U};
 
 /// Which samples are under way, and how deep their paths are.
@@ -12,6 +12,12 @@ pub(crate) struct SampleContext<'a> {
 }
 
 impl SampleContext<'_> {
+    /// The sampler's dimension of a use within this bounce.
+    #[inline(always)]
+    pub(crate) fn dimension(&self, within: u32) -> u32 {
+        dimension::FIRST_BOUNCE + self.depth * dimension::BOUNCE + within
+    }
+
     /// The index in the sampler's sequence for the path of a slot (pbrt's sample index).
     #[inline(always)]
     pub(crate) fn index<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {

@@ -43,7 +43,7 @@ impl Integrator for PathIntegrator {
     ) {
         let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
         let index = context.index(l, point.slot);
-        let base = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE;
+        let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
         let present = if material.surface.lobes.cut_out {
             let seen_through = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));

@@ -16,7 +16,6 @@ use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, threshold};
 use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Lobes, Way};
-use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -176,7 +175,7 @@ fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, thr
     if transport.path_filter != PathFilter::SpecularOnly {
         return (throughput, usable & brightest.ge(LEAST_THROUGHPUT));
     }
-    let dimension = dimension::FIRST_BOUNCE + context.depth * dimension::BOUNCE + way as u32;
+    let dimension = context.dimension(way as u32);
     let [chance, _] = context.sampler.pair(l, context.index(l, point.slot), dimension);
     let survival = (brightest * ROULETTE_BELOW.recip()).min(1.0);
     (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
