@@ -29,11 +29,23 @@ def instances_with(name, kind, values):
     return tree, info
 
 
+def tinted(output="Color", socket="Color"):
+    """A material that shines by the attribute `tint` of the instancer."""
+    from recorder import material
+
+    made, tree, end = material()
+    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
+    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
+    tree.links.new(node.outputs[output], shader.inputs[socket])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    return made
+
+
 @pytest.mark.blender
 def test_instances_have_the_attributes_of_their_instancer(tmp_path):
     import bpy
     import numpy as np
-    from recorder import depsgraph, empty, exporter, link, material, quad
+    from recorder import depsgraph, empty, exporter, link, quad
 
     kinds = {
         "FLOAT_VECTOR": lambda tree: tree.nodes.new("GeometryNodeInputPosition").outputs[0],
@@ -41,11 +53,7 @@ def test_instances_have_the_attributes_of_their_instancer(tmp_path):
     }
     for kind, values in kinds.items():
         empty()
-        made, tree, end = material()
-        node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
-        node.attribute_type, node.attribute_name = "INSTANCER", "tint"
-        tree.links.new(node.outputs["Color"], shader.inputs["Color"])
-        tree.links.new(shader.outputs[0], end.inputs["Surface"])
+        made = tinted()
         thing = link(bpy.data.objects.new("Thing", quad()))
         thing.data.materials.append(made)
         thing["tint"] = 7.0
@@ -73,14 +81,10 @@ def test_instances_have_the_attributes_of_their_instancer(tmp_path):
 @pytest.mark.blender
 def test_instances_without_the_attribute_have_their_instancers_property(tmp_path):
     import bpy
-    from recorder import depsgraph, empty, exporter, link, material, quad
+    from recorder import depsgraph, empty, exporter, link, quad
 
     empty()
-    made, tree, end = material()
-    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
-    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
-    tree.links.new(node.outputs["Fac"], shader.inputs["Strength"])
-    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    made = tinted("Fac", "Strength")
     inside = bpy.data.collections.new("Inside")
     thing = bpy.data.objects.new("Thing", quad())
     thing.data.materials.append(made)
@@ -103,14 +107,10 @@ def test_many_instances_and_instances_with_ids(tmp_path):
 
     import bpy
     import numpy as np
-    from recorder import depsgraph, empty, exporter, link, material, quad
+    from recorder import depsgraph, empty, exporter, link, quad
 
     empty()
-    made, tree, end = material()
-    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
-    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
-    tree.links.new(node.outputs["Color"], shader.inputs["Color"])
-    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    made = tinted()
     thing = link(bpy.data.objects.new("Thing", quad()))
     thing.data.materials.append(made)
     points, count = bpy.data.meshes.new("Points"), 5000
@@ -137,14 +137,10 @@ def test_many_instances_and_instances_with_ids(tmp_path):
 @pytest.mark.blender
 def test_objects_of_instanced_collections_have_the_attribute_of_their_instance(tmp_path):
     import bpy
-    from recorder import depsgraph, empty, exporter, link, material, quad
+    from recorder import depsgraph, empty, exporter, link, quad
 
     empty()
-    made, tree, end = material()
-    node, shader = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeEmission")
-    node.attribute_type, node.attribute_name = "INSTANCER", "tint"
-    tree.links.new(node.outputs["Color"], shader.inputs["Color"])
-    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    made = tinted()
     inside = bpy.data.collections.new("Inside")
     for number in range(2):
         thing = bpy.data.objects.new(f"Thing {number}", quad())
