@@ -1,0 +1,3 @@
+//! Shading nodes: what each computes, as functions on registers of lanes.
+
+pub mod hash;
