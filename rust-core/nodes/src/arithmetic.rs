@@ -6,22 +6,52 @@ use std::f32::consts::TAU;
 /// Angles up to here are reduced with care, radians; larger ones in turns, as exactly as they are known.
 const LARGEST_ANGLE: f32 = 1e4;
 
-/// a to the power b: zero for negative bases, and for zero unless b is zero; denormals count as the smallest normal number.
+/// a to the power b: negative bases have powers with whole exponents alone, others are zero; zero has the power one for zero, else zero.
+/// Denormals count as the smallest normal number.
 #[inline(always)]
 pub(crate) fn power<L: Lanes>(a: F<L>, b: F<L>) -> F<L> {
-    let at_zero = a.lanes().f(1.0).keep_if(a.eq(0.0) & b.eq(0.0));
-    a.gt(0.0).select(a.max(f32::MIN_POSITIVE).pow(b), at_zero)
+    let l = a.lanes();
+    let at_zero = l.f(1.0).keep_if(b.eq(0.0));
+    let magnitude = a.abs().max(f32::MIN_POSITIVE).pow(b);
+    let whole = b.floor().eq(b);
+    let half = b * 0.5;
+    let is_odd = whole & !half.floor().eq(half);
+    let signed = (a.lt(0.0) & is_odd).select(-magnitude, magnitude);
+    a.eq(0.0).select(at_zero, signed.keep_if(a.gt(0.0) | whole))
 }
 
 /// The remainder with the sign of a; zero for a divisor of zero.
 #[inline(always)]
 pub(crate) fn modulo<L: Lanes>(a: F<L>, b: F<L>) -> F<L> {
-    let (x, y) = (a.abs(), b.abs());
-    // Where rounding has carried the quotient over an integer, the remainder is off by one divisor.
-    let rough = (x / y).floor().mul_add(-y, x);
-    let low = rough.lt(0.0).select(rough + y, rough);
-    let held = low.ge(y).select(low - y, low);
-    held.copysign(a).keep_if(y.gt(0.0))
+    let y = b.abs();
+    let mut rest = a.abs();
+    // Quotients of more than 24 bits take more than one round.
+    for _ in 0..3 {
+        let quotient = (rest / y).floor();
+        let [high, low] = product(quotient, y);
+        rest = (rest - high) - low;
+    }
+    // Where rounding has carried a quotient over an integer, the remainder is off by one divisor.
+    let rest = rest.lt(0.0).select(rest + y, rest);
+    let rest = rest.ge(y).select(rest - y, rest);
+    rest.copysign(a).keep_if(y.gt(0.0) & rest.is_finite())
+}
+
+/// A product and its rounding error (Dekker, 1971), at levels without fused operations too.
+#[inline(always)]
+fn product<L: Lanes>(a: F<L>, b: F<L>) -> [F<L>; 2] {
+    let high = a * b;
+    let [a_high, a_low] = halves(a);
+    let [b_high, b_low] = halves(b);
+    let error = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    [high, error]
+}
+
+/// The upper and the lower twelve bits of a mantissa.
+#[inline(always)]
+fn halves<L: Lanes>(x: F<L>) -> [F<L>; 2] {
+    let high = F::from_bits(x.to_bits() & 0xffff_f000);
+    [high, x - high]
 }
 
 /// Sine and cosine of any finite angle.

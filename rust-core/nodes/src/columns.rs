@@ -23,12 +23,12 @@ pub struct Io<'a> {
     inputs: [Source<'a>; MOST_INPUTS],
     len: usize,
     next: usize,
-    outputs: &'a mut [Column; MOST_OUTPUTS],
+    outputs: &'a mut [Column],
 }
 
 impl<'a> Io<'a> {
     /// Without inputs yet.
-    pub(crate) fn new(count: usize, outputs: &'a mut [Column; MOST_OUTPUTS]) -> Self {
+    pub(crate) fn new(count: usize, outputs: &'a mut [Column]) -> Self {
         Self { count, inputs: [Source { values: &[], mask: 0 }; MOST_INPUTS], len: 0, next: 0, outputs }
     }
     /// Adds a column.
@@ -77,7 +77,7 @@ impl<'a> Io<'a> {
     pub fn output(&mut self, number: usize) -> &mut [f32] {
         &mut self.outputs[number]
     }
-    /// Writes the outputs at an entry.
+    /// Writes the outputs at an entry; values beyond them are left out.
     #[inline(always)]
     pub fn store<L: Lanes, const N: usize>(&mut self, at: usize, values: [F<L>; N]) {
         for (column, value) in self.outputs.iter_mut().zip(values) {

@@ -185,7 +185,7 @@ impl<X> Program<X> {
             for (column, place) in outputs.iter_mut().zip(&step.outputs) {
                 *column = std::mem::take(&mut registers.columns[usize::from(*place)]);
             }
-            let mut io = Io::new(count, &mut outputs);
+            let mut io = Io::new(count, &mut outputs[..step.outputs.len()]);
             for slot in &step.inputs {
                 match *slot {
                     Slot::Constant(number) => io.push_constant(&self.constants[usize::from(number)]),

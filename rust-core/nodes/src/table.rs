@@ -150,7 +150,7 @@ operations! {
         Divide(l, a, b) = b.eq(0.0).select(l.f(0.0), a / b);
         /// `a` where `share` is 0, `b` where it is 1 (MaterialX's bg, fg, mix).
         Mix(l, a, b, share) = a.lerp(b, share);
-        /// `a` to the power `b`, zero for negative bases; zero to the power zero is one, to any other zero.
+        /// `a` to the power `b`; zero for negative bases unless `b` is whole; zero to the power zero is one, to any other zero.
         Power(l, a, b) = power(a, b);
         /// `b - a`, MaterialX's invert with its amount.
         Invert(l, a, b) = b - a;

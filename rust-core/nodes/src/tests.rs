@@ -75,9 +75,19 @@ fn arrays_are_computed_by_the_kernels() {
 
 #[test]
 fn remainders_have_the_sign_of_the_dividend() {
-    for (a, b) in [(7.5, 2.0), (-7.5, 2.0), (1e3, 0.7), (5.0, 5.0), (0.3, 0.1), (1.0, 0.0), (3.0, -2.0)] {
+    for (a, b) in
+        [(7.5, 2.0), (-7.5, 2.0), (1e3, 0.7), (1e6, 0.1), (3e7, 0.01), (-1e4, 0.3), (5.0, 5.0), (0.3, 0.1), (1.0, 0.0), (3.0, -2.0)]
+    {
         let expected = if b == 0.0 { 0.0 } else { a % b };
         let found = compute(Execution::Scalar, &Operation::Modulo, &[&[[a; 4]], &[[b; 4]]]).expect("arithmetic");
-        assert!((found[0][0] - expected).abs() < 1e-4, "{a} % {b}: {}", found[0][0]);
+        assert_eq!(found[0][0], expected, "{a} % {b}");
+    }
+}
+
+#[test]
+fn powers_of_negative_bases_want_whole_exponents() {
+    for (a, b, expected) in [(-2.0, 3.0, -8.0), (-2.0, -2.0, 0.25), (-2.0, 0.5, 0.0), (0.0, 0.0, 1.0), (0.0, 2.0, 0.0), (-3.0, 0.0, 1.0)] {
+        let found = compute(Execution::Scalar, &Operation::Power, &[&[[a; 4]], &[[b; 4]]]).expect("arithmetic");
+        assert!((found[0][0] - expected as f32).abs() < 1e-5, "{a} ** {b}: {}", found[0][0]);
     }
 }
