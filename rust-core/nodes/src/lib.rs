@@ -1,3 +1,4 @@
 //! Shading nodes: what each computes, as functions on registers of lanes.
 
 pub mod hash;
+pub mod voronoi;
