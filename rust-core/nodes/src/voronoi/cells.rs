@@ -166,12 +166,18 @@ impl<L: Lanes, const D: usize, const S: usize> Cells<L, D, S> {
 
     /// The digits of a neighbour's number, x the fastest.
     #[inline(always)]
-    fn digits(number: usize) -> [usize; D] {
+    pub(super) fn digits(number: usize) -> [usize; D] {
         let (mut digits, mut rest) = ([0; D], number);
         for digit in &mut digits {
             (*digit, rest) = (rest % S, rest / S);
         }
         digits
+    }
+
+    /// The least that a vector to a point can have along an axis; the most is more by the randomness.
+    #[inline(always)]
+    pub(super) fn low(&self, axis: usize, digit: usize) -> F<L> {
+        self.offsets[axis][digit]
     }
 
     /// The digits of a neighbour's number in one word.
