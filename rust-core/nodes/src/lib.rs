@@ -16,6 +16,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod vector;
+pub mod voronoi;
 mod words;
 
 pub use code::{Code, Hit, Kernel, Operand, Step, Value, constant};

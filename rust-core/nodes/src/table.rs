@@ -8,6 +8,7 @@ use crate::{
     arithmetic::{fresnel, modulo, power, sin_cos},
     columns::Io,
     vector::{hsv_to_rgb, luminance, matrix_transform, normalize, rgb_to_hsv},
+    voronoi::VoronoiTexture,
     words::{LightPathValue, Quantity, Space, TextureFilter, TextureId, WrapMode},
 };
 use gonio_simd::{F, Lanes, Vec3};
@@ -210,6 +211,13 @@ operations! {
             /// Three rows of a 3×4 matrix.
             rows: [[f32; 4]; 3],
         }(l, point: 3) -> 3, Keep = matrix_transform(point, rows);
+        /// Blender's Voronoi Texture; the outputs are those of its [`Part`](crate::voronoi::Part).
+        VoronoiTexture<texture: VoronoiTexture>(
+            l, vector: 3, w: 1, scale: 1, detail: 1, roughness: 1, lacunarity: 1, smoothness: 1, exponent: 1, randomness: 1
+        ) -> 4, Zero = {
+            let ([x, y, z], [w], [scale], [detail], [roughness], [lacunarity]) = (vector, w, scale, detail, roughness, lacunarity);
+            texture.evaluate(l, &[x, y, z, w, scale, detail, roughness, lacunarity, smoothness[0], exponent[0], randomness[0]])
+        };
     }
     hit {
         /// The first components of four inputs.
