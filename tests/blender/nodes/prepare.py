@@ -1,0 +1,103 @@
+"""What makes a node of the catalogue what fields alone cannot: ramps, curves, images. For Blender."""
+
+import bpy
+import numpy
+
+
+def ramp(made, node) -> None:
+    """Five stops of uneven distances."""
+    stops = node.color_ramp.elements
+    stops[0].position, stops[0].color = 0.1, (0.8, 0.1, 0.05, 1.0)
+    stops[1].position, stops[1].color = 0.9, (0.2, 0.7, 1.0, 0.3)
+    for position, colour in ((0.33, (0.1, 0.9, 0.4, 0.7)), (0.37, (1.0, 1.0, 0.2, 0.9)), (0.7, (0.0, 0.05, 0.6, 0.0))):
+        stops.new(position).color = colour
+
+
+def curves(made, node) -> None:
+    """Each curve bent otherwise."""
+    for number, curve in enumerate(node.mapping.curves):
+        curve.points.new(0.3, 0.15 + 0.15 * number)
+        curve.points.new(0.75, 0.9 - 0.1 * number)
+    node.mapping.update()
+
+
+def curves_beyond(made, node) -> None:
+    """Curves that go on beyond their ends."""
+    node.mapping.extend = "EXTRAPOLATED"
+    curves(made, node)
+
+
+def picture(made, node) -> None:
+    """A small float image."""
+    node.image = _picture("picture", is_float=True)
+
+
+def byte_picture(made, node) -> None:
+    """A small image of bytes in sRGB, with alpha."""
+    node.image = _picture("byte picture", is_float=False)
+
+
+def _picture(name: str, *, is_float: bool) -> bpy.types.Image:
+    found = bpy.data.images.get(name)
+    if found is not None:
+        return found
+    made = bpy.data.images.new(name, 16, 8, alpha=not is_float, float_buffer=is_float, is_data=is_float)
+    made.use_half_precision = False
+    values = numpy.random.default_rng(5).uniform(0.0, 1.0, (8, 16, 4)).astype("f4")
+    if is_float:
+        values[..., 3] = 1.0
+    made.pixels.foreach_set(values.ravel())
+    if not is_float:
+        made.pack()
+    return made
+
+
+def normal_value(made, node) -> None:
+    """The direction that a Normal node holds."""
+    node.outputs["Normal"].default_value = (0.48, 0.6, 0.64)
+
+
+def value_value(made, node) -> None:
+    """The number that a Value node holds."""
+    node.outputs[0].default_value = 0.37
+
+
+def colour_value(made, node) -> None:
+    """The colour that a Color node holds."""
+    node.outputs[0].default_value = (0.2, 0.55, 0.9, 1.0)
+
+
+def waves(made, node) -> None:
+    """A height, or the components of a way, that goes in waves over the object."""
+    place = made.source("hit.TexCoord.Object")
+    _waves(made, node, place, (7.0, 5.0, 6.0))
+
+
+def waves_on_map(made, node) -> None:
+    """The same over the texture coordinates."""
+    _waves(made, node, made.source("hit.TexCoord.UV"), (25.0, 15.0, 0.0))
+
+
+def _waves(made, node, place, often) -> None:
+    scaled = made.new("ShaderNodeVectorMath", operation="MULTIPLY")
+    made.link(place, scaled.inputs[0])
+    scaled.inputs[1].default_value = often
+    bent = made.new("ShaderNodeVectorMath", operation="SINE")
+    made.link(scaled.outputs[0], bent.inputs[0])
+    end = next(each for each in node.inputs if each.name in ("Height", "Vector"))
+    made.link(bent.outputs[0], end)
+
+
+def other_object(made, node) -> None:
+    """An empty somewhere else, turned and stretched."""
+    found = bpy.data.objects.get("Other")
+    if found is None:
+        found = bpy.data.objects.new("Other", None)
+        found.location, found.rotation_euler, found.scale = (0.7, -0.4, 0.2), (0.3, 0.8, -0.5), (1.2, 0.8, 2.0)
+        bpy.context.scene.collection.objects.link(found)
+        bpy.context.view_layer.update()
+    node.object = found
+
+
+def usual(made, node) -> None:
+    """As it comes."""
