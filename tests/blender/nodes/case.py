@@ -29,15 +29,23 @@ class Case:
     outputs: tuple | None = None
     # On a sphere, at places as both engines see it, in the stead of a plane of texels.
     on_sphere: bool = False
+    # Which of the scenes of `stage.py` shows it; "" is "balls" for what is on a sphere, else "tiles".
+    stage: str = ""
     tolerance: float = USUAL
     # The share of texels that may fall to the other side of a step.
     steps: float = 0.0
-    # What is looked at: the output itself, or the normal of a surface that the output displaces.
+    # What is looked at: the output itself, the normal of a surface that the output displaces, or a shader, a volume, a colour that fills it.
     seen: str = "output"
     # A function of `prepare.py` that makes the node what fields alone cannot.
     prepare: str | None = None
-    # Since which Blender.
+    # The first and the last Blender that has it.
     since: tuple = (4, 5)
+    until: tuple = (9, 9)
+
+    @property
+    def shown_on(self) -> str:
+        """The scene that shows it."""
+        return self.stage or ("balls" if self.on_sphere else "tiles")
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,14 @@
 """One case's texels in both engines. No Blender needed."""
 
 import numpy
-from case import Case
+from .case import Case
 
 OUTPUT, PLACE, EMITTED = "node", "place", "emitted"
 # Pixels of a ball at its rim and at edges of its faces, where samples that lie apart meet other faces.
 EDGES = 0.01
 
 
-def tile(mine: dict, theirs: dict, case: Case) -> dict:
+def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
     """What is found on a tile: both engines had the same inputs to the bit."""
     value, expected = mine[OUTPUT], theirs[OUTPUT]
     with numpy.errstate(invalid="ignore"):
@@ -68,6 +68,21 @@ def ball(mine: dict, theirs: dict, case: Case, pixels) -> dict:
     found = summary(difference, expected[inner], case, known, EDGES)
     found["apart"] = _short(numpy.abs(offset[known]).max()) if known.any() else 0.0
     return found
+
+
+def lit(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
+    """What is found on a ball that light falls on: means of blocks, as both have noise."""
+    value, expected = (blocks(each[EMITTED]) for each in (mine, theirs))
+    return summary(numpy.abs(value - expected), expected, case)
+
+
+def blocks(picture: numpy.ndarray) -> numpy.ndarray:
+    """Means of 4 by 4 blocks of a square picture."""
+    side = picture.shape[0] // 4
+    return picture.reshape(4, side, 4, side, 3).mean(axis=(1, 3))
+
+
+WAYS = {"tiles": tile, "balls": ball, "lit": lit, "filled": lit}
 
 
 def _slopes(values: numpy.ndarray) -> tuple[list, list]:

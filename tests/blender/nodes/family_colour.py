@@ -1,6 +1,6 @@
 """Colours: mixing, ramps, curves, spectra, and what takes colours apart and puts them together."""
 
-from case import WHOLE, Case, Node, modes
+from .case import WHOLE, Case, Node, modes
 
 FAMILY = "Color"
 BLENDS = [

@@ -1,6 +1,6 @@
 """What is known of the hit, its object, the ray and the camera."""
 
-from case import Case, Node
+from .case import Case, Node
 
 FAMILY = "Input"
 

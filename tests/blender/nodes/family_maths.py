@@ -1,6 +1,6 @@
 """Arithmetic: Math, Vector Math, Map Range, Clamp, and what takes vectors apart and puts them together."""
 
-from case import WHOLE, Case, Node, modes
+from .case import WHOLE, Case, Node, modes
 
 FAMILY = "Converter"
 # Sums, products, comparisons and steps: nothing that engines may round in a way of their own.

@@ -1,6 +1,6 @@
 """Textures that read coordinates: images, and patterns without noise."""
 
-from case import WHOLE, Case, Node, modes
+from .case import WHOLE, Case, Node, modes
 
 FAMILY = "Texture"
 GRADIENTS = ["LINEAR", "QUADRATIC", "EASING", "DIAGONAL", "SPHERICAL", "QUADRATIC_SPHERE", "RADIAL"]
@@ -19,8 +19,9 @@ def _images() -> tuple[Case, ...]:
         made.append(Case(f"{projection}, Linear, REPEAT", {"projection": projection}, {0: "unit 0"}, ("Color",), prepare="picture"))
     for blend in (0.0, 0.3):
         fields = {"projection": "BOX", "projection_blend": blend}
-        made.append(Case(f"BOX, blend {blend}", fields, {0: "hit.TexCoord.Generated"}, ("Color",), on_sphere=True, prepare="picture", steps=0.01))
-    made.append(Case("sRGB bytes", {}, {0: "place 0"}, prepare="byte_picture"))
+        made.append(Case(f"BOX, blend {blend}", fields, {0: "hit.TexCoord.Generated"}, ("Color",), on_sphere=True, prepare="picture", steps=0.02))
+    made.append(Case("sRGB bytes with alpha", {}, {0: "place 0"}, prepare="byte_picture"))
+    made.append(Case("sRGB bytes", {}, {0: "place 0"}, ("Color",), prepare="opaque_picture"))
     made.append(Case("unlinked", {"interpolation": "Linear"}, {}, ("Color",), on_sphere=True, prepare="picture"))
     return tuple(made)
 
@@ -37,6 +38,17 @@ def _environments() -> tuple[Case, ...]:
         )
         for projection in ("EQUIRECTANGULAR", "MIRROR_BALL")
         for filtering in ("Linear", "Closest", "Cubic", "Smart")
+    )
+
+
+def _skies() -> tuple[Case, ...]:
+    """Sky Texture: each sky, on a ball as directions, with its usual values."""
+    since = {"SINGLE_SCATTERING": (5, 0), "MULTIPLE_SCATTERING": (5, 0)}
+    kinds = ("NISHITA", *since, "PREETHAM", "HOSEK_WILKIE")
+    return tuple(
+        Case(kind, {"sky_type": kind, **({} if kind in ("PREETHAM", "HOSEK_WILKIE") else {"sun_disc": False})}, {}, on_sphere=True,
+             since=since.get(kind, (4, 5)), until=(4, 5) if kind == "NISHITA" else (9, 9))
+        for kind in kinds
     )
 
 
@@ -89,5 +101,24 @@ NODES = {
             ),
             Case("unlinked", {}, {}, on_sphere=True),
         ),
+    ),
+    "ShaderNodeTexSky": Node("Sky Texture", FAMILY, cases=_skies()),
+    "ShaderNodeTexIES": Node(
+        "IES Texture",
+        FAMILY,
+        cases=(
+            Case("on a surface", {}, {0: "place 0"}, prepare="distribution"),
+            Case("unlinked", {}, {}, on_sphere=True, prepare="distribution"),
+        ),
+    ),
+    "ShaderNodeTexPointDensity": Node("Point Density", FAMILY, cases=(Case("without data", {}, {0: "place 0"}),), until=(4, 5)),
+    "ShaderNodeRadialTiling": Node(
+        "Radial Tiling",
+        FAMILY,
+        cases=tuple(
+            Case(f"{'' if normalize else 'not '}normalized", {"normalize": normalize}, {0: "place 0", 1: "positive 0.x", 2: "unit 0.x"}, steps=0.01)
+            for normalize in (True, False)
+        ),
+        since=(5, 0),
     ),
 }

@@ -1,6 +1,6 @@
 """Vectors and normals: mappings, turns, spaces, bumps, tangents, displacement."""
 
-from case import Case, Node, modes
+from .case import Case, Node, modes
 
 FAMILY = "Vector"
 MAPPINGS = ["POINT", "TEXTURE", "VECTOR", "NORMAL"]

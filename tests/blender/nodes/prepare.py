@@ -2,6 +2,7 @@
 
 import bpy
 import numpy
+from .build import bundle, closure, frame, group, menu, reroute, repeat  # noqa: F401 (found by name)
 
 
 def ramp(made, node) -> None:
@@ -37,14 +38,28 @@ def byte_picture(made, node) -> None:
     node.image = _picture("byte picture", is_float=False)
 
 
-def _picture(name: str, *, is_float: bool) -> bpy.types.Image:
+def opaque_picture(made, node) -> None:
+    """A small image of bytes in sRGB."""
+    node.image = _picture("opaque picture", is_float=False, is_opaque=True)
+
+
+def distribution(made, node) -> None:
+    """A luminaire's file that is brighter on one side."""
+    file = bpy.data.texts.get("distribution.ies") or bpy.data.texts.new("distribution.ies")
+    candela = "\n".join(" ".join(str(100 + 7 * v + 3 * h) for v in range(0, 10)) for h in range(0, 5))
+    angles = " ".join(str(20 * v) for v in range(10)) + "\n" + " ".join(str(90 * h) for h in range(5))
+    file.from_string(f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 10 5 1 2 0 0 0\n1 1 10\n{angles}\n{candela}\n")
+    node.ies = file
+
+
+def _picture(name: str, *, is_float: bool, is_opaque: bool = False) -> bpy.types.Image:
     found = bpy.data.images.get(name)
     if found is not None:
         return found
-    made = bpy.data.images.new(name, 16, 8, alpha=not is_float, float_buffer=is_float, is_data=is_float)
+    made = bpy.data.images.new(name, 16, 8, alpha=not (is_float or is_opaque), float_buffer=is_float, is_data=is_float)
     made.use_half_precision = False
     values = numpy.random.default_rng(5).uniform(0.0, 1.0, (8, 16, 4)).astype("f4")
-    if is_float:
+    if is_float or is_opaque:
         values[..., 3] = 1.0
     made.pixels.foreach_set(values.ravel())
     if not is_float:
@@ -101,3 +116,12 @@ def other_object(made, node) -> None:
 
 def usual(made, node) -> None:
     """As it comes."""
+
+
+def two_shaders(made, node) -> None:
+    """Two shaders to mix or to add."""
+    ends = [each for each in node.inputs if each.type == "SHADER"]
+    for end, kind, colour in zip(ends, ("Diffuse", "Anisotropic"), ((0.8, 0.2, 0.1, 1.0), (0.1, 0.3, 0.2, 1.0)), strict=True):
+        shader = made.new(f"ShaderNodeBsdf{kind}")
+        shader.inputs["Color"].default_value = colour
+        made.link(shader.outputs[0], end)

@@ -1,16 +1,17 @@
-"""The two scenes of the comparison: a plane of tiles, one a material, and rows of balls. For Blender."""
+"""The scenes of the comparison: a plane of tiles, one a material, and rows of balls, lit or not. For Blender."""
 
 import math
 
 import bpy
-import data
 import numpy
-import tree
 from mathutils import Vector
 
+from . import data, tree
 
 # Pixels along the side of a ball's square.
 BALL = 64
+# Samples a pixel of what light falls on.
+LIT_SAMPLES = 32
 
 
 def empty(width: int, height: int) -> bpy.types.Scene:
@@ -47,7 +48,7 @@ def camera(scene: bpy.types.Scene, location, **fields) -> None:
 
 
 def tiles(materials: list) -> tuple[int, int]:
-    """A plane whose faces have these materials, each with the whole of the coordinates; returns columns and rows."""
+    """A plane whose faces have these materials, each with the whole of the coordinates; returns pixels a tile, and columns."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
     scene = empty(columns * data.SIDE, rows * data.SIDE)
@@ -67,11 +68,11 @@ def tiles(materials: list) -> tuple[int, int]:
     mesh.polygons.foreach_set("material_index", range(len(faces)))
     scene.collection.objects.link(bpy.data.objects.new("Tiles", mesh))
     camera(scene, (0.0, 0.0, 5.0), type="ORTHO", ortho_scale=max(columns, rows))
-    return columns, rows
+    return data.SIDE, columns
 
 
 def balls(materials: list) -> tuple[int, int]:
-    """Rows of turned, stretched balls of one mesh; returns columns and rows."""
+    """Rows of turned balls; returns pixels a ball, and columns."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
     scene = empty(columns * BALL, rows * BALL)
@@ -89,7 +90,47 @@ def balls(materials: list) -> tuple[int, int]:
         cover.pass_index = 5
     high = 3.0 * max(columns, rows)
     camera(scene, (0.0, 0.0, high), lens_unit="FOV", angle=2.0 * math.atan(0.5 * max(columns, rows) / high))
-    return columns, rows
+    scene["shared"] = 0.375
+    return BALL, columns
+
+
+def lit(materials: list) -> tuple[int, int]:
+    """The balls under a soft sky, with as much light as paths can carry."""
+    found = balls(materials)
+    scene = bpy.context.scene
+    _sky(scene.world.node_tree)
+    cycles = scene.cycles
+    cycles.samples, cycles.blur_glossy, cycles.light_sampling_threshold = LIT_SAMPLES, 0.0, 0.0
+    for name in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces"):
+        setattr(cycles, name, 4)
+    cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+    for entry in list(scene.view_layers[0].aovs):
+        scene.view_layers[0].aovs.remove(entry)
+    return found
+
+
+def filled(materials: list) -> tuple[int, int]:
+    """The same for what fills balls, with fewer samples: Cycles takes long for them."""
+    found = lit(materials)
+    cycles = bpy.context.scene.cycles
+    cycles.samples, cycles.volume_bounces, cycles.max_bounces = 16, 1, 2
+    return found
+
+
+def _sky(tree: bpy.types.NodeTree) -> None:
+    """A smooth sky, brighter on one side: light with a direction, and little noise; alike at both poles, where filters differ."""
+    height, width = 32, 64
+    up = numpy.sin(numpy.pi * ((numpy.arange(height) + 0.5) / height - 0.5))[:, None]
+    around = numpy.cos(2.0 * numpy.pi * (numpy.arange(width) + 0.5) / width)[None, :]
+    level = 0.5 + 0.35 * around * numpy.sqrt(1.0 - up * up)
+    whole = numpy.ones((height, width, 4), "f4")
+    whole[..., :3] = level[..., None] * numpy.array([0.9, 1.0, 1.1])
+    made = bpy.data.images.new("Sky", width, height, float_buffer=True, is_data=True)
+    made.pixels.foreach_set(whole.ravel())
+    shown = tree.nodes.new("ShaderNodeTexEnvironment")
+    shown.image = made
+    tree.links.new(shown.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    tree.nodes["Background"].inputs["Strength"].default_value = 1.0
 
 
 def pixels(place: numpy.ndarray) -> numpy.ndarray:

@@ -1,10 +1,10 @@
 """A case of the catalogue as the node tree of a material, whose output goes into a shader AOV and shines. For Blender."""
 
 import bpy
-import data
 import numpy
-import prepare
-from case import Case
+
+from . import data, prepare
+from .case import Case
 
 # The AOVs: a node's output, and where the hit lies.
 OUTPUT, PLACE = "node", "place"
@@ -64,8 +64,11 @@ class Tree:
         return self.new("ShaderNodeTexImage", image=image(name), interpolation="Closest").outputs["Color"]
 
     def finish(self, output: bpy.types.NodeSocket, seen: str) -> None:
-        """Lets an output be seen, or what it makes of the normal."""
+        """Lets an output be seen, or what it makes of the surface."""
         end = self.new("ShaderNodeOutputMaterial")
+        if seen in ("shader", "volume"):
+            self.link(output, end.inputs["Volume" if seen == "volume" else "Surface"])
+            return
         if seen == "displacement":
             self.link(output, end.inputs["Displacement"])
             output = self.new("ShaderNodeNewGeometry").outputs["Normal"]
@@ -103,30 +106,43 @@ def outputs(bl_idname: str, case: Case) -> list[str]:
     if case.outputs is not None:
         return list(case.outputs)
     probe = Tree("probe")
-    node = _set(probe, bl_idname, case)
+    node, _ = _set(probe, bl_idname, case)
     found = [each.identifier for each in node.outputs if each.enabled and not each.is_unavailable]
     bpy.data.materials.remove(probe.material)
     return found
 
 
-def _set(made: Tree, bl_idname: str, case: Case) -> bpy.types.Node:
+def _set(made: Tree, bl_idname: str, case: Case) -> tuple[bpy.types.Node, bpy.types.NodeSocket | None]:
+    """The node, and the socket that is seen where it is none of its own."""
     node = made.new(bl_idname, **case.fields)
-    if case.prepare is not None:
-        getattr(prepare, case.prepare)(made, node)
-    return node
+    return node, None if case.prepare is None else getattr(prepare, case.prepare)(made, node)
 
 
-def material(name: str, bl_idname: str, case: Case, output: str) -> bpy.types.Material:
+def material(name: str, bl_idname: str, case: Case, output: str | int) -> bpy.types.Material:
     """The material of a name that shows one output of a node."""
     made = Tree(name)
-    node = _set(made, bl_idname, case)
+    node, end = _set(made, bl_idname, case)
     for name, value in case.inputs.items():
-        end = socket(node.inputs, name)
-        if isinstance(value, str):
-            made.link(made.source(value), end)
-        else:
-            end.default_value = (*value, 1.0) if end.type == "RGBA" and len(value) == 3 else value
-    made.finish(socket(node.outputs, output), case.seen)
-    if case.on_sphere:
+        _fill(made, socket(node.inputs, name), value)
+    if case.seen == "colour":
+        _colour(made, node)
+    else:
+        made.finish(end or socket(node.outputs, output), case.seen)
+    if case.shown_on == "balls":
         made.see_place()
     return made.material
+
+
+def _colour(made: Tree, node: bpy.types.Node) -> None:
+    """A colour in the place of a shader."""
+    colour = made.new("ShaderNodeRGB")
+    colour.outputs[0].default_value = (0.8, 0.45, 0.2, 1.0)
+    made.link(colour.outputs[0], node.inputs["Surface"])
+
+
+def _fill(made: Tree, end: bpy.types.NodeSocket, value) -> None:
+    """Links or sets an input."""
+    if isinstance(value, str):
+        made.link(made.source(value), end)
+    elif end.type != "SHADER":
+        end.default_value = (*value, 1.0) if end.type == "RGBA" and len(value) == 3 else value
