@@ -101,7 +101,7 @@ WORLDS = {
 MATERIALS = {
     "volume": Limit("Volumes of materials", "the inside stays empty; without a surface, rays pass"),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
-    "displacement": Limit("Displacement", "the surface stays as it is"),
+    "displacement": Limit("Displacement that moves the surface", "its normals bend, and its shape stays"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),

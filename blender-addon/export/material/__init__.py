@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 import bpy
 
 from .. import limits
-from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
+from . import bump, closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
 from .closures import closure
+from .displacement import bend
 from .flatten import flatten
 from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
@@ -37,6 +38,7 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     if end is None:
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
     else:
+        bend(t, end, material)
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
@@ -50,8 +52,6 @@ def _rest(t, end, material):
         # As in Cycles a surface that comes to nothing counts as none.
         if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
-    if t.linked(end, "Displacement", t.root):
-        t.tell("displacement", end, t.root)
     limits.of_material(material, t.report)
 
 

@@ -72,6 +72,8 @@ def hit(t, what):
     """Position, Normal, GeometricNormal, Incoming (to where the ray came from) or FrontFacing of the hit."""
     if what == "Position":
         return t.position()
+    if what == "Normal" and t.bent is not None:
+        return t.bent
     return t.graph.add(what, kind="VALUE" if what == "FrontFacing" else "VECTOR")
 
 

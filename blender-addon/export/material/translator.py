@@ -71,6 +71,8 @@ class Translator:
         self._values, self._open = {}, set()
         # Nodes that something stands in for, and that were told.
         self._stood_in = set()
+        # The shading normal where displacement bends it.
+        self.bent = None
         # While a height is taken beside the hit: along which of the two steps, and how far.
         self._step = None
 
@@ -173,6 +175,11 @@ class Translator:
             return function()
         finally:
             self._step = outer
+
+    def bend(self, normal):
+        """Has everything that is computed from now on see a bent shading normal."""
+        self.bent = normal
+        self._values = {}
 
     def primvar(self, name, fallback=(0.0, 0.0, 0.0, 0.0), kind="VECTOR"):
         """A named value of the mesh."""

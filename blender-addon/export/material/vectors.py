@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vector nodes: Mapping, Vector Math, Vector Rotate, Normal Map, Bump, Tangent, Normal."""
+"""Vector nodes: Mapping, Vector Math, Vector Rotate, Normal Map, Tangent, Normal."""
 
 from mathutils import Euler, Matrix, Vector
 
-from .inputs import GENERATED, UV, hit, normal_of
+from .inputs import GENERATED, UV, hit
 from .maths import wrap
 from .translator import value_node
 
@@ -147,26 +147,6 @@ def normal_map(t, node, context, output):
         vector = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, vector, kind="VECTOR")
     mapped = vector.normalized() * (hit(t, "FrontFacing") * 2.0 - 1.0)
     return mapped if strength.equals(1.0) else hit(t, "Normal").mix(mapped, strength).normalized()
-
-
-@value_node("ShaderNodeBump")
-def bump(t, node, context, output):
-    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit."""
-    smooth = normal_of(t, node, context)
-    width = t.input(node, "Filter Width", context, 0.1)
-    share = max(width.constant[0], 1e-3) if width.is_constant else 0.1
-    height = t.input(node, "Height", context)
-    rise = [t.stepped(axis, share, lambda: t.input(node, "Height", context)) - height for axis in (0, 1)]
-    if height.is_constant or all(each.is_zero() for each in rise):
-        return smooth
-    steps = [t.step(0), t.step(1)]
-    across = [steps[1].cross(smooth), smooth.cross(steps[0])]
-    area = steps[0].dot(across[0])
-    distance = t.input(node, "Distance", context, 1.0) * (-1.0 if node.invert else 1.0)
-    gradient = (across[0] * rise[0] + across[1] * rise[1]) * (1.0 / share)
-    bent = (smooth * abs(area) - gradient * (distance * area.sign())).normalized()
-    strength = t.input(node, "Strength", context, 1.0).maximum(0.0)
-    return bent if strength.equals(1.0) else smooth.mix(bent, strength).normalized()
 
 
 @value_node("ShaderNodeNormal")
