@@ -101,11 +101,11 @@ def test_displacement_bends_normals_as_cycles_bends_them(tmp_path):
 
     scene(len(CASES))
     for number, (name, case) in enumerate(CASES.items()):
-        square(name, case, (number - 0.5 * len(CASES), -0.5, 0.0))
-    cycles, gonio = both(tmp_path)
-    wrong = {name: (cycles[0, n], gonio[0, n]) for n, name in enumerate(CASES) if np.abs(cycles[0, n] - gonio[0, n]).max() > 1e-4}
+        square(name, case, (number - 0.5 * len(CASES), 0.0, 0.0))
+    cycles, gonio = (picture[1] for picture in both(tmp_path))
+    wrong = {name: (cycles[n], gonio[n]) for n, name in enumerate(CASES) if np.abs(cycles[n] - gonio[n]).max() > 1e-4}
     assert not wrong, wrong
-    assert np.abs(cycles[0, : len(CASES) - 1, :2] - 0.5).max(axis=1).min() > 0.02
+    assert np.abs(cycles[: len(CASES) - 1, :2] - 0.5).max(axis=1).min() > 0.02 and cycles[:, 2].min() > 0.5
 
 
 @pytest.mark.blender

@@ -16,6 +16,9 @@ DEEPEST = 1000
 # Calls that one node of a row takes.
 CALLS_A_NODE = 12
 
+# Weights of the luminance of linear Rec.709 in Cycles, as measured, before Blender 5.0 and since.
+LUMINANCE = ((0.212674, 0.7151516, 0.0721754), (0.2126391, 0.7151691, 0.0721928))
+
 # bl_idname of a node -> function(translator, node, context, output socket) -> Value
 VALUES = {}
 # bl_idname of a shader node -> function(translator, node, context) -> list of closures without their weights; None for what stands inside
@@ -60,6 +63,7 @@ class Translator:
         self, owner, tree, images, report, *, kind="Material", measurements=None, is_world=False, is_camera_ray=True, version=None
     ):
         self.version = tuple(version or bpy.app.version)
+        self.luminance = LUMINANCE[self.version >= (5, 0, 0)]
         self.owner, self.images, self.report, self.kind, self.measurements = owner, images, report, kind, measurements
         self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
         self.graph = Graph()
@@ -104,6 +108,12 @@ class Translator:
             value = self.default_of(source, KINDS.get(source.type, kind))
         else:
             value = self.output(node, source, inner)
+        return self.as_kind(value, kind)
+
+    def as_kind(self, value, kind):
+        """A value as another kind; a colour as a number is its luminance, by the weights of this Blender's Cycles."""
+        if (value.kind, kind) == ("RGBA", "VALUE"):
+            return value.dot(self.luminance)
         return value.as_kind(kind)
 
     def input(self, node, name, context, default=0.0):
@@ -156,7 +166,7 @@ class Translator:
             self.fail(node, context, problem, "what stands in for it is used")
         if value is None:
             value = self.unsupported(node, output, context)
-        return value.as_kind(kind)
+        return self.as_kind(value, kind)
 
     def unsupported(self, node, output, context):
         """The nearest sane value of a node that cannot be computed; the report has one line for a node, whichever outputs are used."""
