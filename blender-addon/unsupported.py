@@ -139,7 +139,7 @@ STAND_INS = {
     "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
     "ShaderNodeWireframe": ("Wireframe", 0.0),
     "ShaderNodeWavelength": ("Wavelength", 0.5),
-    "ShaderNodeCameraData": ("Camera Data", 1.0),
+    "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
     "ShaderNodeHairInfo": ("Curves Info", 0.5),
     "ShaderNodeParticleInfo": ("Particle Info", 0.5),
     "ShaderNodePointInfo": ("Point Info", 0.5),
@@ -148,8 +148,8 @@ STAND_INS = {
     ("ShaderNodeNewGeometry", "Pointiness"): ("Geometry: Pointiness", 0.5),
     ("ShaderNodeNewGeometry", "Random Per Island"): ("Geometry: Random Per Island", 0.5),
     ("ShaderNodeNewGeometry", "Parametric"): ("Geometry: Parametric", 0.5),
-    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window", 0.5),
-    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera", 0.5),
+    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
+    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),
 }
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
 
+from ..surroundings import LAYER
 from .translator import value_node
 
 # Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
@@ -12,6 +13,8 @@ LOCATION = "blender location"
 COLOUR = "blender colour"
 INDEX = "blender index"
 ACTIVE_COLOUR = "blender active colour"
+# What there is in the place of attributes that are not there, and of those of meshes.
+NOTHING, NO_ATTRIBUTE = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 
 @value_node("ShaderNodeValue", "ShaderNodeRGB")
@@ -44,7 +47,9 @@ def texture_coordinates(t, node, context, output):
     if name == "Reflection":
         normal, incoming = hit(t, "Normal"), hit(t, "Incoming")
         return normal * (normal.dot(incoming) * 2.0) - incoming
-    return None
+    from .camera_nodes import in_camera, in_picture
+
+    return in_camera(t) if name == "Camera" else in_picture(t)
 
 
 def _world_coordinates(t, node, name):
@@ -116,16 +121,18 @@ def colour_attribute(t, node, context, output):
 
 @value_node("ShaderNodeAttribute")
 def attribute(t, node, context, output):
-    kind = node.attribute_type
+    kind, name = node.attribute_type, node.attribute_name
     if kind == "VIEW_LAYER":
-        return None
+        return part_of(t.graph.colour(t.ask(LAYER + name) or NOTHING), output)
     if kind == "GEOMETRY":
-        value = t.primvar(node.attribute_name or ACTIVE_COLOUR, kind="RGBA")
-    else:
-        value = t.instance_primvar(f"{kind.lower()} {node.attribute_name}", "RGBA")
+        return part_of(t.primvar(name or ACTIVE_COLOUR, NO_ATTRIBUTE, kind="RGBA"), output)
+    return part_of(t.instance_primvar(f"{kind.lower()} {name}", "RGBA"), output)
+
+
+def part_of(value, output):
+    """What an output of the Attribute node takes of a colour; its number is the mean of its components."""
     if output.identifier == "Alpha":
         return value.component(3)
-    # An attribute of one number fills all components, so its first is its value; a colour's value is the mean.
     return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
 
 

@@ -60,7 +60,18 @@ class Translator:
     """The state while one node tree is translated."""
 
     def __init__(
-        self, owner, tree, images, report, *, kind="Material", measurements=None, is_world=False, is_camera_ray=True, version=None
+        self,
+        owner,
+        tree,
+        images,
+        report,
+        *,
+        kind="Material",
+        measurements=None,
+        is_world=False,
+        is_camera_ray=True,
+        version=None,
+        surroundings=None,
     ):
         self.version = tuple(version or bpy.app.version)
         self.luminance = LUMINANCE[self.version >= (5, 0, 0)]
@@ -70,6 +81,7 @@ class Translator:
         self.root = Context(tree)
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
+        self._surroundings, self.asked = surroundings, {}
         # Of a lamp's IES texture.
         self.goniogram = None
         self._values, self._open = {}, set()
@@ -177,6 +189,13 @@ class Translator:
             self._stood_in.add((context, node.name))
             self.say(node, context, what)
         return value
+
+    def ask(self, key):
+        """What a material asks of the scene around it; None for what is not known."""
+        if self._surroundings is None:
+            return None
+        self.asked[key] = self._surroundings.ask(key)
+        return self.asked[key]
 
     def stepped(self, axis, share, function):
         """What a function gives a share of a pixel beside the hit, along one of two directions in the surface."""

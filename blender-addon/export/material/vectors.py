@@ -177,11 +177,30 @@ def radial_tangent(t, axis="Z"):
 
 @value_node("ShaderNodeVectorTransform")
 def vector_transform(t, node, context, output):
-    value = t.input(node, "Vector", context)
-    spaces = {"WORLD": "World", "OBJECT": "Object"}
-    if node.convert_from == node.convert_to:
+    value, kind = t.input(node, "Vector", context), node.vector_type
+    start, end = node.convert_from, node.convert_to
+    if start == end:
         return value
-    if node.convert_from not in spaces or node.convert_to not in spaces:
-        return None
-    fields = {"from": spaces[node.convert_from], "to": spaces[node.convert_to], "quantity": node.vector_type.capitalize()}
+    if t.is_world:
+        # Nothing has a space of its own there, and normals that meet one stay as they are.
+        start, end = ("WORLD" if space == "OBJECT" else space for space in (start, end))
+    if "CAMERA" in (start, end):
+        from .camera_nodes import applied, eye
+
+        seen_by = eye(t)
+        if seen_by is None:
+            return None
+        if start == "CAMERA":
+            value, start = applied(t, seen_by.to_world(), value, kind == "POINT"), "WORLD"
+        elif start == "OBJECT":
+            value, start = _between(t, value, "OBJECT", "WORLD", kind), "WORLD"
+        if end == "CAMERA":
+            value = applied(t, seen_by.space, value, kind == "POINT")
+            return value.normalized() if kind == "NORMAL" else value
+    return value if start == end else _between(t, value, start, end, kind)
+
+
+def _between(t, value, start, end, kind):
+    """A value carried between the spaces of the world and of the object."""
+    fields = {"from": start.capitalize(), "to": end.capitalize(), "quantity": kind.capitalize()}
     return t.graph.add({"Transform": fields}, value, kind="VECTOR")
