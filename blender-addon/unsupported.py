@@ -137,7 +137,6 @@ STAND_INS = {
     "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
     "ShaderNodeTexPointDensity": ("Point Density", 0.0),
     "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
-    "ShaderNodeWireframe": ("Wireframe", 0.0),
     "ShaderNodeWavelength": ("Wavelength", 0.5),
     "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
     "ShaderNodeHairInfo": ("Curves Info", 0.5),
@@ -145,9 +144,6 @@ STAND_INS = {
     "ShaderNodePointInfo": ("Point Info", 0.5),
     "ShaderNodeVolumeInfo": ("Volume Info", 0.0),
     "ShaderNodeUVAlongStroke": ("UV Along Stroke", 0.5),
-    ("ShaderNodeNewGeometry", "Pointiness"): ("Geometry: Pointiness", 0.5),
-    ("ShaderNodeNewGeometry", "Random Per Island"): ("Geometry: Random Per Island", 0.5),
-    ("ShaderNodeNewGeometry", "Parametric"): ("Geometry: Parametric", 0.5),
     ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
     ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),
 }

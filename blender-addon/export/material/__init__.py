@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from .. import limits
-from . import bump, camera_nodes, closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register)
+from . import bump, camera_nodes, closures, colour, inputs, maths, measured, principled, textures, vectors, wireframe  # noqa: F401
 from .closures import closure
 from .displacement import bend
 from .flatten import flatten

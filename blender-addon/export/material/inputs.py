@@ -13,6 +13,13 @@ LOCATION = "blender location"
 COLOUR = "blender colour"
 INDEX = "blender index"
 ACTIVE_COLOUR = "blender active colour"
+POINTINESS = "blender pointiness"
+ISLAND = "blender island"
+# Barycentric coordinates, and the positions of a triangle's three corners.
+PARAMETRIC = "blender parametric"
+TRIANGLE = ("blender triangle 1", "blender triangle 2", "blender triangle 3")
+# What every mesh can give without an attribute.
+COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, *TRIANGLE})
 # What there is in the place of attributes that are not there, and of those of meshes.
 NOTHING, NO_ATTRIBUTE = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
@@ -89,18 +96,33 @@ def normal_of(t, node, context, name="Normal"):
 
 @value_node("ShaderNodeNewGeometry")
 def geometry(t, node, context, output):
+    name = output.identifier
     if t.is_world:
-        return {"Position": direction(t), "Incoming": -direction(t), "Normal": -direction(t)}.get(output.identifier)
+        return _world_geometry(t, name)
     simple = {"Position": "Position", "Normal": "Normal", "True Normal": "GeometricNormal", "Incoming": "Incoming"}
-    if output.identifier in simple:
-        return hit(t, simple[output.identifier])
-    if output.identifier == "Backfacing":
+    if name in simple:
+        return hit(t, simple[name])
+    if name == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
-    if output.identifier == "Tangent":
+    if name == "Tangent":
         from .vectors import radial_tangent
 
         return radial_tangent(t)
-    return None
+    computed = {"Pointiness": POINTINESS, "Random Per Island": ISLAND, "Parametric": PARAMETRIC}.get(name)
+    if computed is None:
+        return None
+    if t.kind != "Material":
+        return t.graph.scalar(0.0)
+    return t.primvar(computed, kind="VECTOR" if name == "Parametric" else "VALUE")
+
+
+def _world_geometry(t, name):
+    """As if the sky were a point that looks back; it is of no mesh."""
+    if name == "Position":
+        return direction(t)
+    if name in ("Incoming", "Normal", "True Normal"):
+        return -direction(t)
+    return t.graph.vector((1.0, 0.0, 0.0)) if name == "Parametric" else t.graph.scalar(0.0)
 
 
 @value_node("ShaderNodeObjectInfo")
