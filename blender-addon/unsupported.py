@@ -112,7 +112,6 @@ MATERIALS = {
         "Thin walls as Cycles has them, by the mean of both polarisations",
         "each polarisation by itself, as panes are; up to 3 % apart near 75°",
     ),
-    "instancer's coordinates": Limit("Texture coordinates from the instancer", "the mesh's own"),
     "instancer's attribute": Limit(
         "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
     ),
@@ -139,10 +138,6 @@ STAND_INS = {
     "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
     "ShaderNodeWavelength": ("Wavelength", 0.5),
     "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
-    "ShaderNodeHairInfo": ("Curves Info", 0.5),
-    "ShaderNodeParticleInfo": ("Particle Info", 0.5),
-    "ShaderNodePointInfo": ("Point Info", 0.5),
-    "ShaderNodeVolumeInfo": ("Volume Info", 0.0),
     "ShaderNodeUVAlongStroke": ("UV Along Stroke", 0.5),
     ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
     ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),

@@ -6,6 +6,7 @@ import gonio
 from . import camera, collecting, limits, settings, view, world
 from .changes import Changes, touched
 from .gather import Walk, fill_random
+from .given import fill_given, is_given
 from .images import Images
 from .instancer import PREFIX as INSTANCER
 from .instancer import fill_instancer
@@ -142,6 +143,8 @@ class Exporter:
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
+        given = [(group, wanted) for group, _, _, wanted in entries if any(is_given(name) for name in wanted)]
+        fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
         self._instances.write(entries)
         self._materials.sweep()
         self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])

@@ -6,7 +6,20 @@ from dataclasses import dataclass, field
 import bpy
 
 from .. import limits
-from . import bump, camera_nodes, closures, colour, inputs, maths, measured, principled, textures, vectors, wireframe  # noqa: F401
+from . import (  # noqa: F401 (they register their nodes)
+    bump,
+    camera_nodes,
+    closures,
+    colour,
+    info_nodes,
+    inputs,
+    maths,
+    measured,
+    principled,
+    textures,
+    vectors,
+    wireframe,
+)
 from .closures import closure
 from .displacement import bend
 from .flatten import flatten

@@ -20,6 +20,9 @@ PARAMETRIC = "blender parametric"
 TRIANGLE = ("blender triangle 1", "blender triangle 2", "blender triangle 3")
 # What every mesh can give without an attribute.
 COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, *TRIANGLE})
+# How names of values begin that instances are given: by particles, and where on the instancer's surface they are.
+GIVEN = "given "
+PARTICLE, GIVEN_GENERATED, GIVEN_UV = f"{GIVEN}by particle ", f"{GIVEN}generated", f"{GIVEN}uv"
 # What there is in the place of attributes that are not there, and of those of meshes.
 NOTHING, NO_ATTRIBUTE = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
@@ -32,8 +35,13 @@ def constant(t, node, context, output):
 @value_node("ShaderNodeUVMap")
 def uv_map(t, node, context, output):
     if node.from_instancer:
-        t.tell("instancer's coordinates", node, context)
+        return given(t, GIVEN_UV)
     return t.primvar(node.uv_map or UV)
+
+
+def given(t, name):
+    """A vector that the instancer gives its instance; zero for what is none."""
+    return t.instance_primvar(name, "VECTOR") if t.kind == "Material" else t.graph.vector((0.0, 0.0, 0.0))
 
 
 @value_node("ShaderNodeTexCoord")
@@ -42,9 +50,9 @@ def texture_coordinates(t, node, context, output):
     if t.is_world:
         return _world_coordinates(t, node, name)
     if name == "UV":
-        return t.primvar(UV)
+        return given(t, GIVEN_UV) if node.from_instancer else t.primvar(UV)
     if name == "Generated":
-        return t.primvar(GENERATED)
+        return given(t, GIVEN_GENERATED) if node.from_instancer else t.primvar(GENERATED)
     if name == "Object":
         if node.object is None:
             return t.primvar(POSITION)
@@ -123,16 +131,6 @@ def _world_geometry(t, name):
     if name in ("Incoming", "Normal", "True Normal"):
         return -direction(t)
     return t.graph.vector((1.0, 0.0, 0.0)) if name == "Parametric" else t.graph.scalar(0.0)
-
-
-@value_node("ShaderNodeObjectInfo")
-def object_info(t, node, context, output):
-    if output.identifier == "Material Index":
-        return t.graph.scalar(getattr(t.owner, "pass_index", 0))
-    names = {"Random": (RANDOM, "VALUE"), "Location": (LOCATION, "VECTOR"), "Object Index": (INDEX, "VALUE"), "Color": (COLOUR, "RGBA")}
-    if output.identifier == "Alpha":
-        return t.instance_primvar(COLOUR, "RGBA").component(3)
-    return t.instance_primvar(*names[output.identifier]) if output.identifier in names else None
 
 
 @value_node("ShaderNodeVertexColor")
