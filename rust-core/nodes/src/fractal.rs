@@ -11,7 +11,6 @@ const LEAST_WEIGHT: f32 = 0.001;
 
 /// How octaves are put together (Ebert, Musgrave, Peachey, Perlin and Worley, Texturing and Modeling, 3rd edition, chapter 16).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
 pub enum NoiseKind {
     /// Fractal Brownian motion: the sum.
     #[default]

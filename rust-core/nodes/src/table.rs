@@ -7,8 +7,12 @@
 use crate::{
     arithmetic::{fresnel, modulo, power, sin_cos},
     columns::Io,
+    magic::MagicTexture,
+    noise::NoiseTexture,
     vector::{hsv_to_rgb, luminance, matrix_transform, normalize, rgb_to_hsv},
     voronoi::VoronoiTexture,
+    wave::WaveTexture,
+    white_noise::WhiteNoise,
     words::{LightPathValue, Quantity, Space, TextureFilter, TextureId, WrapMode},
 };
 use gonio_simd::{F, Lanes, Vec3};
@@ -211,6 +215,30 @@ operations! {
             /// Three rows of a 3×4 matrix.
             rows: [[f32; 4]; 3],
         }(l, point: 3) -> 3, Keep = matrix_transform(point, rows);
+        /// Blender's Noise Texture: the value, then red, green and blue.
+        NoiseTexture<texture: NoiseTexture>(
+            l, vector: 3, w: 1, scale: 1, detail: 1, roughness: 1, lacunarity: 1, offset: 1, gain: 1, distortion: 1
+        ) -> 4, Zero = {
+            let ([x, y, z], [w], [scale], [detail], [roughness], [lacunarity]) = (vector, w, scale, detail, roughness, lacunarity);
+            texture.evaluate(l, &[x, y, z, w, scale, detail, roughness, lacunarity, offset[0], gain[0], distortion[0]])
+        };
+        /// Blender's White Noise Texture: the value, then red, green and blue.
+        WhiteNoise<texture: WhiteNoise>(l, vector: 3, w: 1) -> 4, Zero = {
+            let [x, y, z] = vector;
+            texture.evaluate(l, &[x, y, z, w[0]])
+        };
+        /// Blender's Wave Texture.
+        WaveTexture<texture: WaveTexture>(
+            l, vector: 3, scale: 1, distortion: 1, detail: 1, detail_scale: 1, detail_roughness: 1, phase: 1
+        ) -> 1, Splat = {
+            let ([x, y, z], [scale], [distortion], [detail]) = (vector, scale, distortion, detail);
+            texture.evaluate(l, &[x, y, z, scale, distortion, detail, detail_scale[0], detail_roughness[0], phase[0]])
+        };
+        /// Blender's Magic Texture: the mean, then red, green and blue.
+        MagicTexture<texture: MagicTexture>(l, vector: 3, scale: 1, distortion: 1) -> 4, Zero = {
+            let [x, y, z] = vector;
+            texture.evaluate(l, &[x, y, z, scale[0], distortion[0]])
+        };
         /// Blender's Voronoi Texture; the outputs are those of its [`Part`](crate::voronoi::Part).
         VoronoiTexture<texture: VoronoiTexture>(
             l, vector: 3, w: 1, scale: 1, detail: 1, roughness: 1, lacunarity: 1, smoothness: 1, exponent: 1, randomness: 1

@@ -11,7 +11,6 @@ const FREQUENCY: f32 = 20.0;
 
 /// What waves are in line with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
 pub enum WaveShape {
     /// Bands across the x axis.
     #[default]
@@ -34,7 +33,6 @@ pub enum WaveShape {
 
 /// How a wave rises and falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
 pub enum WaveProfile {
     /// A sine.
     #[default]
