@@ -14,11 +14,6 @@ def _truncate(a):
     return a.sign() * abs(a).floor()
 
 
-def _modulo(a, b):
-    """Remainder with the dividend's sign, 0 for a divisor of 0."""
-    return (a - b * _truncate(a / b)) * (b * b).apply("Sign")
-
-
 def _floored_modulo(a, b):
     return (a - b * (a / b).floor()) * (b * b).apply("Sign")
 
@@ -75,7 +70,7 @@ OPERATIONS = {
     "CEIL": lambda a, b, c: -((-a).floor()),
     "TRUNC": lambda a, b, c: _truncate(a),
     "FRACT": lambda a, b, c: a.fraction(),
-    "MODULO": lambda a, b, c: _modulo(a, b),
+    "MODULO": lambda a, b, c: a.apply("Modulo", b),
     "FLOORED_MODULO": lambda a, b, c: _floored_modulo(a, b),
     "WRAP": wrap,
     "SNAP": lambda a, b, c: (a / b).floor() * b,

@@ -59,10 +59,8 @@ def noise(t, node, context, output):
 @value_node("ShaderNodeTexWhiteNoise")
 def white_noise(t, node, context, output):
     fields = {"dimensions": _dimensions(node, "noise_dimensions"), "color": output.type == "RGBA"}
-    place = t.input(node, "Vector", context)
-    if not t.linked(node, "Vector", context):
-        place = _place(t, node, context)
-    return _value_and_colour(t, output, t.graph.add({"WhiteNoise": fields}, place, t.input(node, "W", context), kind="RGBA"))
+    inputs = _inputs(t, node, context, ("Vector", "W"))
+    return _value_and_colour(t, output, t.graph.add({"WhiteNoise": fields}, *inputs, kind="RGBA"))
 
 
 @value_node("ShaderNodeTexWave")

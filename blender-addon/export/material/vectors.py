@@ -95,7 +95,7 @@ OPERATIONS = {
     "FLOOR": lambda a, b, c, s: a.floor(),
     "CEIL": lambda a, b, c, s: -((-a).floor()),
     "FRACTION": lambda a, b, c, s: a.fraction(),
-    "MODULO": lambda a, b, c, s: (a - b * ((a / b).sign() * abs(a / b).floor())) * (b * b).sign(),
+    "MODULO": lambda a, b, c, s: a.apply("Modulo", b),
     "WRAP": lambda a, b, c, s: wrap(a, b, c),
     "SNAP": lambda a, b, c, s: (a / b).floor() * b,
     "SINE": lambda a, b, c, s: a.apply("Sine"),
