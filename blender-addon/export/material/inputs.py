@@ -156,31 +156,6 @@ def part_of(value, output):
     return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
 
 
-# The outputs of Light Path that shading knows.
-LIGHT_PATH = {
-    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission")),
-    *(f"{kind} Depth" for kind in ("Ray", "Diffuse", "Glossy", "Transmission", "Transparent")),
-    "Ray Length",
-}
-
-
-@value_node("ShaderNodeLightPath")
-def light_path(t, node, context, output):
-    t.asked_for_ray = True
-    name = output.identifier
-    if t.is_world:
-        if name != "Is Camera Ray":
-            t.tell("world's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
-    if t.kind == "Light":
-        # What lamps light is found by rays of no such kind.
-        t.tell("lamp's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(0.0)
-    if name == "Is Volume Scatter Ray":
-        return t.graph.scalar(0.0)
-    return t.graph.add({"LightPath": name.replace(" ", "")}, kind="VALUE") if name in LIGHT_PATH else None
-
-
 @value_node("ShaderNodeFresnel")
 def fresnel(t, node, context, output):
     ior = t.input(node, "IOR", context, 1.5).maximum(1e-5)
