@@ -23,8 +23,10 @@ COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, *TRIA
 # How names of values begin that instances are given: by particles, and where on the instancer's surface they are.
 GIVEN = "given "
 PARTICLE, GIVEN_GENERATED, GIVEN_UV = f"{GIVEN}by particle ", f"{GIVEN}generated", f"{GIVEN}uv"
-# What there is in the place of attributes that are not there, and of those of meshes.
-NOTHING, NO_ATTRIBUTE = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+# How names begin of an attribute as one number, and of its alpha.
+FACTOR, ALPHA = "factor of ", "alpha of "
+# What there is in the place of attributes that are not there.
+NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @value_node("ShaderNodeValue", "ShaderNodeRGB")
@@ -145,8 +147,18 @@ def attribute(t, node, context, output):
     if kind == "VIEW_LAYER":
         return part_of(t.graph.colour(t.ask(LAYER + name) or NOTHING), output)
     if kind == "GEOMETRY":
-        return part_of(t.primvar(name or ACTIVE_COLOUR, NO_ATTRIBUTE, kind="RGBA"), output)
+        return _of_mesh(t, name, output)
     return part_of(t.instance_primvar(f"{kind.lower()} {name}", "RGBA"), output)
+
+
+def _of_mesh(t, name, output):
+    """An attribute of the mesh; how many numbers it has decides about its number and its alpha."""
+    is_there = bool(name) and t.kind == "Material"
+    if output.identifier == "Alpha":
+        return t.primvar(ALPHA + name, (1.0,) * 4, kind="VALUE") if is_there else t.graph.scalar(1.0)
+    if not is_there:
+        return t.graph.colour(NOTHING)
+    return t.primvar(FACTOR + name, kind="VALUE") if output.identifier == "Fac" else t.primvar(name, kind="RGBA")
 
 
 def part_of(value, output):
