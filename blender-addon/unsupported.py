@@ -106,6 +106,9 @@ MATERIALS = {
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
     "ray portal": Limit("Ray Portal BSDF", "rays go straight on"),
+    "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
+    "occlusion": Limit("Ambient Occlusion", "nothing is near"),
+    "bevel": Limit("Bevel", "edges stay sharp"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(
@@ -135,10 +138,8 @@ STAND_INS = {
     "ShaderNodeTexWhiteNoise": ("White Noise Texture", 0.5),
     "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
     "ShaderNodeTexPointDensity": ("Point Density", 0.0),
-    "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
     "ShaderNodeWavelength": ("Wavelength", 0.5),
     "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
-    "ShaderNodeUVAlongStroke": ("UV Along Stroke", 0.5),
     ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
     ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),
 }

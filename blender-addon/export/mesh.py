@@ -6,7 +6,19 @@ import ctypes
 import numpy as np
 
 from .colour_management import colours_to_rec709
-from .material.inputs import ACTIVE_COLOUR, COMPUTED, GENERATED, ISLAND, PARAMETRIC, POINTINESS, POSITION, TRIANGLE, UV
+from .material.inputs import (
+    ACTIVE_COLOUR,
+    ALPHA,
+    COMPUTED,
+    FACTOR,
+    GENERATED,
+    ISLAND,
+    PARAMETRIC,
+    POINTINESS,
+    POSITION,
+    TRIANGLE,
+    UV,
+)
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points, edges_of, edges_to_points, islands, pointiness
 
 # Data type of an attribute -> (property to read, numbers in it, numpy type).
@@ -199,11 +211,21 @@ def _wanted(mesh, points, primvars, spread):
         elif name not in COMPUTED:
             attribute = _attribute(mesh, name)
             # A UV map is there already.
-            if attribute is not None and attribute.name not in mesh.uv_layers:
-                values = read(attribute)
+            if attribute is not None and (attribute.name not in mesh.uv_layers or name != attribute.name):
+                values = _part(read(attribute), name)
                 if values is not None:
                     found[name] = _placed(mesh, attribute, values, spread)
     return found
+
+
+def _part(values, name):
+    """The values themselves, or what they are as one number or as alpha: the mean of colours and vectors of three, the first of two, 1."""
+    if values is None or not name.startswith((FACTOR, ALPHA)):
+        return values
+    width = values.shape[1]
+    if name.startswith(FACTOR):
+        return values[:, :3].mean(axis=1, keepdims=True) if width > 2 else values[:, :1]
+    return values[:, 3:] if width > 3 else np.ones((len(values), 1), dtype=np.float32)
 
 
 def _placed(mesh, attribute, values, spread):
@@ -225,7 +247,7 @@ def present(mesh, primvars):
 
 def _attribute(mesh, name):
     if name != ACTIVE_COLOUR:
-        return mesh.attributes.get(name)
+        return mesh.attributes.get(name) or mesh.attributes.get(name.removeprefix(FACTOR).removeprefix(ALPHA))
     number = mesh.color_attributes.render_color_index
     return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
 

@@ -14,10 +14,13 @@ CAMERA, LAYER = "camera", "layer "
 @dataclass(frozen=True)
 class Eye:
     """A camera as shading sees it: three rows that take points of the world to its space, which looks along +z, and three that take them
-    to the picture's coordinates times a third; None where the picture's projection is no matrix."""
+    to the picture's coordinates times a third; None where the picture's projection is no matrix. It sees from `near` metres on: from a
+    plane that rays slant through where `is_flat`, else that far along each ray."""
 
     space: tuple
     picture: tuple | None
+    near: float = 0.0
+    is_flat: bool = False
 
     def to_world(self):
         """The three rows back."""
@@ -50,7 +53,8 @@ def eye_of(description):
     pose[:3] = np.array(description["transform"]["columns"], dtype=float).T
     x, y, back, _ = np.linalg.inv(pose)
     ahead = -back
-    return Eye(_rows(x, y, ahead), _picture(description, x, y, ahead))
+    projection, near = description["projection"], float(description["clipping"][0])
+    return Eye(_rows(x, y, ahead), _picture(description, x, y, ahead), near, projection != "Orthographic" and "Perspective" in projection)
 
 
 def _picture(description, x, y, ahead):

@@ -29,7 +29,9 @@ CASES = {
     "Wire": shown("Wireframe", 0, Size=0.08),
     "Pixel wire": shown("Wireframe", 0, Size=3.0, use_pixel_size=True),
     **{f"{name} {output}": shown("Attribute", output, attribute_name=name) for name in ("bend", "count", "seam", "flow") for output in (0, 3)},
-    **{f"flat {output}": shown("Attribute", output, attribute_name="flat") for output in (0, 1, 3)},
+    **{f"{name} {output}": shown("Attribute", output, attribute_name=name) for name in ("flat", "Map") for output in (0, 1, 2, 3)},
+    "flow 2": shown("Attribute", 2, attribute_name="flow"),
+    "unnamed": shown("Attribute", 3),
     "none": shown("Attribute", 3, attribute_name="nothing of this name"),
 }
 
@@ -58,6 +60,7 @@ def lumps():
     mesh.attributes.new("seam", "BOOLEAN", "EDGE").data.foreach_set("value", random.uniform(0, 1, len(mesh.edges)) > 0.8)
     flat = random.uniform(0, 1, 2 * len(mesh.vertices)).astype(np.float32)
     mesh.attributes.new("flat", "FLOAT2", "POINT").data.foreach_set("vector", flat)
+    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", random.uniform(0, 1, 2 * len(mesh.loops)).astype(np.float32))
     return mesh
 
 

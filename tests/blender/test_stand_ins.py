@@ -136,7 +136,7 @@ def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
     # A bevel that is left out leaves the normal as it is.
     assert description["closures"][0]["normal"] is None
     assert sorted(lines) == [
-        "Material > Bevel: not supported; its input Normal is passed on",
+        "Material > Bevel: not supported; edges stay sharp",
         "Material > Noise Texture: not supported; the value 0.5 is used",
     ]
     failing = tree.nodes.new("ShaderNodeGamma")

@@ -36,13 +36,13 @@ def _hue(a, b, t, keep_saturation):
     first, second = _hsv(a), _hsv(b)
     saturation = first.component(1) if keep_saturation else second.component(1)
     made = _rgb(a.graph, second.component(0), saturation, first.component(2))
-    return a.mix(made, t * second.component(1).sign())
+    return a.mix(made, t * abs(second.component(1).sign()))
 
 
 def _saturation(a, b, t):
     first, second = _hsv(a), _hsv(b)
     mixed = first.component(1).mix(second.component(1), t)
-    return a.mix(_rgb(a.graph, first.component(0), mixed, first.component(2)), first.component(1).sign())
+    return a.mix(_rgb(a.graph, first.component(0), mixed, first.component(2)), abs(first.component(1).sign()))
 
 
 def _value(a, b, t):
@@ -199,9 +199,11 @@ def combine(t, node, context, output):
 
 
 def _hsl(saturation, value):
-    """Saturation and lightness of HSL from HSV's saturation and value."""
-    lightness = value * (1.0 - saturation * 0.5)
-    return (value - lightness) / lightness.minimum(1.0 - lightness), lightness
+    """Saturation and lightness of HSL from HSV's saturation and value; lightness is 1 at most."""
+    spread = value * saturation
+    both = value * 2.0 - spread
+    lightness = (both * 0.5).minimum(1.0)
+    return spread / both.mix(2.0 - both, (0.5 - lightness).less(0.0)), lightness
 
 
 @value_node("ShaderNodeSeparateXYZ")

@@ -23,8 +23,10 @@ COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, *TRIA
 # How names of values begin that instances are given: by particles, and where on the instancer's surface they are.
 GIVEN = "given "
 PARTICLE, GIVEN_GENERATED, GIVEN_UV = f"{GIVEN}by particle ", f"{GIVEN}generated", f"{GIVEN}uv"
-# What there is in the place of attributes that are not there, and of those of meshes.
-NOTHING, NO_ATTRIBUTE = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+# How names begin of an attribute as one number, and of its alpha.
+FACTOR, ALPHA = "factor of ", "alpha of "
+# What there is in the place of attributes that are not there.
+NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @value_node("ShaderNodeValue", "ShaderNodeRGB")
@@ -145,8 +147,18 @@ def attribute(t, node, context, output):
     if kind == "VIEW_LAYER":
         return part_of(t.graph.colour(t.ask(LAYER + name) or NOTHING), output)
     if kind == "GEOMETRY":
-        return part_of(t.primvar(name or ACTIVE_COLOUR, NO_ATTRIBUTE, kind="RGBA"), output)
+        return _of_mesh(t, name, output)
     return part_of(t.instance_primvar(f"{kind.lower()} {name}", "RGBA"), output)
+
+
+def _of_mesh(t, name, output):
+    """An attribute of the mesh; how many numbers it has decides about its number and its alpha."""
+    is_there = bool(name) and t.kind == "Material"
+    if output.identifier == "Alpha":
+        return t.primvar(ALPHA + name, (1.0,) * 4, kind="VALUE") if is_there else t.graph.scalar(1.0)
+    if not is_there:
+        return t.graph.colour(NOTHING)
+    return t.primvar(FACTOR + name, kind="VALUE") if output.identifier == "Fac" else t.primvar(name, kind="RGBA")
 
 
 def part_of(value, output):
@@ -154,31 +166,6 @@ def part_of(value, output):
     if output.identifier == "Alpha":
         return value.component(3)
     return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
-
-
-# The outputs of Light Path that shading knows.
-LIGHT_PATH = {
-    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission")),
-    *(f"{kind} Depth" for kind in ("Ray", "Diffuse", "Glossy", "Transmission", "Transparent")),
-    "Ray Length",
-}
-
-
-@value_node("ShaderNodeLightPath")
-def light_path(t, node, context, output):
-    t.asked_for_ray = True
-    name = output.identifier
-    if t.is_world:
-        if name != "Is Camera Ray":
-            t.tell("world's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
-    if t.kind == "Light":
-        # What lamps light is found by rays of no such kind.
-        t.tell("lamp's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(0.0)
-    if name == "Is Volume Scatter Ray":
-        return t.graph.scalar(0.0)
-    return t.graph.add({"LightPath": name.replace(" ", "")}, kind="VALUE") if name in LIGHT_PATH else None
 
 
 @value_node("ShaderNodeFresnel")

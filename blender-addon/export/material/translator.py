@@ -9,7 +9,7 @@ from gonio.graph import Graph, Value
 
 from ...report import words_of
 from ..colour_management import to_rec709
-from .sockets import KINDS, Context, follow, input_socket
+from .sockets import ABSENT, KINDS, Context, follow, input_socket
 
 # More nodes than this in a row are not followed.
 DEEPEST = 1000
@@ -118,6 +118,9 @@ class Translator:
         node, source, inner = found
         if node is None:
             value = self.default_of(source, KINDS.get(source.type, kind))
+        elif node.bl_idname in ABSENT:
+            self.tell("absent", node, inner, node.bl_label)
+            value = self.default_of(socket, kind)
         else:
             value = self.output(node, source, inner)
         return self.as_kind(value, kind)
@@ -137,7 +140,7 @@ class Translator:
         """Whether something feeds this input."""
         socket = input_socket(node, name)
         found = None if socket is None else follow(socket, context)
-        return found is not None and found[0] is not None
+        return found is not None and found[0] is not None and found[0].bl_idname not in ABSENT
 
     def default_of(self, socket, kind):
         """The value that an unlinked socket shows."""

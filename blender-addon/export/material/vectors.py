@@ -4,7 +4,7 @@
 from mathutils import Euler, Matrix, Vector
 
 from .inputs import GENERATED, UV, hit
-from .maths import wrap
+from .maths import power, wrap
 from .translator import value_node
 
 
@@ -88,7 +88,7 @@ OPERATIONS = {
     "SCALE": lambda a, b, c, s: a * s,
     "NORMALIZE": lambda a, b, c, s: a.normalized(),
     "ABSOLUTE": lambda a, b, c, s: abs(a),
-    "POWER": lambda a, b, c, s: a**b,
+    "POWER": lambda a, b, c, s: power(a, b),
     "SIGN": lambda a, b, c, s: a.sign(),
     "MINIMUM": lambda a, b, c, s: a.minimum(b),
     "MAXIMUM": lambda a, b, c, s: a.maximum(b),
