@@ -94,3 +94,39 @@ def voronoi(t, node, context, output):
     inputs = [_place(t, node, context), *_inputs(t, node, context, names)]
     texture = t.graph.add({"VoronoiTexture": fields}, *inputs, kind="VECTOR" if is_place else "RGBA")
     return texture if name in ("Position", "Color") else texture.component(3)
+
+
+@value_node("ShaderNodeTexBrick")
+def brick(t, node, context, output):
+    names = ("Scale", "Mortar Size", "Mortar Smooth", "Bias", "Brick Width", "Row Height")
+    fields = {name: getattr(node, name) for name in ("offset", "offset_frequency", "squash", "squash_frequency")}
+    inputs = [_place(t, node, context), *_inputs(t, node, context, names)]
+    texture = t.graph.add({"BrickTexture": fields}, *inputs, kind="VECTOR")
+    tint, mortar = texture.component(0), texture.component(1)
+    if output.identifier == "Fac":
+        return mortar
+    first, second, between = _inputs(t, node, context, ("Color1", "Color2", "Mortar"))
+    return first.mix(second, tint).mix(between, mortar)
+
+
+@value_node("ShaderNodeTexGabor")
+def gabor(t, node, context, output):
+    names = ("Scale", "Frequency", "Anisotropy", "Orientation 2D", "Orientation 3D")
+    inputs = [_place(t, node, context), *_inputs(t, node, context, names)]
+    texture = t.graph.add({"GaborTexture": {"dimensions": int(node.gabor_type[0])}}, *inputs, kind="VECTOR")
+    return texture.component(("Value", "Phase", "Intensity").index(output.identifier))
+
+
+@value_node("ShaderNodeRadialTiling")
+def radial_tiling(t, node, context, output):
+    is_place = output.identifier == "Segment Coordinates"
+    fields = {"normalize": node.normalize, "part": "Coordinates" if is_place else "Segment"}
+    tiles = t.graph.add({"RadialTiling": fields}, *_inputs(t, node, context, ("Vector", "Sides", "Roundness")), kind="VECTOR")
+    return tiles if is_place else tiles.component(("Segment ID", "Segment Width", "Segment Rotation").index(output.identifier))
+
+
+@value_node("ShaderNodeWavelength")
+def wavelength(t, node, context, output):
+    # The matrix to Rec.709 is another one since this version.
+    fields = {"white": "Tristimulus" if t.version < NEW_CELLS else "Chromaticity"}
+    return t.graph.add({"Wavelength": fields}, *_inputs(t, node, context, ("Wavelength",)), kind="RGBA")

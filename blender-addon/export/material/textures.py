@@ -9,6 +9,7 @@ from .translator import value_node
 from .vectors import mapping_matrix, transform3d
 
 WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirror"}
+FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": "Cubic"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
 
@@ -41,15 +42,13 @@ def _texel(t, node, context, output, uv):
 def _sample(t, node, context, uv, wrap):
     if node.image is None:
         return t.graph.colour(MISSING)
-    if node.interpolation == "Cubic":
-        t.say(node, context, "cubic interpolation is not supported; it is linear")
     number = t.images.texture(node.image, node.image_user, t.report)
     if number is None:
         return t.graph.colour(MISSING)
     fields = {
         "texture": number,
         "wrap": [wrap, wrap],
-        "filter": "Closest" if node.interpolation == "Closest" else "Linear",
+        "filter": FILTERS[node.interpolation],
         "scale": [1.0] * 4,
         "bias": [0.0] * 4,
         "fallback": list(MISSING),

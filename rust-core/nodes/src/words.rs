@@ -34,6 +34,8 @@ pub enum TextureFilter {
     Linear,
     /// The nearest texel of the finest level.
     Closest,
+    /// As `Linear`, each level by cubic B-splines, which smooth the image.
+    Cubic,
 }
 
 /// A space that values are given in.

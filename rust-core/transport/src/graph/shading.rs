@@ -40,13 +40,19 @@ pub(super) fn point_value<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, op
     from_vector(l, vector)
 }
 
-/// The way to the next pixel along one of two perpendicular directions in the surface that depend on its normal alone.
+/// The way to the next pixel along one of two perpendicular directions in the surface that depend on its normal alone: those of Cycles, and as
+/// wide as the ray's cone, for heights beside the hit are taken there.
 #[inline(always)]
 fn step<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, axis: u8) -> Vec3<L> {
-    let frame = Frame::from_normal(load3(l, &points.geometric_normal, at));
+    let normal = load3(l, &points.geometric_normal, at);
+    // Perpendicular to (1, 1, 1), but for normals along that.
+    let along = normal.x.eq(normal.y) & normal.x.eq(normal.z);
+    let usual = Vec3::new(normal.z - normal.y, normal.x - normal.z, normal.y - normal.x);
+    let other = Vec3::new(normal.z - normal.y, normal.x + normal.z, -normal.y - normal.x);
+    let first = along.select(other, usual).normalize_or(Frame::from_normal(normal).x);
+    let direction = if axis == 0 { first } else { normal.cross(first) };
     let least = load3(l, &points.position, at).max_abs().max(1.0) * LEAST_STEP;
-    let direction = if axis == 0 { frame.x } else { frame.y };
-    direction * l.load(&points.width, at).max(least)
+    direction * l.load(&points.cone, at).max(least)
 }
 
 impl<L: Lanes> Place<'_, L> {

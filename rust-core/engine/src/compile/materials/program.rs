@@ -121,6 +121,7 @@ fn filter_of(filter: TextureFilter) -> Filter {
     match filter {
         TextureFilter::Linear => Filter::Trilinear,
         TextureFilter::Closest => Filter::Nearest,
+        TextureFilter::Cubic => Filter::Cubic,
     }
 }
 

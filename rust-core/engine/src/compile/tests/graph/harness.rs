@@ -124,7 +124,7 @@ impl Bench {
             let (a, b) = (uniform(1, i).sqrt(), uniform(2, i));
             points.primitive[i] = (i % TRIANGLES.len()) as u32;
             [points.barycentric[0][i], points.barycentric[1][i]] = [a * (1.0 - b), a * b];
-            points.width[i] = 0.5 + uniform(3, i);
+            points.cone[i] = 0.5 + uniform(3, i);
             let wo = [uniform(4, i) - 0.5, uniform(5, i) - 0.5, uniform(6, i) - 0.5];
             let length = wo.iter().map(|x| x * x).sum::<f32>().sqrt();
             (0..3).for_each(|k| points.wo[k][i] = wo[k] / length);
