@@ -4,12 +4,12 @@
 from dataclasses import dataclass, field
 
 import bpy
+from gonio.graph import Graph, renumber
 
 from .. import limits
-from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
+from . import closures, colour, inputs, maths, measured, principled, procedural, textures, vectors  # noqa: F401 (they register their nodes)
 from .closures import closure
 from .flatten import flatten
-from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator

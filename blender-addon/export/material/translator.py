@@ -5,10 +5,10 @@ import sys
 from contextlib import contextmanager
 
 import bpy
+from gonio.graph import Graph, Value
 
 from ...report import words_of
 from ..colour_management import to_rec709
-from .graph import Graph, Value
 from .sockets import KINDS, Context, follow, input_socket
 
 # More nodes than this in a row are not followed.
