@@ -5,11 +5,15 @@
 //! What hits, rays and images give is the host's affair: light transport, or [`compute`] with arrays.
 
 mod arithmetic;
+mod blackbody;
+mod brick;
 mod code;
 mod columns;
 mod compute;
 mod curve;
+mod finite;
 mod fractal;
+mod gabor;
 mod graph;
 pub mod hash;
 mod magic;
@@ -17,26 +21,33 @@ mod noise;
 mod periodic;
 pub mod perlin;
 mod program;
+mod radial_tiling;
 mod table;
 #[cfg(test)]
 mod tests;
 mod vector;
 pub mod voronoi;
 mod wave;
+mod wavelength;
 mod white_noise;
 mod words;
 
+pub use blackbody::Blackbody;
+pub use brick::BrickTexture;
 pub use code::{Code, Hit, Kernel, Operand, Step, Value, constant};
 pub use columns::Io;
 pub use compute::compute;
 pub use curve::Curve;
 pub use fractal::NoiseKind;
+pub use gabor::GaborTexture;
 pub use graph::{Channel, Graph, Input, Node, NodeId};
 pub use magic::MagicTexture;
 pub use noise::NoiseTexture;
 pub use program::{CHUNK, Program, Registers, Source};
+pub use radial_tiling::{RadialTiling, TilingPart};
 pub use table::{KernelKind, Operation, Rest, Signature};
 pub use vector::normalize;
 pub use wave::{WaveProfile, WaveShape, WaveTexture};
+pub use wavelength::{RgbWhite, Wavelength};
 pub use white_noise::WhiteNoise;
 pub use words::{LightPathValue, Quantity, Space, TextureFilter, TextureId, WrapMode};

@@ -83,24 +83,27 @@ fn salt<L: Lanes>(l: L, number: f32) -> U<L> {
     l.u(number.to_bits())
 }
 
-/// The point of a cell in the unit cube, by the cell's words.
+/// The point of a cell in the unit cube, by the cell's words. A `match` on the dimensions leaves the others ungenerated, where `if` would not.
 #[inline(always)]
 fn point_by_lookup3<L: Lanes, const D: usize>(l: L, k: [U<L>; D]) -> [F<L>; D] {
     let mut point = [l.f(0.0); D];
-    if D == 1 {
-        point[0] = to_unit(hash1(l, k[0]));
-    } else if D == 2 {
-        point[0] = to_unit(hash2(l, k[0], k[1]));
-        point[1] = to_unit(hash3(l, k[0], k[1], salt(l, 1.0)));
-    } else if D == 3 {
-        point[0] = to_unit(hash3(l, k[0], k[1], k[2]));
-        point[1] = to_unit(hash4(l, k[0], k[1], k[2], salt(l, 1.0)));
-        point[2] = to_unit(hash4(l, k[0], k[1], k[2], salt(l, 2.0)));
-    } else {
-        point[0] = to_unit(hash4(l, k[0], k[1], k[2], k[3]));
-        point[1] = to_unit(hash4(l, k[3], k[0], k[1], k[2]));
-        point[2] = to_unit(hash4(l, k[2], k[3], k[0], k[1]));
-        point[3] = to_unit(hash4(l, k[1], k[2], k[3], k[0]));
+    match D {
+        1 => point[0] = to_unit(hash1(l, k[0])),
+        2 => {
+            point[0] = to_unit(hash2(l, k[0], k[1]));
+            point[1] = to_unit(hash3(l, k[0], k[1], salt(l, 1.0)));
+        }
+        3 => {
+            point[0] = to_unit(hash3(l, k[0], k[1], k[2]));
+            point[1] = to_unit(hash4(l, k[0], k[1], k[2], salt(l, 1.0)));
+            point[2] = to_unit(hash4(l, k[0], k[1], k[2], salt(l, 2.0)));
+        }
+        _ => {
+            point[0] = to_unit(hash4(l, k[0], k[1], k[2], k[3]));
+            point[1] = to_unit(hash4(l, k[3], k[0], k[1], k[2]));
+            point[2] = to_unit(hash4(l, k[2], k[3], k[0], k[1]));
+            point[3] = to_unit(hash4(l, k[1], k[2], k[3], k[0]));
+        }
     }
     point
 }
@@ -108,12 +111,11 @@ fn point_by_lookup3<L: Lanes, const D: usize>(l: L, k: [U<L>; D]) -> [F<L>; D] {
 #[inline(always)]
 fn point_by_pcg<L: Lanes, const D: usize>(l: L, k: [U<L>; D]) -> [F<L>; D] {
     let mut point = [l.f(0.0); D];
-    if D == 2 {
-        [point[0], point[1]] = pcg2([k[0], k[1]]);
-    } else if D == 3 {
-        [point[0], point[1], point[2]] = pcg3([k[0], k[1], k[2]]);
-    } else {
-        [point[0], point[1], point[2], point[3]] = pcg4([k[0], k[1], k[2], k[3]]);
+    match D {
+        1 => {}
+        2 => [point[0], point[1]] = pcg2([k[0], k[1]]),
+        3 => [point[0], point[1], point[2]] = pcg3([k[0], k[1], k[2]]),
+        _ => [point[0], point[1], point[2], point[3]] = pcg4([k[0], k[1], k[2], k[3]]),
     }
     point
 }
@@ -121,17 +123,17 @@ fn point_by_pcg<L: Lanes, const D: usize>(l: L, k: [U<L>; D]) -> [F<L>; D] {
 /// The colour of a cell by its words; `point` is the point of the same cell, whose numbers it shares where the hash has it so.
 #[inline(always)]
 fn color<L: Lanes, const D: usize>(l: L, hash: CellHash, k: [U<L>; D], point: [F<L>; D]) -> [F<L>; 3] {
-    if D == 1 {
-        [point[0], to_unit(hash2(l, k[0], salt(l, 1.0))), to_unit(hash2(l, k[0], salt(l, 2.0)))]
-    } else if D == 2 {
-        match hash {
+    match D {
+        1 => [point[0], to_unit(hash2(l, k[0], salt(l, 1.0))), to_unit(hash2(l, k[0], salt(l, 2.0)))],
+        2 => match hash {
             CellHash::Lookup3 => [point[0], point[1], to_unit(hash3(l, k[0], k[1], salt(l, 2.0)))],
             CellHash::Pcg => pcg3([k[0], k[1], l.u(STEP[1])]),
-        }
-    } else if D == 3 || hash == CellHash::Pcg {
-        [point[0], point[1], point[2]]
-    } else {
-        [point[0], to_unit(hash4(l, k[2], k[0], k[3], k[1])), to_unit(hash4(l, k[3], k[2], k[1], k[0]))]
+        },
+        3 => [point[0], point[1], point[2]],
+        _ => match hash {
+            CellHash::Lookup3 => [point[0], to_unit(hash4(l, k[2], k[0], k[3], k[1])), to_unit(hash4(l, k[3], k[2], k[1], k[0]))],
+            CellHash::Pcg => [point[0], point[1], point[2]],
+        },
     }
 }
 
@@ -192,7 +194,13 @@ impl<L: Lanes, const D: usize, const S: usize> Cells<L, D, S> {
 
     #[inline(always)]
     fn unit_point(&self, l: L, words: [U<L>; D]) -> [F<L>; D] {
-        if D == 1 || self.hash == CellHash::Lookup3 { point_by_lookup3(l, words) } else { point_by_pcg(l, words) }
+        match D {
+            1 => point_by_lookup3(l, words),
+            _ => match self.hash {
+                CellHash::Lookup3 => point_by_lookup3(l, words),
+                CellHash::Pcg => point_by_pcg(l, words),
+            },
+        }
     }
 
     /// The words of a neighbour.

@@ -8,6 +8,7 @@ mod octaves;
 mod smooth;
 mod sphere;
 
+use crate::finite::finite;
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};
 
@@ -106,18 +107,12 @@ impl VoronoiTexture {
             exponent,
             randomness: randomness.saturate(),
         };
-        let mut outputs = match self.dimensions {
+        finite(match self.dimensions {
             1 => self.of_dimensions::<L, 1>(l, [w * scale], shape),
             2 => self.of_dimensions::<L, 2>(l, [x * scale, y * scale], shape),
             3 => self.of_dimensions::<L, 3>(l, [x * scale, y * scale, z * scale], shape),
             _ => self.of_dimensions::<L, 4>(l, [x * scale, y * scale, z * scale, w * scale], shape),
-        };
-        for output in &mut outputs {
-            // Comparisons and not `clamp`, which may let NaN pass.
-            let limited = output.gt(f32::MAX).select(l.f(f32::MAX), output.lt(f32::MIN).select(l.f(f32::MIN), *output));
-            *output = limited.keep_if(limited.eq(limited));
-        }
-        outputs
+        })
     }
 
     /// The outputs at a scaled place; the body is one function of its own, so that callers do not each carry it.

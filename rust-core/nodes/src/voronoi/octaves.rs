@@ -110,18 +110,14 @@ impl VoronoiTexture {
     /// One octave.
     #[inline(always)]
     fn octave<L: Lanes, const D: usize>(&self, l: L, at: [F<L>; D], shape: &Shape<L>) -> Octave<L> {
-        if self.feature != Feature::SmoothF1 {
-            return self.nearest(l, at, shape);
-        }
         // Without smoothness it is the plain minimum, over fewer cells.
-        let smooth = shape.smoothness.gt(0.0);
+        let smooth = l.m(self.feature == Feature::SmoothF1) & shape.smoothness.gt(0.0);
         let mut octave = [l.f(0.0); 4];
         if smooth.any() {
             octave = self.smooth(l, at, shape);
         }
         if !smooth.all() {
-            let plain = self.nearest(l, at, shape);
-            for (octave, plain) in octave.iter_mut().zip(plain) {
+            for (octave, plain) in octave.iter_mut().zip(self.nearest(l, at, shape)) {
                 *octave = smooth.select(*octave, plain);
             }
         }

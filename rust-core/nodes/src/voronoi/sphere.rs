@@ -14,21 +14,21 @@ impl VoronoiTexture {
             return [zero; 4];
         }
         let count = Cells::<L, D, 3>::COUNT;
-        let cells = Cells::<L, D, 3>::around(l, self.hash, at, shape.randomness);
-        let (mut least, mut code) = (l.f(f32::MAX), l.u(0));
-        for number in 0..count {
-            let length = squared(cells.vector(l, number));
-            let closer = length.lt(least);
-            code = closer.select(l.u(Cells::<L, D, 3>::code(number)), code);
-            least = closer.select(length, least);
-        }
-        let closest = cells.chosen(l, code);
-        let cells = Cells::<L, D, 3>::within(l, self.hash, closest.cell, closest.within, shape.randomness);
-        let mut least = l.f(f32::MAX);
-        for number in 0..count {
-            if number != count / 2 {
+        let mut cells = Cells::<L, D, 3>::around(l, self.hash, at, shape.randomness);
+        let mut least = l.f(0.0);
+        // First around the place, then around the point found, without the point itself.
+        for pass in 0..2 {
+            let mut code = l.u(0);
+            least = l.f(f32::MAX);
+            for number in (0..count).filter(|&number| pass == 0 || number != count / 2) {
                 let length = squared(cells.vector(l, number));
-                least = length.lt(least).select(length, least);
+                let closer = length.lt(least);
+                code = closer.select(l.u(Cells::<L, D, 3>::code(number)), code);
+                least = closer.select(length, least);
+            }
+            if pass == 0 {
+                let closest = cells.chosen(l, code);
+                cells = Cells::within(l, self.hash, closest.cell, closest.within, shape.randomness);
             }
         }
         [zero, zero, zero, least.sqrt() * 0.5]
