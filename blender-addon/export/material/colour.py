@@ -218,12 +218,4 @@ def combine_xyz(t, node, context, output):
 
 @value_node("ShaderNodeBlackbody")
 def blackbody(t, node, context, output):
-    from ..blackbody import blackbody_colour
-
-    temperature = t.input(node, "Temperature", context, 6500.0)
-    if temperature.is_constant:
-        return t.graph.colour(blackbody_colour(temperature.constant[0]))
-    low, high = 800.0, 12000.0
-    table = [[*blackbody_colour(low + (high - low) * i / (TABLE_SIZE - 1)), 1.0] for i in range(TABLE_SIZE)]
-    fields = {"table": table, "range": [low, high], "linear": True, "extrapolate": False}
-    return t.graph.add({"Curve": fields}, temperature, kind="RGBA")
+    return t.graph.add("Blackbody", t.input(node, "Temperature", context, 6500.0), kind="RGBA")

@@ -6,12 +6,17 @@
 
 use crate::{
     arithmetic::{fresnel, modulo, power, sin_cos},
+    blackbody,
+    brick::BrickTexture,
     columns::Io,
+    gabor::GaborTexture,
     magic::MagicTexture,
     noise::NoiseTexture,
+    radial_tiling::RadialTiling,
     vector::{hsv_to_rgb, luminance, matrix_transform, normalize, rgb_to_hsv},
     voronoi::VoronoiTexture,
     wave::WaveTexture,
+    wavelength::Wavelength,
     white_noise::WhiteNoise,
     words::{LightPathValue, Quantity, Space, TextureFilter, TextureId, WrapMode},
 };
@@ -239,6 +244,27 @@ operations! {
             let [x, y, z] = vector;
             texture.evaluate(l, &[x, y, z, scale[0], distortion[0]])
         };
+        /// Blender's Brick Texture: how far bricks go from the first colour to the second, and the share of mortar.
+        BrickTexture<texture: BrickTexture>(
+            l, vector: 2, scale: 1, mortar_size: 1, mortar_smooth: 1, bias: 1, brick_width: 1, row_height: 1
+        ) -> 2, Zero = {
+            let ([x, y], [scale], [mortar_size]) = (vector, scale, mortar_size);
+            texture.evaluate(l, &[x, y, scale, mortar_size, mortar_smooth[0], bias[0], brick_width[0], row_height[0]])
+        };
+        /// Blender's Gabor Texture: value, phase and intensity.
+        GaborTexture<texture: GaborTexture>(
+            l, vector: 3, scale: 1, frequency: 1, anisotropy: 1, angle: 1, direction: 3
+        ) -> 3, Zero = {
+            let ([x, y, z], [u, v, w], [scale], [frequency]) = (vector, direction, scale, frequency);
+            texture.evaluate(l, &[x, y, z, scale, frequency, anisotropy[0], angle[0], u, v, w])
+        };
+        /// Blender's Radial Tiling: the outputs of its [`TilingPart`](crate::TilingPart).
+        RadialTiling<tiling: RadialTiling>(l, vector: 2, sides: 1, roundness: 1) -> 3, Zero =
+            tiling.evaluate(l, &[vector[0], vector[1], sides[0], roundness[0]]);
+        /// The linear Rec.709 colour of light of a wavelength in nanometres, as Blender's Wavelength node has it.
+        Wavelength<light: Wavelength>(l, wavelength: 1) -> 3, Zero = light.evaluate(l, &wavelength);
+        /// The linear Rec.709 colour of a black body of a temperature in kelvin, as Blender's Blackbody node has it.
+        Blackbody(l, temperature: 1) -> 3, Zero = blackbody::Blackbody.evaluate(l, &temperature);
         /// Blender's Voronoi Texture; the outputs are those of its [`Part`](crate::voronoi::Part).
         VoronoiTexture<texture: VoronoiTexture>(
             l, vector: 3, w: 1, scale: 1, detail: 1, roughness: 1, lacunarity: 1, smoothness: 1, exponent: 1, randomness: 1
