@@ -169,4 +169,4 @@ def test_shaders_pass_zones_and_what_has_no_end_ends():
     assert not translated(t.made)[0]["closures"]
     made = repeat(100_000)()
     description, lines = translated(made)
-    assert "Repeat zones" in lines[0] and description["graph"]["nodes"], lines
+    assert "Repeat zones" in lines[0] and description["closures"], lines
