@@ -119,6 +119,7 @@ MATERIALS = {
         "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
     ),
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
+    "repeat": Limit("Repeat zones of more than 512 turns, or whose number varies", "512 turns; none"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
     "painted tiles": _untold("Image tiles that were painted and never saved", "not seen"),
     "brick": Limit("Brick Texture", "the mean of its bricks"),

@@ -253,16 +253,11 @@ def _attribute(mesh, name):
 
 
 def as_shader_value(values):
-    """One number fills a colour, and what has no alpha has that of 1, as Blender converts it."""
+    """One number fills a colour with alpha 1, as Blender converts it."""
     values = np.ascontiguousarray(values, dtype=np.float32)
-    width = values.shape[1]
-    if width == 1:
-        values, width = np.repeat(values, 3, axis=1), 3
-    if width == 4:
-        return values
-    filled = np.zeros((len(values), 4), dtype=np.float32)
-    filled[:, :width], filled[:, 3] = values, 1.0
-    return filled
+    if values.shape[1] == 1:
+        return np.concatenate([np.repeat(values, 3, axis=1), np.ones_like(values)], axis=1)
+    return values
 
 
 def _generated(mesh, points):

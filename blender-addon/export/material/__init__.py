@@ -23,6 +23,7 @@ from . import (  # noqa: F401 (they register their nodes)
     textures,
     vectors,
     wireframe,
+    zones,
 )
 from .closures import closure
 from .displacement import bend

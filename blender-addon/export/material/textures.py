@@ -3,7 +3,9 @@
 
 from math import pi
 
+from ..colour_management import gonio_name
 from .box_projection import box_projection
+from .image_filter import cubic, multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
@@ -53,6 +55,8 @@ def _sample(t, node, context, uv, wrap):
         "bias": [0.0] * 4,
         "fallback": list(MISSING),
     }
+    if node.interpolation in ("Cubic", "Smart") and not t.is_world and node.image.size[0] and node.image.source != "TILED":
+        return cubic(t, node.image.size, uv, lambda place: t.graph.add({"Image": fields}, place, kind="RGBA"))
     return t.graph.add({"Image": fields}, uv, kind="RGBA")
 
 
@@ -72,7 +76,10 @@ def _with_alpha(t, node, output, texel):
     is_premultiplied = mode == "PREMUL" or t.images.stores_premultiplied(node.image)
     if node.outputs["Alpha"].is_linked:
         return texel / texel.component(3) if is_premultiplied else texel
-    return texel if is_premultiplied else texel * texel.component(3)
+    if is_premultiplied:
+        return texel
+    is_bytes = not node.image.is_float and gonio_name(node.image.colorspace_settings.name) == "srgb_texture"
+    return multiplied_encoded(t, texel, node.interpolation == "Closest") if is_bytes else texel * texel.component(3)
 
 
 def _wrapped_around(t, value, projection):

@@ -79,6 +79,7 @@ class Translator:
         self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
         self.graph = Graph()
         self.root = Context(tree)
+        self.root.translator = self
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
         self._surroundings, self.asked = surroundings, {}
@@ -115,14 +116,17 @@ class Translator:
         found = follow(socket, context)
         if found is None:
             return self.default_of(None, kind)
-        node, source, inner = found
+        node, source, inner, kinds = found
         if node is None:
             value = self.default_of(source, KINDS.get(source.type, kind))
         elif node.bl_idname in ABSENT:
             self.tell("absent", node, inner, node.bl_label)
-            value = self.default_of(socket, kind)
+            return self.as_kind(self.default_of(socket, kind), kind)
         else:
             value = self.output(node, source, inner)
+        # Since 5.0 groups are laid flat before their sockets' kinds are looked at.
+        for passed in reversed(kinds) if self.version < (5, 0, 0) else ():
+            value = self.as_kind(value, passed)
         return self.as_kind(value, kind)
 
     def as_kind(self, value, kind):
@@ -140,7 +144,7 @@ class Translator:
         """Whether something feeds this input."""
         socket = input_socket(node, name)
         found = None if socket is None else follow(socket, context)
-        return found is not None and found[0] is not None and found[0].bl_idname not in ABSENT
+        return found is not None and found.node is not None and found.node.bl_idname not in ABSENT
 
     def default_of(self, socket, kind):
         """The value that an unlinked socket shows."""
