@@ -10,18 +10,10 @@ from .evaluate import Pictures, evaluate
 from .material.flatten import flatten
 from .material.inputs import GENERATED, POSITION, UV
 from .material.sockets import active_output, input_socket
-from .material.translator import Translator, value_node
+from .material.translator import Translator
 
 # Directions over a lamp's light, or points each way of its surface.
 DIRECTIONS, SIDE = 8192, 96
-
-
-@value_node("ShaderNodeLightFalloff")
-def light_falloff(t, node, context, output):
-    """The strength; its fall with the distance is always the square's."""
-    if output.identifier != "Quadratic" or not t.input(node, "Smooth", context).is_zero():
-        t.tell("light falloff", node, context, f"Light Falloff: {output.name}")
-    return t.input(node, "Strength", context, 100.0)
 
 
 def emission(lamp, matrix, images, report):

@@ -3,7 +3,7 @@
 
 from ...units import LUMENS_PER_WATT
 from .closures import closure
-from .sockets import KINDS, follow, group_output
+from .sockets import ABSENT, KINDS, follow, group_output
 from .translator import CLOSURES
 
 # More closures than this in one material are left out: the surface would not be shaded in reasonable time.
@@ -21,6 +21,9 @@ def flatten(t, socket, context, weight):
     if found is None:
         return
     node, output, context = found
+    if node is not None and node.bl_idname in ABSENT:
+        t.tell("absent", node, context, node.bl_label)
+        return
     is_shader = output.type == "SHADER"
     if node is None and is_shader:
         return

@@ -58,7 +58,7 @@ def principled(t, node, context):
             parameters["subsurface_ior"] = t.input(node, "Subsurface IOR", context, 1.4)
     common = {
         "normal": normal_node(t, node, context),
-        "coat_normal": normal_node(t, node, context, "Coat Normal"),
+        "coat_normal": normal_node(t, node, context, "Coat Normal") if "coat_weight" in parameters else None,
         "tangent": tangent_node(t, node, context, parameters["specular_anisotropy"]),
         "thin_walled": thin_walled,
         "distribution": DISTRIBUTIONS.get(node.distribution, "MultiGgx"),

@@ -3,6 +3,9 @@
 
 KINDS = {"VALUE": "VALUE", "INT": "VALUE", "BOOLEAN": "VALUE", "VECTOR": "VECTOR", "ROTATION": "VECTOR", "RGBA": "RGBA"}
 
+# Nodes that Cycles does not have: what they are linked to counts as unlinked.
+ABSENT = {"ShaderNodeShaderToRGB", "ShaderNodeSqueeze", "ShaderNodeUVAlongStroke", "ShaderNodeEeveeSpecular"}
+
 
 class Context:
     """A node tree as it is used at one place: the group node that holds it, and the context of that node."""

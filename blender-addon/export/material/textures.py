@@ -40,7 +40,7 @@ def _texel(t, node, context, output, uv):
 
 def _sample(t, node, context, uv, wrap):
     if node.image is None:
-        return t.graph.colour((0.0, 0.0, 0.0, 0.0))
+        return t.graph.colour(MISSING)
     if node.interpolation == "Cubic":
         t.say(node, context, "cubic interpolation is not supported; it is linear")
     number = t.images.texture(node.image, node.image_user, t.report)
@@ -48,7 +48,7 @@ def _sample(t, node, context, uv, wrap):
         return t.graph.colour(MISSING)
     fields = {
         "texture": number,
-        "wrap": [wrap, "Clamp" if wrap == "Repeat" and node.bl_idname == "ShaderNodeTexEnvironment" else wrap],
+        "wrap": [wrap, wrap],
         "filter": "Closest" if node.interpolation == "Closest" else "Linear",
         "scale": [1.0] * 4,
         "bias": [0.0] * 4,
@@ -92,7 +92,7 @@ def environment_texture(t, node, context, output):
     if t.is_world and node.image is not None:
         return t.environment(node, context, towards)
     if node.projection == "MIRROR_BALL":
-        return _sample(t, node, context, mirror_ball(t, towards), "Clamp")
+        return _sample(t, node, context, mirror_ball(t, towards), "Repeat")
     return _sample(t, node, context, equirectangular(t, towards), "Repeat")
 
 
