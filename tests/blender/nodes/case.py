@@ -34,7 +34,7 @@ class Case:
     tolerance: float = USUAL
     # The share of texels that may fall to the other side of a step.
     steps: float = 0.0
-    # What is looked at: the output itself, the normal of a surface that the output displaces, or a shader, a volume, a colour that fills it.
+    # What is looked at: the output, the normal of a surface that it displaces, or what it is: a shader, a volume, a colour.
     seen: str = "output"
     # A function of `prepare.py` that makes the node what fields alone cannot.
     prepare: str | None = None

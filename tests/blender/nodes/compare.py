@@ -18,6 +18,7 @@ def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
     with numpy.errstate(invalid="ignore"):
         emitted = numpy.where(shines, numpy.abs(mine[EMITTED] - expected), 0.0)
     found["emitted"] = summary(emitted, expected, case)["largest"]
+    found["exact"] = found["exact"] and found["emitted"] <= case.tolerance
     return found
 
 
@@ -82,7 +83,13 @@ def blocks(picture: numpy.ndarray) -> numpy.ndarray:
     return picture.reshape(4, side, 4, side, 3).mean(axis=(1, 3))
 
 
-WAYS = {"tiles": tile, "balls": ball, "lit": lit, "filled": lit}
+def averaged(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
+    """What is found of outputs that rays find out: means of blocks of the outputs themselves."""
+    return lit({EMITTED: mine[OUTPUT]}, {EMITTED: theirs[OUTPUT]}, case)
+
+
+# By the scene that shows it.
+WAYS = {"tiles": tile, "balls": ball, "particles": ball, "lit": lit, "filled": lit, "floor": averaged, "mirror": lit}
 
 
 def _slopes(values: numpy.ndarray) -> tuple[list, list]:

@@ -16,9 +16,7 @@ HUES = ["NEAR", "FAR", "CW", "CCW"]
 def _ramps() -> tuple[Case, ...]:
     """Color Ramp: ways between the stops, and around the circle of hues."""
     rest = {"inputs": {"Fac": "ramp 0.x"}, "prepare": "ramp"}
-    straight = [
-        Case(kind, {"color_ramp.interpolation": kind}, steps=0.02 if kind == "CONSTANT" else 0.0, **rest) for kind in RAMPS
-    ]
+    straight = [Case(kind, {"color_ramp.interpolation": kind}, steps=0.02 if kind == "CONSTANT" else 0.0, **rest) for kind in RAMPS]
     around = [
         Case(f"{space}, {way}", {"color_ramp.color_mode": space, "color_ramp.hue_interpolation": way}, **rest)
         for space in ("HSV", "HSL")
@@ -32,22 +30,25 @@ NODES = {
         "Mix",
         FAMILY,
         cases=(
-            Case("FLOAT", {"data_type": "FLOAT"}, {"Factor_Float": "ramp 0.x", "A_Float": "wide 0.x", "B_Float": "wide 1.x"}),
+            Case("FLOAT", {"data_type": "FLOAT"}, {"Factor_Float": "ramp 0.x", "A_Float": "place 0.x", "B_Float": "place 1.x"}),
             Case(
                 "FLOAT, factor not clamped",
                 {"data_type": "FLOAT", "clamp_factor": False},
-                {"Factor_Float": "ramp 0.x", "A_Float": "wide 0.x", "B_Float": "wide 1.x"},
+                {"Factor_Float": "ramp 0.x", "A_Float": "place 0.x", "B_Float": "place 1.x"},
             ),
-            Case("VECTOR", {"data_type": "VECTOR"}, {"Factor_Float": "ramp 0.x", "A_Vector": "wide 0", "B_Vector": "wide 1"}),
+            Case("VECTOR", {"data_type": "VECTOR"}, {"Factor_Float": "ramp 0.x", "A_Vector": "place 0", "B_Vector": "place 1"}),
             Case(
                 "VECTOR, NON_UNIFORM",
                 {"data_type": "VECTOR", "factor_mode": "NON_UNIFORM"},
-                {"Factor_Vector": "ramp 0", "A_Vector": "wide 0", "B_Vector": "wide 1"},
+                {"Factor_Vector": "ramp 0", "A_Vector": "place 0", "B_Vector": "place 1"},
             ),
             *modes("blend_type", BLENDS, fields={"data_type": "RGBA"}, inputs=MIXED, outputs=("Result_Color",)),
             Case("ADD, clamped", {"data_type": "RGBA", "blend_type": "ADD", "clamp_result": True}, MIXED, ("Result_Color",)),
             Case(
-                "OVERLAY, factor not clamped", {"data_type": "RGBA", "blend_type": "OVERLAY", "clamp_factor": False}, MIXED, ("Result_Color",)
+                "OVERLAY, factor not clamped",
+                {"data_type": "RGBA", "blend_type": "OVERLAY", "clamp_factor": False},
+                MIXED,
+                ("Result_Color",),
             ),
         ),
     ),
@@ -84,7 +85,13 @@ NODES = {
     "ShaderNodeHueSaturation": Node(
         "Hue/Saturation/Value",
         FAMILY,
-        cases=(Case("all", {}, {"Hue": "unit 0.x", "Saturation": "positive 0.x", "Value": "positive 0.y", "Fac": "unit 0.y", "Color": "colour 0"}),),
+        cases=(
+            Case(
+                "all",
+                {},
+                {"Hue": "unit 0.x", "Saturation": "positive 0.x", "Value": "positive 0.y", "Fac": "unit 0.y", "Color": "colour 0"},
+            ),
+        ),
     ),
     "ShaderNodeRGBToBW": Node("RGB to BW", FAMILY, cases=(Case("all", {}, {0: "colour 0"}),)),
     "ShaderNodeSeparateColor": Node("Separate Color", FAMILY, cases=modes("mode", ["RGB", "HSV", "HSL"], inputs={0: "colour 0"})),
@@ -98,7 +105,10 @@ NODES = {
     ),
     "ShaderNodeSeparateHSV": Node("Separate HSV (Legacy)", FAMILY, cases=(Case("all", {}, {0: "colour 0"}),), until=(4, 5)),
     "ShaderNodeCombineRGB": Node(
-        "Combine RGB (Legacy)", FAMILY, cases=(Case("all", {}, {0: "unit 0.x", 1: "unit 1.y", 2: "unit 2.z"}, tolerance=WHOLE),), until=(4, 5)
+        "Combine RGB (Legacy)",
+        FAMILY,
+        cases=(Case("all", {}, {0: "unit 0.x", 1: "unit 1.y", 2: "unit 2.z"}, tolerance=WHOLE),),
+        until=(4, 5),
     ),
     "ShaderNodeCombineHSV": Node(
         "Combine HSV (Legacy)", FAMILY, cases=(Case("all", {}, {0: "unit 0.x", 1: "unit 1.y", 2: "unit 2.z"}),), until=(4, 5)

@@ -42,7 +42,9 @@ NODES = {
         ),
     ),
     "ShaderNodeCameraData": Node("Camera Data", FAMILY, cases=_everywhere()),
-    "ShaderNodeLightPath": Node("Light Path", FAMILY, cases=_everywhere()),
+    "ShaderNodeLightPath": Node(
+        "Light Path", FAMILY, cases=(*_everywhere(), Case("seen in a mirror that scatters too", stage="mirror", tolerance=0.04, steps=0.07))
+    ),
     "ShaderNodeFresnel": Node(
         "Fresnel",
         FAMILY,
@@ -70,9 +72,24 @@ NODES = {
             Case("in pixels", {"use_pixel_size": True}, {"Size": 1.5}, on_sphere=True, steps=0.03),
         ),
     ),
-    "ShaderNodeBevel": Node("Bevel", FAMILY, cases=_everywhere(prepare="usual")),
-    "ShaderNodeAmbientOcclusion": Node("Ambient Occlusion", FAMILY, cases=_everywhere(prepare="usual")),
-    "ShaderNodeParticleInfo": Node("Particle Info", FAMILY, cases=_everywhere()),
+    "ShaderNodeBevel": Node(
+        "Bevel",
+        FAMILY,
+        cases=tuple(
+            Case(f"{samples} samples", {"samples": samples}, {"Radius": 0.15}, stage="floor", tolerance=0.04, steps=0.07) for samples in (4, 16)
+        ),
+    ),
+    "ShaderNodeAmbientOcclusion": Node(
+        "Ambient Occlusion",
+        FAMILY,
+        cases=tuple(
+            Case(name, fields, {"Distance": 0.6, "Color": (0.9, 0.6, 0.3)}, stage="floor", tolerance=0.04, steps=0.07)
+            for name, fields in (("outside", {}), ("inside", {"inside": True}), ("only local", {"only_local": True}))
+        ),
+    ),
+    "ShaderNodeParticleInfo": Node(
+        "Particle Info", FAMILY, cases=(*_everywhere(), Case("of particles", stage="particles", steps=0.02))
+    ),
     "ShaderNodeHairInfo": Node("Curves Info", FAMILY, cases=_everywhere()),
     "ShaderNodePointInfo": Node("Point Info", FAMILY, cases=_everywhere()),
     "ShaderNodeVolumeInfo": Node("Volume Info", FAMILY, cases=_everywhere()),

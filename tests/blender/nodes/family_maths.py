@@ -16,7 +16,9 @@ SMOOTH = [
 ]
 OPERANDS = {0: "wide 0.x", 1: "wide 1.x", 2: "wide 2.x"}
 
-VECTOR_PLAIN = ["ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION", "SCALE", "SIGN"]
+VECTOR_PLAIN = [
+    *("ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION", "SCALE", "SIGN"),
+]
 VECTOR_STEPPED = ["MODULO", "WRAP", "SNAP"]
 VECTOR_SMOOTH = [
     *("DIVIDE", "CROSS_PRODUCT", "PROJECT", "REFLECT", "REFRACT", "FACEFORWARD", "DOT_PRODUCT", "DISTANCE", "LENGTH", "NORMALIZE"),
@@ -64,7 +66,7 @@ NODES = {
         ),
     ),
     "ShaderNodeClamp": Node(
-        "Clamp", FAMILY, cases=modes("clamp_type", ["MINMAX", "RANGE"], inputs={0: "wide 0.x", 1: "wide 1.x", 2: "wide 2.x"}, tolerance=WHOLE)
+        "Clamp", FAMILY, cases=modes("clamp_type", ["MINMAX", "RANGE"], inputs=OPERANDS, tolerance=WHOLE)
     ),
     "ShaderNodeMapRange": Node(
         "Map Range", FAMILY, cases=(*_ranges("FLOAT", RANGE, "Steps"), *_ranges("FLOAT_VECTOR", VECTOR_RANGE, "Steps_FLOAT3"))

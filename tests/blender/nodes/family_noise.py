@@ -50,8 +50,8 @@ def _voronois() -> tuple[Case, ...]:
                 name = f"{dimensions}, {feature}" + ("" if dimensions == "1D" else f", {metric}")
                 made.append(Case(name, fields, {**_place(dimensions), "Scale": 2.0, **smooth, **exponent}, steps=BORDERS))
             driven = {
-                **{**_place(dimensions), "Scale": "positive 0.x", "Detail": "unit 2.x", "Roughness": "unit 0.x", "Lacunarity": "positive 1.y"},
-                **{"Randomness": "unit 1.x", **({"Smoothness": "unit 1.y"} if smooth else {})},
+                **{**_place(dimensions), "Scale": "positive 0.x", "Detail": "unit 2.x", "Roughness": "unit 0.x"},
+                **{"Lacunarity": "positive 1.y", "Randomness": "unit 1.x", **({"Smoothness": "unit 1.y"} if smooth else {})},
             }
             made.append(Case(f"{dimensions}, {feature}, driven", {**base, "feature": feature}, driven, steps=3 * BORDERS))
         for feature in ("DISTANCE_TO_EDGE", "N_SPHERE_RADIUS"):

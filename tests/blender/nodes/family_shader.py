@@ -11,7 +11,9 @@ def _lit(name: str, *cases: Case, family: str = SURFACE, **rest) -> Node:
 
 
 def _case(mode: str, inputs: dict, seen: str = "shader", **rest) -> Case:
-    return Case(mode, rest.pop("fields", {}), inputs, (0,), stage="filled" if seen == "volume" else "lit", seen=seen, tolerance=0.04, **rest)
+    """A case by the means of 16 blocks: one of them may be beyond."""
+    stage = "filled" if seen == "volume" else "lit"
+    return Case(mode, rest.pop("fields", {}), inputs, (0,), stage=stage, seen=seen, tolerance=0.04, steps=0.07, **rest)
 
 
 def _distributions(names: list[str], inputs: dict, field: str = "distribution") -> tuple[Case, ...]:
@@ -23,7 +25,9 @@ METAL = {"Base Color": COLOUR, "Edge Tint": (0.9, 0.7, 0.5), "Roughness": 0.3}
 PHASES = ["HENYEY_GREENSTEIN", "FOURNIER_FORAND", "DRAINE", "RAYLEIGH", "MIE"]
 
 NODES = {
-    "ShaderNodeBsdfDiffuse": _lit("Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})),
+    "ShaderNodeBsdfDiffuse": _lit(
+        "Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})
+    ),
     "ShaderNodeBsdfAnisotropic": _lit(
         "Glossy BSDF",
         *_distributions(["GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY", "MULTI_GGX"], ROUGH),

@@ -32,11 +32,13 @@ NODES = {
         "Material Output",
         FAMILY,
         CLOSURE,
-        (Case("a colour as surface", {}, {}, ("end",), stage="lit", seen="colour", tolerance=0.03),),
+        (Case("a colour as surface", {}, {}, ("end",), stage="lit", seen="colour", tolerance=0.04),),
         remark="every other row goes through it; volume and displacement have rows of their own",
     ),
     "ShaderNodeOutputAOV": _built("AOV Output", "reroute", remark="every row of values is read from one"),
-    "ShaderNodeScript": Node("Script", FAMILY, STRUCTURE, remark="Open Shading Language: Cycles on processors alone, where it is switched on"),
+    "ShaderNodeScript": Node(
+        "Script", FAMILY, STRUCTURE, remark="Open Shading Language, which Cycles too runs only on processors and where it is switched on"
+    ),
     "ShaderNodeLightFalloff": Node(
         "Light Falloff",
         "Color",

@@ -19,7 +19,8 @@ def _images() -> tuple[Case, ...]:
         made.append(Case(f"{projection}, Linear, REPEAT", {"projection": projection}, {0: "unit 0"}, ("Color",), prepare="picture"))
     for blend in (0.0, 0.3):
         fields = {"projection": "BOX", "projection_blend": blend}
-        made.append(Case(f"BOX, blend {blend}", fields, {0: "hit.TexCoord.Generated"}, ("Color",), on_sphere=True, prepare="picture", steps=0.02))
+        sides = {0: "hit.TexCoord.Generated"}
+        made.append(Case(f"BOX, blend {blend}", fields, sides, ("Color",), on_sphere=True, prepare="picture", steps=0.03))
     made.append(Case("sRGB bytes with alpha", {}, {0: "place 0"}, prepare="byte_picture"))
     made.append(Case("sRGB bytes", {}, {0: "place 0"}, ("Color",), prepare="opaque_picture"))
     made.append(Case("unlinked", {"interpolation": "Linear"}, {}, ("Color",), on_sphere=True, prepare="picture"))
@@ -46,8 +47,13 @@ def _skies() -> tuple[Case, ...]:
     since = {"SINGLE_SCATTERING": (5, 0), "MULTIPLE_SCATTERING": (5, 0)}
     kinds = ("NISHITA", *since, "PREETHAM", "HOSEK_WILKIE")
     return tuple(
-        Case(kind, {"sky_type": kind, **({} if kind in ("PREETHAM", "HOSEK_WILKIE") else {"sun_disc": False})}, {}, on_sphere=True,
-             since=since.get(kind, (4, 5)), until=(4, 5) if kind == "NISHITA" else (9, 9))
+        Case(
+            kind,
+            {"sky_type": kind, **({} if kind in ("PREETHAM", "HOSEK_WILKIE") else {"sun_disc": False})},
+            on_sphere=True,
+            since=since.get(kind, (4, 5)),
+            until=(4, 5) if kind == "NISHITA" else (9, 9),
+        )
         for kind in kinds
     )
 
@@ -116,8 +122,8 @@ NODES = {
         "Radial Tiling",
         FAMILY,
         cases=tuple(
-            Case(f"{'' if normalize else 'not '}normalized", {"normalize": normalize}, {0: "place 0", 1: "positive 0.x", 2: "unit 0.x"}, steps=0.01)
-            for normalize in (True, False)
+            Case(name, {"normalize": name == "normalized"}, {0: "place 0", 1: "positive 0.x", 2: "unit 0.x"}, steps=0.01)
+            for name in ("normalized", "not normalized")
         ),
         since=(5, 0),
     ),

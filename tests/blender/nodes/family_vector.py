@@ -7,6 +7,7 @@ MAPPINGS = ["POINT", "TEXTURE", "VECTOR", "NORMAL"]
 TURNS = ["AXIS_ANGLE", "X_AXIS", "Y_AXIS", "Z_AXIS", "EULER_XYZ"]
 SPACES = ["WORLD", "OBJECT", "CAMERA"]
 HELD = {"Location": (0.3, -0.7, 1.1), "Rotation": (0.4, -0.9, 2.3), "Scale": (1.3, -0.6, 2.2)}
+DISPLACED = {"on_sphere": True, "seen": "displacement"}
 DRIVEN = {"Location": "place 1", "Rotation": "place 2", "Scale": "positive 0"}
 
 
@@ -71,7 +72,7 @@ NODES = {
             Case("TANGENT, strength 1.7", {"space": "TANGENT"}, {"Color": (0.7, 0.35, 0.85), "Strength": 1.7}, on_sphere=True),
             Case("WORLD, strength 0.4", {"space": "WORLD"}, {"Color": (0.7, 0.35, 0.85), "Strength": 0.4}, on_sphere=True),
             Case("TANGENT, driven", {"space": "TANGENT"}, {"Color": "hit.TexCoord.Generated"}, on_sphere=True),
-            Case("TANGENT, second map", {"space": "TANGENT", "uv_map": "second"}, {"Color": (0.7, 0.35, 0.85)}, on_sphere=True, steps=0.02),
+            Case("TANGENT, second map", {"uv_map": "second"}, {"Color": (0.7, 0.35, 0.85)}, on_sphere=True, steps=0.02),
         ),
     ),
     "ShaderNodeBump": Node(
@@ -90,7 +91,7 @@ NODES = {
         "Displacement",
         FAMILY,
         cases=tuple(
-            Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.4}, on_sphere=True, prepare="waves", seen="displacement")
+            Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.4}, prepare="waves", **DISPLACED)
             for space in ("OBJECT", "WORLD")
         ),
     ),
@@ -98,7 +99,7 @@ NODES = {
         "Vector Displacement",
         FAMILY,
         cases=tuple(
-            Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.1}, on_sphere=True, prepare="waves", seen="displacement")
+            Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.1}, prepare="waves", **DISPLACED)
             for space in ("TANGENT", "OBJECT", "WORLD")
         ),
     ),

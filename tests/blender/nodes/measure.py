@@ -10,14 +10,19 @@ import bpy  # noqa: E402
 import numpy  # noqa: E402
 import scenes  # noqa: E402
 
-from nodes import catalogue, compare, results, stage, tree  # noqa: E402
+from nodes import catalogue, compare, results, stage, stage_rays, tree  # noqa: E402
+
+SCENES = {
+    **{"tiles": stage.tiles, "balls": stage.balls, "lit": stage.lit, "filled": stage.filled},
+    **{"floor": stage_rays.floor, "mirror": stage_rays.mirror, "particles": stage_rays.particles},
+}
 
 
 def measure(tmp_path: Path, only: list[str] | None = None) -> None:
     """Writes VERSION.txt: what was found of each case of the nodes named, or of all."""
     version = bpy.app.version[:2]
     found = {}
-    for shown_on in ("tiles", "balls", "lit", "filled"):
+    for shown_on in compare.WAYS:
         cases = list(chosen(version, only, shown_on))
         if cases:
             for bl_idname, measured in _measured(cases, shown_on, tmp_path).items():
@@ -41,7 +46,7 @@ def _measured(cases: list, shown_on: str, folder: Path) -> dict:
     stage.empty(8, 8)
     shown = [(bl_idname, case, output) for bl_idname, case in cases for output in tree.outputs(bl_idname, case)]
     makers = [lambda number=number, each=each: tree.material(f"case {number}", *each) for number, each in enumerate(shown)]
-    side, columns = getattr(stage, shown_on)(makers)
+    side, columns = SCENES[shown_on](makers)
     pictures = {engine: _rendered(engine, folder / f"{shown_on}-{engine}.exr") for engine in ("CYCLES", "GONIO")}
     told = _told()
     found = {}

@@ -13,9 +13,11 @@ ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests" / "blender"))
 
 from nodes import catalogue, results  # noqa: E402
-from nodes.case import CLOSURE, STRUCTURE, VALUE, Node  # noqa: E402
+from nodes.case import STRUCTURE, VALUE, Node  # noqa: E402
 
 PAGE = ROOT / "docs" / "nodes.md"
+# Where the part on Blender ends.
+OTHERS = "\n## MaterialX"
 FAMILIES = ["Input", "Texture", "Color", "Vector", "Converter", "Shader", "Volume", "Structure", "Not for materials"]
 
 HEAD = """# Shader nodes
@@ -27,25 +29,27 @@ The page is written by `python tests/blender/nodes/page.py` from `tests/blender/
 
 How it is tested:
 
-- **texels**: a plane whose texels hold a node's inputs, coordinates, numbers of both signs, zeros, large ones; both engines reckon with the same
-  bits. A node's output is read as it is from a shader AOV, and as emission.
-- **ball**: a turned ball seen in perspective. Both engines sample within a hundredth of a pixel of its middle, and values are carried along
-  their slopes to the same place. Up to 1 % of the pixels may differ, where samples meet other faces.
-- **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 %.
+- **texels**: a plane whose texels hold a node's inputs: coordinates, numbers of both signs, zeros, large ones. Both engines reckon with
+  the same bits. A node's output is read as it is from a shader AOV, and as emission.
+- **ball**: a turned ball seen in perspective. Both engines sample within a hundredth of a pixel of its middle, and values are carried
+  along their slopes to the same place. Up to 1 % of the pixels may differ, where samples meet other faces.
+- **particles**: the same with balls that particles instance.
+- **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 % but for one.
+- **rays**: the same for outputs that rays find out, or that depend on the kind of ray: blocks beside a floor, or a mirror.
 - **tree**: a tree built with the node, by texels.
 
-A node is *exact* where every output of every mode is within 1e-4 of Cycles' (1e-6 for whole numbers' arithmetic and plain sums), relative to the value or
-to the usual value of the case. Steps such as the borders of cells may fall to the other side in a few texels of a thousand; *at steps* counts them.
-*Approximated* says that some modes or outputs differ, *not* that something stands in for the node.
+A node is *exact* where every output of every mode is within 1e-4 of Cycles' (1e-6 for hashes, whole numbers and plain sums), relative to
+the value or to the usual value of the case. Steps such as the borders of cells may fall to the other side in a few texels of a thousand;
+*at steps* counts them. *Approximated* says that some outputs differ, *not* that something stands in for the node.
 """
-HOW = {VALUE: "texels", CLOSURE: "light", STRUCTURE: "tree"}
+WAYS = {"balls": "ball", "particles": "particles", "lit": "light", "filled": "light", "floor": "rays", "mirror": "rays"}
 
 
 def how(node: Node) -> str:
     """How a node is tested."""
     if not node.cases:
         return "–"
-    ways = {"tiles": HOW.get(node.kind, "texels") if node.kind == STRUCTURE else "texels", "balls": "ball", "lit": "light", "filled": "light"}
+    ways = {**WAYS, "tiles": "tree" if node.kind == STRUCTURE else "texels"}
     return ", ".join(dict.fromkeys(ways[case.shown_on] for case in node.cases))
 
 
@@ -55,8 +59,8 @@ def counts(verdicts: dict) -> str:
     for version, found in verdicts.items():
         there = [name for name, node in catalogue.NODES.items() if node.counts and node.since <= version <= node.until]
         exact = sum(found[name].state == results.EXACT for name in there)
-        name = ".".join(str(part) for part in version)
-        lines.append(f"- Blender {name}: **{exact} of {len(there)}** nodes that a material can hold are exact ({100.0 * exact / len(there):.0f} %).")
+        name, share = ".".join(str(part) for part in version), 100.0 * exact / len(there)
+        lines.append(f"- Blender {name}: **{exact} of {len(there)}** nodes that a material can hold are exact ({share:.0f} %).")
     return "\n".join(lines)
 
 
@@ -71,7 +75,8 @@ def row(name: str, node: Node, verdicts: dict) -> str:
     newest = shown[-1] if shown else results.Verdict(results.NONE)
     agree = f"{newest.agreeing} of {newest.total}" if newest.total else "–"
     largest = _figure(max(each.largest for each in shown)) if newest.total else "–"
-    steps = f"{newest.beyond} of {newest.compared}" if newest.beyond and node.kind == VALUE else ""
+    at_steps = newest.beyond and node.kind == VALUE
+    steps = f"{newest.beyond} of {newest.compared}" if at_steps else ""
     cells = [f"{node.name} (`{name}`)", *states, agree, how(node), largest, steps, remark(node, newest)]
     return "| " + " | ".join(cells) + " |"
 
@@ -111,7 +116,14 @@ def page() -> str:
         lines = differing(verdicts, family)
         if lines:
             parts.append("\n".join(["What differs, with the largest relative difference:", "", *lines, ""]))
-    return "\n".join(parts)
+    return "\n".join(parts) + rest()
+
+
+def rest() -> str:
+    """What others wrote below Blender's part."""
+    written = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    at = written.find(OTHERS)
+    return written[at:] if at >= 0 else ""
 
 
 def measure() -> None:

@@ -114,10 +114,6 @@ def other_object(made, node) -> None:
     node.object = found
 
 
-def usual(made, node) -> None:
-    """As it comes."""
-
-
 def two_shaders(made, node) -> None:
     """Two shaders to mix or to add."""
     ends = [each for each in node.inputs if each.type == "SHADER"]

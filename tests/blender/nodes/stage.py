@@ -71,12 +71,12 @@ def tiles(materials: list) -> tuple[int, int]:
     return data.SIDE, columns
 
 
-def balls(materials: list) -> tuple[int, int]:
-    """Rows of turned balls; returns pixels a ball, and columns."""
+def balls(materials: list, shape=None) -> tuple[int, int]:
+    """Rows of turned balls, or of what a function makes; returns pixels a ball, and columns."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
     scene = empty(columns * BALL, rows * BALL)
-    mesh = ball_mesh()
+    mesh = (shape or ball_mesh)()
     for number, make in enumerate(materials):
         row, column = divmod(number, columns)
         thing = bpy.data.objects.new(f"Ball {number}", mesh)
@@ -155,7 +155,8 @@ def ball_mesh() -> bpy.types.Mesh:
 def _attributes(mesh: bpy.types.Mesh) -> None:
     corners = [Vector(mesh.vertices[each.vertex_index].co) for each in mesh.loops]
     paint = mesh.color_attributes.new("paint", "FLOAT_COLOR", "POINT")
-    paint.data.foreach_set("color", [value for each in mesh.vertices for value in (*(Vector((0.6, 0.6, 0.6)) + 0.4 * each.co), 0.5 + 0.3 * each.co.x)])
+    colours = [(*(Vector((0.6, 0.6, 0.6)) + 0.4 * each.co), 0.5 + 0.3 * each.co.x) for each in mesh.vertices]
+    paint.data.foreach_set("color", [value for colour in colours for value in colour])
     dye = mesh.color_attributes.new("dye", "BYTE_COLOR", "CORNER")
     dye.data.foreach_set("color", [value for each in corners for value in (*(Vector((0.5, 0.5, 0.5)) + 0.5 * each.zxy), 1.0)])
     arrow = mesh.attributes.new("arrow", "FLOAT_VECTOR", "POINT")
