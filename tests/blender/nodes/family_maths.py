@@ -9,12 +9,14 @@ PLAIN = [
     *("ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT"),
 ]
 # Steps that lie where a quotient is a whole number.
-STEPPED = ["MODULO", "FLOORED_MODULO", "WRAP", "SNAP", "PINGPONG"]
+STEPPED = ["FLOORED_MODULO", "WRAP", "SNAP", "PINGPONG"]
 SMOOTH = [
-    *("DIVIDE", "POWER", "LOGARITHM", "SQRT", "INVERSE_SQRT", "EXPONENT", "SMOOTH_MIN", "SMOOTH_MAX", "SINE", "COSINE", "TANGENT"),
-    *("ARCSINE", "ARCCOSINE", "ARCTANGENT", "ARCTAN2", "SINH", "COSH", "TANH", "RADIANS", "DEGREES"),
+    *("DIVIDE", "MODULO", "POWER", "LOGARITHM", "SQRT", "INVERSE_SQRT", "EXPONENT", "SMOOTH_MIN", "SMOOTH_MAX", "RADIANS", "DEGREES"),
+    *("SINE", "COSINE", "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "ARCTAN2", "SINH", "COSH", "TANH"),
 ]
 OPERANDS = {0: "wide 0.x", 1: "wide 1.x", 2: "wide 2.x"}
+# Quotients that are not so large that nothing is left of their fractions.
+NEAR = {0: "place 0.x", 1: "place 1.x", 2: "place 2.x"}
 
 VECTOR_PLAIN = [
     *("ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION", "SCALE", "SIGN"),
@@ -51,7 +53,7 @@ NODES = {
         FAMILY,
         cases=(
             *modes("operation", PLAIN, inputs=OPERANDS, tolerance=WHOLE),
-            *modes("operation", STEPPED, inputs=OPERANDS, steps=0.004),
+            *modes("operation", STEPPED, inputs=NEAR, steps=0.004),
             *modes("operation", SMOOTH, inputs=OPERANDS),
             Case("ADD, clamped", {"operation": "ADD", "use_clamp": True}, OPERANDS, tolerance=WHOLE),
         ),
@@ -61,7 +63,7 @@ NODES = {
         FAMILY,
         cases=(
             *modes("operation", VECTOR_PLAIN, inputs=VECTORS, tolerance=WHOLE),
-            *modes("operation", VECTOR_STEPPED, inputs=VECTORS, steps=0.012),
+            *modes("operation", VECTOR_STEPPED, inputs={0: "place 0", 1: "place 1", 2: "place 2"}, steps=0.012),
             *modes("operation", VECTOR_SMOOTH, inputs=VECTORS),
         ),
     ),

@@ -9,7 +9,9 @@ from mathutils import Vector
 from . import data, tree
 
 # Pixels along the side of a ball's square.
-BALL = 64
+BALL = 96
+# And of one that light falls on.
+LIT_BALL = 64
 # Samples a pixel of what light falls on.
 LIT_SAMPLES = 32
 
@@ -71,11 +73,11 @@ def tiles(materials: list) -> tuple[int, int]:
     return data.SIDE, columns
 
 
-def balls(materials: list, shape=None) -> tuple[int, int]:
+def balls(materials: list, shape=None, side: int = BALL) -> tuple[int, int]:
     """Rows of turned balls, or of what a function makes; returns pixels a ball, and columns."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
-    scene = empty(columns * BALL, rows * BALL)
+    scene = empty(columns * side, rows * side)
     mesh = (shape or ball_mesh)()
     for number, make in enumerate(materials):
         row, column = divmod(number, columns)
@@ -91,12 +93,12 @@ def balls(materials: list, shape=None) -> tuple[int, int]:
     high = 3.0 * max(columns, rows)
     camera(scene, (0.0, 0.0, high), lens_unit="FOV", angle=2.0 * math.atan(0.5 * max(columns, rows) / high))
     scene["shared"] = 0.375
-    return BALL, columns
+    return side, columns
 
 
 def lit(materials: list) -> tuple[int, int]:
     """The balls under a soft sky, with as much light as paths can carry."""
-    found = balls(materials)
+    found = balls(materials, side=LIT_BALL)
     scene = bpy.context.scene
     _sky(scene.world.node_tree)
     cycles = scene.cycles
@@ -142,7 +144,7 @@ def pixels(place: numpy.ndarray) -> numpy.ndarray:
 
 def ball_mesh() -> bpy.types.Mesh:
     """A smooth ball with coordinates and attributes of every domain that shaders see."""
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
     thing = bpy.context.object
     bpy.ops.object.shade_smooth()
     mesh = thing.data

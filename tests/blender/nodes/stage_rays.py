@@ -11,14 +11,14 @@ MIRROR_SAMPLES = 256
 
 def floor(materials: list) -> tuple[int, int]:
     """Cubes in a corner of floor and walls that are part of them."""
-    found = stage.balls(materials, _corner)
+    found = stage.balls(materials, _corner, stage.LIT_BALL)
     _often(bpy.context.scene)
     return found
 
 
 def mirror(materials: list) -> tuple[int, int]:
     """Balls over a floor that reflects half of the light and scatters the other half."""
-    found = stage.balls(materials)
+    found = stage.balls(materials, side=stage.LIT_BALL)
     scene = bpy.context.scene
     _often(scene)
     scene.cycles.samples = MIRROR_SAMPLES
