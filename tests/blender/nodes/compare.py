@@ -14,8 +14,8 @@ def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
     with numpy.errstate(invalid="ignore"):
         difference = numpy.abs(value - expected)
     found = summary(difference, expected, case)
-    # What is brighter is held back as a firefly.
-    shines = (expected > 0.0) & (numpy.abs(numpy.nan_to_num(expected, nan=numpy.inf)).max(axis=-1, keepdims=True) < 1e4)
+    # What is brighter is held back as a firefly; what is not a number takes its whole sample along.
+    shines = ((expected > 0.0) & (expected < 1e4)).all(axis=-1, keepdims=True)
     with numpy.errstate(invalid="ignore"):
         emitted = numpy.where(shines, numpy.abs(mine[EMITTED] - expected), 0.0)
     found["emitted"] = summary(emitted, expected, case)["largest"]

@@ -75,6 +75,11 @@ def _octaves(random: numpy.random.Generator, count: int) -> numpy.ndarray:
     return random.uniform(1.2, 3.0, (count, 3))
 
 
+def _sides(random: numpy.random.Generator, count: int) -> numpy.ndarray:
+    """How many sides a polygon has."""
+    return random.uniform(2.0, 9.0, (count, 3))
+
+
 KINDS = {
     "place": _places,
     "unit": _unit,
@@ -86,6 +91,7 @@ KINDS = {
     "nanometres": _nanometres,
     "ramp": _ramp,
     "octaves": _octaves,
+    "sides": _sides,
 }
 
 

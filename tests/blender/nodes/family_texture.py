@@ -94,7 +94,7 @@ NODES = {
                 },
                 steps=0.01,
             ),
-            Case("unlinked", {}, {}, on_sphere=True, steps=0.02),
+            Case("unlinked", {}, {"Scale": 2.0, "Mortar Size": 0.1, "Mortar Smooth": 0.8}, on_sphere=True, steps=0.02),
         ),
     ),
     "ShaderNodeTexMagic": Node(
@@ -123,7 +123,7 @@ NODES = {
         "Radial Tiling",
         FAMILY,
         cases=tuple(
-            Case(name, {"normalize": name == "normalized"}, {0: "place 0", 1: "positive 0.x", 2: "unit 0.x"}, steps=0.01)
+            Case(name, {"normalize": name == "normalized"}, {0: "place 0", 1: "sides 0.x", 2: "unit 0.x"}, steps=0.01)
             for name in ("normalized", "not normalized")
         ),
         since=(5, 0),
