@@ -18,6 +18,7 @@ from . import (  # noqa: F401 (they register their nodes)
     measured,
     nearby,
     principled,
+    radial_tiling,
     textures,
     vectors,
     wireframe,
