@@ -49,7 +49,8 @@ def test_a_textured_lamp_throws_its_pattern(tmp_path):
     def spread(goniogram):
         angles = np.radians(goniogram["vertical_deg"])
         means = np.reshape(goniogram["factors"], (-1, len(angles)))[:-1].mean(axis=0)
-        return np.trapezoid(means * np.sin(angles), angles) / (1.0 - np.cos(angles[-1]))
+        even = means * np.sin(angles)
+        return float(((even[1:] + even[:-1]) * 0.5 * np.diff(angles)).sum() / (1.0 - np.cos(angles[-1])))
 
     # The mean of (1 + z) / 2 is 1/2 over the sphere, and (1 - cos 30°) / 4 over a cone of 60° about -z.
     cases = (
