@@ -15,7 +15,9 @@ def _truncate(a):
 
 
 def _floored_modulo(a, b):
-    return (a - b * (a / b).floor()) * (b * b).apply("Sign")
+    """The remainder with the divisor's sign."""
+    rest = a.apply("Modulo", b)
+    return rest + b * (rest * b).less(0.0)
 
 
 def wrap(a, high, low):

@@ -5,7 +5,7 @@ from math import pi
 
 from ..colour_management import gonio_name
 from .box_projection import box_projection
-from .image_filter import cubic, multiplied_encoded
+from .image_filter import multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
@@ -55,8 +55,6 @@ def _sample(t, node, context, uv, wrap):
         "bias": [0.0] * 4,
         "fallback": list(MISSING),
     }
-    if node.interpolation in ("Cubic", "Smart") and not t.is_world and node.image.size[0] and node.image.source != "TILED":
-        return cubic(t, node.image.size, uv, lambda place: t.graph.add({"Image": fields}, place, kind="RGBA"))
     return t.graph.add({"Image": fields}, uv, kind="RGBA")
 
 
