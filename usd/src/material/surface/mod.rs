@@ -1,5 +1,6 @@
 //! Surface shaders as closures: each model has a file of its own.
 
+mod albedo;
 mod closures;
 mod facets;
 mod layers;
