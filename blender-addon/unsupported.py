@@ -75,7 +75,9 @@ SCENES = {
 }
 
 LIGHTS = {
-    "textured lamp": Limit("Textures and other values that vary over a lamp's light", "it shines evenly with their mean"),
+    "textured lamp": Limit(
+        "Textures and other values that vary over suns, discs, lamps in photometric units or with an IES texture", "it shines evenly with their mean"
+    ),
     "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
@@ -101,22 +103,25 @@ WORLDS = {
 MATERIALS = {
     "volume": Limit("Volumes of materials", "the inside stays empty; without a surface, rays pass"),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
-    "displacement": Limit("Displacement", "the surface stays as it is"),
+    "displacement": Limit("Displacement that moves the surface", "its normals bend, and its shape stays"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
     "ray portal": Limit("Ray Portal BSDF", "rays go straight on"),
+    "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
+    "occlusion": Limit("Ambient Occlusion", "nothing is near"),
+    "bevel": Limit("Bevel", "edges stay sharp"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(
         "Thin walls as Cycles has them, by the mean of both polarisations",
         "each polarisation by itself, as panes are; up to 3 % apart near 75°",
     ),
-    "instancer's coordinates": Limit("Texture coordinates from the instancer", "the mesh's own"),
     "instancer's attribute": Limit(
         "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
     ),
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
+    "repeat": Limit("Repeat zones of more than 512 turns, or whose number varies", "512 turns; none"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
     "painted tiles": _untold("Image tiles that were painted and never saved", "not seen"),
     "brick": Limit("Brick Texture", "the mean of its bricks"),
@@ -136,20 +141,10 @@ STAND_INS = {
     "ShaderNodeTexWhiteNoise": ("White Noise Texture", 0.5),
     "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
     "ShaderNodeTexPointDensity": ("Point Density", 0.0),
-    "ShaderNodeAmbientOcclusion": ("Ambient Occlusion", 1.0),
-    "ShaderNodeWireframe": ("Wireframe", 0.0),
     "ShaderNodeWavelength": ("Wavelength", 0.5),
-    "ShaderNodeCameraData": ("Camera Data", 1.0),
-    "ShaderNodeHairInfo": ("Curves Info", 0.5),
-    "ShaderNodeParticleInfo": ("Particle Info", 0.5),
-    "ShaderNodePointInfo": ("Point Info", 0.5),
-    "ShaderNodeVolumeInfo": ("Volume Info", 0.0),
-    "ShaderNodeUVAlongStroke": ("UV Along Stroke", 0.5),
-    ("ShaderNodeNewGeometry", "Pointiness"): ("Geometry: Pointiness", 0.5),
-    ("ShaderNodeNewGeometry", "Random Per Island"): ("Geometry: Random Per Island", 0.5),
-    ("ShaderNodeNewGeometry", "Parametric"): ("Geometry: Parametric", 0.5),
-    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window", 0.5),
-    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera", 0.5),
+    "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
+    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
+    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),
 }
 
 

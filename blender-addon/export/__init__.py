@@ -6,6 +6,7 @@ import gonio
 from . import camera, collecting, limits, settings, view, world
 from .changes import Changes, touched
 from .gather import Walk, fill_random
+from .given import fill_given, is_given
 from .images import Images
 from .instancer import PREFIX as INSTANCER
 from .instancer import fill_instancer
@@ -16,6 +17,7 @@ from .materials import Materials
 from .measured import Measurements
 from .meshes import Meshes
 from .slots import Slots
+from .surroundings import Surroundings
 
 __all__ = ["Changes", "Exporter"]
 
@@ -73,6 +75,7 @@ class Exporter:
             self._world(depsgraph)
         if found.world or found.placements:
             limits.of_scene(depsgraph, self.report)
+            changes.shading |= self._materials.look_around(self._surroundings(depsgraph), depsgraph)
         self._lights.write()
         changes.lights = self._lights.any_written
         changes.world = found.world and self._lights.any_written
@@ -84,7 +87,7 @@ class Exporter:
         """Looks where a 3D view looks."""
         self._follows_view = True
         self.report.forget_all("Camera")
-        return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report))
+        return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report), depsgraph)
 
     def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",)):
         """Sets resolution, samples, limits and passes."""
@@ -123,7 +126,7 @@ class Exporter:
     def _placements(self, depsgraph, changes, keep_known):
         """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
         self._meshes.begin(keep_known)
-        self._materials.begin()
+        self._materials.begin(self._surroundings(depsgraph))
         # All objects are looked at anew.
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report)
@@ -140,6 +143,8 @@ class Exporter:
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
+        given = [(group, wanted) for group, _, _, wanted in entries if any(is_given(name) for name in wanted)]
+        fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
         self._instances.write(entries)
         self._materials.sweep()
         self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
@@ -158,11 +163,15 @@ class Exporter:
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
         aspect = (render.pixel_aspect_x, render.pixel_aspect_y)
-        return self._put_camera(camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph))
+        return self._put_camera(camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph), depsgraph)
 
-    def _put_camera(self, description):
+    def _put_camera(self, description, depsgraph):
         if description == self._camera:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)
         self._camera = description
+        self._materials.look_around(self._surroundings(depsgraph), depsgraph)
         return True
+
+    def _surroundings(self, depsgraph):
+        return Surroundings(self._camera, depsgraph)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Node graphs evaluated in numpy for many directions or points at once, with the pictures they look up."""
+"""Node graphs evaluated for many directions or points at once, with the pictures they look up."""
 
 import numpy as np
+from gonio.graph import compute
 
-from .material.operations import compute
 from .material.textures import MISSING
 
 
@@ -54,9 +54,18 @@ def evaluate(graph, source, shape, leaf):
             operation, inputs = node["operation"], [read(source) for source in node["inputs"]]
             value = leaf(operation, inputs)
             if value is None:
-                value = compute(operation, inputs)
+                value = _computed(operation, inputs)
             results.append(np.zeros(shape) if value is None else np.broadcast_to(value, shape))
         return np.array(read(source))
+
+
+def _computed(operation, inputs):
+    """What the renderer's kernels give; None for operations that ask for a surface point."""
+    if not inputs:
+        return None
+    rows = [np.ascontiguousarray(each, dtype=np.float32).reshape(-1, 4) for each in inputs]
+    found = compute(operation, rows)
+    return None if found is None else np.asarray(found).reshape(inputs[0].shape)
 
 
 def look_up(pixels, uv, wrap, closest):

@@ -3,8 +3,11 @@
 
 from dataclasses import dataclass
 
+import bpy
+
 from ..report import words_of
 from .material import translate
+from .surroundings import Surroundings
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,13 +31,16 @@ class Materials:
         self._slotted = {}
         # Names of the AOV Output nodes that passes show.
         self.shader_aovs = frozenset()
+        self._surroundings = Surroundings()
 
-    def begin(self):
+    def begin(self, surroundings):
         """Starts a pass."""
+        self._surroundings = surroundings
         self.any_written, self._slotted, self._before, self._shown = False, {}, self._shown, {}
 
     def sweep(self):
         """Forgets materials that nothing shows any more, and what was said of them."""
+        self._surroundings = Surroundings()
         for uid in self._before.keys() - self._shown.keys():
             self._translated.pop(uid, None)
             if (name := self._before[uid]) not in self._shown.values():
@@ -47,6 +53,19 @@ class Materials:
     def forget(self, uid):
         """Has one material translated again."""
         self._translated.pop(uid, None)
+
+    def look_around(self, surroundings, depsgraph):
+        """Writes the materials again that asked for what is otherwise now; gives whether there are any."""
+        stale = [uid for uid, translated in self._translated.items() if not surroundings.answers(translated.asked)]
+        if not stale:
+            return False
+        self._surroundings = surroundings
+        by_uid = {material.session_uid: material for material in bpy.data.materials}
+        for uid in stale:
+            if uid in by_uid:
+                self._translated[uid] = self._written(by_uid[uid].evaluated_get(depsgraph), self._slots.take(uid)[0])
+        self._surroundings = Surroundings()
+        return True
 
     def of_slots(self, slots, materials, override):
         """What the materials of slots come to: session_uids of some of `materials`, or `override` in place of all of them."""
@@ -71,7 +90,14 @@ class Materials:
     def _written(self, material, number):
         """Translates and writes; a material that cannot be translated or that the scene refuses is the default one, with a report line."""
         try:
-            translated = translate(material, self._images, self._measurements, self._report, shader_aovs=self.shader_aovs)
+            translated = translate(
+                material,
+                self._images,
+                self._measurements,
+                self._report,
+                shader_aovs=self.shader_aovs,
+                surroundings=self._surroundings,
+            )
             self.any_written |= self._slots.put(self._scene.put_material, translated.description, number)
         except Exception as problem:
             name = "" if material is None else material.name

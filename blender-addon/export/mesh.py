@@ -6,7 +6,23 @@ import ctypes
 import numpy as np
 
 from .colour_management import colours_to_rec709
-from .material.inputs import ACTIVE_COLOUR, GENERATED, POSITION, UV
+from .material.inputs import (
+    ACTIVE_COLOUR,
+    ALPHA,
+    COMPUTED,
+    FACTOR,
+    GENERATED,
+    ISLAND,
+    PARAMETRIC,
+    POINTINESS,
+    POSITION,
+    SMOOTH_NORMAL,
+    TANGENT,
+    TRIANGLE,
+    UV,
+)
+from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points, edges_of, edges_to_points, islands, pointiness
+from .tangents import tangents
 
 # Data type of an attribute -> (property to read, numbers in it, numpy type).
 ATTRIBUTES = {
@@ -76,7 +92,7 @@ def mesh_arguments(mesh, primvars):
     mesh.loop_triangle_polygons.foreach_get("value", faces)
     # The scene tells points from corners by their number: where both are as many, each corner gets a point of its own.
     spread = corners if len(points) == len(corners) else None
-    return {
+    arguments = {
         "points": _spread(points, spread),
         "triangles": _triangles(mesh, count),
         "corners": corners if spread is None else None,
@@ -85,6 +101,41 @@ def mesh_arguments(mesh, primvars):
         "slots": _slots(mesh),
         "primvars": {**_uv_maps(mesh, primvars), **_wanted(mesh, points, primvars, spread)},
     }
+    _add_tangents(arguments, mesh, corners, primvars)
+    own = [name for name in (PARAMETRIC, *TRIANGLE) if name in primvars]
+    return _with_triangles_own(arguments, own) if own else arguments
+
+
+def _add_tangents(arguments, mesh, corners, primvars):
+    """Adds the normals in the mesh's own space, and tangents, where they are wanted."""
+    wanted = [name for name in primvars if name.startswith(TANGENT)]
+    if SMOOTH_NORMAL not in primvars and not wanted:
+        return
+    normals = arguments["normals"]
+    if normals is None:
+        facing, lengths = np.empty((len(mesh.polygons), 3), dtype=np.float32), np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygon_normals.foreach_get("vector", facing.reshape(-1))
+        mesh.polygons.foreach_get("loop_total", lengths)
+        normals = np.repeat(facing, lengths, axis=0)
+    arguments["primvars"][SMOOTH_NORMAL] = normals
+    points, per_corner = arguments["points"], normals if len(normals) == len(corners) else normals[corners]
+    of_points = np.arange(len(corners)) if arguments["corners"] is None else corners
+    for name in wanted:
+        layer = mesh.uv_layers.get(name.removeprefix(TANGENT)) if name != TANGENT + UV else mesh.uv_layers.get(_active_uv(mesh) or "")
+        if layer is not None:
+            uv = np.empty((len(corners), 2), dtype=np.float32)
+            layer.uv.foreach_get("vector", uv.reshape(-1))
+            arguments["primvars"][name] = tangents(points, per_corner, uv, of_points, arguments["triangles"])
+
+
+def _with_triangles_own(arguments, names):
+    """The arguments with values that differ from triangle to triangle."""
+    arguments = apart(arguments)
+    for name in names:
+        number = TRIANGLE.index(name) if name in TRIANGLE else None
+        values = np.tile(PARAMETRIC_CORNERS, (len(arguments["triangles"]), 1)) if number is None else corner_points(arguments, number)
+        arguments["primvars"][name] = np.ascontiguousarray(values)
+    return arguments
 
 
 def _spread(values, corners):
@@ -117,9 +168,13 @@ def _normals(mesh, spread, points, corners, faces):
         return normals
     if np.bincount(faces).max() > MANY_TRIANGLES:
         return _spread(_point_normals(mesh, points, corners), spread)
+    return _spread(_vertex_normals(mesh), spread)
+
+
+def _vertex_normals(mesh):
     normals = np.empty((len(mesh.vertices), 3), dtype=np.float32)
     mesh.vertex_normals.foreach_get("vector", normals.reshape(-1))
-    return _spread(normals, spread)
+    return normals
 
 
 def _point_normals(mesh, points, corners):
@@ -175,33 +230,50 @@ def _wanted(mesh, points, primvars, spread):
             found[name] = _spread(points, spread)
         elif name == GENERATED:
             found[name] = _spread(_generated(mesh, points), spread)
-        else:
+        elif name == POINTINESS:
+            found[name] = _spread(as_shader_value(pointiness(points, _vertex_normals(mesh), edges_of(mesh))[:, None]), spread)
+        elif name == ISLAND:
+            found[name] = _spread(as_shader_value(islands(len(points), edges_of(mesh))[:, None]), spread)
+        elif name not in COMPUTED:
             attribute = _attribute(mesh, name)
-            # Edges have no place in a shader; a UV map is there already.
-            if attribute is not None and attribute.domain in ("POINT", "CORNER", "FACE") and attribute.name not in mesh.uv_layers:
-                values = read(attribute)
+            # A UV map is there already.
+            if attribute is not None and (attribute.name not in mesh.uv_layers or name != attribute.name):
+                values = _part(read(attribute), name)
                 if values is not None:
-                    found[name] = _placed(mesh, attribute.domain, as_shader_value(values), spread)
+                    found[name] = _placed(mesh, attribute, values, spread)
     return found
 
 
-def _placed(mesh, domain, values, spread):
-    """Values of points or corners; those of faces are given to their corners, whose number cannot be mistaken."""
-    if domain == "FACE":
+def _part(values, name):
+    """The values themselves, or what they are as one number or as alpha: the mean of colours and vectors of three, the first of two, 1."""
+    if values is None or not name.startswith((FACTOR, ALPHA)):
+        return values
+    width = values.shape[1]
+    if name.startswith(FACTOR):
+        return values[:, :3].mean(axis=1, keepdims=True) if width > 2 else values[:, :1]
+    return values[:, 3:] if width > 3 else np.ones((len(values), 1), dtype=np.float32)
+
+
+def _placed(mesh, attribute, values, spread):
+    """Values of points or corners; those of faces are given to their corners, whose number cannot be mistaken, those of edges to points."""
+    if attribute.domain == "EDGE":
+        values = edges_to_points(values, edges_of(mesh), len(mesh.vertices), attribute.data_type)
+    values = as_shader_value(values)
+    if attribute.domain == "FACE":
         lengths = np.empty(len(mesh.polygons), dtype=np.int32)
         mesh.polygons.foreach_get("loop_total", lengths)
         return np.repeat(values, lengths, axis=0)
-    return _spread(values, spread) if domain == "POINT" else values
+    return values if attribute.domain == "CORNER" else _spread(values, spread)
 
 
 def present(mesh, primvars):
     """Which of these names the mesh can give."""
-    return [name for name in primvars if name in (POSITION, GENERATED) or _attribute(mesh, name) is not None]
+    return [name for name in primvars if name in COMPUTED or name.startswith(TANGENT) or _attribute(mesh, name) is not None]
 
 
 def _attribute(mesh, name):
     if name != ACTIVE_COLOUR:
-        return mesh.attributes.get(name)
+        return mesh.attributes.get(name) or mesh.attributes.get(name.removeprefix(FACTOR).removeprefix(ALPHA))
     number = mesh.color_attributes.render_color_index
     return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The random number of an object: Blender gives one to instances only, for others Cycles takes it from the name."""
+"""Random numbers as Cycles makes them: of an object by its name, where Blender gives none, and of other things by their number."""
 
 MASK = 0xFFFFFFFF
 
@@ -9,12 +9,18 @@ def _rotated(x, bits):
 
 
 def of_name(name):
-    """A number of 32 bits: the name's bytes as digits to base 37, scrambled by the last mix of Jenkins' lookup3 with a second word of 0."""
+    """A number of 32 bits: the name's bytes as digits to base 37, scrambled with a second word of 0."""
     word = 0
     for byte in name.encode():
         word = (word * 37 + byte) & MASK
-    start = (0xDEADBEEF + (2 << 2) + 13) & MASK
-    a, b, c = (start + word) & MASK, start, start
+    return of_words(word, 0)
+
+
+def of_words(first, second=None):
+    """One or two words scrambled by the last mix of Jenkins' lookup3."""
+    count = 1 if second is None else 2
+    start = (0xDEADBEEF + (count << 2) + 13) & MASK
+    a, b, c = (start + first) & MASK, (start + (second or 0)) & MASK, start
     for bits in ((14, 11, 25), (16, 4, 14)):
         c = ((c ^ b) - _rotated(b, bits[0])) & MASK
         a = ((a ^ c) - _rotated(c, bits[1])) & MASK

@@ -6,6 +6,7 @@ from math import cos, radians, sin
 
 import bpy
 import numpy as np
+from gonio.graph import Value
 
 from ..units import LUMENS_PER_WATT
 from . import daylight
@@ -15,7 +16,6 @@ from .daylight import facing
 from .evaluate import Pictures
 from .light_description import at_infinity
 from .material.flatten import flatten
-from .material.graph import Value
 from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket
 from .material.textures import equirectangular, mirror_ball

@@ -138,8 +138,10 @@ def translated(made):
 
 
 def evaluated(description, source, primvars):
-    """The value of a description's input, by the extension's own formulas; primvars by name."""
-    compute, results = module("export.material.operations").compute, []
+    """The value of a description's input, by the renderer's kernels; primvars by name."""
+    from gonio.graph import compute
+
+    results = []
 
     def read(entry):
         if "Constant" in entry:
@@ -152,7 +154,8 @@ def evaluated(description, source, primvars):
         if isinstance(operation, dict) and "Primvar" in operation:
             results.append(np.array(primvars[operation["Primvar"]["name"]]))
         else:
-            results.append(compute(operation, [read(entry) for entry in node["inputs"]]))
+            inputs = [np.asarray(read(entry), dtype=np.float32) for entry in node["inputs"]]
+            results.append(np.asarray(compute(operation, inputs))[0])
     return read(source)
 
 

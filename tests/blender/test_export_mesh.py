@@ -57,9 +57,9 @@ def test_arrays_of_a_mesh(tmp_path):
     assert found["faces"].tolist() == [0, 0, 1] and found["slots"].tolist() == [0, 1]
     assert found["triangles"][:2].min() == 0 and sorted(found["triangles"][2].tolist()) == [4, 5, 6]
     assert found["normals"].shape == (7, 3) and np.allclose(found["normals"][:4], (0, 0, 1), atol=1e-5)
-    assert set(found["primvars"]) == {"st", "First", "heat", "paint", "blender generated"}
+    assert set(found["primvars"]) == {"st", "First", "factor of heat", "paint", "blender generated"}
     assert np.allclose(found["primvars"]["st"].ravel(), -np.arange(14)) and np.allclose(found["primvars"]["First"].ravel(), np.arange(14))
-    assert np.allclose(found["primvars"]["heat"][:, 0], [0.0, 0.1, 0.2, 0.3, 0.4]) and found["primvars"]["heat"].shape == (5, 4)
+    assert np.allclose(found["primvars"]["factor of heat"][:, 0], [0.0, 0.1, 0.2, 0.3, 0.4]) and found["primvars"]["factor of heat"].shape == (5, 4)
     assert np.allclose(found["primvars"]["paint"][0], (0.5, 0.25, 0.125, 1.0), atol=0.01)
     generated = found["primvars"]["blender generated"]
     assert np.allclose(generated.min(axis=0), 0.0) and np.allclose(generated.max(axis=0), 1.0)
@@ -90,8 +90,8 @@ def test_points_and_corners_of_the_same_number(tmp_path):
     (found,) = exporter()[0].sync(depsgraph()).meshes
     assert found["corners"] is None and found["points"].shape == (8, 3)
     assert found["points"][:4].tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    assert found["primvars"]["heat"][:, 0].tolist() == [0, 2, 3, 1, 4, 6, 7, 5]
-    assert found["primvars"]["side"][:, 0].tolist() == [0.25] * 4 + [0.75] * 4
+    assert found["primvars"]["factor of heat"][:, 0].tolist() == [0, 2, 3, 1, 4, 6, 7, 5]
+    assert found["primvars"]["factor of side"][:, 0].tolist() == [0.25] * 4 + [0.75] * 4
     assert found["primvars"]["st"].ravel().tolist() == list(range(16))
 
 

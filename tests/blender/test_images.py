@@ -203,9 +203,10 @@ def test_packed_tiles_go_along(tmp_path):
 
 @pytest.mark.blender
 def test_weights_of_a_boxs_sides(tmp_path):
+    from gonio.graph import Graph
     from recorder import module
 
-    weights, graph = module("export.material.box_projection")._weights, module("export.material.graph").Graph()
+    weights, graph = module("export.material.box_projection")._weights, Graph()
 
     class Tree:
         pass

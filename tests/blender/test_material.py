@@ -196,7 +196,7 @@ def test_image_reaches_a_parameter_through_uv_map_and_mapping(tmp_path):
     assert nodes[0]["operation"]["Primvar"]["name"] == "Second"
     lookup = nodes[2]["operation"]["Image"]
     assert (lookup["wrap"], lookup["filter"], lookup["texture"]) == (["Clamp", "Clamp"], "Closest", 0)
-    assert names[description["closures"][0]["normal"]] == "NormalMap"
+    assert names[description["closures"][0]["normal"]] == "Multiply" and "Transform" in names
 
 
 @pytest.mark.blender
@@ -247,3 +247,23 @@ def test_single_closures_have_their_colour_where_the_core_reads_it(tmp_path):
     [closure] = translated(made)[0]["closures"]
     assert constant(closure, "base_color")[:3] == pytest.approx([0.1, 0.2, 0.3])
     assert constant(closure, "subsurface_ior")[0] == pytest.approx(1.7)
+
+
+@pytest.mark.blender
+def test_a_bump_of_the_base_leaves_the_coat_smooth(tmp_path):
+    from recorder import empty, material, translated
+
+    empty()
+    made, tree, end = material()
+    shader, bump, noise = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfPrincipled", "Bump", "TexNoise"))
+    shader.inputs["Coat Weight"].default_value = 1.0
+    tree.links.new(noise.outputs[0], bump.inputs["Height"])
+    tree.links.new(bump.outputs[0], shader.inputs["Normal"])
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    description, lines = translated(made)
+    (closure,) = description["closures"]
+    assert not lines and description["graph"]["nodes"][closure["coat_normal"]]["operation"] == "Normal"
+    assert closure["normal"] != closure["coat_normal"]
+    tree.links.new(bump.outputs[0], shader.inputs["Coat Normal"])
+    (closure,) = translated(made)[0]["closures"]
+    assert closure["normal"] == closure["coat_normal"]

@@ -136,12 +136,9 @@ def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
     # A bevel that is left out leaves the normal as it is.
     assert description["closures"][0]["normal"] is None
     assert sorted(lines) == [
-        "Material > Bevel: not supported; its input Normal is passed on",
+        "Material > Bevel: not supported; edges stay sharp",
         "Material > Noise Texture: not supported; the value 0.5 is used",
     ]
-    geometry = tree.nodes.new("ShaderNodeNewGeometry")
-    tree.links.new(geometry.outputs["Pointiness"], shader.inputs["Metallic"])
-    assert constant(translated(made)[0]["closures"][0], "metalness")[0] == 0.5
     failing = tree.nodes.new("ShaderNodeGamma")
     tree.links.new(failing.outputs[0], shader.inputs["Coat Tint"])
     values = __import__("gonio_extension.export.material.translator", fromlist=["VALUES"]).VALUES

@@ -4,12 +4,30 @@
 from dataclasses import dataclass, field
 
 import bpy
+from gonio.graph import Graph, renumber
 
 from .. import limits
-from . import closures, colour, inputs, maths, measured, principled, textures, vectors  # noqa: F401 (they register their nodes)
+from . import (  # noqa: F401 (they register their nodes)
+    bump,
+    camera_nodes,
+    closures,
+    colour,
+    info_nodes,
+    inputs,
+    light_nodes,
+    maths,
+    measured,
+    nearby,
+    principled,
+    procedural,
+    textures,
+    vectors,
+    wireframe,
+    zones,
+)
 from .closures import closure
+from .displacement import bend
 from .flatten import flatten
-from .graph import Graph, renumber
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
@@ -22,9 +40,11 @@ class Translated:
     description: dict
     primvars: set = field(default_factory=set)
     instance_primvars: set = field(default_factory=set)
+    # What it asked of the scene around it, and the answers.
+    asked: dict = field(default_factory=dict)
 
 
-def translate(material, images, measurements, report, version=None, shader_aovs=frozenset()):
+def translate(material, images, measurements, report, version=None, shader_aovs=frozenset(), surroundings=None):
     """A material's description with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
     if material is None:
         return Translated(_plain("default", (0.8, 0.8, 0.8)))
@@ -32,15 +52,16 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     # Since 5.0 a material has nodes always, and asking is deprecated.
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
         return Translated(_plain(material.name, tuple(material.diffuse_color)[:3], material.pass_index))
-    t = Translator(material, tree, images, report, measurements=measurements, version=version)
+    t = Translator(material, tree, images, report, measurements=measurements, version=version, surroundings=surroundings)
     end = active_output(tree, "Material")
     if end is None:
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
     else:
+        bend(t, end, material)
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
-    return Translated(_described(t, material, outputs), t.primvars, t.instance_primvars)
+    return Translated(_described(t, material, outputs), t.primvars, t.instance_primvars, t.asked)
 
 
 def _rest(t, end, material):
@@ -50,8 +71,6 @@ def _rest(t, end, material):
         # As in Cycles a surface that comes to nothing counts as none.
         if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
-    if t.linked(end, "Displacement", t.root):
-        t.tell("displacement", end, t.root)
     limits.of_material(material, t.report)
 
 

@@ -47,13 +47,9 @@ def normal_node(t, node, context, name="Normal"):
     """The graph node that bends a shader's normal; None if nothing does."""
     socket = input_socket(node, name)
     if socket is None or not t.linked(node, name, context):
-        return None
-    return node_number(t, t.socket(socket, context), hit(t, "Normal"))
-
-
-def node_number(t, value, usual):
-    """The number of the node that computes a vector; None for constants and for the usual value."""
-    return None if value.node == usual.node else value.node
+        return None if t.bent is None else t.bent.node
+    number = t.socket(socket, context).node
+    return None if number == t.graph.add("Normal", kind="VECTOR").node else number
 
 
 def tangent_node(t, node, context, anisotropy):

@@ -4,7 +4,10 @@
 from ..colour_management import to_rec709
 from .translator import value_node
 
-TABLE_SIZE = 256
+# Rows of the tables of ramps and curves, as Cycles has them.
+TABLE_SIZE = 257
+# The least range of a curve.
+NARROWEST = 1e-6
 
 
 def _dodge(a, b, t):
@@ -33,13 +36,13 @@ def _hue(a, b, t, keep_saturation):
     first, second = _hsv(a), _hsv(b)
     saturation = first.component(1) if keep_saturation else second.component(1)
     made = _rgb(a.graph, second.component(0), saturation, first.component(2))
-    return a.mix(made, t * second.component(1).sign())
+    return a.mix(made, t * abs(second.component(1).sign()))
 
 
 def _saturation(a, b, t):
     first, second = _hsv(a), _hsv(b)
     mixed = first.component(1).mix(second.component(1), t)
-    return a.mix(_rgb(a.graph, first.component(0), mixed, first.component(2)), first.component(1).sign())
+    return a.mix(_rgb(a.graph, first.component(0), mixed, first.component(2)), abs(first.component(1).sign()))
 
 
 def _value(a, b, t):
@@ -113,12 +116,13 @@ def colour_ramp(t, node, context, output):
 def curve(mapping, numbers):
     """The Curve operation of a curve mapping, over the range its points span; three curves are the colours under a common fourth."""
     mapping.update()
-    points = [point.location[0] for curve in mapping.curves for point in curve.points]
-    low, high = min([0.0, *points]), max([1.0, *points])
+    used = mapping.curves if len(numbers) > 1 else [mapping.curves[numbers[0]]]
+    low, high = min(one.points[0].location[0] for one in used), max(one.points[-1].location[0] for one in used)
+    high = max(high, low + NARROWEST)
     table = []
     for i in range(TABLE_SIZE):
         x = low + (high - low) * i / (TABLE_SIZE - 1)
-        common = mapping.evaluate(mapping.curves[3], x) if len(mapping.curves) > 3 else x
+        common = mapping.evaluate(mapping.curves[3], x) if len(mapping.curves) > 3 and len(numbers) > 1 else x
         row = [mapping.evaluate(mapping.curves[n], common) for n in numbers]
         table.append([*row, *[row[-1]] * (4 - len(row))])
     return {"Curve": {"table": table, "range": [low, high], "linear": True, "extrapolate": mapping.extend == "EXTRAPOLATED"}}
@@ -168,7 +172,7 @@ def hue_saturation(t, node, context, output):
 
 @value_node("ShaderNodeRGBToBW")
 def grey(t, node, context, output):
-    return t.input(node, "Color", context).as_kind("VALUE")
+    return t.as_kind(t.input(node, "Color", context), "VALUE")
 
 
 @value_node("ShaderNodeSeparateColor", "ShaderNodeSeparateRGB", "ShaderNodeSeparateHSV")
@@ -195,9 +199,11 @@ def combine(t, node, context, output):
 
 
 def _hsl(saturation, value):
-    """Saturation and lightness of HSL from HSV's saturation and value."""
-    lightness = value * (1.0 - saturation * 0.5)
-    return (value - lightness) / lightness.minimum(1.0 - lightness), lightness
+    """Saturation and lightness of HSL from HSV's saturation and value; lightness is 1 at most."""
+    spread = value * saturation
+    both = value * 2.0 - spread
+    lightness = (both * 0.5).minimum(1.0)
+    return spread / both.mix(2.0 - both, (0.5 - lightness).less(0.0)), lightness
 
 
 @value_node("ShaderNodeSeparateXYZ")
@@ -212,12 +218,4 @@ def combine_xyz(t, node, context, output):
 
 @value_node("ShaderNodeBlackbody")
 def blackbody(t, node, context, output):
-    from ..blackbody import blackbody_colour
-
-    temperature = t.input(node, "Temperature", context, 6500.0)
-    if temperature.is_constant:
-        return t.graph.colour(blackbody_colour(temperature.constant[0]))
-    low, high = 800.0, 12000.0
-    table = [[*blackbody_colour(low + (high - low) * i / (TABLE_SIZE - 1)), 1.0] for i in range(TABLE_SIZE)]
-    fields = {"table": table, "range": [low, high], "linear": True, "extrapolate": False}
-    return t.graph.add({"Curve": fields}, temperature, kind="RGBA")
+    return t.graph.add("Blackbody", t.input(node, "Temperature", context, 6500.0), kind="RGBA")

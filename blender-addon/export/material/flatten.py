@@ -3,7 +3,7 @@
 
 from ...units import LUMENS_PER_WATT
 from .closures import closure
-from .sockets import KINDS, follow, group_output
+from .sockets import ABSENT, KINDS, THROUGH, follow, group_output
 from .translator import CLOSURES
 
 # More closures than this in one material are left out: the surface would not be shaded in reasonable time.
@@ -20,9 +20,12 @@ def flatten(t, socket, context, weight):
     found = follow(socket, context)
     if found is None:
         return
-    node, output, context = found
+    node, output, context, _ = found
+    if node is not None and node.bl_idname in ABSENT:
+        t.tell("absent", node, context, node.bl_label)
+        return
     is_shader = output.type == "SHADER"
-    if node is None and is_shader:
+    if is_shader and (node is None or node.bl_idname in THROUGH):
         return
     if len(t.closures) >= MOST_CLOSURES:
         if node is not None:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
 
+from ..surroundings import LAYER
 from .translator import value_node
 
 # Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
@@ -12,6 +13,22 @@ LOCATION = "blender location"
 COLOUR = "blender colour"
 INDEX = "blender index"
 ACTIVE_COLOUR = "blender active colour"
+POINTINESS = "blender pointiness"
+ISLAND = "blender island"
+# Barycentric coordinates, and the positions of a triangle's three corners.
+PARAMETRIC = "blender parametric"
+TRIANGLE = ("blender triangle 1", "blender triangle 2", "blender triangle 3")
+# The normal in the mesh's own space as it is interpolated, not made unit; and how names of tangents along UV maps begin.
+SMOOTH_NORMAL, TANGENT = "blender normal", "tangents of "
+# What every mesh can give without an attribute.
+COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, SMOOTH_NORMAL, *TRIANGLE})
+# How names of values begin that instances are given: by particles, and where on the instancer's surface they are.
+GIVEN = "given "
+PARTICLE, GIVEN_GENERATED, GIVEN_UV = f"{GIVEN}by particle ", f"{GIVEN}generated", f"{GIVEN}uv"
+# How names begin of an attribute as one number, and of its alpha.
+FACTOR, ALPHA = "factor of ", "alpha of "
+# What there is in the place of attributes that are not there.
+NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @value_node("ShaderNodeValue", "ShaderNodeRGB")
@@ -22,8 +39,13 @@ def constant(t, node, context, output):
 @value_node("ShaderNodeUVMap")
 def uv_map(t, node, context, output):
     if node.from_instancer:
-        t.tell("instancer's coordinates", node, context)
+        return given(t, GIVEN_UV)
     return t.primvar(node.uv_map or UV)
+
+
+def given(t, name):
+    """A vector that the instancer gives its instance; zero for what is none."""
+    return t.instance_primvar(name, "VECTOR") if t.kind == "Material" else t.graph.vector((0.0, 0.0, 0.0))
 
 
 @value_node("ShaderNodeTexCoord")
@@ -32,9 +54,9 @@ def texture_coordinates(t, node, context, output):
     if t.is_world:
         return _world_coordinates(t, node, name)
     if name == "UV":
-        return t.primvar(UV)
+        return given(t, GIVEN_UV) if node.from_instancer else t.primvar(UV)
     if name == "Generated":
-        return t.primvar(GENERATED)
+        return given(t, GIVEN_GENERATED) if node.from_instancer else t.primvar(GENERATED)
     if name == "Object":
         if node.object is None:
             return t.primvar(POSITION)
@@ -44,7 +66,9 @@ def texture_coordinates(t, node, context, output):
     if name == "Reflection":
         normal, incoming = hit(t, "Normal"), hit(t, "Incoming")
         return normal * (normal.dot(incoming) * 2.0) - incoming
-    return None
+    from .camera_nodes import in_camera, in_picture
+
+    return in_camera(t) if name == "Camera" else in_picture(t)
 
 
 def _world_coordinates(t, node, name):
@@ -72,6 +96,8 @@ def hit(t, what):
     """Position, Normal, GeometricNormal, Incoming (to where the ray came from) or FrontFacing of the hit."""
     if what == "Position":
         return t.position()
+    if what == "Normal" and t.bent is not None:
+        return t.bent
     return t.graph.add(what, kind="VALUE" if what == "FrontFacing" else "VECTOR")
 
 
@@ -82,28 +108,33 @@ def normal_of(t, node, context, name="Normal"):
 
 @value_node("ShaderNodeNewGeometry")
 def geometry(t, node, context, output):
+    name = output.identifier
     if t.is_world:
-        return {"Position": direction(t), "Incoming": -direction(t), "Normal": -direction(t)}.get(output.identifier)
+        return _world_geometry(t, name)
     simple = {"Position": "Position", "Normal": "Normal", "True Normal": "GeometricNormal", "Incoming": "Incoming"}
-    if output.identifier in simple:
-        return hit(t, simple[output.identifier])
-    if output.identifier == "Backfacing":
+    if name in simple:
+        return hit(t, simple[name])
+    if name == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
-    if output.identifier == "Tangent":
+    if name == "Tangent":
         from .vectors import radial_tangent
 
         return radial_tangent(t)
-    return None
+    computed = {"Pointiness": POINTINESS, "Random Per Island": ISLAND, "Parametric": PARAMETRIC}.get(name)
+    if computed is None:
+        return None
+    if t.kind != "Material":
+        return t.graph.scalar(0.0)
+    return t.primvar(computed, kind="VECTOR" if name == "Parametric" else "VALUE")
 
 
-@value_node("ShaderNodeObjectInfo")
-def object_info(t, node, context, output):
-    if output.identifier == "Material Index":
-        return t.graph.scalar(getattr(t.owner, "pass_index", 0))
-    names = {"Random": (RANDOM, "VALUE"), "Location": (LOCATION, "VECTOR"), "Object Index": (INDEX, "VALUE"), "Color": (COLOUR, "RGBA")}
-    if output.identifier == "Alpha":
-        return t.instance_primvar(COLOUR, "RGBA").component(3)
-    return t.instance_primvar(*names[output.identifier]) if output.identifier in names else None
+def _world_geometry(t, name):
+    """As if the sky were a point that looks back; it is of no mesh."""
+    if name == "Position":
+        return direction(t)
+    if name in ("Incoming", "Normal", "True Normal"):
+        return -direction(t)
+    return t.graph.vector((1.0, 0.0, 0.0)) if name == "Parametric" else t.graph.scalar(0.0)
 
 
 @value_node("ShaderNodeVertexColor")
@@ -114,42 +145,29 @@ def colour_attribute(t, node, context, output):
 
 @value_node("ShaderNodeAttribute")
 def attribute(t, node, context, output):
-    kind = node.attribute_type
+    kind, name = node.attribute_type, node.attribute_name
     if kind == "VIEW_LAYER":
-        return None
+        return part_of(t.graph.colour(t.ask(LAYER + name) or NOTHING), output)
     if kind == "GEOMETRY":
-        value = t.primvar(node.attribute_name or ACTIVE_COLOUR, kind="RGBA")
-    else:
-        value = t.instance_primvar(f"{kind.lower()} {node.attribute_name}", "RGBA")
+        return _of_mesh(t, name, output)
+    return part_of(t.instance_primvar(f"{kind.lower()} {name}", "RGBA"), output)
+
+
+def _of_mesh(t, name, output):
+    """An attribute of the mesh; how many numbers it has decides about its number and its alpha."""
+    is_there = bool(name) and t.kind == "Material"
+    if output.identifier == "Alpha":
+        return t.primvar(ALPHA + name, (1.0,) * 4, kind="VALUE") if is_there else t.graph.scalar(1.0)
+    if not is_there:
+        return t.graph.colour(NOTHING)
+    return t.primvar(FACTOR + name, kind="VALUE") if output.identifier == "Fac" else t.primvar(name, kind="RGBA")
+
+
+def part_of(value, output):
+    """What an output of the Attribute node takes of a colour; its number is the mean of its components."""
     if output.identifier == "Alpha":
         return value.component(3)
-    # An attribute of one number fills all components, so its first is its value; a colour's value is the mean.
     return value.dot((1.0 / 3.0,) * 3) if output.identifier == "Fac" else value
-
-
-# The outputs of Light Path that shading knows.
-LIGHT_PATH = {
-    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission")),
-    *(f"{kind} Depth" for kind in ("Ray", "Diffuse", "Glossy", "Transmission", "Transparent")),
-    "Ray Length",
-}
-
-
-@value_node("ShaderNodeLightPath")
-def light_path(t, node, context, output):
-    t.asked_for_ray = True
-    name = output.identifier
-    if t.is_world:
-        if name != "Is Camera Ray":
-            t.tell("world's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(1.0 if name == "Is Camera Ray" and t.is_camera_ray else 0.0)
-    if t.kind == "Light":
-        # What lamps light is found by rays of no such kind.
-        t.tell("lamp's light path", node, context, f"Light Path: {name}")
-        return t.graph.scalar(0.0)
-    if name == "Is Volume Scatter Ray":
-        return t.graph.scalar(0.0)
-    return t.graph.add({"LightPath": name.replace(" ", "")}, kind="VALUE") if name in LIGHT_PATH else None
 
 
 @value_node("ShaderNodeFresnel")

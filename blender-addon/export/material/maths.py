@@ -14,13 +14,10 @@ def _truncate(a):
     return a.sign() * abs(a).floor()
 
 
-def _modulo(a, b):
-    """Remainder with the dividend's sign, 0 for a divisor of 0."""
-    return (a - b * _truncate(a / b)) * (b * b).apply("Sign")
-
-
 def _floored_modulo(a, b):
-    return (a - b * (a / b).floor()) * (b * b).apply("Sign")
+    """The remainder with the divisor's sign."""
+    rest = a.apply("Modulo", b)
+    return rest + b * (rest * b).less(0.0)
 
 
 def wrap(a, high, low):
@@ -32,6 +29,13 @@ def wrap(a, high, low):
 def _ping_pong(a, b):
     fraction = ((a - b) / (b * 2.0)).fraction()
     return abs(fraction * b * 2.0 - b)
+
+
+def power(a, b):
+    """As in Cycles: negative bases have powers of whole numbers, and else zero."""
+    whole = 1.0 - abs(b.fraction().sign())
+    odd = (b * 0.5).fraction() * 2.0
+    return abs(a) ** b * (1.0 - a.less(0.0) * (1.0 - whole * (1.0 - odd * 2.0)))
 
 
 def _smooth_minimum(a, b, c):
@@ -56,7 +60,7 @@ OPERATIONS = {
     "MULTIPLY": lambda a, b, c: a * b,
     "DIVIDE": lambda a, b, c: a / b,
     "MULTIPLY_ADD": lambda a, b, c: a * b + c,
-    "POWER": lambda a, b, c: a**b,
+    "POWER": lambda a, b, c: power(a, b),
     "LOGARITHM": lambda a, b, c: a.apply("Logarithm") / b.apply("Logarithm"),
     "SQRT": lambda a, b, c: a.sqrt(),
     "INVERSE_SQRT": lambda a, b, c: a.graph.value(1.0) / a.sqrt(),
@@ -75,7 +79,7 @@ OPERATIONS = {
     "CEIL": lambda a, b, c: -((-a).floor()),
     "TRUNC": lambda a, b, c: _truncate(a),
     "FRACT": lambda a, b, c: a.fraction(),
-    "MODULO": lambda a, b, c: _modulo(a, b),
+    "MODULO": lambda a, b, c: a.apply("Modulo", b),
     "FLOORED_MODULO": lambda a, b, c: _floored_modulo(a, b),
     "WRAP": wrap,
     "SNAP": lambda a, b, c: (a / b).floor() * b,

@@ -3,6 +3,7 @@
 
 from ...units import LUMENS_PER_WATT
 from .closures import DISTRIBUTIONS, closure, normal_node, subsurface_method, tangent_node, thin_film
+from .inputs import hit
 from .translator import closure_node
 
 # Sockets that go over as they are: the core's name, the socket's, and the value where this Blender has no such socket.
@@ -56,9 +57,10 @@ def principled(t, node, context):
         parameters["subsurface_radius"] = radius * t.input(node, "Subsurface Scale", context, 0.05)
         if node.subsurface_method == "RANDOM_WALK_SKIN":
             parameters["subsurface_ior"] = t.input(node, "Subsurface IOR", context, 1.4)
+    normal = normal_node(t, node, context)
     common = {
-        "normal": normal_node(t, node, context),
-        "coat_normal": normal_node(t, node, context, "Coat Normal"),
+        "normal": normal,
+        "coat_normal": _coat_normal(t, node, context, normal) if "coat_weight" in parameters else None,
         "tangent": tangent_node(t, node, context, parameters["specular_anisotropy"]),
         "thin_walled": thin_walled,
         "distribution": DISTRIBUTIONS.get(node.distribution, "MultiGgx"),
@@ -71,6 +73,12 @@ def principled(t, node, context):
         metal = closure(t.graph, "Principled", **{**parameters, "metalness": 1.0}, **common)
         return [{**dielectric, "share": 1.0 - metalness}, {**metal, "share": metalness}]
     return [closure(t.graph, "Principled", **parameters, **film, **common)]
+
+
+def _coat_normal(t, node, context, normal):
+    """The graph node of the coat's normal: the shading normal where nothing is linked, for a bump of the base leaves the coat smooth."""
+    own = normal_node(t, node, context, "Coat Normal")
+    return hit(t, "Normal").node if own is None and normal is not None else own
 
 
 def _is_thin_walled(t, node, context):

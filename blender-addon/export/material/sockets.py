@@ -1,21 +1,70 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Walking Blender's node trees: links through reroutes, muted nodes and groups."""
 
+from typing import NamedTuple
+
 KINDS = {"VALUE": "VALUE", "INT": "VALUE", "BOOLEAN": "VALUE", "VECTOR": "VECTOR", "ROTATION": "VECTOR", "RGBA": "RGBA"}
+
+# Nodes that Cycles does not have: what they are linked to counts as unlinked.
+ABSENT = {"ShaderNodeShaderToRGB", "ShaderNodeSqueeze", "ShaderNodeUVAlongStroke", "ShaderNodeEeveeSpecular"}
+
+
+# Nodes that compute nothing and that lead on: bl_idname -> function(node, output, context) -> (socket, context), or None.
+THROUGH = {}
+# The output of Repeat Input that numbers the turns.
+ITERATION = "Iteration"
+
+
+class Found(NamedTuple):
+    """Where a value comes from: a node's output, or an unlinked input with no node; and the kinds of the sockets it passes, from its end."""
+
+    node: object
+    output: object
+    context: object
+    kinds: list
 
 
 class Context:
-    """A node tree as it is used at one place: the group node that holds it, and the context of that node."""
+    """A node tree as it is used at one place: the group node that holds it, the context of that node, and what zones it is within."""
 
     def __init__(self, tree, group=None, parent=None):
-        self.tree, self.group, self.parent = tree, group, parent
-        self._children = {}
+        self.tree, self.group, self.parent, self.depth = tree, group, parent, 0
+        # The translator, for numbers that decide about the structure; the outermost context has it.
+        self.translator = None
+        self._children, self._bound = {}, {}
 
     def child(self, group):
         """The context inside a group node; the same object for the same node."""
         if group.name not in self._children:
             self._children[group.name] = Context(group.node_tree, group, self)
         return self._children[group.name]
+
+    def inside(self, key, start, bound):
+        """The same tree within a zone, where the zone's first node stands for `bound`; the same object for the same key."""
+        if key not in self._children:
+            made = self._children[key] = Context(self.tree, self.group, self.parent)
+            made.depth, made.translator = self.depth + 1, self.translator
+            made._bound = self._bound if start is None else {**self._bound, start.name: bound}
+        return self._children[key]
+
+    def bound(self, start):
+        """What a zone's first node stands for; None outside of the zone."""
+        return self._bound.get(start.name)
+
+    def outermost(self):
+        """The context of the material's own tree."""
+        return self if self.parent is None else self.parent.outermost()
+
+    def number(self, socket):
+        """The constant that reaches a socket; None if it varies."""
+        translator = self.outermost().translator
+        value = None if translator is None or socket is None else translator.socket(socket, self)
+        return value.constant[0] if value is not None and value.is_constant else None
+
+    def tell(self, limit, node):
+        """The report line of an entry of the table of limits."""
+        if (translator := self.outermost().translator) is not None:
+            translator.tell(limit, node, self)
 
     def groups(self):
         """The group nodes around, the outermost first."""
@@ -41,31 +90,33 @@ def link_into(socket):
 
 
 def follow(socket, context):
-    """Where an input's value comes from: (node, output socket, context), or (None, unlinked input, context), or None for nothing at all."""
+    """Where an input's value comes from; None for nothing at all."""
+    kinds = []
     for _ in range(10_000):
         link = link_into(socket)
         if link is None:
-            return None, socket, context
+            return Found(None, socket, context, kinds)
         node, output = link.from_node, link.from_socket
         if node.bl_idname == "NodeReroute":
             socket = node.inputs[0]
-        elif node.mute:
+            continue
+        kind = KINDS.get(output.type)
+        if node.mute:
             socket = next((l.from_socket for l in node.internal_links if l.to_socket == output), None)
-            if socket is None:
-                return None
         elif node.bl_idname == "NodeGroupInput":
-            if context.parent is None:
-                return None
-            socket, context = input_socket(context.group, output.identifier), context.parent
-            if socket is None:
-                return None
+            socket = None if context.parent is None else input_socket(context.group, output.identifier)
+            context = context.parent
         elif node.type == "GROUP":
-            inner = group_output(node, output, context)
-            if inner is None:
-                return None
-            socket, context = inner
+            socket, context = group_output(node, output, context) or (None, None)
         else:
-            return node, output, context
+            onwards = THROUGH[node.bl_idname](node, output, context) if node.bl_idname in THROUGH else None
+            if onwards is None:
+                return Found(node, output, context, kinds)
+            socket, context = onwards
+        if socket is None:
+            return None
+        if kind is not None:
+            kinds.append(kind)
     return None
 
 

@@ -3,12 +3,15 @@
 
 from math import pi
 
+from ..colour_management import gonio_name
 from .box_projection import box_projection
+from .image_filter import multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
 
 WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirror"}
+FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": "Cubic"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
 
@@ -40,16 +43,14 @@ def _texel(t, node, context, output, uv):
 
 def _sample(t, node, context, uv, wrap):
     if node.image is None:
-        return t.graph.colour((0.0, 0.0, 0.0, 0.0))
-    if node.interpolation == "Cubic":
-        t.say(node, context, "cubic interpolation is not supported; it is linear")
+        return t.graph.colour(MISSING)
     number = t.images.texture(node.image, node.image_user, t.report)
     if number is None:
         return t.graph.colour(MISSING)
     fields = {
         "texture": number,
-        "wrap": [wrap, "Clamp" if wrap == "Repeat" and node.bl_idname == "ShaderNodeTexEnvironment" else wrap],
-        "filter": "Closest" if node.interpolation == "Closest" else "Linear",
+        "wrap": [wrap, wrap],
+        "filter": FILTERS[node.interpolation],
         "scale": [1.0] * 4,
         "bias": [0.0] * 4,
         "fallback": list(MISSING),
@@ -73,7 +74,10 @@ def _with_alpha(t, node, output, texel):
     is_premultiplied = mode == "PREMUL" or t.images.stores_premultiplied(node.image)
     if node.outputs["Alpha"].is_linked:
         return texel / texel.component(3) if is_premultiplied else texel
-    return texel if is_premultiplied else texel * texel.component(3)
+    if is_premultiplied:
+        return texel
+    is_bytes = not node.image.is_float and gonio_name(node.image.colorspace_settings.name) == "srgb_texture"
+    return multiplied_encoded(t, texel, node.interpolation == "Closest") if is_bytes else texel * texel.component(3)
 
 
 def _wrapped_around(t, value, projection):
@@ -92,7 +96,7 @@ def environment_texture(t, node, context, output):
     if t.is_world and node.image is not None:
         return t.environment(node, context, towards)
     if node.projection == "MIRROR_BALL":
-        return _sample(t, node, context, mirror_ball(t, towards), "Clamp")
+        return _sample(t, node, context, mirror_ball(t, towards), "Repeat")
     return _sample(t, node, context, equirectangular(t, towards), "Repeat")
 
 

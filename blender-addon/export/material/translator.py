@@ -5,16 +5,19 @@ import sys
 from contextlib import contextmanager
 
 import bpy
+from gonio.graph import Graph, Value
 
 from ...report import words_of
 from ..colour_management import to_rec709
-from .graph import Graph, Value
-from .sockets import KINDS, Context, follow, input_socket
+from .sockets import ABSENT, KINDS, Context, follow, input_socket
 
 # More nodes than this in a row are not followed.
 DEEPEST = 1000
 # Calls that one node of a row takes.
 CALLS_A_NODE = 12
+
+# Weights of the luminance of linear Rec.709 in Cycles, as measured, before Blender 5.0 and since.
+LUMINANCE = ((0.212674, 0.7151516, 0.0721754), (0.2126391, 0.7151691, 0.0721928))
 
 # bl_idname of a node -> function(translator, node, context, output socket) -> Value
 VALUES = {}
@@ -57,20 +60,36 @@ class Translator:
     """The state while one node tree is translated."""
 
     def __init__(
-        self, owner, tree, images, report, *, kind="Material", measurements=None, is_world=False, is_camera_ray=True, version=None
+        self,
+        owner,
+        tree,
+        images,
+        report,
+        *,
+        kind="Material",
+        measurements=None,
+        is_world=False,
+        is_camera_ray=True,
+        version=None,
+        surroundings=None,
     ):
         self.version = tuple(version or bpy.app.version)
+        self.luminance = LUMINANCE[self.version >= (5, 0, 0)]
         self.owner, self.images, self.report, self.kind, self.measurements = owner, images, report, kind, measurements
         self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
         self.graph = Graph()
         self.root = Context(tree)
+        self.root.translator = self
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
+        self._surroundings, self.asked = surroundings, {}
         # Of a lamp's IES texture.
         self.goniogram = None
         self._values, self._open = {}, set()
         # Nodes that something stands in for, and that were told.
         self._stood_in = set()
+        # The shading normal where displacement bends it.
+        self.bent = None
         # While a height is taken beside the hit: along which of the two steps, and how far.
         self._step = None
 
@@ -97,11 +116,23 @@ class Translator:
         found = follow(socket, context)
         if found is None:
             return self.default_of(None, kind)
-        node, source, inner = found
+        node, source, inner, kinds = found
         if node is None:
             value = self.default_of(source, KINDS.get(source.type, kind))
+        elif node.bl_idname in ABSENT:
+            self.tell("absent", node, inner, node.bl_label)
+            return self.as_kind(self.default_of(socket, kind), kind)
         else:
             value = self.output(node, source, inner)
+        # Since 5.0 groups are laid flat before their sockets' kinds are looked at.
+        for passed in reversed(kinds) if self.version < (5, 0, 0) else ():
+            value = self.as_kind(value, passed)
+        return self.as_kind(value, kind)
+
+    def as_kind(self, value, kind):
+        """A value as another kind; a colour as a number is its luminance, by the weights of this Blender's Cycles."""
+        if (value.kind, kind) == ("RGBA", "VALUE"):
+            return value.dot(self.luminance)
         return value.as_kind(kind)
 
     def input(self, node, name, context, default=0.0):
@@ -113,7 +144,7 @@ class Translator:
         """Whether something feeds this input."""
         socket = input_socket(node, name)
         found = None if socket is None else follow(socket, context)
-        return found is not None and found[0] is not None
+        return found is not None and found.node is not None and found.node.bl_idname not in ABSENT
 
     def default_of(self, socket, kind):
         """The value that an unlinked socket shows."""
@@ -154,7 +185,7 @@ class Translator:
             self.fail(node, context, problem, "what stands in for it is used")
         if value is None:
             value = self.unsupported(node, output, context)
-        return value.as_kind(kind)
+        return self.as_kind(value, kind)
 
     def unsupported(self, node, output, context):
         """The nearest sane value of a node that cannot be computed; the report has one line for a node, whichever outputs are used."""
@@ -166,6 +197,13 @@ class Translator:
             self.say(node, context, what)
         return value
 
+    def ask(self, key):
+        """What a material asks of the scene around it; None for what is not known."""
+        if self._surroundings is None:
+            return None
+        self.asked[key] = self._surroundings.ask(key)
+        return self.asked[key]
+
     def stepped(self, axis, share, function):
         """What a function gives a share of a pixel beside the hit, along one of two directions in the surface."""
         outer, self._step = self._step, (axis, share)
@@ -173,6 +211,11 @@ class Translator:
             return function()
         finally:
             self._step = outer
+
+    def bend(self, normal):
+        """Has everything that is computed from now on see a bent shading normal."""
+        self.bent = normal
+        self._values = {}
 
     def primvar(self, name, fallback=(0.0, 0.0, 0.0, 0.0), kind="VECTOR"):
         """A named value of the mesh."""

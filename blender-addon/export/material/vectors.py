@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vector nodes: Mapping, Vector Math, Vector Rotate, Normal Map, Bump, Tangent, Normal."""
+"""Vector nodes: Mapping, Vector Math, Vector Rotate, Normal Map, Tangent, Normal."""
 
 from mathutils import Euler, Matrix, Vector
 
-from .inputs import GENERATED, UV, hit, normal_of
-from .maths import wrap
+from .inputs import GENERATED, SMOOTH_NORMAL, TANGENT, UV, hit
+from .maths import power, wrap
 from .translator import value_node
 
 
@@ -88,14 +88,14 @@ OPERATIONS = {
     "SCALE": lambda a, b, c, s: a * s,
     "NORMALIZE": lambda a, b, c, s: a.normalized(),
     "ABSOLUTE": lambda a, b, c, s: abs(a),
-    "POWER": lambda a, b, c, s: a**b,
+    "POWER": lambda a, b, c, s: power(a, b),
     "SIGN": lambda a, b, c, s: a.sign(),
     "MINIMUM": lambda a, b, c, s: a.minimum(b),
     "MAXIMUM": lambda a, b, c, s: a.maximum(b),
     "FLOOR": lambda a, b, c, s: a.floor(),
     "CEIL": lambda a, b, c, s: -((-a).floor()),
     "FRACTION": lambda a, b, c, s: a.fraction(),
-    "MODULO": lambda a, b, c, s: (a - b * ((a / b).sign() * abs(a / b).floor())) * (b * b).sign(),
+    "MODULO": lambda a, b, c, s: a.apply("Modulo", b),
     "WRAP": lambda a, b, c, s: wrap(a, b, c),
     "SNAP": lambda a, b, c, s: (a / b).floor() * b,
     "SINE": lambda a, b, c, s: a.apply("Sine"),
@@ -138,9 +138,7 @@ def normal_map(t, node, context, output):
     if node.space == "TANGENT":
         scale = t.graph.combine(strength, strength, strength.clamp())
         vector = vector * scale + t.graph.combine(t.graph.scalar(0.0), t.graph.scalar(0.0), 1.0 - strength.clamp())
-        t.primvars.add(node.uv_map or UV)
-        operation = {"NormalMap": {"scale": 1.0, "uv": node.uv_map or UV}}
-        return t.graph.add(operation, vector, kind="VECTOR")
+        return _in_tangents(t, vector, node.uv_map or UV)
     if node.space.startswith("BLENDER_"):
         vector = vector * (1.0, -1.0, -1.0)
     if node.space.endswith("OBJECT"):
@@ -149,24 +147,24 @@ def normal_map(t, node, context, output):
     return mapped if strength.equals(1.0) else hit(t, "Normal").mix(mapped, strength).normalized()
 
 
-@value_node("ShaderNodeBump")
-def bump(t, node, context, output):
-    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit."""
-    smooth = normal_of(t, node, context)
-    width = t.input(node, "Filter Width", context, 0.1)
-    share = max(width.constant[0], 1e-3) if width.is_constant else 0.1
-    height = t.input(node, "Height", context)
-    rise = [t.stepped(axis, share, lambda: t.input(node, "Height", context)) - height for axis in (0, 1)]
-    if height.is_constant or all(each.is_zero() for each in rise):
-        return smooth
-    steps = [t.step(0), t.step(1)]
-    across = [steps[1].cross(smooth), smooth.cross(steps[0])]
-    area = steps[0].dot(across[0])
-    distance = t.input(node, "Distance", context, 1.0) * (-1.0 if node.invert else 1.0)
-    gradient = (across[0] * rise[0] + across[1] * rise[1]) * (1.0 / share)
-    bent = (smooth * abs(area) - gradient * (distance * area.sign())).normalized()
-    strength = t.input(node, "Strength", context, 1.0).maximum(0.0)
-    return bent if strength.equals(1.0) else smooth.mix(bent, strength).normalized()
+def _in_tangents(t, vector, uv):
+    """The shading normal that a vector in the space of a UV map's tangents stands for, on the side that is seen."""
+    along, normal = tangent_of(t, uv), of_mesh(t, SMOOTH_NORMAL)
+    across = normal.cross(along) * along.component(3)
+    bent = along * vector.component(0) + across * vector.component(1) + normal * vector.component(2)
+    fields = {"from": "Object", "to": "World", "quantity": "Normal"}
+    return t.graph.add({"Transform": fields}, bent, kind="VECTOR") * (hit(t, "FrontFacing") * 2.0 - 1.0)
+
+
+def tangent_of(t, uv):
+    """The mesh's own tangent along a UV map, the side of v its fourth component."""
+    return of_mesh(t, TANGENT + uv)
+
+
+def of_mesh(t, name):
+    """A value of the mesh as it is at the hit, also for heights beside it."""
+    t.primvars.add(name)
+    return t.graph.add({"Primvar": {"name": name, "fallback": [0.0] * 4}}, kind="VECTOR")
 
 
 @value_node("ShaderNodeNormal")
@@ -179,9 +177,7 @@ def normal(t, node, context, output):
 @value_node("ShaderNodeTangent")
 def tangent(t, node, context, output):
     if node.direction_type == "UV_MAP":
-        name = node.uv_map or UV
-        t.primvars.add(name)
-        return t.graph.add({"UvTangent": {"uv": name}}, kind="VECTOR")
+        return upright(t, tangent_of(t, node.uv_map or UV))
     return radial_tangent(t, node.axis)
 
 
@@ -190,18 +186,42 @@ def radial_tangent(t, axis="Z"):
     x, y, z = ((t.primvar(GENERATED) - 0.5).component(i) for i in range(3))
     zero = t.graph.scalar(0.0)
     around = {"X": (zero, -z, y), "Y": (-z, zero, x), "Z": (-y, x, zero)}[axis]
-    world = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, t.graph.combine(*around), kind="VECTOR")
+    return upright(t, t.graph.combine(*around))
+
+
+def upright(t, tangent):
+    """A direction in the mesh's own space as one in the world at right angles to the shading normal."""
+    world = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, tangent, kind="VECTOR")
     shading = hit(t, "Normal")
     return shading.cross(world.cross(shading).normalized())
 
 
 @value_node("ShaderNodeVectorTransform")
 def vector_transform(t, node, context, output):
-    value = t.input(node, "Vector", context)
-    spaces = {"WORLD": "World", "OBJECT": "Object"}
-    if node.convert_from == node.convert_to:
+    value, kind = t.input(node, "Vector", context), node.vector_type
+    start, end = node.convert_from, node.convert_to
+    if start == end:
         return value
-    if node.convert_from not in spaces or node.convert_to not in spaces:
-        return None
-    fields = {"from": spaces[node.convert_from], "to": spaces[node.convert_to], "quantity": node.vector_type.capitalize()}
+    if t.is_world:
+        # Nothing has a space of its own there, and normals that meet one stay as they are.
+        start, end = ("WORLD" if space == "OBJECT" else space for space in (start, end))
+    if "CAMERA" in (start, end):
+        from .camera_nodes import applied, eye
+
+        seen_by = eye(t)
+        if seen_by is None:
+            return None
+        if start == "CAMERA":
+            value, start = applied(t, seen_by.to_world(), value, kind == "POINT"), "WORLD"
+        elif start == "OBJECT":
+            value, start = _between(t, value, "OBJECT", "WORLD", kind), "WORLD"
+        if end == "CAMERA":
+            value = applied(t, seen_by.space, value, kind == "POINT")
+            return value.normalized() if kind == "NORMAL" else value
+    return value if start == end else _between(t, value, start, end, kind)
+
+
+def _between(t, value, start, end, kind):
+    """A value carried between the spaces of the world and of the object."""
+    fields = {"from": start.capitalize(), "to": end.capitalize(), "quantity": kind.capitalize()}
     return t.graph.add({"Transform": fields}, value, kind="VECTOR")

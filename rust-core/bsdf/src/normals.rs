@@ -1,6 +1,7 @@
-//! Normals beside the shading normal: the coat's own, and what bent shading normals need (the rules of Cycles' bump map correction).
+//! Normals beside the shading normal: the coat's own, and what shading normals far from the triangle's need (the rules of Cycles' bump map
+//! correction).
 
-use gonio_simd::{F, Frame, Lanes, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Vec3};
 
 /// Normals of a batch of hits in the shading frame, unit, all on the viewer's side of the triangle.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ pub(crate) enum Normal {
     Specular,
     /// The coat's.
     Coat,
-    /// The fuzz's, between base and coat.
+    /// The fuzz's: between base and coat; outside Cycles' models else that of specular lobes, for fibres seen from behind are black.
     Fuzz,
 }
 
@@ -92,11 +93,24 @@ impl<L: Lanes> Tilts<L> {
     }
 }
 
+/// Sine above the surface that mirror directions keep: 0.01, or nine tenths of the view's.
+#[inline(always)]
+fn least_sine<L: Lanes>(view: F<L>) -> F<L> {
+    (view * 0.9).min(0.01)
+}
+
+/// Where [`raised`] turns the shading normal: smooth normals stand so far from the triangle's that the mirror image of `wo` falls too low.
+#[inline(always)]
+pub fn is_raised<L: Lanes>(geometric: Vec3<L>, wo: Vec3<L>) -> M<L> {
+    let view = geometric.dot(wo);
+    (wo.z * geometric.z * 2.0 - view).lt(least_sine(view))
+}
+
 /// `normal` turned towards `geometric` until the mirror image of the view `wo` leaves the surface, by a sine of 0.01 or nine tenths of the view's.
 #[inline(always)]
 pub fn raised<L: Lanes>(normal: Vec3<L>, geometric: Vec3<L>, wo: Vec3<L>) -> Vec3<L> {
     let view = geometric.dot(wo);
-    let least = (view * 0.9).min(0.01);
+    let least = least_sine(view);
     let fine = geometric.dot(wo.reflect(normal)).ge(least);
     // In the plane of both normals: z along the geometric one, x to the side that the normal leans to.
     let side = (normal - geometric * geometric.dot(normal)).normalize_or(normal);

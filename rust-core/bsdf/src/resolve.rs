@@ -101,14 +101,16 @@ impl Surface {
     fn tilts<L: Lanes>(&self, normals: &Normals<L>, wo: Vec3<L>, coat_weight: F<L>) -> Tilts<L> {
         let mut tilts = Tilts::NONE;
         let base = Vec3::splat(wo.x.lanes(), [0.0, 0.0, 1.0]);
-        let corrects = self.switches.bump == Bump::Cycles;
-        if corrects {
+        let specular = tilted(raised(base, normals.geometric, wo));
+        tilts.specular = Some(specular);
+        if self.switches.bump == Bump::Cycles {
             tilts.smooth = Some(normals.smooth);
-            tilts.specular = Some(tilted(raised(base, normals.geometric, wo)));
+        } else {
+            tilts.fuzz = Some(specular);
         }
         let coat = if self.lobes.coat { normals.coat } else { None };
         if let Some(coat) = coat {
-            tilts.coat = Some(tilted(if corrects { raised(coat, normals.geometric, wo) } else { coat }));
+            tilts.coat = Some(tilted(raised(coat, normals.geometric, wo)));
             if self.lobes.fuzz {
                 tilts.fuzz = Some(tilted((base + (coat - base) * coat_weight).normalize_or(base)));
             }

@@ -59,17 +59,17 @@ pub fn hash4<L: Lanes>(l: L, x: U<L>, y: U<L>, z: U<L>, w: U<L>) -> U<L> {
     let s = start(l, 4);
     let (mut a, mut b, mut c) = (s + x, s + y, s + z);
     a = (a - c) ^ rotate(c, 4);
-    c = c + b;
+    c += b;
     b = (b - a) ^ rotate(a, 6);
-    a = a + c;
+    a += c;
     c = (c - b) ^ rotate(b, 8);
-    b = b + a;
+    b += a;
     a = (a - c) ^ rotate(c, 16);
-    c = c + b;
+    c += b;
     b = (b - a) ^ rotate(a, 19);
-    a = a + c;
+    a += c;
     c = (c - b) ^ rotate(b, 4);
-    b = b + a;
+    b += a;
     finish(a + w, b, c)
 }
 

@@ -14,6 +14,7 @@ mod measured;
 #[cfg(unix)]
 mod memory;
 mod mesh;
+mod nodes;
 mod pass;
 mod photometry;
 mod picture;
@@ -47,6 +48,8 @@ mod _gonio {
     use crate::measure::{GridReading, Measurements, Reading, measure_scene};
     #[pymodule_export]
     use crate::measured::MeasuredBsdf;
+    #[pymodule_export]
+    use crate::nodes::compute;
     #[pymodule_export]
     use crate::pass::Pass;
     #[pymodule_export]

@@ -12,7 +12,6 @@ mod camera;
 mod digest;
 pub mod error;
 mod goniogram;
-mod graph;
 mod instance;
 mod light;
 mod light_quantity;
@@ -34,8 +33,10 @@ pub use camera::{Camera, CameraExposure, Projection};
 pub use digest::{Digest, Digesting};
 pub use error::{Diagnostic, Error, Result, Severity};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
+pub use gonio_nodes::{
+    Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,
+};
 pub use goniogram::Goniogram;
-pub use graph::{Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space};
 pub use instance::{Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
@@ -45,7 +46,7 @@ pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use settings::{Background, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
-pub use texture::{Texture, TextureFilter, TextureSource, Tile, WrapMode};
+pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;
 
 use serde::{Deserialize, Serialize};
@@ -71,10 +72,6 @@ id!(
 id!(
     /// A material of the scene.
     MaterialId
-);
-id!(
-    /// A texture of the scene.
-    TextureId
 );
 id!(
     /// A measured BSDF of the scene.

@@ -1,7 +1,7 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::graph::{Graph, Input, NodeId};
 use super::{MeasuredId, Origin};
+use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
 
 /// The model whose rules a closure's parameters follow; parameter names are those of the surface's parameter block for all of them.

@@ -46,28 +46,6 @@ pub struct Tile {
     pub bytes: Arc<[u8]>,
 }
 
-/// What lies beyond the image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum WrapMode {
-    /// The image again.
-    Repeat,
-    /// The border's colour.
-    Clamp,
-    /// The image mirrored.
-    Mirror,
-    /// Zero, alpha too.
-    Black,
-}
-
-/// How texels are filtered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TextureFilter {
-    /// Trilinear between mip levels.
-    Linear,
-    /// The nearest texel of the finest level.
-    Closest,
-}
-
 /// An image and how its numbers are meant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Texture {

@@ -23,6 +23,20 @@ pub struct Vec3<L: Lanes> {
     pub z: F<L>,
 }
 
+impl<L: Lanes> From<[F<L>; 3]> for Vec3<L> {
+    #[inline(always)]
+    fn from([x, y, z]: [F<L>; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl<L: Lanes> From<Vec3<L>> for [F<L>; 3] {
+    #[inline(always)]
+    fn from(v: Vec3<L>) -> Self {
+        [v.x, v.y, v.z]
+    }
+}
+
 impl<L: Lanes> Vec3<L> {
     /// From its coordinates.
     #[inline(always)]

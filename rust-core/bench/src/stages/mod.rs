@@ -3,6 +3,7 @@
 mod bsdf;
 mod function;
 mod generation;
+mod graph;
 mod light;
 mod render;
 mod texture;
@@ -27,6 +28,8 @@ pub enum Stage {
     Triangle,
     /// Filtered lookups in images.
     Texture,
+    /// Shading nodes.
+    Graph,
     /// Surfaces: from parameters to lobes, sampling and evaluation.
     Bsdf,
     /// Sampling lights by type.
@@ -41,11 +44,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order of a path.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Generation,
         Self::Traversal,
         Self::Triangle,
         Self::Texture,
+        Self::Graph,
         Self::Bsdf,
         Self::Light,
         Self::Function,
@@ -60,6 +64,7 @@ impl Stage {
             Self::Traversal => "traversal",
             Self::Triangle => "triangle",
             Self::Texture => "texture",
+            Self::Graph => "graph",
             Self::Bsdf => "bsdf",
             Self::Light => "light",
             Self::Function => "function",
@@ -85,6 +90,7 @@ impl Stage {
             Self::Traversal => traversal::cases(cancel),
             Self::Triangle => triangle::cases(cancel),
             Self::Texture => texture::cases(cancel),
+            Self::Graph => Ok(graph::cases()),
             Self::Bsdf => Ok(bsdf::cases()),
             Self::Light => light::cases(cancel),
             Self::Function => Ok(function::cases()),

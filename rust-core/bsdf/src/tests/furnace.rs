@@ -96,7 +96,9 @@ fn lobes_without_layers_are_reciprocal() {
     for (name, surface) in [("eon", rows::diffuse(0.8)), ("metal", metal), ("glossy", glossy([1.0; 3], 0.5, 0.0, Ggx))] {
         for (a, b) in [((20.0, 0.0), (50.0, 70.0)), ((70.0, 0.0), (30.0, 200.0)), ((80.0, 0.0), (60.0, 170.0))] {
             let (a, b) = (direction(a.0, a.1), direction(b.0, b.1));
-            let value = |wo: [f32; 3], wi: [f32; 3]| View { surface: surface.clone(), wo, entering: true }.eval(&[wi])[0].0[1] / wi[2];
+            let value = |wo: [f32; 3], wi: [f32; 3]| {
+                View { surface: surface.clone(), wo, entering: true, geometric: None }.eval(&[wi])[0].0[1] / wi[2]
+            };
             let (there, back) = (value(a, b), value(b, a));
             assert!((there - back).abs() < 1e-3 * there.max(back) + 1e-6, "{name}: {there} and {back}");
         }
@@ -107,9 +109,10 @@ fn lobes_without_layers_are_reciprocal() {
 fn refraction_scales_with_the_squared_index_when_reversed() {
     let glass = rows::glass(0.6, Ggx);
     let [outside, inside] = [direction(30.0, 0.0), direction(155.0, 190.0)];
-    let into = View { surface: glass.clone(), wo: outside, entering: true }.eval(&[inside])[0].0[1] / -inside[2];
+    let into = View { surface: glass.clone(), wo: outside, entering: true, geometric: None }.eval(&[inside])[0].0[1] / -inside[2];
     let mirrored = |v: [f32; 3]| [v[0], v[1], -v[2]];
-    let out = View { surface: glass, wo: mirrored(inside), entering: false }.eval(&[mirrored(outside)])[0].0[1] / outside[2];
+    let out =
+        View { surface: glass, wo: mirrored(inside), entering: false, geometric: None }.eval(&[mirrored(outside)])[0].0[1] / outside[2];
     assert!((into / (1.5 * 1.5) - out).abs() < 1e-3 * out, "{into} and {out}");
 }
 

@@ -1,5 +1,6 @@
 //! Batches of samples and evaluations of one surface from one view, at any level.
 
+use crate::normals::Normals;
 use crate::{BsdfSample, Hits, Lobes, ParameterValues, Surface};
 use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
 
@@ -9,6 +10,8 @@ pub(super) struct View {
     pub(super) surface: Surface,
     pub(super) wo: [f32; 3],
     pub(super) entering: bool,
+    /// The triangle's normal in the shading frame, where it is another one.
+    pub(super) geometric: Option<[f32; 3]>,
 }
 
 /// One sampled direction.
@@ -59,8 +62,13 @@ pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>
 fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
     let wo = Vec3::splat(l, view.wo);
     let values = ParameterValues::constant(&view.surface.constants);
+    let normals = match view.geometric {
+        Some(geometric) => Some(Normals { geometric: Vec3::splat(l, geometric), smooth: Vec3::splat(l, [0.0, 0.0, 1.0]), coat: None }),
+        None => None,
+    };
+    let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true };
     let mut lobes = Lobes::empty(l);
-    view.surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: None, walks: true }, &mut lobes);
+    view.surface.resolve(l, &hits, &mut lobes);
     for chunk in job.numbers.chunks(L::COUNT) {
         let s = sample(l, &lobes, wo, lanes(l, chunk));
         let (wi, value) = ([s.wi.x, s.wi.y, s.wi.z].map(|x| x.to_array()), rgb(s.value));
@@ -103,7 +111,11 @@ fn rgb<L: Lanes>(light: Spectrum<L>) -> [[f32; 16]; 3] {
 
 impl View {
     pub(super) fn new(surface: &Surface, theta: f32, entering: bool) -> Self {
-        Self { surface: surface.clone(), wo: direction(theta, 0.0), entering }
+        Self { surface: surface.clone(), wo: direction(theta, 0.0), entering, geometric: None }
+    }
+    /// Over a triangle whose normal leans from the shading normal towards the view by `lean` degrees.
+    pub(super) fn smooth(surface: &Surface, theta: f32, lean: f32, entering: bool) -> Self {
+        Self { geometric: Some(direction(lean, 0.0)), ..Self::new(surface, theta, entering) }
     }
     fn run<'a>(&self, execution: Execution, numbers: &'a [[f32; 3]], directions: &'a [[f32; 3]]) -> Job<'a> {
         let mut job = Job { numbers, directions, ..Job::default() };

@@ -9,4 +9,5 @@ mod measured;
 mod measurements;
 mod normals;
 mod rows;
+mod smooth;
 mod subsurface;

@@ -6,11 +6,12 @@ use super::{measured::CompiledMeasured, textures::CompiledTextures};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
-    graph::{Output, Program, Source},
+    graph::{Program, Wanted},
     scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
-use program::{source, steps};
+use gonio_nodes::{Channel, Operand};
+use program::{CompiledGraph, asks_for_ray, compile_graph};
 
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
@@ -26,22 +27,22 @@ pub(super) fn compile(
     let default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
     let mut table = MaterialTable::default();
     for material in scene.materials.iter().chain([&default]) {
-        let steps = steps(material, textures, names)?;
         let first = table.surfaces.len() as u32;
-        if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= steps.steps.len()) {
+        if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= material.graph.nodes.len()) {
             let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
             return Err(Error::scene(&material.origin, problem));
         }
+        let graph = compile_graph(material, textures, names)?;
         for closure in &material.closures {
-            table.surfaces.push(surface(material, closure, measured, steps.clone(), diagnostics));
+            table.surfaces.push(surface(material, closure, measured, &graph, diagnostics));
         }
         if !material.shader_outputs.is_empty() {
-            table.shader_outputs.push(shader_outputs(material, steps.clone(), first as usize));
+            table.shader_outputs.push(shader_outputs(material, &graph, first as usize));
         }
         table.numbers.push(match material.closures.as_slice() {
             [only] if only.weight == Input::Constant([1.0; 4]) => Shading::Surface(first),
             closures => {
-                table.mixes.push(mix(closures, first, steps, &table.surfaces));
+                table.mixes.push(mix(closures, first, &graph, &table.surfaces));
                 Shading::Mix(table.mixes.len() as u32 - 1)
             }
         });
@@ -62,23 +63,26 @@ fn nodes_of(material: &Material) -> impl Iterator<Item = NodeId> {
 }
 
 /// What a material shows in passes of its own.
-fn shader_outputs(material: &Material, program: Program, first: usize) -> ShaderOutputs {
-    let output =
-        |output: &scene::ShaderOutput| ShaderOutput { name: output.name.clone(), color: source(output.color), value: source(output.value) };
+fn shader_outputs(material: &Material, graph: &CompiledGraph, first: usize) -> ShaderOutputs {
+    let output = |output: &scene::ShaderOutput| ShaderOutput {
+        name: output.name.clone(),
+        color: graph.code.value(output.color),
+        value: graph.code.value(output.value),
+    };
     let surfaces = first..first + material.closures.len();
-    ShaderOutputs { surfaces, program, outputs: material.shader_outputs.iter().map(output).collect() }
+    ShaderOutputs { surfaces, code: graph.code.clone(), uv: graph.uv, outputs: material.shader_outputs.iter().map(output).collect() }
 }
 
 /// A material of several closures, or of one with a weight.
-fn mix(closures: &[Closure], first: u32, program: Program, surfaces: &[SurfaceMaterial]) -> Mix {
-    let weights: Vec<Source> = closures.iter().map(|closure| source(closure.weight)).collect();
-    let outputs = weights.iter().enumerate().map(|(i, weight)| Output { offset: i * 3, width: 3, source: *weight }).collect();
+fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[SurfaceMaterial]) -> Mix {
+    let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.code.value(closure.weight))).collect();
+    let program = Program::new(&graph.code, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
     let own = &surfaces[first as usize..];
     let constant = closures.iter().all(|closure| matches!(closure.weight, Input::Constant(_)));
     Mix {
         first,
         count: closures.len(),
-        program: Program { outputs, ..program }.pruned(),
+        program,
         transparent: own.iter().any(|surface| surface.transparent),
         emissive: own.iter().any(|surface| surface.emissive),
         even_emission: (constant && own.iter().all(SurfaceMaterial::emits_evenly)).then(|| {
@@ -95,44 +99,49 @@ fn surface(
     material: &Material,
     closure: &Closure,
     measured: &CompiledMeasured,
-    mut program: Program,
+    graph: &CompiledGraph,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> SurfaceMaterial {
     let measured = measured.of(closure);
     if closure.model == Model::Measured && measured.is_none() {
         let mut grey = Closure { model: Model::Diffuse, parameters: Vec::new(), ..closure.clone() };
         grey.set_colour("base_color", DEFAULT_REFLECTANCE);
-        return surface(material, &grey, &CompiledMeasured::default(), program, diagnostics);
+        return surface(material, &grey, &CompiledMeasured::default(), graph, diagnostics);
     }
     let mut constants = parameter::DEFAULTS;
     if measured.is_some() {
         constants[parameter::BASE_COLOR..parameter::BASE_COLOR + 3].fill(1.0);
     }
     let mut varying = [false; parameter::COUNT];
+    let switches = switches_of(closure);
+    let mut wanted = Wanted { free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
+    let code = &graph.code;
     for (name, input) in &closure.parameters {
         let Some(parameter) = parameter::find(name) else {
             diagnostics.push(Diagnostic::warning(&material.origin, format!("surface parameter '{name}' is not known; it is ignored")));
             continue;
         };
         let places = parameter.offset..parameter.offset + parameter.width();
-        match input {
-            Input::Constant(value) => constants[places].iter_mut().zip(value).for_each(|(place, value)| *place = finite(*value)),
-            Input::Node(..) => {
-                program.outputs.push(Output { offset: parameter.offset, width: parameter.width(), source: source(*input) });
-                varying[places].fill(true);
+        let value = code.value(*input);
+        let value = &value[..parameter.width()];
+        // A graph may give constants, too.
+        for (place, operand) in places.clone().zip(value) {
+            if let Operand::Constant(value) = operand {
+                constants[place] = finite(*value);
             }
         }
+        if value.iter().any(|operand| matches!(operand, Operand::Variable(_))) {
+            varying[places].fill(true);
+            wanted.outputs.push((parameter.offset, parameter.width(), code.value(*input)));
+        }
     }
-    let step = |node: Option<NodeId>| node.map(|node| node.0);
-    program.normal = step(closure.normal);
-    let switches = switches_of(closure);
-    program.free_normal = switches.bump == Bump::Cycles;
-    program.coat_normal = step(closure.coat_normal);
-    program.tangent = step(closure.tangent);
+    let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));
+    wanted.normal = direction(closure.normal);
+    wanted.coat_normal = direction(closure.coat_normal);
+    wanted.tangent = direction(closure.tangent);
+    let mut program = Program::new(code, &wanted);
     // Shader outputs run on the same surface points.
-    let outputs_ask = !material.shader_outputs.is_empty() && program.asks_for_ray();
-    let mut program = program.pruned();
-    program.light_path |= outputs_ask;
+    program.light_path |= !material.shader_outputs.is_empty() && asks_for_ray(code);
     let surface = match measured {
         Some(measured) => Surface::measured(constants, &varying, switches, measured.clone()),
         None => Surface::new(constants, &varying, switches),

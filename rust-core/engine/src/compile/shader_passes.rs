@@ -2,7 +2,7 @@
 
 use crate::{
     film::ChannelLayout,
-    graph::{Output, Program},
+    graph::{Program, Wanted},
     scene::{Aov, Settings, ShaderValue},
     transport::{MaterialTable, ShaderPasses},
 };
@@ -22,12 +22,13 @@ pub(super) fn programs(materials: &MaterialTable, settings: &Settings) -> Shader
             let Some(name) = settings.shader_passes.get(usize::from(number)) else { continue };
             let offset = layout.shader_column(*aov);
             outputs.extend(material.outputs.iter().filter(|output| output.name == *name).map(|output| match kind {
-                ShaderValue::Color => Output { offset, width: 3, source: output.color },
-                ShaderValue::Number => Output { offset, width: 1, source: output.value },
+                ShaderValue::Color => (offset, 3, output.color),
+                ShaderValue::Number => (offset, 1, output.value),
             }));
         }
         if !outputs.is_empty() {
-            let program = Program { outputs, ..material.program.clone() }.pruned();
+            let wanted = Wanted { outputs, uv: material.uv, ..Wanted::default() };
+            let program = Program::new(&material.code, &wanted);
             material.surfaces.clone().for_each(|surface| programs[surface] = Some(program.clone()));
         }
     }

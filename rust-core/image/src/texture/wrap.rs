@@ -24,6 +24,8 @@ pub enum Filter {
     Trilinear,
     /// The one texel of the finest level in which the point lies.
     Nearest,
+    /// As [`Filter::Trilinear`] with sixteen texels of each level, weighed by cubic B-splines, which smooth the image.
+    Cubic,
 }
 
 /// The two texels along an axis that a lookup mixes.

@@ -18,7 +18,7 @@ use std::{
 use writer::Writer;
 
 /// A dictionary as an element.
-pub(crate) fn read<T: DeserializeOwned>(description: &Bound<'_, PyDict>, kind: &str) -> PyResult<T> {
+pub(crate) fn read<T: DeserializeOwned>(description: &Bound<'_, PyAny>, kind: &str) -> PyResult<T> {
     let element = T::deserialize(Reader::new(description));
     element.map_err(|problem| setting(kind, format!("the description is not understood: {problem}")))
 }

@@ -30,12 +30,12 @@ pub(crate) fn add_shader_passes<L: Lanes>(
     let (l, slot) = (point.slot.lanes(), pixel(point.slot));
     let mut place = 0;
     for output in &program.outputs {
-        for channel in 0..output.width {
+        for channel in 0..output.sources.len() {
             let value = l.load(outputs.column(place), at);
             add(&mut sums.shader.columns[output.offset + channel], slot, value * point.share, chosen & value.is_finite());
             place += 1;
         }
-        if output.width == 3 {
+        if output.sources.len() == 3 {
             add(&mut sums.shader.columns[output.offset + 3], slot, point.share, chosen);
         }
     }

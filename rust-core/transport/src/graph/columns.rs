@@ -1,6 +1,7 @@
 //! What a program reads and writes: surface points, registers and computed parameters, in columns.
 
 use super::CHUNK;
+use gonio_nodes::Registers;
 use gonio_simd::{Column, Lanes, Vec3};
 
 /// Surface points of a chunk, one entry a hit; normals lie on the side of `wo`.
@@ -93,8 +94,8 @@ impl OutputColumns {
     }
 }
 
-/// Registers of the steps for one register's worth of hits.
+/// Columns of the steps.
 #[derive(Clone, Debug, Default)]
 pub struct GraphScratch {
-    pub(super) registers: Vec<f32>,
+    pub(super) registers: Registers,
 }

@@ -1,20 +1,15 @@
-//! Node graphs run over batches of hits.
+//! Shading programs run over batches of hits: what nodes ask of surface points, rays and images. The nodes themselves are in `gonio-nodes`.
 
-mod arithmetic;
 mod columns;
-mod curve;
 mod evaluate;
+mod hit_step;
 mod light_path;
 mod normals;
 mod program;
 mod shading;
-mod vector;
 
 pub use columns::{GraphScratch, OutputColumns, SurfaceColumns};
-pub use curve::Curve;
 pub use evaluate::evaluate;
-pub use light_path::LightPathValue;
-pub use program::{Arithmetic, HitValue, Output, Program, Quantity, Source, Step, VectorOperation};
-
-/// Hits of one material that are shaded together; the columns of a chunk stay in the first-level cache.
-pub const CHUNK: usize = 256;
+pub use gonio_nodes::{CHUNK, Source};
+pub use hit_step::HitStep;
+pub use program::{Direction, Output, Program, Wanted};

@@ -3,14 +3,13 @@
 use super::{
     SurfaceColumns,
     columns::load3,
-    shading::Place,
-    vector::{from_vector, vector_of},
+    shading::{Place, from_vector},
 };
 use gonio_simd::{F, Frame, Lanes, Vec3};
 
 /// A tangent-space normal in world space, on the side of `wo`; along the texture coordinates of column `uv`, else those of the chunk's tangents.
 #[inline(always)]
-pub(super) fn normal_map<L: Lanes>(l: L, place: &Place<'_, L>, map: [F<L>; 4], scale: f32, uv: Option<usize>) -> [F<L>; 4] {
+pub(super) fn normal_map<L: Lanes>(l: L, place: &Place<'_, L>, map: [F<L>; 3], scale: f32, uv: Option<usize>) -> [F<L>; 4] {
     let side = l.load(&place.points.side, place.at);
     // Maps are made for the front side.
     let front = load3(l, &place.points.shading_normal, place.at) * side;
@@ -32,10 +31,10 @@ pub(super) fn normal_map<L: Lanes>(l: L, place: &Place<'_, L>, map: [F<L>; 4], s
 
 /// Puts the bent normals in place where they are usable.
 #[inline(always)]
-pub(super) fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: [F<L>; 4], free: bool) {
+pub(super) fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: Vec3<L>, free: bool) {
     let smooth = load3(l, &points.shading_normal, at);
     let (geometric, wo) = (load3(l, &points.geometric_normal, at), load3(l, &points.wo, at));
-    let bent = vector_of(normal).normalize_or(smooth);
+    let bent = normal.normalize_or(smooth);
     let bent = if free { bent } else { facing(l, bent, geometric, wo) };
     let [x, y, z] = &mut points.smooth_normal;
     smooth.store([x, y, z], at);

@@ -88,7 +88,7 @@ pub(crate) fn scatter<L: Lanes>(
     let wi = point.at.frame.to_world(sample.wi).normalize();
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.at.geometric.dot(wi).lt(0.0);
-    // What facets refract goes on where bent normals send it, as in Cycles: lost, it would darken smooth edges.
+    // What facets refract goes on where bent normals send it: lost, it would darken smooth edges.
     let consistent = (sample.transmitted & (across | !sample.diffuse)) | (!sample.transmitted).and_not(across);
     let throughput = point.throughput * sample.value * sample.pdf.recip();
     let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
@@ -132,7 +132,7 @@ pub(crate) fn scatter<L: Lanes>(
         slot: point.slot,
         flags: straight.select(point.flags | non_specular, scattered),
         counts: point.counts + straight.select(l.u(1 << 24), counted),
-        medium: sample.transmitted.and_not(straight).select(point.behind, point.medium),
+        medium: across.and_not(straight).select(point.behind, point.medium),
     };
     next.append(&state, alive);
 }

@@ -20,7 +20,10 @@ use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::transport::PathFilter;
-use gonio_bsdf::{Hits, Lobes, ParameterValues, normals::Normals};
+use gonio_bsdf::{
+    Hits, Lobes, ParameterValues,
+    normals::{Normals, is_raised},
+};
 use gonio_light::hit_weight;
 use gonio_simd::{Frame, Lanes, M, Spectrum};
 
@@ -87,19 +90,21 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
     }
 }
 
-/// The normals beside the shading normal, where the material has any.
+/// The normals beside the shading normal, where the material or the way that the view meets them asks for any.
 #[inline(always)]
 fn normals<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>, at: usize) -> Option<Normals<L>> {
     let (l, surface, program) = (chunk.l, &chunk.columns.surface, &material.program);
-    let bent = program.normal.is_some() && program.free_normal;
-    if !bent && program.coat_normal.is_none() {
+    let frame = &point.at.frame;
+    let geometric = frame.to_local(point.at.geometric);
+    let mapped = program.normal.is_some();
+    let asked = (mapped && program.free_normal) || program.coat_normal.is_some();
+    // Maps that are not free keep mirror directions above the surface already.
+    if !asked && (mapped || !(point.alive & is_raised(geometric, point.local_wo)).any()) {
         return None;
     }
-    let frame = &point.at.frame;
-    let smooth = if program.normal.is_some() { &surface.smooth_normal } else { &surface.shading_normal };
+    let smooth = if mapped { &surface.smooth_normal } else { &surface.shading_normal };
     let coat = if program.coat_normal.is_some() { Some(frame.to_local(load3(l, &surface.coat_normal, at))) } else { None };
-    let (geometric, smooth) = (frame.to_local(point.at.geometric), frame.to_local(load3(l, smooth, at)));
-    Some(Normals { geometric, smooth, coat })
+    Some(Normals { geometric, smooth: frame.to_local(load3(l, smooth, at)), coat })
 }
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.

@@ -120,7 +120,7 @@ pub(crate) fn parameter_values<'a>(material: &'a SurfaceMaterial, outputs: &'a O
 fn fill_columns<'a>(program: &Program, outputs: &'a OutputColumns, columns: &mut [Option<&'a [f32]>; COUNT]) {
     let mut place = 0;
     for output in &program.outputs {
-        for i in 0..output.width {
+        for i in 0..output.sources.len() {
             columns[output.offset + i] = Some(outputs.column(place));
             place += 1;
         }

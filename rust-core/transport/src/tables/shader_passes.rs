@@ -1,6 +1,7 @@
 //! Shader AOVs (Cycles' AOV Output node): what materials compute for passes of their own.
 
-use crate::graph::{Program, Source};
+use crate::graph::{HitStep, Program};
+use gonio_nodes::{Code, Value};
 use std::{ops::Range, sync::Arc};
 
 /// What a material shows in the passes of a name.
@@ -9,9 +10,9 @@ pub struct ShaderOutput {
     /// Name of the passes.
     pub name: String,
     /// What a pass of colours shows.
-    pub color: Source,
+    pub color: Value,
     /// What a pass of numbers shows.
-    pub value: Source,
+    pub value: Value,
 }
 
 /// The outputs of one material.
@@ -19,8 +20,10 @@ pub struct ShaderOutput {
 pub struct ShaderOutputs {
     /// The material's surfaces.
     pub surfaces: Range<usize>,
-    /// The steps of the material's graph.
-    pub program: Program,
+    /// The material's graph.
+    pub code: Arc<Code<HitStep>>,
+    /// Primvar column that tangents and footprints follow.
+    pub uv: Option<usize>,
     /// The outputs.
     pub outputs: Vec<ShaderOutput>,
 }

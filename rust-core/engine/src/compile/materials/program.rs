@@ -1,4 +1,4 @@
-//! A material's graph as steps.
+//! A material's graph as code: names resolved to columns and textures.
 
 use crate::{
     compile::{
@@ -6,56 +6,47 @@ use crate::{
         textures::CompiledTextures,
     },
     error::{Error, Result},
-    graph::{Arithmetic, Curve, HitValue, LightPathValue, Program, Quantity, Source, Step, VectorOperation},
-    scene::{self, Channel, Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
+    graph::HitStep,
+    scene::{Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
+use gonio_nodes::{Code, Hit, Kernel};
 use std::sync::Arc;
 
 /// Most rows of a curve's table.
 const MOST_ROWS: usize = 1 << 16;
 
-pub(super) fn source(input: Input) -> Source {
-    match input {
-        Input::Constant(value) => Source::Constant(value),
-        Input::Node(node, Channel::Rgb) => Source::Register(node.0),
-        Input::Node(node, Channel::R) => Source::Component(node.0, 0),
-        Input::Node(node, Channel::G) => Source::Component(node.0, 1),
-        Input::Node(node, Channel::B) => Source::Component(node.0, 2),
-        Input::Node(node, Channel::A) => Source::Component(node.0, 3),
-    }
+/// A graph laid out, and the primvar column that tangents and footprints follow.
+pub(super) struct CompiledGraph {
+    pub(super) code: Arc<Code<HitStep>>,
+    pub(super) uv: Option<usize>,
 }
 
-/// What is known of a node while the graph is laid out.
+/// What is known of a node's coordinates while the graph is laid out.
 #[derive(Clone, Copy, Debug)]
 struct NodeFacts {
     /// Primvar column its value follows.
     column: Option<usize>,
     /// How much transforms scaled its coordinates.
     scale: f32,
-    /// Whether its four components are the same.
-    even: bool,
 }
 
-/// Lays out a material's graph; outputs are the caller's business.
-pub(super) fn steps(material: &Material, textures: &CompiledTextures, names: &[String]) -> Result<Program> {
-    let mut program = Program::default();
+/// Lays out a material's graph.
+pub(super) fn compile_graph(material: &Material, textures: &CompiledTextures, names: &[String]) -> Result<CompiledGraph> {
+    let nodes = &material.graph.nodes;
     let mut facts: Vec<NodeFacts> = Vec::new();
-    for (number, node) in material.graph.nodes.iter().enumerate() {
+    for (number, node) in nodes.iter().enumerate() {
         if let Some(problem) = problem(number, node) {
             return Err(Error::scene(&material.origin, problem));
         }
-        let fact = facts_of(node, &facts, names);
-        let step = step_of(node, fact, textures, names);
-        if matches!(step, Step::Image { .. }) {
-            program.uv = program.uv.or(fact.column);
-        }
-        program.steps.push(step);
-        facts.push(fact);
+        facts.push(facts_of(node, &facts, names));
     }
+    let code = Code::new(&material.graph, |number, operation| hit(operation, facts[number], textures, names));
+    let is_image = |node: &Node| matches!(&node.operation, Operation::Image { texture, .. } if textures.number(*texture).is_some());
+    let images = nodes.iter().zip(&facts).filter(|(node, _)| is_image(node));
+    let uv = images.filter_map(|(_, facts)| facts.column).next();
     // A tangent is wanted even where no image is: for anisotropy.
-    program.uv = program.uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name)));
-    Ok(program)
+    Ok(CompiledGraph { code: Arc::new(code), uv: uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name))) })
 }
 
 /// What is wrong with a node, if anything.
@@ -76,10 +67,10 @@ fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
         Input::Node(id, _) => Some(facts[usize::from(id.0)]),
         Input::Constant(_) => None,
     });
-    let inherited = NodeFacts { even: false, ..inherited.unwrap_or(NodeFacts { column: None, scale: 1.0, even: false }) };
+    let inherited = inherited.unwrap_or(NodeFacts { column: None, scale: 1.0 });
     let scaled = |determinant: f32| NodeFacts { scale: inherited.scale * determinant.abs().sqrt(), ..inherited };
-    let fact = match &node.operation {
-        Operation::Primvar { name, .. } => NodeFacts { column: column(names, name), scale: 1.0, even: false },
+    match &node.operation {
+        Operation::Primvar { name, .. } => NodeFacts { column: column(names, name), scale: 1.0 },
         Operation::Transform2d { scale, .. } => scaled(scale[0] * scale[1]),
         // Of the part that turns the first two coordinates into the first two.
         Operation::Transform3d { rows: [x, y, _] } => scaled(x[0] * y[1] - x[1] * y[0]),
@@ -88,166 +79,49 @@ fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
             _ => inherited,
         },
         _ => inherited,
+    }
+}
+
+/// What an operation of the table's section `hit` is in this scene.
+fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, names: &[String]) -> Hit<HitStep> {
+    let along = |name: &String, step: &dyn Fn(usize) -> HitStep, absent: [f32; 4]| match column(names, name) {
+        Some(column) => Hit::Step(step(column)),
+        None => Hit::Constant(absent),
     };
-    NodeFacts { even: is_even(node, facts), ..fact }
-}
-
-/// Whether all four components of a node's value are the same.
-fn is_even(node: &Node, facts: &[NodeFacts]) -> bool {
-    match node.operation {
-        Operation::Dot | Operation::Luminance | Operation::FrontFacing | Operation::LightPath(_) => true,
-        _ if arithmetic_of(&node.operation).is_some() => node.inputs.iter().all(|input| match input {
-            Input::Constant([x, rest @ ..]) => rest.iter().all(|other| other.to_bits() == x.to_bits()),
-            Input::Node(id, Channel::Rgb) => facts[usize::from(id.0)].even,
-            Input::Node(..) => true,
-        }),
-        _ => false,
-    }
-}
-
-fn step_of(node: &Node, fact: NodeFacts, textures: &CompiledTextures, names: &[String]) -> Step {
-    let input = |i: usize| node.inputs.get(i).map_or(Source::Constant([0.0; 4]), |input| source(*input));
-    let constant = |value: [f32; 4]| Step::Combine(value.map(|x| Source::Constant([x; 4])));
-    let absent = || constant([0.0; 4]);
-    if let Some(operation) = arithmetic_of(&node.operation) {
-        return Step::Arithmetic { operation, inputs: [input(0), input(1), input(2)], even: fact.even };
-    }
-    if let Some(operation) = vector_operation_of(&node.operation) {
-        return Step::Vector(operation, [input(0), input(1)]);
-    }
-    if let Some(value) = hit_value_of(&node.operation) {
-        return Step::Hit(value);
-    }
-    match &node.operation {
+    match operation {
         Operation::Image { texture, wrap, filter, scale, bias, fallback } => match textures.number(*texture) {
-            Some(texture) => Step::Image {
+            Some(texture) => Hit::Step(HitStep::Image {
                 texture,
-                uv: input(0),
                 wrap: wrap.map(wrap_of),
                 filter: filter_of(*filter),
                 scale: *scale,
                 bias: *bias,
-                footprint: fact.scale,
-            },
-            None => constant(*fallback),
+                footprint: facts.scale,
+            }),
+            None => Hit::Constant(*fallback),
         },
-        Operation::Primvar { name, fallback } => match column(names, name) {
-            Some(column) => Step::Primvar { column, fallback: *fallback },
-            None => constant(*fallback),
-        },
-        Operation::PrimvarStep { name, axis } => {
-            column(names, name).map_or_else(absent, |column| Step::PrimvarStep { column, axis: *axis })
-        }
-        Operation::UvTangent { uv } => column(names, uv).map_or_else(absent, |column| Step::UvTangent { column }),
-        Operation::PositionStep { axis } => Step::PositionStep { axis: *axis },
-        Operation::Transform2d { scale, rotation_deg, translation } => {
-            let (sin, cos) = rotation_deg.to_radians().sin_cos();
-            let matrix = [[cos * scale[0], -sin * scale[1]], [sin * scale[0], cos * scale[1]]];
-            Step::Transform2d { input: input(0), matrix, offset: *translation }
-        }
-        Operation::Transform3d { rows } => Step::Transform3d { input: input(0), rows: *rows },
-        Operation::Transform { from, to, quantity } if from != to => {
-            Step::Transform { input: input(0), to_world: *to == Space::World, quantity: quantity_of(*quantity) }
-        }
+        Operation::Primvar { name, fallback } => along(name, &|column| HitStep::Primvar { column, fallback: *fallback }, *fallback),
+        Operation::PrimvarStep { name, axis } => along(name, &|column| HitStep::PrimvarStep { column, axis: *axis }, [0.0; 4]),
+        Operation::UvTangent { uv } => along(uv, &|column| HitStep::UvTangent { column }, [0.0; 4]),
+        Operation::Transform { from, to, .. } if from == to => Hit::Same,
+        Operation::Transform { to, quantity, .. } => Hit::Step(HitStep::Transform { to_world: *to == Space::World, quantity: *quantity }),
         Operation::NormalMap { scale, uv } => {
-            Step::NormalMap { input: input(0), scale: *scale, uv: uv.as_ref().and_then(|name| column(names, name)) }
+            Hit::Step(HitStep::NormalMap { scale: *scale, uv: uv.as_ref().and_then(|name| column(names, name)) })
         }
-        Operation::Curve { table, range, linear, extrapolate } => {
-            Step::Curve { input: input(0), curve: Arc::new(Curve::new(table, *range, *linear, *extrapolate)) }
-        }
-        Operation::Combine => Step::Combine([input(0), input(1), input(2), input(3)]),
-        // What is left is a change of space that changes nothing.
-        _ => Step::Arithmetic {
-            operation: Arithmetic::Add,
-            inputs: [input(0), Source::Constant([0.0; 4]), Source::Constant([0.0; 4])],
-            even: false,
-        },
+        _ => Hit::Step(HitStep::Point(operation.clone())),
     }
 }
 
-fn arithmetic_of(operation: &Operation) -> Option<Arithmetic> {
-    Some(match operation {
-        Operation::Add => Arithmetic::Add,
-        Operation::Subtract => Arithmetic::Subtract,
-        Operation::Multiply => Arithmetic::Multiply,
-        Operation::Divide => Arithmetic::Divide,
-        Operation::Mix => Arithmetic::Mix,
-        Operation::Power => Arithmetic::Power,
-        Operation::Invert => Arithmetic::Invert,
-        Operation::Clamp => Arithmetic::Clamp,
-        Operation::Minimum => Arithmetic::Minimum,
-        Operation::Maximum => Arithmetic::Maximum,
-        Operation::Absolute => Arithmetic::Absolute,
-        Operation::Sign => Arithmetic::Sign,
-        Operation::Floor => Arithmetic::Floor,
-        Operation::SquareRoot => Arithmetic::SquareRoot,
-        Operation::Exponential => Arithmetic::Exponential,
-        Operation::Logarithm => Arithmetic::Logarithm,
-        Operation::Sine => Arithmetic::Sine,
-        Operation::Cosine => Arithmetic::Cosine,
-        Operation::ArcSine => Arithmetic::ArcSine,
-        Operation::ArcCosine => Arithmetic::ArcCosine,
-        Operation::ArcTangent2 => Arithmetic::ArcTangent2,
-        Operation::Less => Arithmetic::Less,
-        Operation::Fresnel => Arithmetic::Fresnel,
-        _ => return None,
-    })
-}
-
-fn vector_operation_of(operation: &Operation) -> Option<VectorOperation> {
-    Some(match operation {
-        Operation::Luminance => VectorOperation::Luminance,
-        Operation::Dot => VectorOperation::Dot,
-        Operation::Cross => VectorOperation::Cross,
-        Operation::Normalize => VectorOperation::Normalize,
-        Operation::RgbToHsv => VectorOperation::RgbToHsv,
-        Operation::HsvToRgb => VectorOperation::HsvToRgb,
-        _ => return None,
-    })
-}
-
-fn hit_value_of(operation: &Operation) -> Option<HitValue> {
-    Some(match operation {
-        Operation::Position => HitValue::Position,
-        Operation::Normal => HitValue::Normal,
-        Operation::GeometricNormal => HitValue::GeometricNormal,
-        Operation::Incoming => HitValue::Incoming,
-        Operation::FrontFacing => HitValue::FrontFacing,
-        Operation::LightPath(value) => HitValue::LightPath(light_path_of(*value)),
-        _ => return None,
-    })
-}
-
-fn light_path_of(value: scene::LightPathValue) -> LightPathValue {
-    match value {
-        scene::LightPathValue::IsCameraRay => LightPathValue::Camera,
-        scene::LightPathValue::IsShadowRay => LightPathValue::Shadow,
-        scene::LightPathValue::IsDiffuseRay => LightPathValue::Diffuse,
-        scene::LightPathValue::IsGlossyRay => LightPathValue::Glossy,
-        scene::LightPathValue::IsSingularRay => LightPathValue::Singular,
-        scene::LightPathValue::IsReflectionRay => LightPathValue::Reflection,
-        scene::LightPathValue::IsTransmissionRay => LightPathValue::Transmission,
-        scene::LightPathValue::RayLength => LightPathValue::Length,
-        scene::LightPathValue::RayDepth => LightPathValue::Depth,
-        scene::LightPathValue::DiffuseDepth => LightPathValue::DepthOf(0),
-        scene::LightPathValue::GlossyDepth => LightPathValue::DepthOf(1),
-        scene::LightPathValue::TransmissionDepth => LightPathValue::DepthOf(2),
-        scene::LightPathValue::TransparentDepth => LightPathValue::DepthOf(3),
-    }
-}
-
-fn quantity_of(quantity: scene::Quantity) -> Quantity {
-    match quantity {
-        scene::Quantity::Point => Quantity::Point,
-        scene::Quantity::Vector => Quantity::Vector,
-        scene::Quantity::Normal => Quantity::Normal,
-    }
+/// Whether any step asks for the ray.
+pub(super) fn asks_for_ray(code: &Code<HitStep>) -> bool {
+    code.steps.iter().any(|step| matches!(step.kernel, Kernel::Hit(HitStep::Point(Operation::LightPath(_)))))
 }
 
 fn filter_of(filter: TextureFilter) -> Filter {
     match filter {
         TextureFilter::Linear => Filter::Trilinear,
         TextureFilter::Closest => Filter::Nearest,
+        TextureFilter::Cubic => Filter::Cubic,
     }
 }
 

@@ -160,7 +160,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         slot: point.slot,
         flags: flags(l, chunk.transport.path_filter, point, way),
         counts: point.counts + counted,
-        medium: if way == Way::Refracted { point.behind } else { point.medium },
+        medium: if way == Way::Refracted { across.select(point.behind, point.medium) } else { point.medium },
     };
     branches.ways[way as usize].append(&state, alive);
 }

@@ -1,7 +1,8 @@
 //! Curves and matrices.
 
 use super::harness::{Bench, close, inputs, on_numbers, uniform};
-use crate::graph::{Curve, Step};
+use crate::graph::HitStep;
+use gonio_nodes::{Curve, Kernel};
 use serde_json::json;
 
 const RANGE: [f64; 2] = [-0.5, 2.0];
@@ -60,8 +61,8 @@ fn poor_tables_are_harmless() {
             Bench::with_numbers(&on_numbers(&operation), number).check(|_, found| assert_eq!(found, value));
         }
     }
-    let broken = Curve::new(&[[f32::NAN; 4]; 2], [f32::INFINITY, 0.0], true, true);
-    assert_eq!(broken, Curve::new(&[[0.0; 4]; 2], [0.0, 0.0], true, true));
+    let broken = Curve::new([f32::NAN; 2].into_iter(), [f32::INFINITY, 0.0], true, true);
+    assert_eq!(broken, Curve::new([0.0; 2].into_iter(), [0.0, 0.0], true, true));
 }
 
 #[test]
@@ -90,7 +91,11 @@ fn footprints_follow_matrices() {
         { "operation": { "Transform3d": { "rows": rows } }, "inputs": [node(0)] },
         { "operation": image, "inputs": [node(1)] }
     ]);
-    let steps = Bench::new(&nodes).program().steps;
-    let Step::Image { footprint, .. } = steps[2] else { panic!("an image") };
+    let program = Bench::new(&nodes).last();
+    let footprints = program.kernels().filter_map(|kernel| match kernel {
+        Kernel::Hit(HitStep::Image { footprint, .. }) => Some(*footprint),
+        _ => None,
+    });
+    let footprint = footprints.last().expect("an image");
     assert_eq!(footprint, 4.0);
 }

@@ -3,12 +3,13 @@
 use crate::{
     compile::{CompiledScene, compile},
     geometry::GeometryTable,
-    graph::{CHUNK, GraphScratch, Output, OutputColumns, Program, Source, SurfaceColumns, evaluate},
+    graph::{CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, evaluate},
     scene::{
-        Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, Texture, TextureSource,
-        Transform, Visibility,
+        Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, ShaderOutput, Texture,
+        TextureSource, Transform, Visibility,
     },
 };
+use gonio_nodes::Code;
 use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
 use serde_json::{Value, json};
 use std::sync::{Arc, atomic::AtomicBool};
@@ -69,8 +70,9 @@ fn scene(nodes: &Value) -> Scene {
     });
     let graph: Graph = serde_json::from_value(json!({ "nodes": nodes })).expect("nodes in the form of scene descriptions");
     let mut material = Material::diffuse(Origin::new("test"), [0.5; 3]);
-    // Nodes that nothing reads would be left out.
-    material.closures[0].parameters = (0..graph.nodes.len() as u16).map(|node| ("base_color".into(), read(node))).collect();
+    // Shader outputs keep the graph whole.
+    let last = read(graph.nodes.len() as u16 - 1);
+    material.shader_outputs.push(ShaderOutput { name: "last".into(), color: last, value: last });
     let material = scene.add_material(Material { graph, ..material });
     let [x, y, z] = COLUMNS;
     scene.instances.push(Instances {
@@ -122,7 +124,7 @@ impl Bench {
             let (a, b) = (uniform(1, i).sqrt(), uniform(2, i));
             points.primitive[i] = (i % TRIANGLES.len()) as u32;
             [points.barycentric[0][i], points.barycentric[1][i]] = [a * (1.0 - b), a * b];
-            points.width[i] = 0.5 + uniform(3, i);
+            points.cone[i] = 0.5 + uniform(3, i);
             let wo = [uniform(4, i) - 0.5, uniform(5, i) - 0.5, uniform(6, i) - 0.5];
             let length = wo.iter().map(|x| x * x).sum::<f32>().sqrt();
             (0..3).for_each(|k| points.wo[k][i] = wo[k] / length);
@@ -145,17 +147,25 @@ impl Bench {
         bench
     }
 
-    /// The program as it was compiled.
-    pub(super) fn program(&self) -> Program {
-        self.compiled.tables.materials.surfaces[0].program.clone()
+    /// The graph as it was compiled.
+    pub(super) fn code(&self) -> &Code<HitStep> {
+        &self.compiled.tables.materials.shader_outputs[0].code
+    }
+
+    /// The program of what is wanted.
+    pub(super) fn program(&self, wanted: Wanted) -> Program {
+        Program::new(self.code(), &Wanted { uv: self.compiled.tables.materials.shader_outputs[0].uv, ..wanted })
+    }
+
+    /// The program of the last node's four components.
+    pub(super) fn last(&self) -> Program {
+        let value = self.compiled.tables.materials.shader_outputs[0].outputs[0].color;
+        self.program(Wanted { outputs: vec![(0, 4, value)], ..Wanted::default() })
     }
 
     /// The last node's value at all hits.
     pub(super) fn run(&self, execution: Execution) -> Vec<[f32; 4]> {
-        let program = self.program();
-        let last = program.steps.len() as u16 - 1;
-        let outputs = (0..4).map(|i| Output { offset: 0, width: 1, source: Source::Component(last, i) }).collect();
-        let (_, values) = self.run_program(&Program { outputs, ..program }, execution);
+        let (_, values) = self.run_program(&self.last(), execution);
         (0..CHUNK).map(|i| [0, 1, 2, 3].map(|component| values.column(component)[i])).collect()
     }
 

@@ -1,7 +1,8 @@
 //! Steps that nothing reads.
 
-use super::harness::{Bench, read};
-use crate::graph::{Output, Program, Source, Step};
+use super::harness::{Bench, close, read, triple};
+use crate::graph::{CHUNK, HitStep, Wanted};
+use gonio_nodes::Kernel;
 use gonio_simd::Execution;
 use serde_json::json;
 
@@ -16,17 +17,21 @@ fn steps_that_nothing_reads_are_left_out() {
         { "operation": "Add", "inputs": [node(3), { "Node": [1, "G"] }] },
         { "operation": "Cosine", "inputs": [node(2)] }
     ]));
-    let whole =
-        Program { outputs: vec![Output { offset: 0, width: 3, source: Source::Register(4) }], coat_normal: Some(1), ..bench.program() };
-    let pruned = whole.clone().pruned();
-    assert!(matches!(pruned.steps.as_slice(), [Step::Hit(_), Step::Hit(_), Step::Arithmetic { .. }]), "{:?}", pruned.steps);
-    assert_eq!((pruned.coat_normal, pruned.outputs[0].source), (Some(0), Source::Register(2)));
+    let value = |node: u16| bench.code().value(read(node));
+    let program = bench.program(Wanted { outputs: vec![(0, 3, value(4))], coat_normal: Some(value(1)), ..Wanted::default() });
+    let kernels: Vec<_> = program.kernels().collect();
+    let is_point = |kernel: &&Kernel<HitStep>| matches!(kernel, Kernel::Hit(HitStep::Point(_)));
+    // A position, a normal, and a sum of each of three components.
+    assert_eq!((kernels.iter().copied().filter(|kernel| is_point(kernel)).count(), kernels.len()), (2, 5), "{kernels:?}");
     for execution in Execution::all() {
-        let ((points, values), (points_before, values_before)) =
-            (bench.run_program(&pruned, execution), bench.run_program(&whole, execution));
-        for k in 0..3 {
-            assert_eq!(values.column(k), values_before.column(k));
-            assert_eq!(points.coat_normal[k][..], points_before.coat_normal[k][..]);
+        let (points, values) = bench.run_program(&program, execution);
+        for i in 0..CHUNK {
+            let (normal, height) =
+                (triple(&bench.points.shading_normal, i), f64::from(bench.points.position[1][i] + bench.points.origin[1]));
+            for k in 0..3 {
+                close(values.column(k)[i], normal[k] + height, 1e-3, "sum");
+            }
+            assert!(points.coat_normal.iter().any(|column| column[i] != 0.0));
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Values that depend on the hit.
 
 use super::{
-    harness::{Bench, COLUMNS, PLACE, POINTS, TRIANGLES, close, dot, leaf, three, triple},
+    harness::{Bench, COLUMNS, PLACE, POINTS, TRIANGLES, close, dot, leaf, read, three, triple},
     steps::{uv_change, uv_directions},
 };
-use crate::graph::CHUNK;
+use crate::graph::{CHUNK, Wanted};
 use gonio_simd::{Column, Execution};
 use serde_json::{Value, json};
 
@@ -176,8 +176,8 @@ fn any_vector_bends_the_normals() {
         { "operation": "Incoming", "inputs": [] },
         { "operation": "Add", "inputs": [node(0), node(1)] }
     ]));
-    let mut program = bench.program();
-    (program.normal, program.coat_normal, program.free_normal) = (Some(2), Some(2), true);
+    let sum = bench.code().value(read(2));
+    let program = bench.program(Wanted { normal: Some(sum), coat_normal: Some(sum), free_normal: true, ..Wanted::default() });
     for execution in Execution::all() {
         let (after, _) = bench.run_program(&program, execution);
         for i in 0..CHUNK {

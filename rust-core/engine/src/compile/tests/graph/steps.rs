@@ -45,7 +45,7 @@ fn steps_lie_in_the_surface() {
         let [first, second] = [&benches[0], &benches[1]].map(|bench| bench.run(execution));
         for i in 0..CHUNK {
             let (a, b, normal) = (three(first[i]), three(second[i]), triple(&points.geometric_normal, i));
-            let width = f64::from(points.width[i]);
+            let width = f64::from(points.cone[i]);
             assert!((dot(a, a).sqrt() / width - 1.0).abs() < 1e-5 && (dot(b, b).sqrt() / width - 1.0).abs() < 1e-5);
             assert!(dot(a, normal).abs() < 1e-6 && dot(b, normal).abs() < 1e-6 && dot(a, b).abs() < 1e-6);
         }
@@ -55,7 +55,7 @@ fn steps_lie_in_the_surface() {
 #[test]
 fn steps_without_a_cone_are_small_but_there() {
     let mut bench = leaf(&json!({ "PositionStep": { "axis": 1 } }));
-    bench.points.width.fill(0.0);
+    bench.points.cone.fill(0.0);
     bench.check(|_, found| {
         let length = dot(three(found), three(found)).sqrt();
         assert!((1e-5..1e-2).contains(&length), "{length}");

@@ -1,11 +1,12 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-"""A material's node graph under construction: constants are folded, equal nodes are shared."""
+"""Graphs of shading nodes under construction: constants are folded by the renderer's own kernels, equal nodes are shared."""
 
 import json
+from array import array
 
-import numpy as np
+from ._gonio import compute
 
-from .operations import compute
+# What a host keeps in its graphs without the renderer knowing.
+HOST_OPERATIONS = ("Direction", "Lookup")
 
 # How wide a value is; arithmetic of two takes the wider.
 RANK = {"VALUE": 0, "VECTOR": 1, "RGBA": 2}
@@ -184,9 +185,12 @@ class Graph:
 
     @staticmethod
     def _fold(operation, inputs):
-        with np.errstate(all="ignore"):
-            result = compute(operation, [np.array(value.constant) for value in inputs])
-        return None if result is None else tuple(float(x) if np.isfinite(x) else 0.0 for x in result)
+        # Operations of the host alone, such as the direction that a world is asked for, are not in the table.
+        known = operation if isinstance(operation, str) else next(iter(operation))
+        if known in HOST_OPERATIONS:
+            return None
+        result = compute(operation, [array("f", value.constant) for value in inputs])
+        return None if result is None else tuple(memoryview(result).tolist()[0])
 
     def reachable(self, inputs):
         """The nodes that these inputs need, renumbered, and the renumbered inputs."""

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the Object, Particle, Curves, Point and Volume Info nodes know of a placement; the last three know nothing of meshes."""
+
+from .inputs import COLOUR, INDEX, LOCATION, PARTICLE, RANDOM
+from .translator import value_node
+
+
+@value_node("ShaderNodeObjectInfo")
+def object_info(t, node, context, output):
+    name = output.identifier
+    if name == "Material Index":
+        return t.graph.scalar(getattr(t.owner, "pass_index", 0))
+    if t.kind != "Material":
+        return None
+    names = {"Random": (RANDOM, "VALUE"), "Location": (LOCATION, "VECTOR"), "Object Index": (INDEX, "VALUE"), "Color": (COLOUR, "RGBA")}
+    if name == "Alpha":
+        return t.instance_primvar(COLOUR, "RGBA").component(3)
+    return t.instance_primvar(*names[name]) if name in names else None
+
+
+@value_node("ShaderNodeParticleInfo")
+def particle_info(t, node, context, output):
+    kind = "VECTOR" if output.type == "VECTOR" else "VALUE"
+    return t.instance_primvar(PARTICLE + output.identifier, kind) if t.kind == "Material" else t.graph.scalar(0.0)
+
+
+@value_node("ShaderNodeHairInfo", "ShaderNodePointInfo", "ShaderNodeVolumeInfo")
+def of_no_mesh(t, node, context, output):
+    """As in Cycles zero on whatever is no curve, point or volume."""
+    return t.graph.scalar(0.0)

@@ -1,0 +1,145 @@
+"""Writes docs/nodes.md: `python tests/blender/nodes/page.py` from what was measured last, with `--measure` after measuring again.
+
+`GONIO_BPY` names the Pythons with `bpy` that measure, separated by colons; each takes two minutes.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tests" / "blender"))
+
+from nodes import catalogue, results  # noqa: E402
+from nodes.case import STRUCTURE, VALUE, Node  # noqa: E402
+
+PAGE = ROOT / "docs" / "nodes.md"
+# Where the part on Blender ends.
+OTHERS = "\n## MaterialX"
+FAMILIES = ["Input", "Texture", "Color", "Vector", "Converter", "Shader", "Volume", "Structure", "Not for materials"]
+
+HEAD = """# Shader nodes
+
+Each shader node of Blender 4.5 and 5.0, held to Cycles of the same Blender: both engines render one scene, and what they show is compared.
+The page is written by `python tests/blender/nodes/page.py` from `tests/blender/nodes/measured`.
+
+{counts}
+
+How it is tested:
+
+- **texels**: a plane whose texels hold a node's inputs: coordinates, numbers of both signs, zeros, large ones. Both engines reckon with
+  the same bits. A node's output is read as it is from a shader AOV, and as emission.
+- **ball**: a turned ball seen in perspective. Both engines sample within a hundredth of a pixel of its middle, and values are carried
+  along their slopes to the same place. Up to 1 % of the pixels may differ, where samples meet other faces.
+- **particles**: the same with balls that particles instance.
+- **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 % but for one.
+- **rays**: the same for outputs that rays find out, or that depend on the kind of ray: blocks beside a floor, or a mirror.
+- **tree**: a tree built with the node, by texels.
+
+A node is *exact* where every output of every mode is within 1e-4 of Cycles' (1e-6 for hashes, whole numbers and plain sums), relative to
+the value or to the usual value of the case. Steps such as the borders of cells may fall to the other side in a few texels of a thousand;
+*at steps* counts them. *Approximated* says that some outputs differ, *not* that something stands in for the node.
+"""
+WAYS = {"balls": "ball", "particles": "particles", "lit": "light", "filled": "light", "floor": "rays", "mirror": "rays"}
+
+
+def how(node: Node) -> str:
+    """How a node is tested."""
+    if not node.cases:
+        return "–"
+    ways = {**WAYS, "tiles": "tree" if node.kind == STRUCTURE else "texels"}
+    return ", ".join(dict.fromkeys(ways[case.shown_on] for case in node.cases))
+
+
+def counts(verdicts: dict) -> str:
+    """How many nodes are exact, by Blender."""
+    lines = []
+    for version, found in verdicts.items():
+        there = [name for name, node in catalogue.NODES.items() if node.counts and node.since <= version <= node.until]
+        exact = sum(found[name].state == results.EXACT for name in there)
+        name, share = ".".join(str(part) for part in version), 100.0 * exact / len(there)
+        lines.append(f"- Blender {name}: **{exact} of {len(there)}** nodes that a material can hold are exact ({share:.0f} %).")
+    return "\n".join(lines)
+
+
+def _figure(value: float) -> str:
+    return "0" if value == 0.0 else f"{value:.1e}"
+
+
+def row(name: str, node: Node, verdicts: dict) -> str:
+    """A node's row of the table."""
+    states = [found[name].state for found in verdicts.values()]
+    shown = [found[name] for found in verdicts.values() if found[name].state != results.NONE]
+    newest = shown[-1] if shown else results.Verdict(results.NONE)
+    agree = f"{newest.agreeing} of {newest.total}" if newest.total else "–"
+    largest = _figure(max(each.largest for each in shown)) if newest.total else "–"
+    at_steps = newest.beyond and node.kind == VALUE
+    steps = f"{newest.beyond} of {newest.compared}" if at_steps else ""
+    cells = [f"{node.name} (`{name}`)", *states, agree, how(node), largest, steps, remark(node, newest)]
+    return "| " + " | ".join(cells) + " |"
+
+
+def remark(node: Node, found: results.Verdict) -> str:
+    """Why a node is not exact, in the add-on's words, or what the catalogue says of it."""
+    said = [node.remark] if node.remark else []
+    said += [each.replace("not supported; ", "") for each in found.told[:3]]
+    return "; ".join(dict.fromkeys(said))
+
+
+def differing(verdicts: dict, family: str) -> list[str]:
+    """A line for each node of a family of which some modes agree and some do not."""
+    lines = []
+    for name, node in catalogue.NODES.items():
+        if node.family != family:
+            continue
+        for version, found in reversed(verdicts.items()):
+            made = found[name]
+            if made.state == results.APPROXIMATED:
+                modes = "; ".join(f"{mode} {_figure(value)}" for mode, value in made.differing.items())
+                lines.append(f"- {node.name}, {'.'.join(map(str, version))}: {modes}")
+                break
+    return lines
+
+
+def page() -> str:
+    """The page."""
+    verdicts = results.all_verdicts()
+    parts = [HEAD.format(counts=counts(verdicts))]
+    versions = " | ".join(".".join(str(part) for part in version) for version in verdicts)
+    for family in FAMILIES:
+        rows = [row(name, node, verdicts) for name, node in catalogue.NODES.items() if node.family == family]
+        head = f"| node | {versions} | outputs exact | tested by | largest difference | at steps | remark |"
+        rule = "| --- " * (6 + len(verdicts)) + "|"
+        parts.append("\n".join([f"## {family}", "", head, rule, *rows, ""]))
+        lines = differing(verdicts, family)
+        if lines:
+            parts.append("\n".join(["What differs, with the largest relative difference:", "", *lines, ""]))
+    return "\n".join(parts) + rest()
+
+
+def rest() -> str:
+    """What others wrote below Blender's part."""
+    written = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    at = written.find(OTHERS)
+    return written[at:] if at >= 0 else ""
+
+
+def measure() -> None:
+    """Measures with each Python that has bpy."""
+    from conftest import CHILD, pythons
+
+    with tempfile.TemporaryDirectory() as folder:
+        for python in pythons():
+            command = [str(python), str(CHILD), str(Path(__file__).with_name("measure.py")), "measure", json.dumps({"tmp_path": folder})]
+            subprocess.run(command, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+        results.FOLDER.mkdir(exist_ok=True)
+        for made in Path(folder).glob("*.txt"):
+            (results.FOLDER / made.name).write_bytes(made.read_bytes())
+
+
+if __name__ == "__main__":
+    if "--measure" in sys.argv[1:]:
+        measure()
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,45 @@
+"""Shader nodes against Cycles: a few in the ordinary gate, all of them under `validate`.
+
+What the files of `measured` call exact has to stay so. `python tests/blender/nodes/page.py --measure` writes them anew.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+from conftest import CHILD, run_child
+from nodes import results
+
+MEASURE = Path(__file__).with_name("measure.py")
+SECONDS = 900
+# Quick ones of each family, and of each scene but the lit ones.
+FEW = [
+    *("ShaderNodeMath", "ShaderNodeMapRange", "ShaderNodeVectorRotate", "ShaderNodeCombineColor", "ShaderNodeTexGradient"),
+    *("ShaderNodeTexChecker", "ShaderNodeTexNoise", "ShaderNodeTexVoronoi", "ShaderNodeFresnel", "ShaderNodeObjectInfo", "ShaderNodeGroup"),
+]
+
+
+def measured(python: Path, folder: Path, only: list[str] | None) -> None:
+    """Measures in one Blender; asserts that nothing has come loose since it was measured last."""
+    run_child(python, [str(CHILD), str(MEASURE), "measure", json.dumps({"tmp_path": str(folder), "only": only})], seconds=SECONDS)
+    (made,) = folder.glob("*.txt")
+    _, found = results.read(made)
+    _, before = results.read(results.FOLDER / made.name)
+    lost = [
+        f"{name}, {mode}, {output}: {now['largest']:.1e}"
+        for name, modes in found.items()
+        for mode, outputs in modes.items()
+        for output, now in outputs.items()
+        if results.is_exact(before.get(name, {}).get(mode, {}).get(output, now)) and not results.is_exact(now)
+    ]
+    assert found and not lost, lost
+
+
+def test_a_few_nodes_are_as_exact_as_they_were(blender_python, tmp_path):
+    measured(blender_python, tmp_path, FEW)
+
+
+@pytest.mark.validate
+@pytest.mark.timeout(2 * SECONDS)
+def test_all_nodes_are_as_exact_as_they_were(blender_python, tmp_path):
+    measured(blender_python, tmp_path, None)
