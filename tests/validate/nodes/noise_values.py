@@ -2,9 +2,9 @@
 
     BPY_PYTHON noise_values.py OUT.txt
 
-A point is a small plane whose material emits the node's output; one picture shows all of them. The place comes from attributes of the face: a
-node whose inputs are all constants would not reach Cycles, as Blender 5.0 folds it with its own arithmetic. A line holds the node's name, its
-settings, place and inputs, and the four outputs: value, red, green, blue.
+A point is a small plane whose material emits the node's output; one picture shows all of them. The place comes from attributes of the
+face: a node whose inputs are all constants would not reach Cycles, as Blender 5.0 folds it with its own arithmetic. A line holds the node's
+name, its settings, place and inputs, and the four outputs: value, red, green, blue.
 """
 
 import itertools
