@@ -58,6 +58,8 @@ class Node:
     cases: tuple[Case, ...] = ()
     # Other tests that hold it, or why there is nothing to hold.
     remark: str = ""
+    # Why it differs, said where it does and the add-on says nothing.
+    reason: str = ""
     # Blenders that have it: the first, and the last where it has gone.
     since: tuple = (4, 5)
     until: tuple = (9, 9)

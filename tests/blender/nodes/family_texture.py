@@ -59,7 +59,9 @@ def _skies() -> tuple[Case, ...]:
 
 
 NODES = {
-    "ShaderNodeTexImage": Node("Image Texture", FAMILY, cases=_images()),
+    "ShaderNodeTexImage": Node(
+        "Image Texture", FAMILY, cases=_images(), reason="8-bit sRGB images: colours are decoded before they are filtered, in Cycles after"
+    ),
     "ShaderNodeTexEnvironment": Node("Environment Texture", FAMILY, cases=_environments()),
     "ShaderNodeTexChecker": Node(
         "Checker Texture",

@@ -3,6 +3,7 @@
 from .case import Case, Node, modes
 
 FAMILY = "Vector"
+WIDTH = "heights are taken as far apart as the ray is wide, which away from the picture's middle is some 1 % less than in Cycles"
 MAPPINGS = ["POINT", "TEXTURE", "VECTOR", "NORMAL"]
 TURNS = ["AXIS_ANGLE", "X_AXIS", "Y_AXIS", "Z_AXIS", "EULER_XYZ"]
 SPACES = ["WORLD", "OBJECT", "CAMERA"]
@@ -78,6 +79,7 @@ NODES = {
     "ShaderNodeBump": Node(
         "Bump",
         FAMILY,
+        reason=WIDTH,
         cases=(
             Case("smooth", {}, {"Distance": 0.2}, on_sphere=True, prepare="waves"),
             Case("inverted", {"invert": True}, {"Distance": 0.2}, on_sphere=True, prepare="waves"),
@@ -90,6 +92,7 @@ NODES = {
     "ShaderNodeDisplacement": Node(
         "Displacement",
         FAMILY,
+        reason=WIDTH,
         cases=tuple(
             Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.4}, prepare="waves", **DISPLACED)
             for space in ("OBJECT", "WORLD")
@@ -98,6 +101,7 @@ NODES = {
     "ShaderNodeVectorDisplacement": Node(
         "Vector Displacement",
         FAMILY,
+        reason=WIDTH,
         cases=tuple(
             Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.1}, prepare="waves", **DISPLACED)
             for space in ("TANGENT", "OBJECT", "WORLD")

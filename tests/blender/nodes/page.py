@@ -85,6 +85,8 @@ def row(name: str, node: Node, verdicts: dict) -> str:
 def remark(node: Node, found: results.Verdict) -> str:
     """Why a node is not exact, in the add-on's words, or what the catalogue says of it."""
     said = [node.remark] if node.remark else []
+    if found.state == results.APPROXIMATED and node.reason and not found.told:
+        said.append(node.reason)
     said += [re.sub("(^|: )not supported; ", "\\1", each) for each in found.told[:3]]
     return "; ".join(dict.fromkeys(said))
 
