@@ -7,7 +7,7 @@ import gonio
 import numpy as np
 
 from .export.images import Images
-from .export.lights import colour_of
+from .export.lights import parts_of
 from .export.slots import Slots
 from .report import Report
 from .units import LUMENS_PER_WATT
@@ -18,7 +18,7 @@ LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 def as_quantity(light) -> tuple[str, float]:
     """A unit of `light.gonio`, and how much of it: lux of a sun, lumens of all others."""
-    colour, _ = colour_of(light, np.eye(4), Images(gonio.Scene(), Slots()), Report())
+    colour = parts_of(light, np.eye(4), Images(gonio.Scene(), Slots()), Report())[0].colour
     strength = float(np.dot(LUMINANCE, colour)) * light.energy * 2.0 ** getattr(light, "exposure", 0.0) * LUMENS_PER_WATT
     is_normalized = getattr(light, "normalize", True)
     if light.type == "SUN":

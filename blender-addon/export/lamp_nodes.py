@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A lamp's nodes: what they multiply its strength by. What varies over the light is taken by its mean over all that leaves the lamp."""
+"""A lamp's nodes: what they multiply its strength by, over directions or over its surface, or by the mean over all that leaves the lamp."""
 
-from math import acos, cos, pi, tan
+from dataclasses import dataclass
+from math import acos, cos, degrees, pi, tan
 
 import numpy as np
 
@@ -14,41 +15,109 @@ from .material.translator import Translator
 
 # Directions over a lamp's light, or points each way of its surface.
 DIRECTIONS, SIDE = 8192, 96
+# The same of a pattern: planes through the axis and angles from it, texels a side.
+PLANES, ANGLES, PATTERN_SIDE = 721, 361, 256
+# Channels that differ by less, as parts of their largest values, have one pattern.
+SAME_PATTERN = 1e-3
 
 
-def emission(lamp, matrix, images, report):
-    """Red, green and blue that a lamp's nodes multiply its strength by, and the goniogram of its IES texture."""
+@dataclass
+class Part:
+    """Red, green and blue that multiply a lamp's strength, and over what they spread: a goniogram's directions, or a picture on its surface."""
+
+    colour: np.ndarray
+    goniogram: dict | None = None
+    pixels: np.ndarray | None = None
+
+
+def emission(lamp, matrix, images, report, has_pattern=True):
+    """The parts of a lamp's light by its nodes; without `has_pattern` what varies is taken by its mean."""
     t = Translator(lamp, lamp.node_tree, Pictures(images, report), report, kind="Light")
     end = active_output(lamp.node_tree, "Light")
     if end is None:
-        return np.zeros(3), None
+        return [Part(np.zeros(3))]
     flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
-    total, varies = np.zeros(3), False
-    light = Light(lamp, np.asarray(matrix, dtype=float))
-    for closure in t.closures:
-        if closure["model"] == "Emission":
-            factors = dict(closure["parameters"])["emission_color"], closure["weight"]
-            varies |= any("Node" in factor for factor in factors)
-            total += light.mean(t, factors) / LUMENS_PER_WATT
+    emitting = [closure for closure in t.closures if closure["model"] == "Emission"]
+    products = [(dict(closure["parameters"])["emission_color"], closure["weight"]) for closure in emitting]
+    varies = any("Node" in factor for factors in products for factor in factors)
+    if varies and has_pattern and t.goniogram is None and _has_pattern(lamp):
+        return _pattern(t, lamp, matrix, products)
     if varies:
         t.tell("textured lamp", end, t.root)
-    return total, t.goniogram
+    light = Light(lamp, matrix, *SAMPLES[lamp.type](lamp))
+    return [Part(light.mean(t, products) / LUMENS_PER_WATT, t.goniogram)]
+
+
+def _has_pattern(lamp):
+    """Whether the lamp's light can have a pattern: over directions from points and spots, over the surface of a rectangle."""
+    return lamp.type in ("POINT", "SPOT") or (lamp.type == "AREA" and lamp.shape in ("SQUARE", "RECTANGLE"))
+
+
+def _pattern(t, lamp, matrix, products):
+    if lamp.type == "AREA":
+        light = Light(lamp, matrix, *_area(lamp, PATTERN_SIDE))
+        values = light.values(t, products) / LUMENS_PER_WATT
+        # Lamps shine along -z, so that who looks at one sees x to the left.
+        rows = values.reshape(PATTERN_SIDE, PATTERN_SIDE, 3)[::-1, ::-1]
+        pixels = np.ones((PATTERN_SIDE, PATTERN_SIDE, 4), dtype=np.float32)
+        pixels[..., :3] = rows
+        return [Part(np.ones(3), pixels=pixels)]
+    planes, angles = _directions(lamp)
+    light = Light(lamp, matrix, *SAMPLES[lamp.type](lamp, _towards(planes, angles)))
+    values = light.values(t, products) / LUMENS_PER_WATT
+    most = values.max(axis=0)
+    scaled = values / np.where(most > 0.0, most, 1.0)
+    # A goniogram has no colours: those that spread alike are one part, others shine in red, green and blue apart.
+    if np.abs(scaled - scaled[:, [int(most.argmax())]])[:, most > 0.0].max(initial=0.0) < SAME_PATTERN:
+        return [Part(most, _goniogram(planes, angles, scaled[:, int(most.argmax())]))]
+    return [Part(np.eye(3)[c] * most[c], _goniogram(planes, angles, scaled[:, c])) for c in range(3) if most[c] > 0.0]
+
+
+def _directions(lamp):
+    """Planes and angles from -z of a pattern, degrees: the whole sphere, or a spot's cone."""
+    widest = min(degrees(0.5 * lamp.spot_size), 180.0) if lamp.type == "SPOT" else 180.0
+    return np.linspace(0.0, 360.0, PLANES), np.linspace(0.0, widest, ANGLES)
+
+
+def _towards(planes, angles):
+    plane, angle = np.meshgrid(np.radians(planes), np.radians(angles), indexing="ij")
+    across = np.sin(angle)
+    return _vectors(np.stack([across * np.cos(plane), across * np.sin(plane), -np.cos(angle)], axis=-1).reshape(-1, 3))
+
+
+def _goniogram(planes, angles, factors):
+    return {
+        "photometric_type": "C",
+        "horizontal_deg": planes.tolist(),
+        "vertical_deg": angles.tolist(),
+        "factors": factors.tolist(),
+    }
 
 
 class Light:
     """Directions or points of a lamp's light in its own space, (N, 4) each, with their weights."""
 
-    def __init__(self, lamp, matrix):
+    def __init__(self, lamp, matrix, normal, point, uv, weights):
+        matrix = np.asarray(matrix, dtype=float)
         self._matrix, self._turn = matrix, matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
-        self._normal, self._point, self._uv, self._weights = SAMPLES[lamp.type](lamp)
+        self._normal, self._point, self._uv, self._weights = normal, point, uv, weights
 
-    def mean(self, t, factors):
-        """The mean of a product of sources of a graph: red, green and blue."""
-        if all("Constant" in factor for factor in factors):
-            return np.prod([factor["Constant"][:3] for factor in factors], axis=0)
-        shape = self._normal.shape
-        product = np.prod([evaluate(t.graph, factor, shape, self._leaf(t)) for factor in factors], axis=0)
-        return np.nan_to_num(np.average(product[:, :3], axis=0, weights=self._weights), posinf=0.0)
+    def values(self, t, products):
+        """The sum of products of sources of a graph: red, green and blue of each direction or point, not negative."""
+        shape, total = self._normal.shape, np.zeros((len(self._normal), 3))
+        for factors in products:
+            total += np.prod([evaluate(t.graph, factor, shape, self._leaf(t)) for factor in factors], axis=0)[:, :3]
+        return np.maximum(np.nan_to_num(total, posinf=0.0), 0.0)
+
+    def mean(self, t, products):
+        """The mean of that."""
+        total = np.zeros(3)
+        for factors in products:
+            if all("Constant" in factor for factor in factors):
+                total += np.prod([factor["Constant"][:3] for factor in factors], axis=0)
+            else:
+                total += np.average(self.values(t, [factors]), axis=0, weights=self._weights)
+        return total
 
     def _leaf(self, t):
         world = _vectors(self._normal[:, :3] @ self._turn.T)
@@ -92,17 +161,17 @@ def _spiral(highest):
     return _vectors(np.stack([across * np.cos(turn), across * np.sin(turn), -down], axis=1))
 
 
-def _point(lamp):
-    normal = _spiral(-1.0)
+def _point(lamp, normal=None):
+    normal = _spiral(-1.0) if normal is None else normal
     u = 0.5 - np.arctan2(normal[:, 0], normal[:, 1]) / (2.0 * pi)
     v = 1.0 - np.arccos(np.clip(normal[:, 2], -1.0, 1.0)) / pi
     uv = np.stack([u, v, 0.0 * u, 0.0 * u], axis=1)
     return normal, normal * lamp.shadow_soft_size, uv, np.ones(len(normal))
 
 
-def _spot(lamp):
+def _spot(lamp, normal=None):
     lowest = cos(0.5 * lamp.spot_size)
-    normal = _spiral(lowest)
+    normal = _spiral(lowest) if normal is None else normal
     # The picture fills the cone.
     size = 0.5 / max(tan(min(acos(lowest), 1.55)), 1e-3)
     away = np.maximum(-normal[:, 2], 1e-6)
@@ -112,8 +181,8 @@ def _spot(lamp):
     return normal, normal * lamp.shadow_soft_size, uv, share * share * (3.0 - 2.0 * share) + 1e-9
 
 
-def _area(lamp):
-    place = (np.arange(SIDE) + 0.5) / SIDE
+def _area(lamp, side=SIDE):
+    place = (np.arange(side) + 0.5) / side
     u, v = (each.ravel() for each in np.meshgrid(place, place))
     zero = np.zeros_like(u)
     height = lamp.size_y if lamp.shape in ("RECTANGLE", "ELLIPSE") else lamp.size

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lamps, by Cycles' laws: watts become radiance of the lamp's surface, or intensity where it has none."""
 
+from dataclasses import replace
 from math import degrees, hypot, pi, sin
 
 import numpy as np
@@ -12,18 +13,27 @@ from . import (
     photometry,
 )
 from .colour_management import to_rec709
-from .lamp_nodes import emission
+from .lamp_nodes import Part, emission
 from .transforms import columns, without_scale
 from .visibility import RAYS
 
 
 def describe(group, matrix, images, report):
-    """The description of one lamp at one place."""
+    """The descriptions of one lamp at one place: one, or one a part of its pattern."""
     lamp = group.data
-    colour, distribution = colour_of(lamp, matrix, images, report)
-    strength = colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
+    is_photometric = luminaire.is_photometric(lamp)
+    parts = parts_of(lamp, matrix, images, report, has_pattern=not is_photometric and not is_portal(lamp))
+    return [_described(group, matrix, images, report, part, number) for number, part in enumerate(parts)]
+
+
+def _described(group, matrix, images, report, part, number):
+    lamp = group.data
+    strength = part.colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
+    texture = None
+    if part.pixels is not None:
+        texture = images.changing(("lamp", group.name, str(np.asarray(matrix).tolist()), number), f"pattern of {group.name}", part.pixels)
     description = {
         "origin": {"name": group.name, "file": ""},
         "shape": shape,
@@ -33,33 +43,33 @@ def describe(group, matrix, images, report):
             "metres_per_unit": 1.0,
         },
         "shaping": {"cone_angle_deg": None, "cone_softness": 0.0, "focus": 0.0, "focus_tint": [0.0, 0.0, 0.0]},
-        "texture": None,
+        "texture": texture,
         "transform": columns(matrix if keeps_size else without_scale(matrix)),
         "visibility": {ray: group.visibility[ray] for ray in RAYS},
         "casts_shadow": bool(lamp.use_shadow),
         "spot": None,
         "spread_deg": 180.0,
         "portal": False,
-        "goniogram": distribution,
+        "goniogram": part.goniogram,
         "group": group.source.lightgroup,
         **extra,
     }
     # A portal gives no light of its own.
     if luminaire.is_photometric(lamp) and not description["portal"]:
-        photometry.apply(description, lamp, colour, matrix, report)
+        photometry.apply(description, lamp, part.colour, matrix, report)
     return description
 
 
-def colour_of(lamp, matrix, images, report):
-    """The lamp's colour: its own, of its temperature, and of its nodes; and its goniogram."""
+def parts_of(lamp, matrix, images, report, has_pattern=False):
+    """The lamp's light: its colour times that of its temperature and of its nodes, and over what that spreads."""
     colour = np.array(lamp.color, dtype=float)
     if getattr(lamp, "use_temperature", False):
         colour = colour * np.array(lamp.temperature_color, dtype=float)
     colour = np.array(to_rec709(colour))
-    if lamp.use_nodes and lamp.node_tree is not None:
-        by_nodes, distribution = emission(lamp, matrix, images, report)
-        return colour * by_nodes, distribution
-    return colour, None
+    if not lamp.use_nodes or lamp.node_tree is None:
+        return [Part(colour)]
+    parts = emission(lamp, matrix, images, report, has_pattern)
+    return [replace(part, colour=colour * part.colour) for part in parts]
 
 
 def _is_normalized(lamp):
@@ -132,7 +142,7 @@ class Lights:
         found = []
         for matrix in group.matrices:
             if np.isfinite(matrix).all():
-                found.append(describe(group, matrix, self._images, self._report))
+                found += describe(group, matrix, self._images, self._report)
             else:
                 self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
         return found

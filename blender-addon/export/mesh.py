@@ -16,10 +16,13 @@ from .material.inputs import (
     PARAMETRIC,
     POINTINESS,
     POSITION,
+    SMOOTH_NORMAL,
+    TANGENT,
     TRIANGLE,
     UV,
 )
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points, edges_of, edges_to_points, islands, pointiness
+from .tangents import tangents
 
 # Data type of an attribute -> (property to read, numbers in it, numpy type).
 ATTRIBUTES = {
@@ -98,8 +101,31 @@ def mesh_arguments(mesh, primvars):
         "slots": _slots(mesh),
         "primvars": {**_uv_maps(mesh, primvars), **_wanted(mesh, points, primvars, spread)},
     }
+    _add_tangents(arguments, mesh, corners, primvars)
     own = [name for name in (PARAMETRIC, *TRIANGLE) if name in primvars]
     return _with_triangles_own(arguments, own) if own else arguments
+
+
+def _add_tangents(arguments, mesh, corners, primvars):
+    """Adds the normals in the mesh's own space, and tangents, where they are wanted."""
+    wanted = [name for name in primvars if name.startswith(TANGENT)]
+    if SMOOTH_NORMAL not in primvars and not wanted:
+        return
+    normals = arguments["normals"]
+    if normals is None:
+        facing, lengths = np.empty((len(mesh.polygons), 3), dtype=np.float32), np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygon_normals.foreach_get("vector", facing.reshape(-1))
+        mesh.polygons.foreach_get("loop_total", lengths)
+        normals = np.repeat(facing, lengths, axis=0)
+    arguments["primvars"][SMOOTH_NORMAL] = normals
+    points, per_corner = arguments["points"], normals if len(normals) == len(corners) else normals[corners]
+    of_points = np.arange(len(corners)) if arguments["corners"] is None else corners
+    for name in wanted:
+        layer = mesh.uv_layers.get(name.removeprefix(TANGENT)) if name != TANGENT + UV else mesh.uv_layers.get(_active_uv(mesh) or "")
+        if layer is not None:
+            uv = np.empty((len(corners), 2), dtype=np.float32)
+            layer.uv.foreach_get("vector", uv.reshape(-1))
+            arguments["primvars"][name] = tangents(points, per_corner, uv, of_points, arguments["triangles"])
 
 
 def _with_triangles_own(arguments, names):
@@ -242,7 +268,7 @@ def _placed(mesh, attribute, values, spread):
 
 def present(mesh, primvars):
     """Which of these names the mesh can give."""
-    return [name for name in primvars if name in COMPUTED or _attribute(mesh, name) is not None]
+    return [name for name in primvars if name in COMPUTED or name.startswith(TANGENT) or _attribute(mesh, name) is not None]
 
 
 def _attribute(mesh, name):

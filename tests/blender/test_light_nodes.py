@@ -4,9 +4,9 @@ import pytest
 
 
 def shown(kind, output, prepare=None):
-    from beside_cycles import shining
-
     def make():
+        from beside_cycles import shining
+
         made, tree, colour = shining(f"{kind} {output}")
         node = tree.nodes.new(f"ShaderNode{kind}")
         if prepare is not None:

@@ -44,3 +44,34 @@ def test_values_beyond_the_usual_are_those_of_cycles(tmp_path):
     board(cases, values)
     # Cubes that cancel each other have lost that much.
     alike(both(tmp_path), cases, len(values), 2e-5)
+
+
+def tiled(sides, output, is_normalized):
+    from beside_cycles import fed
+
+    def prepare(node):
+        node.normalize = is_normalized
+        node.inputs["Sides"].default_value = sides
+
+    return fed("ShaderNodeRadialTiling", prepare, output)
+
+
+@pytest.mark.blender
+def test_radial_tiling_is_that_of_cycles(tmp_path):
+    import unittest
+
+    import bpy
+    import numpy as np
+    from beside_cycles import alike, board, both
+
+    if bpy.app.version < (5, 0, 0):
+        raise unittest.SkipTest("there is no Radial Tiling before 5.0")
+    cases = {
+        f"{sides} {output} {normal}": tiled(sides, output, normal)
+        for sides in (5.0, 3.6)
+        for output in range(4)
+        for normal in (True, False)
+    }
+    values = np.random.default_rng(9).uniform(-2.0, 2.0, (60, 3))
+    board(cases, values)
+    alike(both(tmp_path), cases, len(values), 1e-4)

@@ -2,9 +2,10 @@
 """Displacement of the material's output as a bent normal, and the nodes that compute it."""
 
 from .bump import bent_by
-from .inputs import hit, normal_of
+from .inputs import UV, hit, normal_of
 from .sockets import input_socket
 from .translator import value_node
+from .vectors import tangent_of
 
 
 def bend(t, end, material):
@@ -40,6 +41,7 @@ def vector_displacement(t, node, context, output):
     if node.space == "WORLD":
         return moved
     if node.space == "TANGENT":
-        # Along the surface nothing rises: what is left of the tangents, both perpendicular to the normal, has no part in the bump.
-        moved = carried(t, hit(t, "Normal"), "World", "Object", "Normal") * moved.component(1)
+        along, normal = tangent_of(t, UV), carried(t, hit(t, "Normal"), "World", "Object", "Normal")
+        across = normal.cross(along).normalized() * along.component(3)
+        moved = along * moved.component(0) + normal * moved.component(1) + across * moved.component(2)
     return carried(t, moved, "Object", "World", "Vector")

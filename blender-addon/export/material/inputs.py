@@ -18,8 +18,10 @@ ISLAND = "blender island"
 # Barycentric coordinates, and the positions of a triangle's three corners.
 PARAMETRIC = "blender parametric"
 TRIANGLE = ("blender triangle 1", "blender triangle 2", "blender triangle 3")
+# The normal in the mesh's own space as it is interpolated, not made unit; and how names of tangents along UV maps begin.
+SMOOTH_NORMAL, TANGENT = "blender normal", "tangents of "
 # What every mesh can give without an attribute.
-COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, *TRIANGLE})
+COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, SMOOTH_NORMAL, *TRIANGLE})
 # How names of values begin that instances are given: by particles, and where on the instancer's surface they are.
 GIVEN = "given "
 PARTICLE, GIVEN_GENERATED, GIVEN_UV = f"{GIVEN}by particle ", f"{GIVEN}generated", f"{GIVEN}uv"

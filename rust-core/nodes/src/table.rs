@@ -98,6 +98,7 @@ macro_rules! operations {
         }
 
         /// Computes an operation of the sections `each` and `whole` for all entries of the columns.
+        #[inline(always)]
         pub(crate) fn run<L: Lanes>(l: L, operation: &Operation, io: &mut Io<'_>) {
             match operation {
                 $( Operation::$each => kernels::$each(l, io), )+
@@ -128,10 +129,10 @@ macro_rules! operations {
             $(
                 #[inline(never)]
                 pub(super) fn $whole<L: Lanes>($whole_l: L, operation: &Operation, io: &mut Io<'_>) {
-                    let Operation::$whole $({ $($whole_field),+ })? $(($inner))? = operation else { return };
                     $whole_l.vectorize(
                         #[inline(always)]
                         || {
+                            let Operation::$whole $({ $($whole_field),+ })? $(($inner))? = operation else { return };
                             for at in (0..io.count).step_by(L::COUNT) {
                                 $(
                                     let $whole_input: [F<L>; $whole_width] = io.load_next($whole_l, at);

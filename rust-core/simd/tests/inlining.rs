@@ -62,8 +62,10 @@ fn offenders(text: &str) -> Vec<(usize, String)> {
         }
         let (signature, body) = split_signature(&text[starts[at]..]);
         let on_lanes = implementation_of_lanes || BOUNDS.iter().any(|bound| signature.contains(bound));
-        let enters_level =
-            body.is_some_and(|body| ["l.vectorize(", "simd.vectorize("].iter().any(|call| body.trim_start().starts_with(call)));
+        // The token may have any name: in macros it is an argument.
+        let enters =
+            |body: &str| body.trim_start().split_once(".vectorize(").is_some_and(|(token, _)| !token.contains(char::is_whitespace));
+        let enters_level = body.is_some_and(enters);
         if on_lanes && body.is_some() && !enters_level && !is_inlined(&lines, at) {
             found.push((at + 1, signature.trim().to_owned()));
         }

@@ -100,10 +100,10 @@ pub(super) fn run_hit_step<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, 
 
 #[inline(never)]
 fn image<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, io: &mut Io<'_>) {
-    let HitStep::Image { texture, wrap, filter, scale, bias, footprint } = step else { return };
     l.vectorize(
         #[inline(always)]
         || {
+            let HitStep::Image { texture, wrap, filter, scale, bias, footprint } = step else { return };
             for at in (0..io.count).step_by(L::COUNT) {
                 let [x, y] = io.load(l, at);
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
