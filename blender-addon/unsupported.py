@@ -111,7 +111,6 @@ MATERIALS = {
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
     "occlusion": Limit("Ambient Occlusion", "nothing is near"),
     "bevel": Limit("Bevel", "edges stay sharp"),
-    "round tiling": Limit("Radial Tiling with round corners", "sharp ones"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(
