@@ -123,9 +123,10 @@ def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
 
     empty()
     made, tree, end = material()
-    noise, shader = tree.nodes.new("ShaderNodeTexNoise"), tree.nodes.new("ShaderNodeBsdfPrincipled")
-    tree.links.new(noise.outputs["Color"], shader.inputs["Base Color"])
-    tree.links.new(noise.outputs[0], shader.inputs["Roughness"])
+    near, shader = tree.nodes.new("ShaderNodeAmbientOcclusion"), tree.nodes.new("ShaderNodeBsdfPrincipled")
+    near.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1.0)
+    tree.links.new(near.outputs["Color"], shader.inputs["Base Color"])
+    tree.links.new(near.outputs["AO"], shader.inputs["Roughness"])
     bevel = tree.nodes.new("ShaderNodeBevel")
     bump = tree.nodes.new("ShaderNodeBump")
     tree.links.new(bevel.outputs[0], bump.inputs["Normal"])
@@ -136,8 +137,8 @@ def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
     # A bevel that is left out leaves the normal as it is.
     assert description["closures"][0]["normal"] is None
     assert sorted(lines) == [
+        "Material > Ambient Occlusion: not supported; nothing is near",
         "Material > Bevel: not supported; edges stay sharp",
-        "Material > Noise Texture: not supported; the value 0.5 is used",
     ]
     failing = tree.nodes.new("ShaderNodeGamma")
     tree.links.new(failing.outputs[0], shader.inputs["Coat Tint"])
