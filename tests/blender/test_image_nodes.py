@@ -37,7 +37,10 @@ def shown(image=None, output=0, **fields):
 
 
 CASES = {
-    **{f"cubic {wrap}": shown(lambda: picture("A"), interpolation="Cubic", extension=wrap) for wrap in ("REPEAT", "EXTEND", "CLIP", "MIRROR")},
+    **{
+        f"cubic {wrap}": shown(lambda: picture("A"), interpolation="Cubic", extension=wrap)
+        for wrap in ("REPEAT", "EXTEND", "CLIP", "MIRROR")
+    },
     "smart": shown(lambda: picture("B"), interpolation="Smart"),
     "sphere": shown(lambda: picture("C"), projection="SPHERE"),
     "tube": shown(lambda: picture("D"), projection="TUBE"),

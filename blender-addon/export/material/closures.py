@@ -2,7 +2,6 @@
 """Shader nodes that are one closure each."""
 
 from ...units import LUMENS_PER_WATT
-from .inputs import hit
 from .sockets import input_socket
 from .translator import closure_node
 from .vectors import radial_tangent
