@@ -59,6 +59,8 @@ class Images:
         if key is None:
             return None
         if is_multiplied or key[0] not in ("file", "packed"):
+            if not (image.size[0] and image.size[1]):
+                return None
             key = ("bytes", is_multiplied, *key)
             name = f"{os.path.basename(image.filepath) or image.name}.png"
 

@@ -118,7 +118,7 @@ def geometry(t, node, context, output):
     if name == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
     if name == "Tangent":
-        from .vectors import radial_tangent
+        from .tangent_nodes import radial_tangent
 
         return radial_tangent(t)
     computed = {"Pointiness": POINTINESS, "Random Per Island": ISLAND, "Parametric": PARAMETRIC}.get(name)
