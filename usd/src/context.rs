@@ -1,7 +1,7 @@
 //! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
 
 use crate::goniogram::LuminaireFile;
-use crate::material::Shaded;
+use crate::material::{Library, Shaded};
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
@@ -55,6 +55,8 @@ pub struct Context<'a, 'py> {
     pub shaded: Shaded<'py>,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
+    /// What MaterialX documents of the stage define for themselves.
+    pub material_definitions: Vec<Arc<Library>>,
     /// Measured BSDFs by the path of their file; `None` for those that could not be read.
     pub measured_ids: HashMap<String, Option<MeasuredId>>,
     /// Goniograms by a key of their reader's choice; `None` for those that could not be read.
@@ -92,6 +94,7 @@ impl<'a, 'py> Context<'a, 'py> {
             asked_of_prims: HashMap::new(),
             shaded: Shaded::default(),
             texture_ids: HashMap::new(),
+            material_definitions: Vec::new(),
             measured_ids: HashMap::new(),
             goniograms: HashMap::new(),
             luminaires: Vec::new(),

@@ -51,7 +51,7 @@ pub struct Stage {
     info: StageInfo,
     diagnostics: Vec<Diagnostic>,
     /// Layers that stand in for MaterialX documents for as long as the stage is open.
-    _documents: Option<material::Substitution>,
+    documents: Option<material::Substitution>,
 }
 
 /// Opens a stage and reads it: [`Stage::open`], then [`Stage::load`].
@@ -73,13 +73,16 @@ impl Stage {
         let trap = Trap::set(py);
         let mut diagnostics = Vec::new();
         let opened = open_prepared(py, path, options, &mut diagnostics);
-        let messages = trap.release();
+        let mut messages = trap.release();
         let Prepared { stage, baked, documents } = opened?;
+        if let Some(documents) = &documents {
+            messages.retain(|message| !documents.explains(message));
+        }
         let mut info = read_info(&stage, path, &mut diagnostics).map_err(|error| unreadable(py, path, &error))?;
         info.composition_errors = composition_errors(&stage, path);
         diagnostics.extend(info.composition_errors.iter().cloned());
         diagnostics.extend(passed_on(messages, &info.composition_errors, path));
-        Ok(Self { path: path.to_owned(), object: stage.unbind(), baked: baked.unbind(), info, diagnostics, _documents: documents })
+        Ok(Self { path: path.to_owned(), object: stage.unbind(), baked: baked.unbind(), info, diagnostics, documents })
     }
 
     /// What the stage says about itself.
@@ -132,6 +135,7 @@ impl Stage {
         let mut context = Context::new(self.object.bind(py).clone(), time, &options, cancel);
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
+        context.material_definitions = self.documents.as_ref().map(|documents| documents.definitions().to_vec()).unwrap_or_default();
         if self.info.has_skeletons {
             skeleton::bake(&mut context);
         }

@@ -8,6 +8,8 @@ from .translator import CLOSURES
 
 # More closures than this in one material are left out: the surface would not be shaded in reasonable time.
 MOST_CLOSURES = 64
+# More ways than this through Mix and Add Shaders are not followed: there are two for each such node, and twice as many for the next.
+MOST_WAYS = 4096
 # How nodes that are no surface begin.
 VOLUMES = "ShaderNodeVolume"
 GREY = (0.8, 0.8, 0.8)
@@ -23,6 +25,12 @@ def flatten(t, socket, context, weight):
     node, output, context, _ = found
     if node is not None and node.bl_idname in ABSENT:
         t.tell("absent", node, context, node.bl_label)
+        return
+    t.ways += 1
+    if t.ways > MOST_WAYS:
+        if node is not None and not t.ways_told:
+            t.ways_told = True
+            t.tell("many closures", node, context, f"More than {MOST_WAYS} ways through mixed shaders")
         return
     is_shader = output.type == "SHADER"
     if is_shader and (node is None or node.bl_idname in THROUGH):

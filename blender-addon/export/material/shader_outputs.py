@@ -13,12 +13,18 @@ def shader_outputs(t, names):
     ]
 
 
-def outputs_of(context: Context):
-    """AOV Output nodes of a tree and of the groups in it, with their contexts."""
+def outputs_of(context: Context, without=None):
+    """AOV Output nodes of a tree and of the groups in it, with their contexts; `without` has the names of groups that were seen to hold none."""
+    without, found = set() if without is None else without, False
     for node in context.tree.nodes:
         if node.mute:
             continue
         if node.bl_idname == "ShaderNodeOutputAOV":
+            found = True
             yield node, context
-        elif node.type == "GROUP" and node.node_tree is not None:
-            yield from outputs_of(context.child(node))
+        elif node.type == "GROUP" and node.node_tree is not None and node.node_tree.name_full not in without:
+            for inner in outputs_of(context.child(node), without):
+                found = True
+                yield inner
+    if not found:
+        without.add(context.tree.name_full)

@@ -13,6 +13,10 @@ from .sockets import ABSENT, KINDS, Context, follow, input_socket
 
 # More nodes than this in a row are not followed.
 DEEPEST = 1000
+# More nodes than these of one material, with those of its groups wherever they stand, are not computed.
+MOST_NODES = 40_000
+# The renderer's own limit of operations is 65536, and a node may take some hundred.
+MOST_OPERATIONS = 60_000
 # Calls that one node of a row takes.
 CALLS_A_NODE = 12
 
@@ -82,10 +86,12 @@ class Translator:
         self.root.translator = self
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
+        # How many outputs were computed, and how many ways led to shaders.
+        self.computed, self.ways, self.ways_told = 0, 0, False
         self._surroundings, self.asked = surroundings, {}
         # Of a lamp's IES texture.
         self.goniogram = None
-        self._values, self._open = {}, set()
+        self._values, self._open, self._was_full = {}, set(), False
         # Nodes that something stands in for, and that were told.
         self._stood_in = set()
         # The shading normal where displacement bends it.
@@ -165,6 +171,8 @@ class Translator:
             if len(self._open) >= DEEPEST:
                 self.tell("nodes in a row", node, context)
                 return self.graph.scalar(0.0)
+            if self._is_full(node, context):
+                return self.graph.scalar(0.0)
             self._open.add(key)
             try:
                 with _room_for_calls():
@@ -172,6 +180,16 @@ class Translator:
             finally:
                 self._open.discard(key)
         return self._values[key]
+
+    def _is_full(self, node, context):
+        """Whether no more nodes are computed; the first one that is left out is told."""
+        if self.computed <= MOST_NODES and len(self.graph.nodes) <= MOST_OPERATIONS:
+            self.computed += 1
+            return False
+        if not self._was_full:
+            self._was_full = True
+            self.tell("nodes in a row", node, context, f"More than {MOST_NODES} nodes or {MOST_OPERATIONS} operations in one material")
+        return True
 
     def _compute(self, node, output, context):
         kind = KINDS.get(output.type, "VALUE")

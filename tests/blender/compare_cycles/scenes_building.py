@@ -1,7 +1,6 @@
 """Materials as people build them, of what is outside a house: rust, tiles with grout, wet asphalt, stained glass."""
 
 import bpy
-from stage import lamp
 from trees import begun, inner, on_stage
 
 
@@ -83,14 +82,20 @@ def tiles() -> None:
     )
     hsv = t.make("HueSaturation", Hue=t.spread(chance, 0.0, 1.0, 0.47, 0.53), Saturation=1.0, Value=1.0, Color=shade)
     glaze = t.noise(t.vector("ADD", place, number), 1.5, "Color", Detail=3.0)
-    glaze = t.mix(0.25, hsv, glaze, "SOFT_LIGHT")
+    glaze = t.make("Gamma", Color=t.mix(0.25, hsv, glaze, "SOFT_LIGHT"), Gamma=1.1)
     crack = t.spread(t.cells(t.vector("ADD", place, t.scaled(number, 3.7)), 2.0, feature="DISTANCE_TO_EDGE"), 0.01, 0.05)
     crack = t.math("MAXIMUM", crack, t.math("LESS_THAN", chance, 0.7))
     glaze = t.mix(crack, (0.02, 0.015, 0.01), glaze)
     sand = t.noise(place, 12.0, Detail=6.0, Roughness=0.8)
     colour = t.mix(joint, glaze, t.ramp(sand, (0.3, (0.2, 0.19, 0.17)), (0.7, (0.45, 0.43, 0.4))))
+    dirt = t.noise(t.place(), 1.3, Detail=6.0, Roughness=0.6)
+    runs = t.make("TexWave", "Fac", Vector=place, Scale=0.3, Distortion=3.0, Detail=3.0)
+    dirt = t.math("MULTIPLY", t.spread(dirt, 0.45, 0.7), t.spread(runs, 0.2, 0.8, 0.3, 1.0))
+    dirt = t.math("MULTIPLY", dirt, t.math("MULTIPLY_ADD", rise, -0.6, 1.0))
+    colour = t.mix(dirt, colour, t.ramp(sand, (0.2, (0.12, 0.09, 0.05)), (0.8, (0.3, 0.26, 0.2))))
     height = t.math("MULTIPLY_ADD", sand, t.math("MULTIPLY", joint, 0.15), rise)
     smooth = t.spread(t.noise(place, 0.7, Detail=2.0), 0.3, 0.7, 0.08, 0.3)
+    smooth = t.math("MULTIPLY_ADD", dirt, 0.3, smooth)
     t.end(
         t.make(
             "BsdfPrincipled",
@@ -115,7 +120,7 @@ def asphalt() -> None:
     damp = t.spread(level, 0.3, 0.5)
     colour = t.mix(damp, grey, t.make("Gamma", Color=grey, Gamma=1.35))
     oil = t.make("TexMagic", 0, turbulence_depth=3, Vector=place, Scale=0.6, Distortion=1.2)
-    colour = t.mix(t.math("MULTIPLY", puddle, 0.12), colour, oil, "SCREEN")
+    colour = t.mix(t.math("MULTIPLY", puddle, 0.015), colour, oil, "SCREEN")
     height = t.math("ADD", t.math("SUBTRACT", 1.0, shape), t.math("MULTIPLY", grit, 0.4))
     dry = t.math("SUBTRACT", 1.0, puddle)
     ripples = t.make("TexWave", "Fac", wave_type="RINGS", rings_direction="SPHERICAL", Vector=place, Scale=5.0, Distortion=1.0)
@@ -135,7 +140,7 @@ def asphalt() -> None:
 
 
 def stained_glass() -> None:
-    """Panes by cells, each its own colour and ripples, in lead; a lamp shines through from behind."""
+    """Panes by cells, each its own colour and ripples, in lead; light passes straight and spread."""
     made, t = begun("Stained glass")
     place = t.place("Generated", Scale=(4.0, 4.0, 4.0))
     pane, edge = t.cells(place, 1.3, "Color"), t.cells(place, 1.3, feature="DISTANCE_TO_EDGE")
@@ -147,7 +152,7 @@ def stained_glass() -> None:
     through = t.make("BsdfTransparent", Color=vivid)
     glow = t.make("BsdfTranslucent", Color=vivid, Normal=ripple)
     glass = t.between(t.spread(streaks, 0.3, 0.7, 0.2, 0.6), through, glow)
-    shine = t.make("BsdfAnisotropic", Color=(1.0, 1.0, 1.0), Roughness=0.2, Normal=ripple)
+    shine = t.make("BsdfAnisotropic", Color=(1.0, 1.0, 1.0), Roughness=0.35, Normal=ripple)
     glass = t.between(t.make("Fresnel", IOR=1.45, Normal=ripple), glass, shine)
     metal = t.make(
         "BsdfPrincipled",
@@ -158,4 +163,3 @@ def stained_glass() -> None:
     )
     t.end(t.between(lead, glass, metal))
     on_stage(made)
-    lamp("AREA", 100.0, (1.0, 4.5, 3.0), (-0.95, 0.0, 0.2), shape="SQUARE", size=2.0)

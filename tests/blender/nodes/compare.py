@@ -14,7 +14,8 @@ def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
     with numpy.errstate(invalid="ignore"):
         difference = numpy.abs(value - expected)
     found = summary(difference, expected, case)
-    shines = (expected > 0.0) & numpy.isfinite(expected)
+    # What is brighter is held back as a firefly; what is not a number takes its whole sample along.
+    shines = ((expected > 0.0) & (expected < 1e4)).all(axis=-1, keepdims=True)
     with numpy.errstate(invalid="ignore"):
         emitted = numpy.where(shines, numpy.abs(mine[EMITTED] - expected), 0.0)
     found["emitted"] = summary(emitted, expected, case)["largest"]

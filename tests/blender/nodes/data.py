@@ -41,7 +41,8 @@ def _wide(random: numpy.random.Generator, count: int) -> numpy.ndarray:
     values[whole] = numpy.rint(values[whole])
     values[random.random((count, 3)) < 0.03] = 0.0
     values[::29] = numpy.linspace(-2.0, 2.0, len(values[::29]))[:, None]
-    return values
+    # A zero of its own sign is another number to the arc tangent.
+    return values + 0.0
 
 
 def _positive(random: numpy.random.Generator, count: int) -> numpy.ndarray:
@@ -69,6 +70,16 @@ def _ramp(random: numpy.random.Generator, count: int) -> numpy.ndarray:
     return numpy.stack([numpy.linspace(-0.2, 1.2, count)] * 3, axis=1) + numpy.array([0.0, 0.001, -0.001])
 
 
+def _octaves(random: numpy.random.Generator, count: int) -> numpy.ndarray:
+    """How much finer each octave is than the one before."""
+    return random.uniform(1.2, 3.0, (count, 3))
+
+
+def _sides(random: numpy.random.Generator, count: int) -> numpy.ndarray:
+    """How many sides a polygon has."""
+    return random.uniform(2.0, 9.0, (count, 3))
+
+
 KINDS = {
     "place": _places,
     "unit": _unit,
@@ -79,6 +90,8 @@ KINDS = {
     "kelvin": _kelvin,
     "nanometres": _nanometres,
     "ramp": _ramp,
+    "octaves": _octaves,
+    "sides": _sides,
 }
 
 

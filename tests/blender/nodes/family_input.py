@@ -3,6 +3,11 @@
 from .case import Case, Node
 
 FAMILY = "Input"
+# Outputs of Light Path that a floor finds out which is half a mirror.
+SEEN = (
+    *("Is Camera Ray", "Is Diffuse Ray", "Is Glossy Ray", "Is Singular Ray", "Is Reflection Ray"),
+    *("Ray Length", "Ray Depth", "Diffuse Depth", "Glossy Depth"),
+)
 
 
 def _everywhere(**rest) -> tuple[Case, ...]:
@@ -43,7 +48,9 @@ NODES = {
     ),
     "ShaderNodeCameraData": Node("Camera Data", FAMILY, cases=_everywhere()),
     "ShaderNodeLightPath": Node(
-        "Light Path", FAMILY, cases=(*_everywhere(), Case("seen in a mirror that scatters too", stage="mirror", tolerance=0.04, steps=0.07))
+        "Light Path",
+        FAMILY,
+        cases=(*_everywhere(), Case("seen in a mirror that scatters too", {}, {}, SEEN, stage="mirror", tolerance=0.04, steps=0.07)),
     ),
     "ShaderNodeFresnel": Node(
         "Fresnel",
@@ -76,7 +83,8 @@ NODES = {
         "Bevel",
         FAMILY,
         cases=tuple(
-            Case(f"{samples} samples", {"samples": samples}, {"Radius": 0.15}, stage="floor", tolerance=0.04, steps=0.07) for samples in (4, 16)
+            Case(f"{samples} samples", {"samples": samples}, {"Radius": 0.15}, stage="floor", tolerance=0.04, steps=0.07)
+            for samples in (4, 16)
         ),
     ),
     "ShaderNodeAmbientOcclusion": Node(

@@ -5,23 +5,25 @@ from .case import WHOLE, Case, Node, modes
 FAMILY = "Converter"
 # Sums, products, comparisons and steps: nothing that engines may round in a way of their own.
 PLAIN = [
-    *("ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "ABSOLUTE", "MINIMUM", "MAXIMUM", "LESS_THAN", "GREATER_THAN", "SIGN", "COMPARE"),
+    *("ADD", "SUBTRACT", "MULTIPLY", "ABSOLUTE", "MINIMUM", "MAXIMUM", "LESS_THAN", "GREATER_THAN", "SIGN", "COMPARE"),
     *("ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT"),
 ]
 # Steps that lie where a quotient is a whole number.
-STEPPED = ["MODULO", "FLOORED_MODULO", "WRAP", "SNAP", "PINGPONG"]
+STEPPED = ["FLOORED_MODULO", "WRAP", "SNAP", "PINGPONG"]
 SMOOTH = [
-    *("DIVIDE", "POWER", "LOGARITHM", "SQRT", "INVERSE_SQRT", "EXPONENT", "SMOOTH_MIN", "SMOOTH_MAX", "SINE", "COSINE", "TANGENT"),
-    *("ARCSINE", "ARCCOSINE", "ARCTANGENT", "ARCTAN2", "SINH", "COSH", "TANH", "RADIANS", "DEGREES"),
+    *("DIVIDE", "MULTIPLY_ADD", "MODULO", "POWER", "LOGARITHM", "SQRT", "INVERSE_SQRT", "EXPONENT", "SMOOTH_MIN", "SMOOTH_MAX"),
+    *("RADIANS", "DEGREES", "SINE", "COSINE", "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "ARCTAN2", "SINH", "COSH", "TANH"),
 ]
 OPERANDS = {0: "wide 0.x", 1: "wide 1.x", 2: "wide 2.x"}
+# Quotients that are not so large that nothing is left of their fractions.
+NEAR = {0: "place 0.x", 1: "place 1.x", 2: "place 2.x"}
 
 VECTOR_PLAIN = [
-    *("ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION", "SCALE", "SIGN"),
+    *("ADD", "SUBTRACT", "MULTIPLY", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION", "SCALE", "SIGN"),
 ]
 VECTOR_STEPPED = ["MODULO", "WRAP", "SNAP"]
 VECTOR_SMOOTH = [
-    *("DIVIDE", "CROSS_PRODUCT", "PROJECT", "REFLECT", "REFRACT", "FACEFORWARD", "DOT_PRODUCT", "DISTANCE", "LENGTH", "NORMALIZE"),
+    *("DIVIDE", "MULTIPLY_ADD", "CROSS_PRODUCT", "PROJECT", "REFLECT", "FACEFORWARD", "DOT_PRODUCT", "DISTANCE", "LENGTH", "NORMALIZE"),
     *("SINE", "COSINE", "TANGENT", "POWER"),
 ]
 VECTORS = {0: "wide 0", 1: "wide 1", 2: "wide 2", "Scale": "wide 2.y"}
@@ -51,7 +53,7 @@ NODES = {
         FAMILY,
         cases=(
             *modes("operation", PLAIN, inputs=OPERANDS, tolerance=WHOLE),
-            *modes("operation", STEPPED, inputs=OPERANDS, steps=0.004),
+            *modes("operation", STEPPED, inputs=NEAR, steps=0.004),
             *modes("operation", SMOOTH, inputs=OPERANDS),
             Case("ADD, clamped", {"operation": "ADD", "use_clamp": True}, OPERANDS, tolerance=WHOLE),
         ),
@@ -61,8 +63,10 @@ NODES = {
         FAMILY,
         cases=(
             *modes("operation", VECTOR_PLAIN, inputs=VECTORS, tolerance=WHOLE),
-            *modes("operation", VECTOR_STEPPED, inputs=VECTORS, steps=0.012),
+            *modes("operation", VECTOR_STEPPED, inputs={0: "place 0", 1: "place 1", 2: "place 2"}, steps=0.012),
             *modes("operation", VECTOR_SMOOTH, inputs=VECTORS),
+            # Total reflection begins at a step.
+            Case("REFRACT", {"operation": "REFRACT"}, VECTORS, steps=0.004),
         ),
     ),
     "ShaderNodeClamp": Node(

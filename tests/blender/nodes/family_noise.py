@@ -23,17 +23,17 @@ def _noises() -> tuple[Case, ...]:
             fields = {"noise_dimensions": dimensions, "noise_type": kind}
             extra = {"Offset": "unit 2.x", "Gain": "positive 2.y"} if kind not in ("FBM", "MULTIFRACTAL") else {}
             driven = {
-                **{**_place(dimensions), "Scale": 2.5, "Detail": "positive 0.x", "Roughness": "unit 0.x", "Lacunarity": "positive 1.y"},
+                **{**_place(dimensions), "Scale": 2.5, "Detail": "positive 0.x", "Roughness": "unit 0.x", "Lacunarity": "octaves 1.y"},
                 **{"Distortion": "unit 1.z", **{name: each for name, each in extra.items() if kind != "HETERO_TERRAIN" or name != "Gain"}},
             }
             made.append(Case(f"{dimensions}, {kind}", fields, {**_place(dimensions), "Scale": 5.0}))
-            made.append(Case(f"{dimensions}, {kind}, driven", fields, driven))
+            made.append(Case(f"{dimensions}, {kind}, driven", fields, driven, steps=BORDERS))
         plain = {"noise_dimensions": dimensions, "normalize": False}
         made.append(Case(f"{dimensions}, FBM, not normalized", plain, {**_place(dimensions), "Scale": 5.0, "Detail": 3.5}))
         made.append(Case(f"{dimensions}, distorted", {"noise_dimensions": dimensions}, {**_place(dimensions), "Distortion": 2.0}))
     far = {"noise_dimensions": "3D"}
     made.append(Case("3D, FBM, far away", far, {"Vector": "far 0", "Scale": 1.0}))
-    made.append(Case("3D, FBM, unlinked", far, {}, on_sphere=True))
+    made.append(Case("3D, FBM, unlinked", far, {"Scale": 1.5}, on_sphere=True))
     return tuple(made)
 
 
@@ -51,7 +51,7 @@ def _voronois() -> tuple[Case, ...]:
                 made.append(Case(name, fields, {**_place(dimensions), "Scale": 2.0, **smooth, **exponent}, steps=BORDERS))
             driven = {
                 **{**_place(dimensions), "Scale": "positive 0.x", "Detail": "unit 2.x", "Roughness": "unit 0.x"},
-                **{"Lacunarity": "positive 1.y", "Randomness": "unit 1.x", **({"Smoothness": "unit 1.y"} if smooth else {})},
+                **{"Lacunarity": "octaves 1.y", "Randomness": "unit 1.x", **({"Smoothness": "unit 1.y"} if smooth else {})},
             }
             made.append(Case(f"{dimensions}, {feature}, driven", {**base, "feature": feature}, driven, steps=3 * BORDERS))
         for feature in ("DISTANCE_TO_EDGE", "N_SPHERE_RADIUS"):
@@ -63,7 +63,7 @@ def _voronois() -> tuple[Case, ...]:
                 name = f"{dimensions}, {feature}, layers{', normalized' if normalize else ''}"
                 made.append(Case(name, {**base, "feature": feature, "normalize": normalize}, layers, steps=3 * BORDERS))
     made.append(Case("3D, F1, far away", {}, {"Vector": "far 0", "Scale": 1.0}, steps=BORDERS))
-    made.append(Case("3D, F1, unlinked", {}, {}, ("Distance", "Color"), on_sphere=True, steps=0.05))
+    made.append(Case("3D, F1, unlinked", {}, {"Scale": 2.0}, ("Distance", "Color"), on_sphere=True, steps=0.05))
     return tuple(made)
 
 
@@ -83,8 +83,8 @@ def _waves() -> tuple[Case, ...]:
             **{0: "place 0", "Scale": "positive 0.x", "Distortion": "place 1.x", "Detail": "positive 1.x", "Detail Scale": "positive 2.x"},
             **{"Detail Roughness": "unit 0.x", "Phase Offset": "place 2.x"},
         }
-        made.append(Case(f"{kind}, driven", {"wave_type": kind}, driven))
-    made.append(Case("unlinked", {}, {}, on_sphere=True))
+        made.append(Case(f"{kind}, driven", {"wave_type": kind}, driven, steps=BORDERS))
+    made.append(Case("unlinked", {}, {"Scale": 1.0}, on_sphere=True))
     return tuple(made)
 
 
@@ -119,7 +119,7 @@ NODES = {
                     "Orientation 3D": "place 1",
                 },
             ),
-            Case("unlinked", {}, {}, on_sphere=True, steps=0.02),
+            Case("unlinked", {}, {"Scale": 1.5}, on_sphere=True, steps=0.02),
         ),
     ),
 }

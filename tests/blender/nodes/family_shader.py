@@ -57,7 +57,9 @@ NODES = {
     "ShaderNodeBsdfHairPrincipled": _lit(
         "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model"), remark="strands are left out"
     ),
-    "ShaderNodeBsdfRayPortal": _lit("Ray Portal BSDF", _case("to a place", {"Color": COLOUR, "Position": (0.0, 0.0, 2.0)})),
+    "ShaderNodeBsdfRayPortal": _lit(
+        "Ray Portal BSDF", _case("to a place", {"Color": COLOUR, "Position": (0.0, 0.0, 50.0), "Direction": (1.0, 0.0, 0.2)})
+    ),
     "ShaderNodeSubsurfaceScattering": _lit(
         "Subsurface Scattering", *_distributions(["RANDOM_WALK", "RANDOM_WALK_SKIN", "BURLEY"], {"Color": COLOUR, "Scale": 0.1}, "falloff")
     ),

@@ -35,7 +35,7 @@ def _environments() -> tuple[Case, ...]:
             {"projection": projection, "interpolation": filtering},
             {0: "place 0"},
             prepare="picture",
-            steps=0.01 if filtering == "Closest" else 0.0,
+            steps=0.01 if filtering == "Closest" else 0.002,
         )
         for projection in ("EQUIRECTANGULAR", "MIRROR_BALL")
         for filtering in ("Linear", "Closest", "Cubic", "Smart")
@@ -94,7 +94,7 @@ NODES = {
                 },
                 steps=0.01,
             ),
-            Case("unlinked", {}, {}, on_sphere=True, steps=0.02),
+            Case("unlinked", {}, {"Scale": 2.0, "Mortar Size": 0.1, "Mortar Smooth": 0.8}, on_sphere=True, steps=0.02),
         ),
     ),
     "ShaderNodeTexMagic": Node(
@@ -102,10 +102,11 @@ NODES = {
         FAMILY,
         cases=(
             *(
-                Case(f"depth {depth}", {"turbulence_depth": depth}, {0: "place 0", 1: "positive 0.x", 2: "positive 1.x"})
+                Case(f"depth {depth}", {"turbulence_depth": depth}, {0: "place 0", 1: "positive 0.x"})
                 for depth in range(11)
             ),
-            Case("unlinked", {}, {}, on_sphere=True),
+            Case("depth 2, driven", {}, {0: "place 0", 1: "positive 0.x", 2: "positive 1.x"}),
+            Case("unlinked", {}, {"Scale": 1.5}, on_sphere=True),
         ),
     ),
     "ShaderNodeTexSky": Node("Sky Texture", FAMILY, cases=_skies()),
@@ -122,7 +123,7 @@ NODES = {
         "Radial Tiling",
         FAMILY,
         cases=tuple(
-            Case(name, {"normalize": name == "normalized"}, {0: "place 0", 1: "positive 0.x", 2: "unit 0.x"}, steps=0.01)
+            Case(name, {"normalize": name == "normalized"}, {0: "place 0", 1: "sides 0.x", 2: "unit 0.x"}, steps=0.01)
             for name in ("normalized", "not normalized")
         ),
         since=(5, 0),

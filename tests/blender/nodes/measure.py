@@ -46,13 +46,12 @@ def _measured(cases: list, shown_on: str, folder: Path) -> dict:
     stage.empty(8, 8)
     shown = [(bl_idname, case, output) for bl_idname, case in cases for output in tree.outputs(bl_idname, case)]
     makers = [lambda number=number, each=each: tree.material(f"case {number}", *each) for number, each in enumerate(shown)]
-    side, columns = SCENES[shown_on](makers)
+    grid = SCENES[shown_on](makers)
     pictures = {engine: _rendered(engine, folder / f"{shown_on}-{engine}.exr") for engine in ("CYCLES", "GONIO")}
     told = _told()
     found = {}
     for number, (bl_idname, case, output) in enumerate(shown):
-        row, column = divmod(number, columns)
-        part = numpy.s_[row * side : (row + 1) * side, column * side : (column + 1) * side]
+        part = grid.part(number)
         theirs, mine = ({name: picture[part] for name, picture in pictures[engine].items()} for engine in ("CYCLES", "GONIO"))
         entry = compare.WAYS[shown_on](mine, theirs, case, stage.pixels)
         if f"case {number}" in told:

@@ -4,6 +4,7 @@
 """
 
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -84,7 +85,7 @@ def row(name: str, node: Node, verdicts: dict) -> str:
 def remark(node: Node, found: results.Verdict) -> str:
     """Why a node is not exact, in the add-on's words, or what the catalogue says of it."""
     said = [node.remark] if node.remark else []
-    said += [each.replace("not supported; ", "") for each in found.told[:3]]
+    said += [re.sub("(^|: )not supported; ", "\\1", each) for each in found.told[:3]]
     return "; ".join(dict.fromkeys(said))
 
 
@@ -97,7 +98,7 @@ def differing(verdicts: dict, family: str) -> list[str]:
         for version, found in reversed(verdicts.items()):
             made = found[name]
             if made.state == results.APPROXIMATED:
-                modes = "; ".join(f"{mode} {_figure(value)}" for mode, value in made.differing.items())
+                modes = "; ".join(f"{mode.removeprefix('all: ')} {_figure(value)}" for mode, value in made.differing.items())
                 lines.append(f"- {node.name}, {'.'.join(map(str, version))}: {modes}")
                 break
     return lines

@@ -1,6 +1,7 @@
 """The scenes of the comparison: a plane of tiles, one a material, and rows of balls, lit or not. For Blender."""
 
 import math
+from typing import NamedTuple
 
 import bpy
 import numpy
@@ -9,9 +10,11 @@ from mathutils import Vector
 from . import data, tree
 
 # Pixels along the side of a ball's square.
-BALL = 64
+BALL = 96
+# And of one that light falls on.
+LIT_BALL = 64
 # Samples a pixel of what light falls on.
-LIT_SAMPLES = 32
+LIT_SAMPLES = 40
 
 
 def empty(width: int, height: int) -> bpy.types.Scene:
@@ -47,8 +50,21 @@ def camera(scene: bpy.types.Scene, location, **fields) -> None:
     scene.camera = thing
 
 
-def tiles(materials: list) -> tuple[int, int]:
-    """A plane whose faces have these materials, each with the whole of the coordinates; returns pixels a tile, and columns."""
+class Grid(NamedTuple):
+    """Where the parts of a picture lie: pixels along a side of each, from one to the next, and how many stand in a row."""
+
+    side: int
+    stride: int
+    columns: int
+
+    def part(self, number: int) -> tuple[slice, slice]:
+        """The pixels of a part."""
+        starts = (self.stride * place + (self.stride - self.side) // 2 for place in divmod(number, self.columns))
+        return tuple(slice(start, start + self.side) for start in starts)
+
+
+def tiles(materials: list) -> Grid:
+    """A plane whose faces have these materials, each with the whole of the coordinates."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
     scene = empty(columns * data.SIDE, rows * data.SIDE)
@@ -68,19 +84,19 @@ def tiles(materials: list) -> tuple[int, int]:
     mesh.polygons.foreach_set("material_index", range(len(faces)))
     scene.collection.objects.link(bpy.data.objects.new("Tiles", mesh))
     camera(scene, (0.0, 0.0, 5.0), type="ORTHO", ortho_scale=max(columns, rows))
-    return data.SIDE, columns
+    return Grid(data.SIDE, data.SIDE, columns)
 
 
-def balls(materials: list, shape=None) -> tuple[int, int]:
-    """Rows of turned balls, or of what a function makes; returns pixels a ball, and columns."""
+def balls(materials: list, shape=None, side: int = BALL, apart: int = 1) -> Grid:
+    """Rows of turned balls, or of what a function makes, so many diameters apart."""
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
-    scene = empty(columns * BALL, rows * BALL)
+    scene = empty(columns * side * apart, rows * side * apart)
     mesh = (shape or ball_mesh)()
     for number, make in enumerate(materials):
         row, column = divmod(number, columns)
         thing = bpy.data.objects.new(f"Ball {number}", mesh)
-        thing.location = (column - 0.5 * (columns - 1), 0.5 * (rows - 1) - row, 0.3)
+        thing.location = (apart * (column - 0.5 * (columns - 1)), apart * (0.5 * (rows - 1) - row), 0.3)
         thing.rotation_euler, thing.scale = (0.5, 0.3, 0.7), (0.5, 0.5, 0.5)
         thing.color, thing.pass_index = (0.3, 0.6, 0.9, 0.8), 7
         thing["own"] = 0.625
@@ -88,15 +104,16 @@ def balls(materials: list, shape=None) -> tuple[int, int]:
         thing.material_slots[0].link = "OBJECT"
         thing.material_slots[0].material = cover = make()
         cover.pass_index = 5
-    high = 3.0 * max(columns, rows)
-    camera(scene, (0.0, 0.0, high), lens_unit="FOV", angle=2.0 * math.atan(0.5 * max(columns, rows) / high))
+    wide = apart * max(columns, rows)
+    high = 3.0 * wide
+    camera(scene, (0.0, 0.0, high), lens_unit="FOV", angle=2.0 * math.atan(0.5 * wide / high))
     scene["shared"] = 0.375
-    return BALL, columns
+    return Grid(side, apart * side, columns)
 
 
-def lit(materials: list) -> tuple[int, int]:
-    """The balls under a soft sky, with as much light as paths can carry."""
-    found = balls(materials)
+def lit(materials: list) -> Grid:
+    """The balls under a soft sky, so far apart that they do not light each other."""
+    found = balls(materials, side=LIT_BALL, apart=2)
     scene = bpy.context.scene
     _sky(scene.world.node_tree)
     cycles = scene.cycles
@@ -109,7 +126,7 @@ def lit(materials: list) -> tuple[int, int]:
     return found
 
 
-def filled(materials: list) -> tuple[int, int]:
+def filled(materials: list) -> Grid:
     """The same for what fills balls, with fewer samples: Cycles takes long for them."""
     found = lit(materials)
     cycles = bpy.context.scene.cycles
@@ -142,7 +159,7 @@ def pixels(place: numpy.ndarray) -> numpy.ndarray:
 
 def ball_mesh() -> bpy.types.Mesh:
     """A smooth ball with coordinates and attributes of every domain that shaders see."""
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
     thing = bpy.context.object
     bpy.ops.object.shade_smooth()
     mesh = thing.data

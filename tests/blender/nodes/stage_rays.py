@@ -9,21 +9,21 @@ SAMPLES = 64
 MIRROR_SAMPLES = 256
 
 
-def floor(materials: list) -> tuple[int, int]:
+def floor(materials: list) -> stage.Grid:
     """Cubes in a corner of floor and walls that are part of them."""
-    found = stage.balls(materials, _corner)
+    found = stage.balls(materials, _corner, stage.LIT_BALL)
     _often(bpy.context.scene)
     return found
 
 
-def mirror(materials: list) -> tuple[int, int]:
+def mirror(materials: list) -> stage.Grid:
     """Balls over a floor that reflects half of the light and scatters the other half."""
-    found = stage.balls(materials)
+    found = stage.balls(materials, side=stage.LIT_BALL)
     scene = bpy.context.scene
     _often(scene)
     scene.cycles.samples = MIRROR_SAMPLES
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = 2
-    size = 2.0 * found[1] + 4.0
+    size = 2.0 * found.columns + 4.0
     mesh = bpy.data.meshes.new("Mirror")
     mesh.from_pydata([(-size, -size, -0.25), (size, -size, -0.25), (size, size, -0.25), (-size, size, -0.25)], [], [range(4)])
     mesh.materials.append(_mirror())
@@ -31,7 +31,7 @@ def mirror(materials: list) -> tuple[int, int]:
     return found
 
 
-def particles(materials: list) -> tuple[int, int]:
+def particles(materials: list) -> stage.Grid:
     """Each ball is the instance of a particle of an emitter of its own."""
     found = stage.balls(materials)
     scene = bpy.context.scene

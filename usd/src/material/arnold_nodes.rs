@@ -1,6 +1,6 @@
 //! Arnold's shaders as they stand in USD, `arnold:image`: images, normal maps, arithmetic and primvars.
 
-use super::arithmetic::{binary, mix, scalar};
+use super::emit::{binary, mix, scalar};
 use super::network::{Network, Shader};
 use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
 
@@ -11,7 +11,7 @@ pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<us
 }
 
 /// Builds a node; `None` where it is not supported.
-pub(in crate::material) fn build<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, node: &str) -> Option<Input> {
+pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, node: &str) -> Option<Input> {
     let operation = match node {
         "image" => return Some(image(network, shader)),
         "normal_map" => return normal_map(network, shader),
@@ -36,7 +36,7 @@ pub(in crate::material) fn build<'py>(network: &mut Network<'_, '_, 'py>, shader
     Some(binary(&mut network.graph, operation.0, a, b))
 }
 
-fn image<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+fn image(network: &mut Network<'_>, shader: &Shader) -> Input {
     let fallback = network.uniform(shader, "missing_texture_color", [0.0, 0.0, 0.0, 1.0]);
     let space = network.text(shader, "color_space").filter(|space| !space.is_empty());
     let Some(texture) = network.texture_of(shader, "filename", space.as_deref(), "auto") else { return Input::Constant(fallback) };
@@ -62,7 +62,7 @@ fn image<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input
     network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![coordinates])
 }
 
-fn normal_map<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
+fn normal_map(network: &mut Network<'_>, shader: &Shader) -> Option<Input> {
     let mut input = network.input(shader, "input")?;
     if network.number(shader, "color_to_signed", 1.0) != 0.0 {
         let doubled = binary(&mut network.graph, Operation::Multiply, input, scalar(2.0));

@@ -2,10 +2,10 @@
 //!
 //! Layers on disk stay as they are; those in memory get their asset paths back when the stage has been read.
 
-mod follow;
 mod text;
-mod value;
 
+use crate::material::Library;
+use crate::material::stage_host::standard_library;
 use crate::pxr::{self, Module};
 use gonio::Diagnostic;
 use gonio::scene::Origin;
@@ -13,7 +13,8 @@ use pyo3::types::{PyCFunction, PyDict, PyTuple};
 use pyo3::{intern, prelude::*};
 use std::collections::HashMap;
 use std::path::Path;
-use text::convert;
+use std::sync::Arc;
+use text::{Converted, convert};
 
 /// Largest document that is read.
 const MAX_BYTES: u64 = 64 << 20;
@@ -24,13 +25,14 @@ pub struct Substitution {
     changed: Vec<Py<PyAny>>,
     layers: Vec<Py<PyAny>>,
     originals: HashMap<String, String>,
+    definitions: Vec<Arc<Library>>,
 }
 
 /// Converts the MaterialX documents that the stage's layers refer to, and puts them in place of the references: to be called once the stage
 /// is open, before its composition errors are asked for. Documents that cannot be converted are reported by name. `None` where there are no
 /// documents.
 pub fn substitute_documents(stage: &Bound<'_, PyAny>, diagnostics: &mut Vec<Diagnostic>) -> Option<Substitution> {
-    let mut substitution = Substitution { changed: Vec::new(), layers: Vec::new(), originals: HashMap::new() };
+    let mut substitution = Substitution { changed: Vec::new(), layers: Vec::new(), originals: HashMap::new(), definitions: Vec::new() };
     if let Err(error) = substitution.fill(stage, diagnostics) {
         let message = format!("documents that layers refer to cannot be used: {}", pxr::message_of(stage.py(), &error));
         diagnostics.push(Diagnostic::warning(&Origin::new("MaterialX"), message));
@@ -45,7 +47,8 @@ impl Substitution {
             let mut replacements = HashMap::new();
             for (authored, resolved) in documents {
                 let origin = Origin { name: authored.as_str().into(), file: resolved.as_str().into() };
-                let Some(stand_in) = stand_in(py, Path::new(&resolved), &origin, diagnostics) else { continue };
+                let Some((stand_in, library)) = stand_in(py, Path::new(&resolved), &origin, diagnostics) else { continue };
+                self.definitions.push(Arc::new(library));
                 let identifier: String = stand_in.getattr(intern!(py, "identifier"))?.extract()?;
                 self.originals.insert(identifier.clone(), authored.clone());
                 self.layers.push(stand_in.unbind());
@@ -57,6 +60,17 @@ impl Substitution {
             }
         }
         Ok(())
+    }
+
+    /// Whether a message of `pxr` is about a document that it cannot read itself, and that is in use all the same.
+    pub fn explains(&self, message: &str) -> bool {
+        let names = |authored: &String| Path::new(authored).file_name().is_some_and(|name| message.contains(&*name.to_string_lossy()));
+        message.contains("Cannot determine file format") && self.originals.values().any(names)
+    }
+
+    /// What the documents define.
+    pub fn definitions(&self) -> &[Arc<Library>] {
+        &self.definitions
     }
 
     /// Number of documents in use.
@@ -116,12 +130,12 @@ fn replace_paths(layer: &Bound<'_, PyAny>, replacements: HashMap<String, String>
 }
 
 /// A layer in memory with a document's materials.
-fn stand_in<'py>(py: Python<'py>, file: &Path, origin: &Origin, diagnostics: &mut Vec<Diagnostic>) -> Option<Bound<'py, PyAny>> {
+fn stand_in<'py>(py: Python<'py>, file: &Path, origin: &Origin, diagnostics: &mut Vec<Diagnostic>) -> Option<(Bound<'py, PyAny>, Library)> {
     let mut warn = |message: String| diagnostics.push(Diagnostic::warning(origin, message));
-    let text = match read(file).and_then(|text| convert(&text, file)) {
-        Ok((text, problems)) => {
+    let (text, library) = match read(file).and_then(|text| convert(&text, file, standard_library(py))) {
+        Ok(Converted { layer, problems, library }) => {
             problems.into_iter().for_each(&mut warn);
-            text
+            (layer, library)
         }
         Err(problem) => {
             warn(format!("{problem}; its materials are missing"));
@@ -134,7 +148,7 @@ fn stand_in<'py>(py: Python<'py>, file: &Path, origin: &Origin, diagnostics: &mu
         Ok(layer)
     };
     match import() {
-        Ok(layer) => Some(layer),
+        Ok(layer) => Some((layer, library)),
         Err(error) => {
             warn(format!("the MaterialX document cannot be converted: {}", pxr::message_of(py, &error)));
             None

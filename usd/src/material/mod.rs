@@ -2,14 +2,25 @@
 //!
 //! A material's surface is looked for in the render contexts `gonio`, `mtlx` and the universal one, in this order, then in all others that it has.
 
-mod arithmetic;
 mod arnold_nodes;
 mod binding;
+mod definition;
 mod document;
-mod materialx_nodes;
+mod emit;
+mod fold;
+mod from_usd;
+mod host;
+mod inputs;
+mod library;
+mod materialx;
+mod mtlx;
 mod network;
+mod neutral;
 mod shaded;
+mod stage_host;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod textures;
 mod usd_nodes;
 mod value;
@@ -17,6 +28,7 @@ mod xml;
 
 pub use binding::{bound, bound_all};
 pub use document::{Substitution, substitute_documents};
+pub use library::Library;
 pub use shaded::Shaded;
 pub(crate) use textures::texture;
 pub(crate) use value::{stated_colour_space, to_linear_rec709};
@@ -25,7 +37,8 @@ use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use gonio::scene::{Channel, Closure, Graph, Input, Material, MaterialId, Model, Operation, Origin};
-use network::{Network, Shader};
+use network::Network;
+use neutral::NodeIndex;
 use pyo3::{intern, prelude::*};
 
 /// Render contexts that go before others, the best first; the empty one is the universal.
@@ -38,10 +51,12 @@ fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) ->
     let surfaces = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
     let mut unknown = Vec::new();
     for (render_context, prim) in surfaces {
-        let shader = Shader::new(prim, &context.time);
-        let mut network = Network::new(context);
+        let document = from_usd::read(prim, &context.time);
+        let mut network = Network::new(context, document);
+        let shader = network.shader(NodeIndex(0));
         if let Some(closures) = surface::convert(&mut network, &shader) {
-            return Some(Material { origin, closures, graph: network.graph, ..Material::default() });
+            let graph = network.graph;
+            return Some(Material { origin, closures, graph, ..Material::default() });
         }
         let name = if shader.id.is_empty() { format!("<{}> without a name", shader.path) } else { format!("'{}'", shader.id) };
         let place = if render_context.is_empty() { String::new() } else { format!(" (render context {render_context})") };

@@ -1,15 +1,14 @@
 //! A material's shading network on its way to a node graph: inputs are followed to constants or shader outputs, each output is built once.
 
-use super::arithmetic::{colour, component, scalar};
-use super::value::{Source, Value, is_colour, source, stated_colour_space, to_linear_rec709};
-use super::{arnold_nodes, materialx_nodes, usd_nodes};
-use crate::context::Context;
-use crate::prim::{Attribute, Prim};
-use crate::pxr;
-use crate::vt::FromValue;
-use gonio::scene::{Channel, Graph, Input, Operation, Origin};
-use pyo3::prelude::*;
+use super::definition::{self, Outputs};
+use super::emit::component;
+use super::host::Host;
+use super::materialx::{self, Rule};
+use super::neutral::{Document, NodeIndex, Source};
+use super::{arnold_nodes, usd_nodes};
+use gonio::scene::{Channel, Graph, Input, Operation};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Longest chain of shaders; longer ones are taken for cycles.
 const MAX_DEPTH: usize = 200;
@@ -18,171 +17,114 @@ const MAX_CLOSURES: usize = 1000;
 /// Nodes in a graph beyond which shaders are not converted.
 const MAX_NODES: usize = 60_000;
 
-/// A shader prim and its node's name.
+/// A node of the document on its way into the graph.
 #[derive(Clone, Debug)]
-pub(in crate::material) struct Shader<'py> {
-    /// The prim.
-    pub(in crate::material) prim: Prim<'py>,
-    /// Its path.
-    pub(in crate::material) path: String,
+pub(in crate::material) struct Shader {
+    /// Its place in the document.
+    pub(in crate::material) index: NodeIndex,
+    /// Its prim's path.
+    pub(in crate::material) path: Rc<str>,
     /// The name of the node that it is: `UsdPreviewSurface`, `ND_image_color3`.
-    pub(in crate::material) id: String,
+    pub(in crate::material) id: Rc<str>,
 }
 
-impl<'py> Shader<'py> {
-    /// The shader at a prim.
-    pub(in crate::material) fn new(prim: Prim<'py>, time: &Bound<'py, PyAny>) -> Self {
-        let id = || prim.attribute("info:id")?.get(time).ok()??.extract::<String>().ok().filter(|id| !id.is_empty());
-        let id = id().or_else(|| source_asset(&prim, time)).unwrap_or_default();
-        Self { path: prim.path(), id, prim }
-    }
-}
-
-/// What stands for a node's name where the code is in a file: the source's kind and the name in it, `mdl:OmniPBR`, or the file's own.
-fn source_asset<'py>(prim: &Prim<'py>, time: &Bound<'py, PyAny>) -> Option<String> {
-    let source = |name: &str| name.strip_prefix("info:")?.strip_suffix("sourceAsset").map(str::to_owned);
-    let kind = prim.authored_names().iter().find_map(|name| source(name))?;
-    let text = |name: String| prim.attribute(&name)?.get(time).ok().flatten();
-    let inside = text(format!("info:{kind}sourceAsset:subIdentifier")).and_then(|name| name.extract::<String>().ok());
-    let named = inside.filter(|name| !name.is_empty()).or_else(|| {
-        let path = crate::vt::AssetPath::from_value(&text(format!("info:{kind}sourceAsset"))?)?.authored;
-        std::path::Path::new(&path).file_stem().map(|stem| stem.to_string_lossy().into_owned())
-    });
-    named.map(|name| kind + &name)
-}
+/// What was built: an output of a node, at the place itself or a step beside it.
+type BuiltKey = (NodeIndex, String, Option<u8>);
 
 /// A network that is being converted.
-#[derive(Debug)]
-pub(in crate::material) struct Network<'c, 'a, 'py> {
-    /// The stage at hand.
-    pub(in crate::material) context: &'c mut Context<'a, 'py>,
+pub(in crate::material) struct Network<'h> {
+    /// The scene's reader.
+    pub(in crate::material) host: &'h mut dyn Host,
+    /// What is converted.
+    pub(in crate::material) document: Document,
     /// The nodes so far.
     pub(in crate::material) graph: Graph,
-    /// What was built for a shader, by its path.
-    built: HashMap<String, Option<Input>>,
+    built: HashMap<BuiltKey, Option<Input>>,
+    /// Outputs of the graphs that were put in nodes' places.
+    expanded: HashMap<NodeIndex, Option<Outputs>>,
+    /// The direction in which the place that is built for lies beside the hit.
+    step: Option<u8>,
     depth: usize,
     /// Closures met.
     closures: usize,
+    /// Nodes that could not be built.
+    failures: usize,
 }
 
-impl<'c, 'a, 'py> Network<'c, 'a, 'py> {
-    /// A network without nodes.
-    pub(in crate::material) fn new(context: &'c mut Context<'a, 'py>) -> Self {
-        Self { context, graph: Graph::default(), built: HashMap::new(), depth: 0, closures: 0 }
+impl<'h> Network<'h> {
+    /// A network without graph nodes.
+    pub(in crate::material) fn new(host: &'h mut dyn Host, document: Document) -> Self {
+        Self {
+            host,
+            document,
+            graph: Graph::default(),
+            built: HashMap::new(),
+            expanded: HashMap::new(),
+            step: None,
+            depth: 0,
+            closures: 0,
+            failures: 0,
+        }
     }
 
     /// A warning about a shader.
-    pub(in crate::material) fn warn(&mut self, shader: &Shader<'_>, message: impl Into<String>) {
-        let origin = Origin::new(&shader.path);
-        self.context.warn(&origin, message);
+    pub(in crate::material) fn warn(&mut self, shader: &Shader, message: impl Into<String>) {
+        self.host.warn(&shader.path, message.into());
     }
 
     /// Says once for each feature that it is not supported.
-    pub(in crate::material) fn unsupported(&mut self, feature: &str, shader: &Shader<'_>) {
-        self.context.unsupported(feature, &Origin::new(&shader.path));
+    pub(in crate::material) fn unsupported(&mut self, feature: &str, shader: &Shader) {
+        self.host.unsupported(feature, &shader.path);
     }
 
-    /// Where an input's value comes from; what cannot be read counts as nothing, with a warning.
-    pub(in crate::material) fn source(&mut self, shader: &Shader<'py>, name: &str) -> Source<'py> {
-        match source(&shader.prim, name, &self.context.time) {
-            Ok(source) => source,
-            Err(error) => {
-                let problem = pxr::message_of(self.context.py, &error);
-                self.warn(shader, format!("input '{name}' cannot be read ({problem}); its default is used"));
-                Source::Nothing
-            }
-        }
+    /// The node at an index.
+    pub(in crate::material) fn shader(&self, index: NodeIndex) -> Shader {
+        let node = self.document.node(index);
+        Shader { index, path: node.path.clone(), id: node.id.clone() }
     }
 
-    /// An input as a constant or a node's output; `None` where nothing usable is said.
-    pub(in crate::material) fn input(&mut self, shader: &Shader<'py>, name: &str) -> Option<Input> {
-        match self.source(shader, name) {
-            Source::Nothing => None,
-            Source::Value(Value::Numbers(values, count), attribute) => Some(self.constant(shader, name, values, count, &attribute)),
-            Source::Value(..) => {
-                self.warn(shader, format!("input '{name}' holds no number; its default is used"));
-                None
-            }
-            Source::Output(prim, output) => self.output(prim, &output),
-        }
+    /// The direction of the step beside the hit for which nodes are built, if they are.
+    pub(in crate::material) fn step(&self) -> Option<u8> {
+        self.step
     }
 
-    fn constant(&mut self, shader: &Shader<'py>, name: &str, values: [f32; 4], count: usize, attribute: &Attribute<'py>) -> Input {
-        if values.iter().any(|x| !x.is_finite()) {
-            self.warn(shader, format!("input '{name}' is not finite; 0 is used"));
-            return Input::Constant(values.map(|x| if x.is_finite() { x } else { 0.0 }));
-        }
-        if count < 3 || !is_colour(attribute) {
-            return Input::Constant(values);
-        }
-        match to_linear_rec709(values, &stated_colour_space(attribute)) {
-            Ok(values) => Input::Constant(values),
-            Err(space) => {
-                self.warn(shader, format!("input '{name}' has the unknown colour space '{space}'; taken as linear Rec.709"));
-                Input::Constant(values)
-            }
-        }
+    /// Builds something for the place one pixel beside the hit in one of two directions.
+    pub(in crate::material) fn beside<R>(&mut self, axis: u8, run: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = self.step.replace(axis);
+        let result = run(self);
+        self.step = outer;
+        result
     }
 
-    /// A scalar input, or its default.
-    pub(in crate::material) fn scalar(&mut self, shader: &Shader<'py>, name: &str, default: f32) -> Input {
-        self.input(shader, name).map_or(scalar(default), |input| component(input, 0))
-    }
-
-    /// A colour or vector input, or its default.
-    pub(in crate::material) fn colour(&mut self, shader: &Shader<'py>, name: &str, default: [f32; 3]) -> Input {
-        self.input(shader, name).unwrap_or(colour(default))
-    }
-
-    /// An input that must not vary over the surface; what does is replaced by the default, with a warning.
-    pub(in crate::material) fn uniform(&mut self, shader: &Shader<'py>, name: &str, default: [f32; 4]) -> [f32; 4] {
-        match self.input(shader, name) {
-            None => default,
-            Some(Input::Constant(values)) => values,
-            Some(Input::Node(..)) => {
-                self.warn(shader, format!("input '{name}' varies over the surface, which is not supported for it; its default is used"));
-                default
-            }
-        }
-    }
-
-    /// A number that must not vary over the surface.
-    pub(in crate::material) fn number(&mut self, shader: &Shader<'py>, name: &str, default: f32) -> f32 {
-        self.uniform(shader, name, [default; 4])[0]
-    }
-
-    /// A token or string.
-    pub(in crate::material) fn text(&mut self, shader: &Shader<'py>, name: &str) -> Option<String> {
-        match self.source(shader, name) {
-            Source::Value(value, _) => value.text().map(str::to_owned),
-            _ => None,
-        }
-    }
-
-    /// What a shader's output gives; `None`, with a warning, where the shader is not supported.
-    fn output(&mut self, prim: Prim<'py>, output: &str) -> Option<Input> {
-        let shader = Shader::new(prim, &self.context.time);
-        let whole = match self.built.get(&shader.path) {
+    /// What a node's output gives; `None`, with a warning, where the node is not supported.
+    pub(in crate::material) fn output(&mut self, node: NodeIndex, output: &str) -> Option<Input> {
+        let shader = self.shader(node);
+        // Most nodes have one value, whose parts outputs are.
+        let is_materialx = shader.id.strip_prefix("ND_").is_some_and(|node| !usd_nodes::is_usd_node(node));
+        let is_each = is_materialx && materialx::row(&shader.id).is_none_or(|row| matches!(row.rule, Rule::Each(_) | Rule::Later));
+        let key = (node, if is_each { output.to_owned() } else { String::new() }, self.step);
+        let whole = match self.built.get(&key) {
             Some(built) => *built,
             None => {
-                let built = self.build(&shader);
-                self.built.insert(shader.path.clone(), built);
+                let built = self.build(&shader, output);
+                self.built.insert(key, built);
                 built
             }
         }?;
-        let index = usd_nodes::output_component(&shader.id, output).or_else(|| materialx_nodes::output_component(&shader.id, output));
+        let index = usd_nodes::output_component(&shader.id, output).or_else(|| materialx::output_component(&shader.id, output));
         let index = index.or_else(|| arnold_nodes::output_component(&shader.id, output));
         Some(index.map_or(whole, |index| component(whole, index)))
     }
 
-    fn build(&mut self, shader: &Shader<'py>) -> Option<Input> {
+    fn build(&mut self, shader: &Shader, output: &str) -> Option<Input> {
         if self.depth >= MAX_DEPTH || self.graph.nodes.len() >= MAX_NODES {
-            self.warn(shader, "the shading network is too deep or goes round in a circle; the input's default is used");
+            let message = "the shading network is too deep or goes round in a circle; the input's default is used".to_owned();
+            self.host.once("depth", "network", &shader.path, message);
             return None;
         }
         self.depth += 1;
         let built = match shader.id.strip_prefix("ND_") {
-            Some(node) if !usd_nodes::is_usd_node(node) => materialx_nodes::build(self, shader, node),
+            Some(node) if !usd_nodes::is_usd_node(node) => self.build_materialx(shader, output),
             Some(node) => usd_nodes::build(self, shader, node, true),
             None => match shader.id.strip_prefix("arnold:") {
                 Some(node) => arnold_nodes::build(self, shader, node),
@@ -191,17 +133,72 @@ impl<'c, 'a, 'py> Network<'c, 'a, 'py> {
         };
         self.depth -= 1;
         if built.is_none() {
-            self.warn(shader, format!("shader node '{}' is not supported; the default of the input that it feeds is used", shader.id));
+            self.failures += 1;
+            let message = format!("shader node '{}' is not supported; the default of the input that it feeds is used", shader.id);
+            // Parts of definitions are many, and none is the user's own.
+            match self.document.node(shader.index).outer {
+                None => self.warn(shader, message),
+                Some(_) => self.host.once("shader node", &shader.id, &shader.path, message),
+            }
         }
         built
     }
 
+    /// A node that is computed, or the graph that defines it.
+    fn build_materialx(&mut self, shader: &Shader, output: &str) -> Option<Input> {
+        let is_computed = materialx::row(&shader.id).is_some_and(|row| !matches!(row.rule, Rule::Later));
+        if !is_computed && let Some(outputs) = self.expanded(shader) {
+            let named = outputs.iter().find(|(name, _)| name == output).or(outputs.first())?;
+            let failures = self.failures;
+            let value = self.value_of(shader, output, named.1.clone());
+            // What lacks a part is not what its name says.
+            return value.filter(|_| self.failures == failures);
+        }
+        materialx::build(self, shader, output)
+    }
+
+    /// The outputs of the graph that defines a node, its nodes now being in the document; `None` where it is not defined by one.
+    pub(in crate::material) fn expanded(&mut self, shader: &Shader) -> Option<Outputs> {
+        if let Some(known) = self.expanded.get(&shader.index) {
+            return known.clone();
+        }
+        let definition = self.host.definition(&shader.id);
+        if definition.is_none() && shader.id.starts_with("ND_") && self.host.lacks_library() {
+            let message = format!(
+                "'{}' is not among the nodes of MaterialX that are built in; most others come with its standard library: pip install \
+                 'gonio[materialx]'",
+                shader.id
+            );
+            self.host.once("extra", "materialx", &shader.path, message);
+        }
+        let outputs = definition.filter(|definition| definition.body.is_some()).and_then(|definition| {
+            let expanded = definition::expand(&mut self.document, shader.index, &definition);
+            expanded.map_err(|problem| self.host.once("definitions", &problem, &shader.path, problem.clone())).ok().map(Outputs::new)
+        });
+        self.expanded.insert(shader.index, outputs.clone());
+        outputs
+    }
+
+    /// The node behind the first output of the graph that defines a node.
+    pub(in crate::material) fn inside(&mut self, shader: &Shader) -> Option<Shader> {
+        match self.expanded(shader)?.first()?.1 {
+            Source::Output(node, _) => Some(self.shader(node)),
+            _ => None,
+        }
+    }
+
+    /// Says that a node waits for an operation of the engine.
+    pub(in crate::material) fn waits(&mut self, shader: &Shader) {
+        let (name, _) = materialx::split(&shader.id);
+        self.host.unsupported(&format!("the pattern '{name}' of MaterialX"), &shader.path);
+    }
+
     /// Runs something a closure deeper; `None` where closures are too many or go round in a circle, which is said once.
-    pub(in crate::material) fn within<R>(&mut self, shader: &Shader<'py>, run: impl FnOnce(&mut Self) -> R) -> Option<R> {
+    pub(in crate::material) fn within<R>(&mut self, shader: &Shader, run: impl FnOnce(&mut Self) -> R) -> Option<R> {
         self.closures += 1;
         if self.depth >= MAX_DEPTH || self.closures > MAX_CLOSURES || self.graph.nodes.len() >= MAX_NODES {
-            let message = || "the closures are too many or go round in a circle; those beyond are left out".to_owned();
-            self.context.once("closures", &shader.path, &Origin::new(&shader.path), message);
+            let message = "the closures are too many or go round in a circle; those beyond are left out".to_owned();
+            self.host.once("closures", &shader.path, &shader.path, message);
             return None;
         }
         self.depth += 1;

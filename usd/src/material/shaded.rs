@@ -1,8 +1,8 @@
 //! Materials that ask for text of the prim that they shade, as the name of an image: one material for each set of answers.
 
 use super::convert;
+use super::neutral::Value;
 use super::textures::resolve_text;
-use super::value::{Source, Value};
 use crate::context::Context;
 use crate::prim::{Attribute, Prim};
 use crate::pxr::Module;
@@ -47,36 +47,36 @@ pub(super) fn material_on<'py>(context: &mut Context<'_, 'py>, material: &Prim<'
 fn key(context: &mut Context<'_, '_>, path: &str, names: &[String]) -> String {
     let answers = names.iter().map(|name| match named_text(context, name) {
         // One name may mean files in several folders.
-        Source::Value(Value::Asset(path), _) => path.authored + &path.resolved,
-        Source::Value(Value::Text(text), attribute) => resolve_text(&attribute, &text) + &text,
+        Some((Value::Asset(path), _)) => path.authored + &path.resolved,
+        Some((Value::Text(text), attribute)) => resolve_text(&attribute, &text) + &text,
         _ => String::new(),
     });
     answers.fold(path.to_owned(), |key, answer| key + "\n" + &answer)
 }
 
 /// The text in a primvar of the shaded prim, or of those above it.
-pub(super) fn named_text<'py>(context: &mut Context<'_, 'py>, name: &str) -> Source<'py> {
+pub(super) fn named_text<'py>(context: &mut Context<'_, 'py>, name: &str) -> Option<(Value, Attribute<'py>)> {
     if !context.shaded.asked.iter().any(|asked| asked == name) {
         context.shaded.asked.push(name.to_owned());
     }
-    let Some(prim) = context.shaded.prim.clone() else { return Source::Nothing };
+    let prim = context.shaded.prim.clone()?;
     let py = context.py;
-    let find = || -> PyResult<Source<'py>> {
+    let find = || -> PyResult<Option<(Value, Attribute<'py>)>> {
         let primvars = Module::UsdGeom.wrap("PrimvarsAPI", prim.object())?;
         let primvar = primvars.call_method1(intern!(py, "FindPrimvarWithInheritance"), (name,))?;
         let attribute = Attribute::new(primvar.call_method0(intern!(py, "GetAttr"))?);
         if !attribute.object().is_truthy()? {
-            return Ok(Source::Nothing);
+            return Ok(None);
         }
-        let Some(mut value) = attribute.get(&context.time)? else { return Ok(Source::Nothing) };
+        let Some(mut value) = attribute.get(&context.time)? else { return Ok(None) };
         // An array stands for its first value.
         if value.get_type().name()?.to_string().ends_with("Array") {
             value = value.get_item(0)?;
         }
         Ok(match Value::from_python(&value) {
-            Some(value @ (Value::Text(_) | Value::Asset(_))) => Source::Value(value, attribute),
-            _ => Source::Nothing,
+            Some(value @ (Value::Text(_) | Value::Asset(_))) => Some((value, attribute)),
+            _ => None,
         })
     };
-    find().unwrap_or(Source::Nothing)
+    find().unwrap_or(None)
 }

@@ -1,15 +1,14 @@
 //! Images by asset path: files, tiles, and files inside packages; each is in the scene once a colour space.
 
 use super::network::{Network, Shader};
-use super::shaded::named_text;
-use super::value::{Source, Value, stated_colour_space};
+use super::neutral::{NodeIndex, Said, Source, Value};
 use crate::asset;
 use crate::context::Context;
-use crate::prim::{Attribute, Prim};
+use crate::prim::Attribute;
 use crate::pxr::Module;
 use crate::vt::AssetPath;
 use gonio::colour::ColourSpace;
-use gonio::scene::{Input, Operation, Origin, Texture, TextureId, TextureSource, Tile};
+use gonio::scene::{Input, Origin, Texture, TextureId, TextureSource, Tile};
 use pyo3::{intern, prelude::*};
 use std::{path::Path, sync::Arc};
 
@@ -19,7 +18,10 @@ const UDIM: &str = "<UDIM>";
 const TILES: std::ops::RangeInclusive<u32> = 1001..=1100;
 
 /// The path of a tiled image with the tile number's place kept; empty if there is no tile.
-fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
+pub(super) fn resolve_tiles(attribute: &Attribute<'_>, authored: &str) -> String {
+    if !authored.contains(UDIM) {
+        return String::new();
+    }
     let py = attribute.object().py();
     let resolve = || -> PyResult<String> {
         let time = Module::Usd.item(py, "TimeCode")?.call_method0(intern!(py, "EarliestTime"))?;
@@ -77,12 +79,23 @@ pub(crate) fn texture(
     colour_space: &str,
 ) -> Option<TextureId> {
     let AssetPath { authored, resolved } = path;
-    let place = if authored.contains(UDIM) && resolved.is_empty() { resolve_tiles(attribute, authored) } else { resolved.clone() };
+    let place = if resolved.is_empty() { resolve_tiles(attribute, authored) } else { resolved.clone() };
+    texture_at(context, origin, authored, &place, colour_space)
+}
+
+/// The image `authored` that lies at a place, which is empty where there is none; see [`texture`].
+pub(super) fn texture_at(
+    context: &mut Context<'_, '_>,
+    origin: &Origin,
+    authored: &str,
+    place: &str,
+    colour_space: &str,
+) -> Option<TextureId> {
     let key = format!("{place}\n{colour_space}");
     if let Some(id) = context.texture_ids.get(&key) {
         return Some(*id);
     }
-    let source = if place.is_empty() { Err(format!("the image '{authored}' does not exist")) } else { open(context.py, &place) };
+    let source = if place.is_empty() { Err(format!("the image '{authored}' does not exist")) } else { open(context.py, place) };
     match source {
         Ok(source) => {
             let id = context.scene.add_texture(Texture { origin: origin.clone(), source, colour_space: colour_space.to_owned() });
@@ -90,16 +103,16 @@ pub(crate) fn texture(
             Some(id)
         }
         Err(problem) => {
-            let file = if place.is_empty() { authored } else { &place };
+            let file = if place.is_empty() { authored } else { place };
             context.once("image", file, origin, || format!("{problem}; a constant value takes its place"));
             None
         }
     }
 }
 
-impl<'py> Network<'_, '_, 'py> {
+impl Network<'_> {
     /// The image in a shader's `file` input; see [`Network::texture_of`].
-    pub(in crate::material) fn texture(&mut self, shader: &Shader<'py>, stated: Option<&str>, unstated: &str) -> Option<TextureId> {
+    pub(in crate::material) fn texture(&mut self, shader: &Shader, stated: Option<&str>, unstated: &str) -> Option<TextureId> {
         self.texture_of(shader, "file", stated, unstated)
     }
 
@@ -107,56 +120,55 @@ impl<'py> Network<'_, '_, 'py> {
     /// `None`, with a warning, where there is no image.
     pub(in crate::material) fn texture_of(
         &mut self,
-        shader: &Shader<'py>,
+        shader: &Shader,
         input: &str,
         stated: Option<&str>,
         unstated: &str,
     ) -> Option<TextureId> {
-        let source = match self.source(shader, input) {
-            Source::Output(prim, _) => self.text_of_primvar(prim),
-            source => source,
+        let said = match self.source(shader, input) {
+            Source::Output(node, _) => self.text_of_primvar(node),
+            Source::Value(value, said) => Some((value, said)),
+            Source::Nothing | Source::Geometric(_) | Source::Unreadable(_) => None,
         };
-        let (path, attribute) = match source {
-            Source::Value(Value::Asset(path), attribute) if !path.authored.is_empty() => (path, attribute),
-            Source::Value(Value::Text(authored), attribute) if !authored.is_empty() => {
-                let resolved = if authored.contains(UDIM) { String::new() } else { resolve_text(&attribute, &authored) };
-                (AssetPath { authored, resolved }, attribute)
-            }
+        let (path, said) = match said {
+            Some((Value::Asset(path), said)) if !path.authored.is_empty() => (path, said),
+            Some((Value::Text(authored), said)) if !authored.is_empty() => (AssetPath { authored, resolved: said.resolved.clone() }, said),
             _ => {
                 self.warn(shader, "no image file is named; the fallback value is used");
                 return None;
             }
         };
-        let own = stated.map_or_else(|| stated_colour_space(&attribute), str::to_owned);
-        let mut space = if own.is_empty() { unstated } else { &own };
+        let own = stated.unwrap_or(&said.space);
+        let mut space = if own.is_empty() { unstated } else { own };
         if ColourSpace::parse(space).is_err() {
             self.warn(shader, format!("the image '{}' has the unknown colour space '{space}'; '{unstated}' is used", path.authored));
             space = unstated;
         }
-        texture(self.context, &Origin::new(&shader.path), &path, &attribute, space)
+        self.host.texture(&shader.path, &path, space)
     }
 
     /// The file that a primvar of the shaded prim names, through a shader that reads it.
-    fn text_of_primvar(&mut self, reader: Prim<'py>) -> Source<'py> {
-        let reader = Shader::new(reader, &self.context.time);
-        let input = match reader.id.as_str() {
+    fn text_of_primvar(&mut self, reader: NodeIndex) -> Option<(Value, Said)> {
+        let reader = self.shader(reader);
+        let input = match &*reader.id {
             "UsdPrimvarReader_string" => "varname",
-            "ND_geompropvalue_string" | "ND_geompropvalue_filename" => "geomprop",
+            "ND_geompropvalue_string"
+            | "ND_geompropvalue_filename"
+            | "ND_geompropvalueuniform_string"
+            | "ND_geompropvalueuniform_filename" => "geomprop",
             "arnold:user_data_string" => "attribute",
             _ => {
                 self.warn(&reader, format!("shader node '{}' gives no file name", reader.id));
-                return Source::Nothing;
+                return None;
             }
         };
-        match self.text(&reader, input) {
-            Some(name) if !name.is_empty() => named_text(self.context, &name),
-            _ => Source::Nothing,
-        }
+        let name = self.text(&reader, input).filter(|name| !name.is_empty())?;
+        self.host.text_of_primvar(&name)
     }
 
     /// The texture coordinates of the given set: `st`, `st1`, …
     pub(in crate::material) fn texture_coordinates(&mut self, set: u32) -> Input {
         let name = if set == 0 { "st".to_owned() } else { format!("st{set}") };
-        self.node(Operation::Primvar { name, fallback: [0.0; 4] }, vec![])
+        self.primvar(name, [0.0; 4])
     }
 }

@@ -1,8 +1,8 @@
 //! The nodes of the UsdPreviewSurface specification: textures, primvar readers and 2D transforms.
 
-use super::arithmetic::{binary, scalar};
+use super::emit::{binary, scalar};
 use super::network::{Network, Shader};
-use super::value::{Source, Value};
+use super::neutral::{Source, Value};
 use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
 
 /// Where images lie without wrapping when nothing is said: outside them there is nothing.
@@ -24,12 +24,7 @@ pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<us
 }
 
 /// Builds a node of the specification; `is_materialx` says that MaterialX's defaults hold.
-pub(in crate::material) fn build<'py>(
-    network: &mut Network<'_, '_, 'py>,
-    shader: &Shader<'py>,
-    node: &str,
-    is_materialx: bool,
-) -> Option<Input> {
+pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, node: &str, is_materialx: bool) -> Option<Input> {
     match node {
         _ if node.starts_with("UsdUVTexture") => Some(texture(network, shader, is_materialx)),
         "UsdTransform2d" => Some(transform(network, shader)),
@@ -37,7 +32,7 @@ pub(in crate::material) fn build<'py>(
     }
 }
 
-fn wrap_mode(network: &mut Network<'_, '_, '_>, shader: &Shader<'_>, name: &str, mode: &str) -> WrapMode {
+fn wrap_mode(network: &mut Network<'_>, shader: &Shader, name: &str, mode: &str) -> WrapMode {
     match mode {
         "repeat" | "periodic" => WrapMode::Repeat,
         "clamp" => WrapMode::Clamp,
@@ -50,7 +45,7 @@ fn wrap_mode(network: &mut Network<'_, '_, '_>, shader: &Shader<'_>, name: &str,
     }
 }
 
-fn texture<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, is_materialx: bool) -> Input {
+fn texture(network: &mut Network<'_>, shader: &Shader, is_materialx: bool) -> Input {
     let unstated = if is_materialx { "periodic" } else { UNSTATED_WRAP };
     let wrap = ["wrapS", "wrapT"].map(|name| {
         let mode = network.text(shader, name).unwrap_or_else(|| unstated.to_owned());
@@ -71,7 +66,7 @@ fn texture<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, is_mat
     network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![st])
 }
 
-fn transform<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+fn transform(network: &mut Network<'_>, shader: &Shader) -> Input {
     let input = network.input(shader, "in").unwrap_or(scalar(0.0));
     let [scale_x, scale_y, ..] = network.uniform(shader, "scale", [1.0; 4]);
     let [x, y, ..] = network.uniform(shader, "translation", [0.0; 4]);
@@ -79,7 +74,7 @@ fn transform<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> I
     network.node(Operation::Transform2d { scale: [scale_x, scale_y], rotation_deg, translation: [x, y] }, vec![input])
 }
 
-fn primvar_reader<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, kind: &str) -> Option<Input> {
+fn primvar_reader(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Option<Input> {
     if !matches!(
         kind,
         "float" | "float2" | "float3" | "float4" | "int" | "integer" | "normal" | "point" | "vector" | "vector2" | "vector3" | "vector4"
@@ -97,7 +92,7 @@ fn primvar_reader<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>,
 }
 
 /// Whether a normal map's texture says neither scale nor bias, so that its numbers are still in [0, 1].
-fn is_unscaled<'py>(network: &mut Network<'_, '_, 'py>, texture: &Shader<'py>) -> bool {
+fn is_unscaled(network: &mut Network<'_>, texture: &Shader) -> bool {
     ["scale", "bias"].iter().all(|name| matches!(network.source(texture, name), Source::Nothing))
         && matches!(network.source(texture, "file"), Source::Value(Value::Asset(path), _) if is_unsigned_format(&path.authored))
 }
@@ -108,13 +103,13 @@ fn is_unsigned_format(file: &str) -> bool {
 }
 
 /// The preview surface's `normal` input as a tangent-space normal in [-1, 1]; `None` if it is not connected.
-pub(in crate::material) fn tangent_normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Input> {
-    let Source::Output(prim, _) = network.source(shader, "normal") else {
+pub(in crate::material) fn tangent_normal(network: &mut Network<'_>, shader: &Shader) -> Option<Input> {
+    let Source::Output(node, _) = network.source(shader, "normal") else {
         return None;
     };
     let input = network.input(shader, "normal")?;
-    let texture = Shader::new(prim, &network.context.time);
-    if texture.id == "UsdUVTexture" && is_unscaled(network, &texture) {
+    let texture = network.shader(node);
+    if &*texture.id == "UsdUVTexture" && is_unscaled(network, &texture) {
         network.warn(&texture, "a normal map without scale and bias; (2, 2, 2) and (-1, -1, -1) are used");
         let doubled = binary(&mut network.graph, Operation::Multiply, input, scalar(2.0));
         return Some(binary(&mut network.graph, Operation::Subtract, doubled, scalar(1.0)));

@@ -1,21 +1,15 @@
-//! Values of shader inputs: what an attribute holds, or the shader output that it is connected to.
+//! Values of shader inputs as attributes hold them, and colours in other spaces than the renderer's.
 
-use crate::prim::{Attribute, Prim};
+use super::neutral::Value;
+use crate::prim::Attribute;
 use crate::pxr::Module;
 use crate::vt::{AssetPath, FromValue};
 use gonio::colour::{ColourSpace, apply};
 use pyo3::{intern, prelude::*, types::PyString};
 
-/// What an attribute holds.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Value {
-    /// Numbers, flags and vectors: up to four components and their count; the fourth of fewer is 1.
-    Numbers([f32; 4], usize),
-    /// Tokens and strings.
-    Text(String),
-    /// Files.
-    Asset(AssetPath),
-}
+/// The unit matrix.
+pub(in crate::material) const UNIT_MATRIX: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 impl Value {
     /// The value behind a Python object; `None` for kinds that shading does not use.
@@ -31,63 +25,26 @@ impl Value {
         }
         let mut values = [0.0, 0.0, 0.0, 1.0];
         let mut count = 0;
+        if let Ok(size) = object.getattr(intern!(object.py(), "dimension")).and_then(|size| size.extract::<(usize, usize)>()) {
+            return matrix(object, size.0).map(|rows| Self::Matrix(Box::new(rows), size.0));
+        }
         for item in object.try_iter().ok()? {
             *values.get_mut(count)? = item.ok()?.extract::<f64>().ok()? as f32;
             count += 1;
         }
         (count > 0).then_some(Self::Numbers(values, count))
     }
+}
 
-    /// Text, also of assets.
-    pub(crate) fn text(&self) -> Option<&str> {
-        match self {
-            Self::Text(text) | Self::Asset(AssetPath { authored: text, .. }) => Some(text),
-            Self::Numbers(..) => None,
+/// The rows of a `Gf` matrix, filled up with those of the unit matrix.
+fn matrix(object: &Bound<'_, PyAny>, size: usize) -> Option<[[f32; 4]; 4]> {
+    let mut rows = UNIT_MATRIX;
+    for (r, row) in rows.iter_mut().enumerate().take(size) {
+        for (c, item) in row.iter_mut().enumerate().take(size) {
+            *item = object.get_item((r, c)).ok()?.extract::<f64>().ok()? as f32;
         }
     }
-}
-
-/// Where a shader input's value comes from.
-#[derive(Debug)]
-pub(in crate::material) enum Source<'py> {
-    /// Nothing is said.
-    Nothing,
-    /// A value, and the attribute that holds it.
-    Value(Value, Attribute<'py>),
-    /// A shader's output: the prim and the output's name.
-    Output(Prim<'py>, String),
-}
-
-/// The source of the input `name` of a shader prim at a time, through interfaces of node graphs and materials.
-pub(in crate::material) fn source<'py>(shader: &Prim<'py>, name: &str, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
-    let py = shader.py();
-    let name = format!("inputs:{name}");
-    // Shaders have no schema that would give unauthored inputs a value.
-    let Some(attribute) = shader.has_authored(&name).then(|| shader.attribute(&name)).flatten() else {
-        return Ok(Source::Nothing);
-    };
-    if !attribute.object().call_method0(intern!(py, "HasAuthoredConnections"))?.is_truthy()? {
-        return value_of(attribute, time);
-    }
-    let input = Module::UsdShade.wrap("Input", attribute.object())?;
-    let producers = input.call_method0(intern!(py, "GetValueProducingAttributes"))?;
-    let Some(producer) = producers.try_iter()?.next() else {
-        return Ok(Source::Nothing);
-    };
-    let producer = producer?;
-    let full_name: String = producer.call_method0(intern!(py, "GetName"))?.extract()?;
-    match full_name.strip_prefix("outputs:") {
-        Some(output) => Ok(Source::Output(Prim::new(producer.call_method0(intern!(py, "GetPrim"))?), output.to_owned())),
-        None => value_of(Attribute::new(producer), time),
-    }
-}
-
-fn value_of<'py>(attribute: Attribute<'py>, time: &Bound<'py, PyAny>) -> PyResult<Source<'py>> {
-    let value = attribute.get(time)?;
-    Ok(match value.as_ref().and_then(Value::from_python) {
-        Some(value) => Source::Value(value, attribute),
-        None => Source::Nothing,
-    })
+    Some(rows)
 }
 
 /// The colour space that is said for an attribute, by itself or by the prims above; empty if none is.

@@ -1,28 +1,38 @@
 //! A document's materials as the text of a USD layer.
 
-use super::follow::{Place, Setting};
-use super::value::usd_type;
+use crate::material::library::Library;
+use crate::material::mtlx::{self, Stated};
+use crate::material::neutral::{Document, Node, Said, Source, Value};
 use crate::material::xml::{self, Element};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Longest chain of nodes.
-const MAX_CHAIN: usize = 200;
+/// A document as a layer.
+pub(super) struct Converted {
+    /// The text of the layer.
+    pub(super) layer: String,
+    /// What is left out.
+    pub(super) problems: Vec<String>,
+    /// What the document defines.
+    pub(super) library: Library,
+}
 
-/// A document's materials as the text of a USD layer, and what is left out.
-pub(super) fn convert(text: &str, file: &Path) -> Result<(String, Vec<String>), String> {
+/// A document's materials as the text of a USD layer; nodes are named by the standard library where it is at hand.
+pub(super) fn convert(text: &str, file: &Path, standard: Option<&Library>) -> Result<Converted, String> {
     let document = xml::parse(text).map_err(|error| format!("line {}: {}", error.line, error.problem))?;
     if document.name != "materialx" {
         return Err(format!("the root element is <{}>, expected <materialx>", document.name));
     }
     let folder = file.parent().unwrap_or(Path::new("")).to_string_lossy().into_owned();
-    let mut writer = Writer { document: &document, folder, problems: Vec::new() };
-    let mut materials = String::new();
+    let library = Library::of(&[&document]);
+    let libraries: Vec<&Library> = std::iter::once(&library).chain(standard).collect();
+    let stated = Stated { document: &document, graph: None, folder: &folder };
+    let (mut materials, mut problems) = (String::new(), Vec::new());
     for child in &document.children {
         match child.name.as_str() {
-            "surfacematerial" => materials += &writer.material(child),
-            "xi:include" | "include" | "material" | "nodedef" => {
-                writer.problems.push(format!("<{}> in MaterialX documents is not supported, it is left out", child.name));
+            "surfacematerial" => materials += &material(child, stated, &libraries, &mut problems),
+            "xi:include" | "include" | "material" => {
+                problems.push(format!("<{}> in MaterialX documents is not supported, it is left out", child.name));
             }
             _ => {}
         }
@@ -30,24 +40,17 @@ pub(super) fn convert(text: &str, file: &Path) -> Result<(String, Vec<String>), 
     let layer = format!(
         "#usda 1.0\n(\n    defaultPrim = \"MaterialX\"\n)\ndef Scope \"MaterialX\"\n{{\ndef Scope \"Materials\"\n{{\n{materials}}}\n}}\n"
     );
-    Ok((layer, writer.problems))
-}
-
-/// Writes shaders, and remembers what is left out.
-pub(super) struct Writer<'d> {
-    pub(super) document: &'d Element,
-    pub(super) folder: String,
-    problems: Vec<String>,
+    Ok(Converted { layer, problems, library })
 }
 
 /// A name that a prim or an attribute may have.
-pub(super) fn identifier(name: &str) -> String {
-    let plain: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+fn identifier(name: &str) -> String {
+    let plain: String = name.replace('/', "__").chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if plain.starts_with(|c: char| c.is_ascii_digit()) { format!("_{plain}") } else { plain }
 }
 
 /// A quoted string of the text format.
-pub(super) fn quoted(text: &str) -> String {
+fn quoted(text: &str) -> String {
     let mut result = String::from("\"");
     for c in text.chars() {
         match c {
@@ -61,83 +64,86 @@ pub(super) fn quoted(text: &str) -> String {
     result + "\""
 }
 
-impl<'d> Writer<'d> {
-    fn material(&mut self, material: &'d Element) -> String {
-        let name = identifier(material.attribute("name").unwrap_or("material"));
-        let surface = material.child_called("surfaceshader").map(|input| self.setting(input, None));
-        let Some(Setting::Node(place, output)) = surface else {
-            self.problems.push(format!("the material '{name}' has no surface shader"));
-            return String::new();
-        };
-        if material.child_called("displacementshader").is_some() {
-            self.problems.push(format!("the displacement of the material '{name}' is not supported, it is left out"));
-        }
-        let root = format!("/MaterialX/Materials/{name}");
-        let mut shaders = Vec::new();
-        let mut done = Vec::new();
-        self.shader(&root, place, &mut shaders, &mut done, 0);
-        let output = output.unwrap_or("out");
-        let body = shaders.concat();
-        format!(
-            "def Material \"{name}\"\n{{\ntoken outputs:mtlx:surface.connect = <{root}/{}.outputs:{output}>\n{body}}}\n",
-            place.prim_name()
-        )
+/// A material prim with the shaders that it reads; empty, with a problem, where it has no surface.
+fn material(material: &Element, stated: Stated<'_>, libraries: &[&Library], problems: &mut Vec<String>) -> String {
+    let name = identifier(material.attribute("name").unwrap_or("material"));
+    let Some((document, output)) = mtlx::read(stated, material, "surfaceshader", libraries) else {
+        problems.push(format!("the material '{name}' has no surface shader"));
+        return String::new();
+    };
+    if material.child_called("displacementshader").is_some() {
+        problems.push(format!("the displacement of the material '{name}' is not supported, it is left out"));
     }
-
-    /// Appends the shader of a node and those that it reads.
-    fn shader(&mut self, root: &str, place: Place<'d>, shaders: &mut Vec<String>, done: &mut Vec<String>, depth: usize) {
-        let name = place.prim_name();
-        if depth > MAX_CHAIN || done.contains(&name) {
-            return;
-        }
-        done.push(name.clone());
-        let mut text = format!("def Shader \"{name}\"\n{{\nuniform token info:id = {}\n", quoted(&node_id(place.node)));
-        for input in place.node.children.iter().filter(|child| child.name == "input") {
-            let Some(input_name) = input.attribute("name").map(identifier) else { continue };
-            let kind = usd_type(input.attribute("type").unwrap_or_default());
-            match (self.setting(input, place.graph), kind) {
-                (Setting::Node(source, output), kind) => {
-                    let kind = kind.unwrap_or("token");
-                    let output = identifier(output.unwrap_or("out"));
-                    let _ = writeln!(text, "{kind} inputs:{input_name}.connect = <{root}/{}.outputs:{output}>", source.prim_name());
-                    self.shader(root, source, shaders, done, depth + 1);
-                }
-                (Setting::Value(value), Some(kind)) => match self.value(value, kind, place) {
-                    Some(value) => {
-                        let _ = writeln!(text, "{kind} inputs:{input_name} = {value}");
-                    }
-                    None => self.problems.push(format!("the input '{input_name}' of '{name}' has no usable value, it is left out")),
-                },
-                _ => {}
-            }
-        }
-        text.push_str("token outputs:out\n}\n");
-        shaders.push(text);
-    }
+    let root = format!("/MaterialX/Materials/{name}");
+    let shaders: String = document.nodes.iter().map(|node| shader(&root, node, &document, problems)).collect();
+    let (surface, output) = (identifier(&document.nodes[0].path), identifier(&output));
+    format!("def Material \"{name}\"\n{{\ntoken outputs:mtlx:surface.connect = <{root}/{surface}.outputs:{output}>\n{shaders}}}\n")
 }
 
-/// The name of a node's definition.
-fn node_id(node: &Element) -> String {
-    if let Some(definition) = node.attribute("nodedef") {
-        return definition.to_owned();
-    }
-    let kind = node.attribute("type").unwrap_or_default();
-    let input = |name: &str| node.child_called(name).and_then(|input| input.attribute("type")).unwrap_or_default();
-    match (node.name.as_str(), kind) {
-        ("convert" | "swizzle", _) => format!("ND_{}_{}_{kind}", node.name, input("in")),
-        // Closures and surfaces have the type in their name, or no type there.
-        ("mix" | "add" | "layer", "BSDF" | "EDF") => format!("ND_{}_{}", node.name, kind.to_ascii_lowercase()),
-        ("multiply", "BSDF" | "EDF") => {
-            let factor = if input("in2") == "color3" { 'C' } else { 'F' };
-            format!("ND_multiply_{}{factor}", kind.to_ascii_lowercase())
+fn shader(root: &str, node: &Node, document: &Document, problems: &mut Vec<String>) -> String {
+    let name = identifier(&node.path);
+    let mut text = format!("def Shader \"{name}\"\n{{\nuniform token info:id = {}\n", quoted(&node.id));
+    for port in &node.inputs {
+        let input = identifier(&port.name);
+        let line = match &port.source {
+            Source::Output(index, output) => {
+                let (source, output) = (identifier(&document.node(*index).path), identifier(output));
+                Some(format!("token inputs:{input}.connect = <{root}/{source}.outputs:{output}>"))
+            }
+            Source::Value(value, said) => value_line(&input, value, said),
+            // What a node reads of the surface where nothing is said is its own affair.
+            Source::Nothing | Source::Geometric(_) => continue,
+            Source::Unreadable(_) => None,
+        };
+        match line {
+            Some(line) => {
+                let _ = writeln!(text, "{line}");
+            }
+            None => problems.push(format!("the input '{input}' of '{name}' has no usable value, it is left out")),
         }
-        (name, "BSDF" | "EDF") => format!("ND_{name}"),
-        ("surface" | "surface_unlit", _) => format!("ND_{}", node.name),
-        ("combine2", "color4") => "ND_combine2_color4CF".to_owned(),
-        ("combine2", "vector4") if input("in1") == "vector2" => "ND_combine2_vector4VV".to_owned(),
-        ("combine2", "vector4") => "ND_combine2_vector4VF".to_owned(),
-        (name, _) => format!("ND_{name}_{kind}"),
     }
+    text + "token outputs:out\n}\n"
+}
+
+/// An input with its value; `None` for files that the text format cannot name.
+fn value_line(input: &str, value: &Value, said: &Said) -> Option<String> {
+    let joined = |numbers: &[f32]| numbers.iter().map(f32::to_string).collect::<Vec<_>>().join(", ");
+    let (kind, text) = match value {
+        Value::Numbers(values, 1) => ("float", joined(&values[..1])),
+        Value::Numbers(values, count) => {
+            let kind = match (said.is_colour, count) {
+                (true, 3) => "color3f",
+                (true, _) => "color4f",
+                (false, 2) => "float2",
+                (false, 3) => "float3",
+                (false, _) => "float4",
+            };
+            (kind, format!("({})", joined(&values[..*count])))
+        }
+        Value::Matrix(rows, side) => {
+            let rows: Vec<String> = rows[..*side].iter().map(|row| format!("({})", joined(&row[..*side]))).collect();
+            (if *side == 3 { "matrix3d" } else { "matrix4d" }, format!("({})", rows.join(", ")))
+        }
+        Value::Text(text) => ("string", quoted(text)),
+        Value::Asset(path) => {
+            // Absolute: layers in memory have no place.
+            let place = if path.resolved.is_empty() { &path.authored } else { &path.resolved };
+            ("asset", (!place.contains('@') && !place.contains('\n')).then(|| format!("@{place}@"))?)
+        }
+    };
+    Some(format!("{kind} inputs:{input} = {text}{}", metadata(said)))
+}
+
+/// The colour space and the unit of a value.
+fn metadata(said: &Said) -> String {
+    let mut lines = String::new();
+    if !said.space.is_empty() {
+        let _ = writeln!(lines, "colorSpace = {}", quoted(&said.space));
+    }
+    if !said.unit.is_empty() {
+        let _ = writeln!(lines, "customData = {{\nstring unit = {}\n}}", quoted(&said.unit));
+    }
+    if lines.is_empty() { lines } else { format!(" (\n{lines})") }
 }
 
 #[cfg(test)]
@@ -153,14 +159,14 @@ mod tests {
               <input name="base_color" type="color3" nodegraph="NG" output="o"/><input name="coat_color" type="color3" value="1, 0.5 0"/></standard_surface>
             <surfacematerial name="M 1" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
           </materialx>"#;
-        let (layer, problems) = convert(text, Path::new("/d/doc.mtlx")).expect("converts");
+        let Converted { layer, problems, .. } = convert(text, Path::new("/d/doc.mtlx"), None).expect("converts");
         assert!(problems.is_empty(), "{problems:?}");
         for part in [
             "def Material \"M_1\"",
             "outputs:mtlx:surface.connect = </MaterialX/Materials/M_1/S.outputs:out>",
             "info:id = \"ND_standard_surface_surfaceshader\"",
             "float inputs:base = 0.5",
-            "color3f inputs:base_color.connect = </MaterialX/Materials/M_1/NG__i.outputs:out>",
+            "token inputs:base_color.connect = </MaterialX/Materials/M_1/NG__i.outputs:out>",
             "color3f inputs:coat_color = (1, 0.5, 0) (\ncolorSpace = \"lin_rec709\"\n)",
             "asset inputs:file = @/d/maps/a.png@ (\ncolorSpace = \"srgb_texture\"\n)",
         ] {
@@ -173,9 +179,9 @@ mod tests {
         let text = r#"<materialx><add name="a" type="float"><input name="in1" type="float" nodename="a"/><input name="in2" type="float" value="x"/></add>
             <gltf_pbr name="S" type="surfaceshader"><input name="roughness" type="float" nodename="a"/><input name="ior" type="float" nodename="no"/></gltf_pbr>
             <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>"#;
-        let (layer, problems) = convert(text, Path::new("doc.mtlx")).expect("converts");
+        let Converted { layer, problems, .. } = convert(text, Path::new("doc.mtlx"), None).expect("converts");
         assert_eq!(problems.len(), 1);
         assert!(layer.contains("ND_add_float") && !layer.contains("inputs:ior"));
-        assert!(convert("<other/>", Path::new("doc.mtlx")).is_err());
+        assert!(convert("<other/>", Path::new("doc.mtlx"), None).is_err());
     }
 }

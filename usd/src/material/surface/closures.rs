@@ -1,16 +1,17 @@
 //! Surfaces that are put together from closures: MaterialX's `surface`, `surface_unlit` and mixes, with the distributions of its physically based
 //! library (MaterialX 1.38 and 1.39, "Physically Based Shading Nodes"), and Arnold's mixes.
 
-use super::lobes::{diffuse, lobes};
+use super::layers::sum;
+use super::lobes::diffuse;
 use super::{convert as convert_surface, shining, straight, weighted, with_opacity};
-use crate::material::arithmetic::{binary, is_constant, mix, multiply, scalar, subtract};
+use crate::material::emit::{binary, is_constant, mix, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
-use crate::material::value::Source;
+use crate::material::neutral::Source;
 use gonio::scene::{Closure, Input, Operation};
 
 /// The closures of such a surface; `None` for other shaders.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
-    match shader.id.as_str() {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Vec<Closure>> {
+    match &*shader.id {
         "ND_surface" | "ND_surface_surfaceshader" => Some(surface(network, shader)),
         "ND_surface_unlit" | "ND_surface_unlit_surfaceshader" => Some(unlit(network, shader)),
         "ND_mix_surfaceshader" => Some(mixed(network, shader, ["bg", "fg", "mix"], 0.0)),
@@ -22,14 +23,14 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
 }
 
 /// The shader that an input is connected to.
-pub(super) fn behind<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, input: &str) -> Option<Shader<'py>> {
+pub(super) fn behind(network: &mut Network<'_>, shader: &Shader, input: &str) -> Option<Shader> {
     match network.source(shader, input) {
-        Source::Output(prim, _) => Some(Shader::new(prim, &network.context.time)),
+        Source::Output(node, _) => Some(network.shader(node)),
         _ => None,
     }
 }
 
-fn mixed<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, [under, over, share]: [&str; 3], default: f32) -> Vec<Closure> {
+fn mixed(network: &mut Network<'_>, shader: &Shader, [under, over, share]: [&str; 3], default: f32) -> Vec<Closure> {
     let share = network.scalar(shader, share, default);
     let rest = subtract(&mut network.graph, scalar(1.0), share);
     let mut closures = Vec::new();
@@ -44,14 +45,14 @@ fn mixed<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, [under, 
     closures
 }
 
-fn lambert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+fn lambert(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let (weight, base) = (network.scalar(shader, "Kd", 0.8), network.colour(shader, "Kd_color", [1.0; 3]));
     let base = multiply(&mut network.graph, base, weight);
     diffuse(base, scalar(0.0))
 }
 
-fn surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
-    let lobes = behind(network, shader, "bsdf").map(|bsdf| lobes(network, &bsdf)).unwrap_or_default();
+fn surface(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
+    let lobes = behind(network, shader, "bsdf").map(|bsdf| sum(network, &bsdf).lobes).unwrap_or_default();
     let mut closures: Vec<Closure> = lobes.into_iter().map(|lobe| lobe.closure).collect();
     if network.number(shader, "thin_walled", 0.0) != 0.0 {
         closures.iter_mut().for_each(|closure| closure.thin_walled = true);
@@ -64,7 +65,7 @@ fn surface<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec
     with_opacity(network, closures, opacity)
 }
 
-fn unlit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
+fn unlit(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
     let (emission, tint) = (network.scalar(shader, "emission", 1.0), network.colour(shader, "emission_color", [1.0; 3]));
     let mut closures = vec![shining(multiply(&mut network.graph, tint, emission))];
     let passed = network.scalar(shader, "transmission", 0.0);
@@ -78,8 +79,8 @@ fn unlit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<C
 }
 
 /// Radiance of an emission distribution.
-fn emission<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
-    let inner = |network: &mut Network<'_, '_, 'py>, input: &str| {
+fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
+    let inner = |network: &mut Network<'_>, input: &str| {
         let part = behind(network, shader, input).and_then(|part| network.within(&part, |network| emission(network, &part)));
         part.unwrap_or(scalar(0.0))
     };
@@ -98,7 +99,7 @@ fn emission<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> In
             multiply(&mut network.graph, edf, factor)
         }
         _ => {
-            if shader.id != "ND_uniform_edf" {
+            if &*shader.id != "ND_uniform_edf" {
                 network.unsupported(&format!("the directions of '{}'", shader.id), shader);
             }
             network.colour(shader, "color", [1.0; 3])

@@ -1,20 +1,21 @@
 //! MaterialX's surface shaders as parameters of the surface block. Arnold's of the same names have the same parameters.
 
-use crate::material::arithmetic::{component, constant_scalar, is_constant, luminance, multiply, scalar};
+use super::lobes::direction;
+use crate::material::emit::{component, constant_scalar, is_constant, luminance, multiply, scalar};
 use crate::material::network::{Network, Shader};
-use gonio::scene::{Channel, Closure, Input, Model, NodeId, Operation};
+use gonio::scene::{Closure, Input, Model, NodeId, Operation};
 
 /// Nanometres in a micrometre.
 const NM_PER_UM: f32 = 1000.0;
 
 /// A surface that is being filled from a shader.
-struct Surface<'n, 'c, 'a, 'py> {
-    network: &'n mut Network<'c, 'a, 'py>,
-    shader: &'n Shader<'py>,
+struct Surface<'n, 'h> {
+    network: &'n mut Network<'h>,
+    shader: &'n Shader,
     closure: Closure,
 }
 
-impl Surface<'_, '_, '_, '_> {
+impl Surface<'_, '_> {
     fn scalar(&mut self, name: &str, default: f32) -> Input {
         self.network.scalar(self.shader, name, default)
     }
@@ -42,7 +43,7 @@ impl Surface<'_, '_, '_, '_> {
     }
     /// Lengths are in units of the stage.
     fn length(&mut self, parameter: &str, input: Input) {
-        let metres = scalar(self.network.context.metres_per_unit as f32);
+        let metres = scalar(self.network.host.metres_per_unit() as f32);
         self.product(parameter, input, metres);
     }
     /// Says by name which inputs are left out although they are not at the value that means off.
@@ -53,30 +54,20 @@ impl Surface<'_, '_, '_, '_> {
             }
         }
     }
-    /// Says by name which connected vectors are left out.
-    fn left_out_vectors(&mut self, names: &[&str]) {
-        for name in names {
-            if matches!(self.network.input(self.shader, name), Some(Input::Node(..))) {
-                self.network.unsupported(&format!("input '{name}' of {}", self.shader.id), self.shader);
-            }
+    /// A direction of the world that an input reads from a node; images hold none.
+    fn direction(&mut self, name: &str) -> Option<NodeId> {
+        let node = direction(self.network, self.shader, name)?;
+        let is_image = matches!(self.network.graph.nodes.get(usize::from(node.0))?.operation, Operation::Image { .. });
+        if is_image {
+            self.network.warn(self.shader, format!("input '{name}' is an image without a normal map; the surface's own is used"));
         }
-    }
-    /// The shading normal, if the input is connected to a normal map.
-    fn normal(&mut self, name: &str) -> Option<NodeId> {
-        let Some(Input::Node(node, Channel::Rgb)) = self.network.input(self.shader, name) else {
-            return None;
-        };
-        let is_map = matches!(self.network.graph.nodes.get(usize::from(node.0))?.operation, Operation::NormalMap { .. });
-        if !is_map {
-            self.network.warn(self.shader, format!("input '{name}' is not a normal map's output; the surface's own normal is used"));
-        }
-        is_map.then_some(node)
+        (!is_image).then_some(node)
     }
 }
 
 /// The material of a MaterialX surface shader; `None` where the node is not one that is known.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Closure> {
-    let fill = match shader.id.as_str() {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Closure> {
+    let fill = match &*shader.id {
         "ND_standard_surface_surfaceshader" | "arnold:standard_surface" => standard_surface,
         "ND_standard_surface_surfaceshader_100" => standard_surface_100,
         "ND_open_pbr_surface_surfaceshader" | "arnold:openpbr_surface" => open_pbr_surface,
@@ -89,7 +80,7 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
 }
 
 /// OpenPBR 1.1: the block's own model.
-fn open_pbr_surface(surface: &mut Surface<'_, '_, '_, '_>) {
+fn open_pbr_surface(surface: &mut Surface<'_, '_>) {
     surface.closure.model = Model::OpenPbr;
     let (weight, base) = (surface.scalar("base_weight", 1.0), surface.colour("base_color", [0.8; 3]));
     surface.product("base_color", base, weight);
@@ -132,22 +123,23 @@ fn open_pbr_surface(surface: &mut Surface<'_, '_, '_, '_>) {
     let (luminance, emission) = (surface.scalar("emission_luminance", 0.0), surface.colour("emission_color", [1.0; 3]));
     surface.product("emission_color", emission, luminance);
     surface.closure.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
-    surface.closure.normal = surface.normal("geometry_normal");
+    surface.closure.normal = surface.direction("geometry_normal");
     surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
-    surface.left_out_vectors(&["geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent"]);
+    surface.closure.coat_normal = surface.direction("geometry_coat_normal");
+    surface.closure.tangent = surface.direction("geometry_tangent");
 }
 
 /// Version 1.0.1 of standard_surface.
-fn standard_surface(surface: &mut Surface<'_, '_, '_, '_>) {
+fn standard_surface(surface: &mut Surface<'_, '_>) {
     fill_standard_surface(surface, 1.0, 0.8);
 }
 
 /// Version 1.0.0, which differs in two defaults.
-fn standard_surface_100(surface: &mut Surface<'_, '_, '_, '_>) {
+fn standard_surface_100(surface: &mut Surface<'_, '_>) {
     fill_standard_surface(surface, 0.8, 1.0);
 }
 
-fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32, base_color: f32) {
+fn fill_standard_surface(surface: &mut Surface<'_, '_>, base_weight: f32, base_color: f32) {
     surface.closure.model = Model::StandardSurface;
     let (weight, base) = (surface.scalar("base", base_weight), surface.colour("base_color", [base_color; 3]));
     surface.product("base_color", base, weight);
@@ -197,13 +189,14 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_, '_, '_>, base_weight: f32
     let opacity = luminance(&mut surface.network.graph, opacity);
     surface.closure.set_input("geometry_opacity", opacity);
     surface.closure.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
-    surface.closure.normal = surface.normal("normal");
+    surface.closure.normal = surface.direction("normal");
     surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
-    surface.left_out_vectors(&["coat_normal", "tangent"]);
+    surface.closure.coat_normal = surface.direction("coat_normal");
+    surface.closure.tangent = surface.direction("tangent");
 }
 
 /// glTF 2.0's metallic-roughness material with its extensions.
-fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
+fn gltf_pbr(surface: &mut Surface<'_, '_>) {
     surface.closure.model = Model::Gltf;
     surface.scalars(&[
         ("metalness", "metallic", 1.0),
@@ -236,13 +229,14 @@ fn gltf_pbr(surface: &mut Surface<'_, '_, '_, '_>) {
     if mode == 1.0 {
         surface.closure.opacity_threshold = surface.network.number(surface.shader, "alpha_cutoff", 0.5);
     }
-    surface.closure.normal = surface.normal("normal");
+    surface.closure.normal = surface.direction("normal");
     surface.left_out(&[("dispersion", 0.0)]);
-    surface.left_out_vectors(&["clearcoat_normal", "tangent"]);
+    surface.closure.coat_normal = surface.direction("clearcoat_normal");
+    surface.closure.tangent = surface.direction("tangent");
 }
 
 /// The fuzz takes by its largest coloured channel, so the colour may keep its strength and the weight be one.
-fn gltf_sheen(surface: &mut Surface<'_, '_, '_, '_>) {
+fn gltf_sheen(surface: &mut Surface<'_, '_>) {
     let sheen = surface.colour("sheen_color", [0.0; 3]);
     surface.closure.set("fuzz_weight", f32::from(u8::from(!is_constant(sheen, 0.0))));
     surface.closure.set_input("fuzz_color", sheen);
@@ -251,7 +245,7 @@ fn gltf_sheen(surface: &mut Surface<'_, '_, '_, '_>) {
 }
 
 /// What passes is tinted by the base colour; thickness 0 is a sheet, other surfaces enclose an absorbing volume.
-fn gltf_volume(surface: &mut Surface<'_, '_, '_, '_>) {
+fn gltf_volume(surface: &mut Surface<'_, '_>) {
     let transmits = surface.closure.input("transmission_weight").is_some_and(|weight| !is_constant(weight, 0.0));
     let base = surface.colour("base_color", [1.0; 3]);
     let is_sheet = is_constant(component(surface.scalar("thickness", 0.0), 0), 0.0);

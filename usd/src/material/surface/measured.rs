@@ -3,21 +3,17 @@
 //! Inputs: `file` (asset), `tint` (color3f, white), `scale` (float, 1), `rotation` (float, degrees of the tangent about the normal, 0) and
 //! `normal` (a tangent-space normal).
 
-use crate::asset;
-use crate::context::Context;
-use crate::material::arithmetic::{binary, constant_scalar, scalar};
+use crate::material::emit::{binary, constant_scalar, scalar};
 use crate::material::network::{Network, Shader};
+use crate::material::neutral::{Source, Value};
 use crate::material::usd_nodes::tangent_normal;
-use crate::material::value::{Source, Value};
-use crate::vt::AssetPath;
-use gonio::scene::{Closure, Input, MeasuredBsdf, MeasuredId, Model, Operation, Origin};
-use gonio_formats::bsdf;
+use gonio::scene::{Closure, Input, MeasuredId, Model, Operation};
 
 /// The shader's name.
 pub(super) const ID: &str = "gonio:MeasuredBSDF";
 
 /// Converts the surface. Where its file cannot be read it has no measurement, and so is grey.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let mut closure = Closure { model: Model::Measured, measured: file(network, shader), ..Closure::default() };
     closure.set_input("base_color", network.colour(shader, "tint", [1.0; 3]));
     closure.set_input("specular_scale", network.scalar(shader, "scale", 1.0));
@@ -34,7 +30,7 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
 }
 
 /// The measurement in a shader's `file` input; `None`, with a warning, where there is none.
-fn file<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<MeasuredId> {
+fn file(network: &mut Network<'_>, shader: &Shader) -> Option<MeasuredId> {
     let path = match network.source(shader, "file") {
         Source::Value(Value::Asset(path), _) if !path.authored.is_empty() => path,
         _ => {
@@ -42,22 +38,5 @@ fn file<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option
             return None;
         }
     };
-    measurement(network.context, &Origin::new(&shader.path), &path)
-}
-
-/// The measurement of a file, the same one for all shaders that name it.
-fn measurement(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath) -> Option<MeasuredId> {
-    let key = if path.resolved.is_empty() { &path.authored } else { &path.resolved };
-    if let Some(known) = context.measured_ids.get(key) {
-        return *known;
-    }
-    let id = match asset::read(context.py, path, "measured BSDF", bsdf::read) {
-        Ok(data) => Some(context.scene.add_measured(MeasuredBsdf::new(Origin::new(&path.resolved), data))),
-        Err(problem) => {
-            context.warn(origin, format!("{problem}; the surface is grey"));
-            None
-        }
-    };
-    context.measured_ids.insert(key.clone(), id);
-    id
+    network.host.measured(&shader.path, &path)
 }

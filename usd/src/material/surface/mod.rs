@@ -1,6 +1,9 @@
 //! Surface shaders as closures: each model has a file of its own.
 
+mod albedo;
 mod closures;
+mod facets;
+mod layers;
 mod lobes;
 mod materialx;
 mod measured;
@@ -8,20 +11,25 @@ mod omniverse;
 mod preview_surface;
 mod realitykit;
 
-use super::arithmetic::{colour, is_constant, multiply, scalar, subtract};
+use super::emit::{colour, is_constant, multiply, scalar, subtract};
 use super::network::{Network, Shader};
 use gonio::scene::{Closure, Input, Model};
 
 /// The closures of a surface shader; `None` where it is not one that is known.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
-    match shader.id.as_str() {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Vec<Closure>> {
+    match &*shader.id {
         "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader" => Some(preview_surface::convert(network, shader)),
         measured::ID => Some(vec![measured::convert(network, shader)]),
         _ => materialx::convert(network, shader)
             .map(|closure| vec![closure])
             .or_else(|| realitykit::convert(network, shader))
             .or_else(|| omniverse::convert(network, shader))
-            .or_else(|| closures::convert(network, shader)),
+            .or_else(|| closures::convert(network, shader))
+            .or_else(|| {
+                // A surface that is defined by a graph.
+                let inside = network.inside(shader)?;
+                network.within(&inside, |network| convert(network, &inside)).flatten()
+            }),
     }
 }
 
@@ -42,7 +50,7 @@ fn straight(weight: Input) -> Closure {
 }
 
 /// Multiplies what closures scatter and emit.
-fn weighted(network: &mut Network<'_, '_, '_>, mut closures: Vec<Closure>, weight: Input) -> Vec<Closure> {
+fn weighted(network: &mut Network<'_>, mut closures: Vec<Closure>, weight: Input) -> Vec<Closure> {
     for closure in &mut closures {
         closure.weight = multiply(&mut network.graph, closure.weight, weight);
     }
@@ -51,7 +59,7 @@ fn weighted(network: &mut Network<'_, '_, '_>, mut closures: Vec<Closure>, weigh
 }
 
 /// Closures of which only a share is there; through the rest light goes straight.
-fn with_opacity(network: &mut Network<'_, '_, '_>, closures: Vec<Closure>, opacity: Input) -> Vec<Closure> {
+fn with_opacity(network: &mut Network<'_>, closures: Vec<Closure>, opacity: Input) -> Vec<Closure> {
     if is_constant(opacity, 1.0) {
         return closures;
     }

@@ -1,15 +1,15 @@
 //! Omniverse's materials, whose code is in MDL files: `OmniPBR` with its variants and `OmniGlass`.
 
-use crate::material::arithmetic::{binary, colour, component, is_constant, luminance, mix, multiply, scalar, subtract};
+use crate::material::emit::{binary, colour, component, is_constant, luminance, mix, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
-use crate::material::value::{Source, Value};
+use crate::material::neutral::{Source, Value};
 use gonio::scene::{Closure, Input, Model, Operation, TextureFilter, WrapMode};
 
 /// Normal reflectance of a dielectric whose `specular_level` is 1.
 const FULL_LEVEL: f32 = 0.08;
 
 /// The closures of a material of Omniverse; `None` for other shaders.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Vec<Closure>> {
     match shader.id.strip_prefix("mdl:")? {
         "OmniPBR" | "OmniPBRBase" | "OmniPBR_Opacity" | "OmniPBR_ClearCoat" | "OmniPBR_ClearCoat_Opacity" => {
             Some(vec![omni_pbr(network, shader)])
@@ -20,7 +20,7 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
 }
 
 /// The image of an input over the material's own placement; `None` where no image is named.
-fn image<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, name: &str, unstated: &str) -> Option<Input> {
+fn image(network: &mut Network<'_>, shader: &Shader, name: &str, unstated: &str) -> Option<Input> {
     match network.source(shader, name) {
         Source::Value(Value::Asset(path), _) if !path.authored.is_empty() => {}
         _ => return None,
@@ -37,11 +37,11 @@ fn image<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, name: &s
     Some(network.node(Operation::Image { texture, wrap, filter, scale: [1.0; 4], bias: [0.0; 4], fallback }, vec![coordinates]))
 }
 
-fn is_on<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, name: &str) -> bool {
+fn is_on(network: &mut Network<'_>, shader: &Shader, name: &str) -> bool {
     network.number(shader, name, 0.0) != 0.0
 }
 
-fn omni_pbr<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+fn omni_pbr(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let mut closure = Closure { model: Model::OpenPbr, ..Closure::default() };
     closure.set_input("base_color", albedo(network, shader));
     // Occlusion, roughness and metal may share an image.
@@ -68,18 +68,12 @@ fn omni_pbr<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Cl
     closure
 }
 
-fn image_value<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, name: &str) -> Option<Input> {
+fn image_value(network: &mut Network<'_>, shader: &Shader, name: &str) -> Option<Input> {
     image(network, shader, name, "raw").map(|image| component(image, 0))
 }
 
 /// A constant, and as much of an image's value as its influence says.
-fn influenced<'py>(
-    network: &mut Network<'_, '_, 'py>,
-    shader: &Shader<'py>,
-    [constant, influence]: [&str; 2],
-    default: f32,
-    image: Option<Input>,
-) -> Input {
+fn influenced(network: &mut Network<'_>, shader: &Shader, [constant, influence]: [&str; 2], default: f32, image: Option<Input>) -> Input {
     let constant = network.scalar(shader, constant, default);
     let Some(image) = image else { return constant };
     let influence = network.scalar(shader, influence, 0.0);
@@ -87,7 +81,7 @@ fn influenced<'py>(
 }
 
 /// The image or else the constant, desaturated, brightened and tinted.
-fn albedo<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+fn albedo(network: &mut Network<'_>, shader: &Shader) -> Input {
     let mut base = match image(network, shader, "diffuse_texture", "auto") {
         Some(image) => image,
         None => network.colour(shader, "diffuse_color_constant", [0.2; 3]),
@@ -107,7 +101,7 @@ fn albedo<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Inpu
     multiply(graph, base, tint)
 }
 
-fn emission<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Input {
+fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
     let mut radiance = match image(network, shader, "emissive_color_texture", "auto") {
         Some(image) => image,
         None => network.colour(shader, "emissive_color", [1.0, 0.1, 0.1]),
@@ -119,14 +113,14 @@ fn emission<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> In
     multiply(&mut network.graph, radiance, strength)
 }
 
-fn clear_coat<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure) {
+fn clear_coat(network: &mut Network<'_>, shader: &Shader, closure: &mut Closure) {
     closure.set_input("coat_weight", network.scalar(shader, "clearcoat_weight", 1.0));
     closure.set_input("coat_color", network.colour(shader, "clearcoat_tint", [1.0; 3]));
     closure.set_input("coat_roughness", network.scalar(shader, "clearcoat_reflection_roughness", 0.0));
     closure.set_input("coat_ior", network.scalar(shader, "clearcoat_ior", 1.56));
 }
 
-fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure) {
+fn opacity(network: &mut Network<'_>, shader: &Shader, closure: &mut Closure) {
     if !is_on(network, shader, "enable_opacity") {
         return;
     }
@@ -141,7 +135,7 @@ fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closur
 }
 
 /// The normal map; its green runs up unless `flip_tangent_v` is taken back.
-fn normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<gonio::scene::NodeId> {
+fn normal(network: &mut Network<'_>, shader: &Shader) -> Option<gonio::scene::NodeId> {
     let image = image(network, shader, "normalmap_texture", "raw")?;
     let scale = network.number(shader, "bump_factor", 1.0);
     let side = |flipped: bool| if flipped { -1.0 } else { 1.0 };
@@ -153,7 +147,7 @@ fn normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Opti
     Some(graph.add(Operation::NormalMap { scale, uv: None }, vec![turned]))
 }
 
-fn omni_glass<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+fn omni_glass(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let mut closure = Closure { model: Model::OpenPbr, ..Closure::default() };
     closure.set("transmission_weight", 1.0);
     let tint = match image(network, shader, "glass_color_texture", "auto") {

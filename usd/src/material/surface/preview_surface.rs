@@ -1,7 +1,7 @@
 //! UsdPreviewSurface as parameters of the surface block, by the UsdPreviewSurface specification.
 
 use super::{straight, weighted};
-use crate::material::arithmetic::{binary, constant_scalar, is_constant, multiply, scalar, subtract};
+use crate::material::emit::{binary, constant_scalar, is_constant, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::usd_nodes::tangent_normal;
 use gonio::scene::{Channel, Closure, Graph, Input, Model, NodeId, Operation};
@@ -23,12 +23,12 @@ pub(super) struct Names {
 }
 
 /// Converts the surface; its defaults are the specification's.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
     convert_as(network, shader, Names { base: "diffuseColor", base_default: [0.18; 3] })
 }
 
 /// Converts a surface of the same parameters but for these names.
-pub(super) fn convert_as<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, names: Names) -> Vec<Closure> {
+pub(super) fn convert_as(network: &mut Network<'_>, shader: &Shader, names: Names) -> Vec<Closure> {
     let mut closure = Closure { model: Model::PreviewSurface, ..Closure::default() };
     let diffuse = network.colour(shader, names.base, names.base_default);
     closure.set_input("base_color", diffuse);
@@ -59,7 +59,7 @@ pub(super) fn convert_as<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shade
 }
 
 /// F0 is the specular colour: a tint of what the index gives.
-fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, closure: &mut Closure, ior: Input) {
+fn specular_workflow(network: &mut Network<'_>, shader: &Shader, closure: &mut Closure, ior: Input) {
     let wanted = network.colour(shader, "specularColor", [0.0; 3]);
     closure.set("metalness", 0.0);
     let tint = match constant_scalar(ior) {
@@ -86,7 +86,7 @@ fn specular_workflow<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'p
 
 /// What opacity lacks goes straight through what the interface does not reflect, and leaves the reflection; with a threshold or the mode
 /// `presence` it removes the surface.
-fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, mut closure: Closure) -> Vec<Closure> {
+fn opacity(network: &mut Network<'_>, shader: &Shader, mut closure: Closure) -> Vec<Closure> {
     let opacity = network.scalar(shader, "opacity", 1.0);
     closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
     let is_presence = network.text(shader, "opacityMode").as_deref() == Some("presence");
@@ -110,7 +110,7 @@ fn opacity<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>, mut cl
 }
 
 /// The surface without its diffuse part; the metal's colour stays.
-fn reflection_alone(network: &mut Network<'_, '_, '_>, closure: &Closure) -> Closure {
+fn reflection_alone(network: &mut Network<'_>, closure: &Closure) -> Closure {
     let (base, metalness) = (closure.input("base_color").unwrap_or(scalar(0.0)), closure.input("metalness").unwrap_or(scalar(0.0)));
     let mut clear = closure.clone();
     clear.set_input("base_color", multiply(&mut network.graph, base, metalness));
@@ -129,7 +129,7 @@ fn interface_reflectance(graph: &mut Graph, closure: &Closure) -> Input {
     whole(graph, Operation::Fresnel, vec![cosine, ior])
 }
 
-fn normal<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<NodeId> {
+fn normal(network: &mut Network<'_>, shader: &Shader) -> Option<NodeId> {
     match tangent_normal(network, shader)? {
         Input::Constant(_) => None,
         tangent @ Input::Node(..) => Some(network.graph.add(Operation::NormalMap { scale: 1.0, uv: None }, vec![tangent])),

@@ -1,12 +1,12 @@
 //! RealityKit's surfaces, as Reality Composer and its exporters write them: the lit one has UsdPreviewSurface's parameters, the other shines.
 
 use super::{preview_surface, shining};
-use crate::material::arithmetic::{multiply, scalar};
+use crate::material::emit::{multiply, scalar};
 use crate::material::network::{Network, Shader};
 use gonio::scene::Closure;
 
 /// The closures of a RealityKit surface; `None` for other shaders.
-pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Option<Vec<Closure>> {
+pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Vec<Closure>> {
     match shader.id.trim_start_matches("ND_") {
         "realitykit_pbr_surfaceshader" | "realitykit_pbr_surfaceshader_2_0" => Some(lit(network, shader)),
         "realitykit_unlit_surfaceshader" => Some(vec![unlit(network, shader)]),
@@ -14,7 +14,7 @@ pub(super) fn convert<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'
     }
 }
 
-fn lit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Closure> {
+fn lit(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
     let names = preview_surface::Names { base: "baseColor", base_default: [1.0; 3] };
     let mut closures = preview_surface::convert_as(network, shader, names);
     // Half of `specular` is a dielectric as it comes.
@@ -27,7 +27,7 @@ fn lit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Vec<Clo
     closures
 }
 
-fn unlit<'py>(network: &mut Network<'_, '_, 'py>, shader: &Shader<'py>) -> Closure {
+fn unlit(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let mut closure = shining(network.colour(shader, "color", [1.0; 3]));
     closure.set_input("geometry_opacity", network.scalar(shader, "opacity", 1.0));
     closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);

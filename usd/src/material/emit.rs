@@ -1,6 +1,7 @@
-//! Arithmetic on node inputs that folds constants, so that only what varies over a surface becomes a node.
+//! The one place that emits a graph's nodes. What is known while the graph is made is computed here, so that only what varies over a surface
+//! becomes a node.
 
-use gonio::colour::luminance_of_pixel;
+use super::fold::fold;
 use gonio::scene::{Channel, Graph, Input, Operation};
 
 /// A number as an input.
@@ -26,6 +27,11 @@ pub(in crate::material) fn is_constant(input: Input, value: f32) -> bool {
     matches!(input, Input::Constant([r, g, b, _]) if r == value && g == value && b == value)
 }
 
+/// Whether the input is the same known number in all four components.
+fn is_all(input: Input, value: f32) -> bool {
+    matches!(input, Input::Constant(values) if values == [value; 4])
+}
+
 /// One component of an input.
 pub(in crate::material) fn component(input: Input, index: usize) -> Input {
     match input {
@@ -33,6 +39,22 @@ pub(in crate::material) fn component(input: Input, index: usize) -> Input {
         Input::Node(node, Channel::Rgb) => Input::Node(node, [Channel::R, Channel::G, Channel::B, Channel::A][index.min(3)]),
         single @ Input::Node(..) => single,
     }
+}
+
+/// The operation on inputs: a constant where all are and the operation needs nothing else, else a node.
+pub(in crate::material) fn apply(graph: &mut Graph, operation: Operation, inputs: &[Input]) -> Input {
+    let mut values = [[0.0; 4]; 4];
+    let mut known = inputs.len() <= values.len();
+    for (value, input) in values.iter_mut().zip(inputs) {
+        match input {
+            Input::Constant(constant) => *value = *constant,
+            Input::Node(..) => known = false,
+        }
+    }
+    if let Some(folded) = known.then(|| fold(&operation, &values)).flatten() {
+        return Input::Constant(folded);
+    }
+    Input::Node(graph.add(operation, inputs.to_vec()), Channel::Rgb)
 }
 
 /// `a · b`.
@@ -46,45 +68,59 @@ pub(in crate::material) fn multiply(graph: &mut Graph, a: Input, b: Input) -> In
     binary(graph, Operation::Multiply, a, b)
 }
 
+/// `a + b`.
+pub(in crate::material) fn add(graph: &mut Graph, a: Input, b: Input) -> Input {
+    match (is_all(a, 0.0), is_all(b, 0.0)) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => binary(graph, Operation::Add, a, b),
+    }
+}
+
 /// `a - b`.
 pub(in crate::material) fn subtract(graph: &mut Graph, a: Input, b: Input) -> Input {
-    binary(graph, Operation::Subtract, a, b)
+    if is_all(b, 0.0) { a } else { binary(graph, Operation::Subtract, a, b) }
+}
+
+/// `a / b`, zero where `b` is.
+pub(in crate::material) fn divide(graph: &mut Graph, a: Input, b: Input) -> Input {
+    if is_all(b, 1.0) { a } else { binary(graph, Operation::Divide, a, b) }
+}
+
+/// `1 - a`.
+pub(in crate::material) fn rest(graph: &mut Graph, a: Input) -> Input {
+    binary(graph, Operation::Subtract, scalar(1.0), a)
+}
+
+/// The operation on one input.
+pub(in crate::material) fn unary(graph: &mut Graph, operation: Operation, a: Input) -> Input {
+    apply(graph, operation, &[a])
 }
 
 /// The operation on two inputs: a constant if both are, else a node.
 pub(in crate::material) fn binary(graph: &mut Graph, operation: Operation, a: Input, b: Input) -> Input {
-    if let (Input::Constant(x), Input::Constant(y), Some(apply)) = (a, b, folding(&operation)) {
-        return Input::Constant(std::array::from_fn(|i| apply(x[i], y[i])));
-    }
-    Input::Node(graph.add(operation, vec![a, b]), Channel::Rgb)
-}
-
-fn folding(operation: &Operation) -> Option<fn(f32, f32) -> f32> {
-    Some(match operation {
-        Operation::Add => |a, b| a + b,
-        Operation::Subtract => |a, b| a - b,
-        Operation::Multiply => |a, b| a * b,
-        Operation::Divide => |a, b| if b == 0.0 { 0.0 } else { a / b },
-        Operation::Power => |a, b| if a < 0.0 { 0.0 } else { a.powf(b) },
-        Operation::Invert => |a, amount| amount - a,
-        _ => return None,
-    })
+    apply(graph, operation, &[a, b])
 }
 
 /// `background` where `mix` is 0, `foreground` where it is 1.
 pub(in crate::material) fn mix(graph: &mut Graph, background: Input, foreground: Input, mix: Input) -> Input {
-    if let (Input::Constant(a), Input::Constant(b), Input::Constant(t)) = (background, foreground, mix) {
-        return Input::Constant(std::array::from_fn(|i| a[i] * (1.0 - t[i]) + b[i] * t[i]));
+    if is_all(mix, 0.0) || background == foreground {
+        return background;
     }
-    Input::Node(graph.add(Operation::Mix, vec![background, foreground, mix]), Channel::Rgb)
+    if is_all(mix, 1.0) {
+        return foreground;
+    }
+    apply(graph, Operation::Mix, &[background, foreground, mix])
 }
 
 /// `value` held between `low` and `high`.
 pub(in crate::material) fn clamp(graph: &mut Graph, value: Input, low: Input, high: Input) -> Input {
-    if let (Input::Constant(v), Input::Constant(l), Input::Constant(h)) = (value, low, high) {
-        return Input::Constant(std::array::from_fn(|i| v[i].max(l[i]).min(h[i])));
-    }
-    Input::Node(graph.add(Operation::Clamp, vec![value, low, high]), Channel::Rgb)
+    apply(graph, Operation::Clamp, &[value, low, high])
+}
+
+/// 1 where `a < b`, else 0.
+pub(in crate::material) fn less(graph: &mut Graph, a: Input, b: Input) -> Input {
+    binary(graph, Operation::Less, a, b)
 }
 
 /// The first components of up to four inputs side by side.
@@ -102,8 +138,8 @@ pub(in crate::material) fn combine(graph: &mut Graph, parts: &[Input]) -> Input 
 /// The luminance of a linear Rec.709 colour.
 pub(in crate::material) fn luminance(graph: &mut Graph, input: Input) -> Input {
     match input {
-        Input::Constant([r, g, b, _]) => scalar(luminance_of_pixel([r, g, b])),
-        Input::Node(_, Channel::Rgb) => Input::Node(graph.add(Operation::Luminance, vec![input]), Channel::R),
+        Input::Node(_, Channel::Rgb) => component(unary(graph, Operation::Luminance, input), 0),
+        Input::Constant(_) => unary(graph, Operation::Luminance, input),
         single @ Input::Node(..) => single,
     }
 }
@@ -119,14 +155,19 @@ mod tests {
         assert_eq!(product, Input::Constant([0.1, 0.2, 0.4, 0.5]));
         assert_eq!(mix(&mut graph, scalar(1.0), scalar(3.0), scalar(0.5)), scalar(2.0));
         assert_eq!(luminance(&mut graph, colour([1.0; 3])), scalar(1.0));
+        assert_eq!(apply(&mut graph, Operation::Power, &[scalar(-2.0), scalar(2.0)]), scalar(0.0));
+        assert_eq!(divide(&mut graph, scalar(1.0), scalar(0.0)), scalar(0.0));
         assert!(graph.nodes.is_empty());
     }
 
     #[test]
-    fn one_times_a_node_is_the_node() {
+    fn what_changes_nothing_is_no_node() {
         let mut graph = Graph::default();
         let node = Input::Node(graph.add(Operation::Primvar { name: "a".into(), fallback: [0.0; 4] }, vec![]), Channel::Rgb);
         assert_eq!(multiply(&mut graph, scalar(1.0), node), node);
+        assert_eq!(add(&mut graph, node, scalar(0.0)), node);
+        assert_eq!(mix(&mut graph, node, scalar(2.0), scalar(0.0)), node);
+        assert_eq!(mix(&mut graph, node, scalar(2.0), scalar(1.0)), scalar(2.0));
         assert_eq!(graph.nodes.len(), 1);
     }
 }
