@@ -4,9 +4,11 @@ import pytest
 
 
 def shown(kind, output, prepare=None):
-    from beside_cycles import shining
+    """A maker of materials that shine with a node's output."""
 
     def make():
+        from beside_cycles import shining
+
         made, tree, colour = shining(f"{kind} {output}")
         node = tree.nodes.new(f"ShaderNode{kind}")
         if prepare is not None:
