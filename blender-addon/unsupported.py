@@ -91,7 +91,7 @@ WORLDS = {
     "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
     "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
-    "sky elsewhere": Limit("Sky Texture on surfaces and lamps", "an even sky of its usual brightness, without the sun"),
+    "sky elsewhere": Limit("Sky Texture on surfaces: the sun's disc; on lamps: the sky", "no disc; an even sky of its usual brightness"),
     "limb": _untold("Sky Texture: darkening towards the disc's limb, reddening from its top to its foot", "an even disc as bright"),
     "skies": _untold(
         "Sky Texture: Hošek and Wilkie's data for Rec.709 in the place of Cycles' for XYZ; atmospheres drawn anew",

@@ -75,6 +75,7 @@ class Exporter:
             self._world(depsgraph)
         if found.world or found.placements:
             limits.of_scene(depsgraph, self.report)
+        if found.world or found.placements or found.moved:
             changes.shading |= self._materials.look_around(self._surroundings(depsgraph), depsgraph)
         self._lights.write()
         changes.lights = self._lights.any_written

@@ -3,6 +3,8 @@
 
 import os
 import re
+import struct
+import zlib
 
 import bpy
 import numpy as np
@@ -69,6 +71,28 @@ def pixels_of(image):
         alpha = pixels[..., 1:] if channels == 2 else np.ones_like(pixels)
         return np.concatenate([np.repeat(pixels[..., :1], 3, axis=-1), alpha], axis=-1)
     return pixels if channels == 4 else np.concatenate([pixels, np.ones_like(pixels[..., :1])], axis=-1)
+
+
+def bytes_of(pixels, is_multiplied):
+    """Pixels of an image of bytes as those, the colours multiplied by alpha if asked for, cut off to whole numbers as Cycles does."""
+    values = np.round(np.clip(pixels, 0.0, 1.0) * 255.0).astype(np.uint8)
+    if is_multiplied:
+        values[..., :3] = values[..., :3].astype(np.uint16) * values[..., 3:] // 255
+    return values
+
+
+def png_of(values):
+    """A PNG file of bytes (height, width, 4), the bottom row first."""
+    height, width = values.shape[:2]
+    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)
+    rows[:, 1:] = values[::-1].reshape(height, -1)
+
+    def chunk(name, content):
+        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    parts = (chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(rows.tobytes(), 1)), chunk(b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
 
 
 def pixels_of_frame(image, number):

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..file_version import file_version
 from .colour_management import gonio_name, pixels_to_rec709, working_space
-from .image_files import frame_of, kind_of, kind_of_file, path_of, pixels_of, pixels_of_file, pixels_of_frame
+from .image_files import bytes_of, frame_of, kind_of, kind_of_file, path_of, pixels_of, pixels_of_file, pixels_of_frame, png_of
 
 # File formats that keep colours multiplied by alpha.
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
@@ -46,6 +46,31 @@ class Images:
             fields, buffers = make()
             space = "raw" if "pixels" in buffers else self._colour_space(image, report)
             description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": space, **fields}
+            self._slots.place(self._scene.put_texture, number, description, **buffers)
+        return number
+
+    def encoded(self, image, user, report, is_multiplied):
+        """The number of an image of bytes whose values stay as they are encoded, multiplied by alpha if asked for; None where it is of
+        another kind than one picture."""
+        if image.source not in ("FILE", "GENERATED"):
+            return None
+        self._users[image.session_uid] = user
+        key, make = self._source(image, user, report)
+        if key is None:
+            return None
+        if is_multiplied or key[0] not in ("file", "packed"):
+            if not (image.size[0] and image.size[1]):
+                return None
+            key = ("bytes", is_multiplied, *key)
+            name = f"{os.path.basename(image.filepath) or image.name}.png"
+
+            def make():
+                return {}, {"data": (name, png_of(bytes_of(pixels_of(image), is_multiplied)))}
+
+        number, is_new = self._slots.take((*key, "encoded"))
+        if is_new:
+            fields, buffers = make()
+            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": "raw", **fields}
             self._slots.place(self._scene.put_texture, number, description, **buffers)
         return number
 

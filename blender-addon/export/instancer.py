@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .mesh import as_shader_value, read
+from .mesh_attributes import as_shader_value, read
 from .object_attribute import object_attribute
 
 # Names of values that an instancer gives; the object's own where it gives none.

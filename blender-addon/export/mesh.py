@@ -5,55 +5,16 @@ import ctypes
 
 import numpy as np
 
-from .colour_management import colours_to_rec709
-from .material.inputs import (
-    ACTIVE_COLOUR,
-    ALPHA,
-    COMPUTED,
-    FACTOR,
-    GENERATED,
-    ISLAND,
-    PARAMETRIC,
-    POINTINESS,
-    POSITION,
-    SMOOTH_NORMAL,
-    TANGENT,
-    TRIANGLE,
-    UV,
-)
-from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points, edges_of, edges_to_points, islands, pointiness
+from .material.inputs import PARAMETRIC, SMOOTH_NORMAL, TANGENT, TRIANGLE, UV
+from .mesh_attributes import ATTRIBUTES, active_uv, read, spread_out, vertex_normals, wanted
+from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points
 from .tangents import tangents
-
-# Data type of an attribute -> (property to read, numbers in it, numpy type).
-ATTRIBUTES = {
-    "FLOAT": ("value", 1, np.float32),
-    "INT": ("value", 1, np.int32),
-    "INT8": ("value", 1, np.int32),
-    "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32),
-    "FLOAT2": ("vector", 2, np.float32),
-    "FLOAT_COLOR": ("color", 4, np.float32),
-    # Blender decodes bytes to linear values here.
-    "BYTE_COLOR": ("color", 4, np.float32),
-}
 
 # Three numbers of corners, as Blender keeps them.
 TRIANGLE_BYTES = 12
 
 # From faces of so many triangles on, Blender's own normals of points take longer than all the rest.
 MANY_TRIANGLES = 5000
-
-
-def read(attribute):
-    """The values of an attribute as (elements, numbers), or None for types that no shader can use."""
-    form = ATTRIBUTES.get(attribute.data_type)
-    if form is None:
-        return None
-    name, width, dtype = form
-    values = np.empty(len(attribute.data) * width, dtype=dtype)
-    attribute.data.foreach_get(name, values)
-    values = values.reshape(-1, width)
-    return colours_to_rec709(values) if name == "color" else values
 
 
 def fingerprint(mesh):
@@ -69,13 +30,8 @@ def fingerprint(mesh):
     mesh.calc_loop_triangles()
     faces = np.empty(len(mesh.loop_triangles), dtype=np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", faces)
-    parts += [hash(faces.tobytes()), mesh.normals_domain, _active_uv(mesh), tuple(mesh.texspace_location), tuple(mesh.texspace_size)]
+    parts += [hash(faces.tobytes()), mesh.normals_domain, active_uv(mesh), tuple(mesh.texspace_location), tuple(mesh.texspace_size)]
     return hash(tuple(parts))
-
-
-def _active_uv(mesh):
-    """Name of the UV map that renders, None if there is none."""
-    return next((layer.name for layer in mesh.uv_layers if layer.active_render), None)
 
 
 def mesh_arguments(mesh, primvars):
@@ -93,13 +49,13 @@ def mesh_arguments(mesh, primvars):
     # The scene tells points from corners by their number: where both are as many, each corner gets a point of its own.
     spread = corners if len(points) == len(corners) else None
     arguments = {
-        "points": _spread(points, spread),
+        "points": spread_out(points, spread),
         "triangles": _triangles(mesh, count),
         "corners": corners if spread is None else None,
         "faces": faces,
         "normals": _normals(mesh, spread, points, corners, faces),
         "slots": _slots(mesh),
-        "primvars": {**_uv_maps(mesh, primvars), **_wanted(mesh, points, primvars, spread)},
+        "primvars": {**_uv_maps(mesh, primvars), **wanted(mesh, points, primvars, spread)},
     }
     _add_tangents(arguments, mesh, corners, primvars)
     own = [name for name in (PARAMETRIC, *TRIANGLE) if name in primvars]
@@ -108,8 +64,8 @@ def mesh_arguments(mesh, primvars):
 
 def _add_tangents(arguments, mesh, corners, primvars):
     """Adds the normals in the mesh's own space, and tangents, where they are wanted."""
-    wanted = [name for name in primvars if name.startswith(TANGENT)]
-    if SMOOTH_NORMAL not in primvars and not wanted:
+    names = [name for name in primvars if name.startswith(TANGENT)]
+    if SMOOTH_NORMAL not in primvars and not names:
         return
     normals = arguments["normals"]
     if normals is None:
@@ -120,8 +76,8 @@ def _add_tangents(arguments, mesh, corners, primvars):
     arguments["primvars"][SMOOTH_NORMAL] = normals
     points, per_corner = arguments["points"], normals if len(normals) == len(corners) else normals[corners]
     of_points = np.arange(len(corners)) if arguments["corners"] is None else corners
-    for name in wanted:
-        layer = mesh.uv_layers.get(name.removeprefix(TANGENT)) if name != TANGENT + UV else mesh.uv_layers.get(_active_uv(mesh) or "")
+    for name in names:
+        layer = mesh.uv_layers.get(name.removeprefix(TANGENT)) if name != TANGENT + UV else mesh.uv_layers.get(active_uv(mesh) or "")
         if layer is not None:
             uv = np.empty((len(corners), 2), dtype=np.float32)
             layer.uv.foreach_get("vector", uv.reshape(-1))
@@ -136,11 +92,6 @@ def _with_triangles_own(arguments, names):
         values = np.tile(PARAMETRIC_CORNERS, (len(arguments["triangles"]), 1)) if number is None else corner_points(arguments, number)
         arguments["primvars"][name] = np.ascontiguousarray(values)
     return arguments
-
-
-def _spread(values, corners):
-    """Values of points as values of corners, if that is asked for."""
-    return values if corners is None else np.ascontiguousarray(values[corners])
 
 
 def _triangles(mesh, count):
@@ -167,14 +118,8 @@ def _normals(mesh, spread, points, corners, faces):
         mesh.corner_normals.foreach_get("vector", normals.reshape(-1))
         return normals
     if np.bincount(faces).max() > MANY_TRIANGLES:
-        return _spread(_point_normals(mesh, points, corners), spread)
-    return _spread(_vertex_normals(mesh), spread)
-
-
-def _vertex_normals(mesh):
-    normals = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-    mesh.vertex_normals.foreach_get("vector", normals.reshape(-1))
-    return normals
+        return spread_out(_point_normals(mesh, points, corners), spread)
+    return spread_out(vertex_normals(mesh), spread)
 
 
 def _point_normals(mesh, points, corners):
@@ -220,74 +165,3 @@ def _uv_maps(mesh, primvars):
         if not layer.active_render or layer.name in primvars:
             maps[layer.name] = values
     return maps
-
-
-def _wanted(mesh, points, primvars, spread):
-    """The other named values that materials want of this mesh, as far as it has them."""
-    found = {}
-    for name in primvars:
-        if name == POSITION:
-            found[name] = _spread(points, spread)
-        elif name == GENERATED:
-            found[name] = _spread(_generated(mesh, points), spread)
-        elif name == POINTINESS:
-            found[name] = _spread(as_shader_value(pointiness(points, _vertex_normals(mesh), edges_of(mesh))[:, None]), spread)
-        elif name == ISLAND:
-            found[name] = _spread(as_shader_value(islands(len(points), edges_of(mesh))[:, None]), spread)
-        elif name not in COMPUTED:
-            attribute = _attribute(mesh, name)
-            # A UV map is there already.
-            if attribute is not None and (attribute.name not in mesh.uv_layers or name != attribute.name):
-                values = _part(read(attribute), name)
-                if values is not None:
-                    found[name] = _placed(mesh, attribute, values, spread)
-    return found
-
-
-def _part(values, name):
-    """The values themselves, or what they are as one number or as alpha: the mean of colours and vectors of three, the first of two, 1."""
-    if values is None or not name.startswith((FACTOR, ALPHA)):
-        return values
-    width = values.shape[1]
-    if name.startswith(FACTOR):
-        return values[:, :3].mean(axis=1, keepdims=True) if width > 2 else values[:, :1]
-    return values[:, 3:] if width > 3 else np.ones((len(values), 1), dtype=np.float32)
-
-
-def _placed(mesh, attribute, values, spread):
-    """Values of points or corners; those of faces are given to their corners, whose number cannot be mistaken, those of edges to points."""
-    if attribute.domain == "EDGE":
-        values = edges_to_points(values, edges_of(mesh), len(mesh.vertices), attribute.data_type)
-    values = as_shader_value(values)
-    if attribute.domain == "FACE":
-        lengths = np.empty(len(mesh.polygons), dtype=np.int32)
-        mesh.polygons.foreach_get("loop_total", lengths)
-        return np.repeat(values, lengths, axis=0)
-    return values if attribute.domain == "CORNER" else _spread(values, spread)
-
-
-def present(mesh, primvars):
-    """Which of these names the mesh can give."""
-    return [name for name in primvars if name in COMPUTED or name.startswith(TANGENT) or _attribute(mesh, name) is not None]
-
-
-def _attribute(mesh, name):
-    if name != ACTIVE_COLOUR:
-        return mesh.attributes.get(name) or mesh.attributes.get(name.removeprefix(FACTOR).removeprefix(ALPHA))
-    number = mesh.color_attributes.render_color_index
-    return mesh.color_attributes[number] if 0 <= number < len(mesh.color_attributes) else None
-
-
-def as_shader_value(values):
-    """One number fills a colour with alpha 1, as Blender converts it."""
-    values = np.ascontiguousarray(values, dtype=np.float32)
-    if values.shape[1] == 1:
-        return np.concatenate([np.repeat(values, 3, axis=1), np.ones_like(values)], axis=1)
-    return values
-
-
-def _generated(mesh, points):
-    """Positions over the texture space's box, 0 to 1."""
-    centre, size = np.array(mesh.texspace_location), np.array(mesh.texspace_size)
-    size = np.where(size == 0.0, 1.0, size)
-    return ((points - (centre - size)) / (2.0 * size)).astype(np.float32)

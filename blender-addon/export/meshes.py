@@ -5,7 +5,8 @@ import numpy as np
 
 from ..report import words_of
 from .gather import AS_MESH
-from .mesh import fingerprint, mesh_arguments, present
+from .mesh import fingerprint, mesh_arguments
+from .mesh_attributes import present
 
 
 class Meshes:

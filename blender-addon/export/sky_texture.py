@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's Sky Texture in worlds: a picture of the sky, and the sun's disc as a light of its own."""
+"""Blender's Sky Texture: a picture of the sky, and in worlds the sun's disc as a light of its own."""
 
 from dataclasses import dataclass
 from math import asin, atan2, degrees, fmod, pi
@@ -8,7 +8,7 @@ import gonio
 import numpy as np
 from mathutils import Matrix
 
-from .material.inputs import direction
+from .material.inputs import GENERATED, direction
 from .material.textures import coordinates, equirectangular
 from .material.translator import value_node
 from .material.vectors import transform3d
@@ -41,13 +41,27 @@ class Picture:
 
 @value_node("ShaderNodeTexSky")
 def sky_texture(t, node, context, output):
-    """The node's value in a world; elsewhere its stand-in."""
-    if not t.is_world:
+    """The node's value in worlds and on surfaces; on lamps its stand-in."""
+    if not t.is_world and t.kind != "Material":
         return None
-    towards = coordinates(t, node, context, direction(t))
+    towards = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
     picture, azimuth = _drawn(node)
     turned = transform3d(t, towards, Matrix.Rotation(azimuth, 4, "Z"))
-    return t.sky(picture, turned, equirectangular(t, turned))
+    if t.is_world:
+        return t.sky(picture, turned, equirectangular(t, turned))
+    if any(picture.sun):
+        t.tell("sky elsewhere", node, context)
+    return _on_surface(t, node, context, picture, turned)
+
+
+def _on_surface(t, node, context, picture, towards):
+    """The picture where a vector points, whose height counts as it is, whatever its length."""
+    path = "/".join([*(group.name for group in context.groups()), node.name])
+    number = t.images.changing(("sky on surfaces", t.owner.original.session_uid, path), picture.name, picture.pixels)
+    height = towards.component(2).apply("ArcSine") * (1.0 / pi) + 0.5
+    place = t.graph.combine(equirectangular(t, towards).component(0), height, t.graph.scalar(0.0))
+    looks = {"wrap": ["Repeat", "Clamp"], "filter": "Linear", "scale": [1.0] * 4, "bias": [0.0] * 4, "fallback": [0.0] * 4}
+    return t.graph.add({"Image": {"texture": number, **looks}}, place, kind="RGBA")
 
 
 def _drawn(node):

@@ -7,8 +7,8 @@ import numpy as np
 
 from .object_attribute import attribute_of
 
-# Key of the camera, and how keys of the view layer's properties begin.
-CAMERA, LAYER = "camera", "layer "
+# Key of the camera, and how keys begin of the view layer's properties, and of objects by their session_uid.
+CAMERA, LAYER, OBJECT = "camera", "layer ", "object "
 
 
 @dataclass(frozen=True)
@@ -31,16 +31,24 @@ class Surroundings:
     """The scene as of now; holds Blender data, so it is not kept."""
 
     def __init__(self, camera=None, depsgraph=None):
-        self._camera, self._depsgraph = camera, depsgraph
+        self._camera, self._depsgraph, self._objects = camera, depsgraph, None
 
     def ask(self, key):
-        """The camera, or a property of the view layer, the scene or the world; None for what there is not."""
+        """The camera, a property of the view layer, the scene or the world, or the matrix to an object's space; None if there is none."""
         if key == CAMERA:
             return None if self._camera is None else eye_of(self._camera)
         if self._depsgraph is None:
             return None
+        if key.startswith(OBJECT):
+            return self._to_object(int(key.removeprefix(OBJECT)))
         layer, scene = self._depsgraph.view_layer, self._depsgraph.scene
         return attribute_of((layer, scene, scene.world), key.removeprefix(LAYER))
+
+    def _to_object(self, uid):
+        if self._objects is None:
+            self._objects = {thing.original.session_uid: thing for thing in self._depsgraph.objects}
+        thing = self._objects.get(uid)
+        return None if thing is None else _rows(*thing.matrix_world.inverted_safe()[:3])
 
     def answers(self, asked):
         """Whether the answers of earlier are still right."""

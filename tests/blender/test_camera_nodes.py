@@ -65,7 +65,6 @@ def leaves(shown):
 
 @pytest.mark.blender
 def test_what_the_camera_sees_is_what_cycles_computes(tmp_path):
-    import bpy
     import numpy as np
     from beside_cycles import both, scene
     from bpy_extras.object_utils import world_to_camera_view
@@ -136,3 +135,34 @@ def test_worlds_have_no_camera_and_say_so():
     export.sync(depsgraph())
     assert [line.node for line in report.diagnostics if line.severity == "WARNING"] == ["Camera Data"]
     assert bpy.context.scene is made
+
+
+@pytest.mark.blender
+def test_materials_follow_the_object_that_they_lie_along():
+    import bpy
+    from beside_cycles import link, scene, shining
+    from recorder import depsgraph, exporter
+
+    scene(8)
+    guide = link(bpy.data.objects.new("Guide", None))
+
+    def along():
+        material, tree, colour = shining("along")
+        node = tree.nodes.new("ShaderNodeTexCoord")
+        node.object = guide
+        tree.links.new(node.outputs["Object"], colour)
+        return material
+
+    leaves({"along": along})
+    export, _ = exporter()
+    recorded = export.sync(depsgraph())
+    seen = []
+    bpy.app.handlers.depsgraph_update_post.append(lambda _, graph: seen.append(export.update(graph)))
+    guide.location = (1.0, 2.0, 3.0)
+    bpy.context.view_layer.update()
+    bpy.app.handlers.depsgraph_update_post.pop()
+    assert [changes.shading for changes in seen if changes.anything] == [True]
+    moved = [
+        node["operation"]["Transform3d"]["rows"] for node in recorded.materials[0]["graph"]["nodes"] if "Transform3d" in node["operation"]
+    ]
+    assert [[round(row[3], 5) for row in rows] for rows in moved] == [[-1.0, -2.0, -3.0]], moved

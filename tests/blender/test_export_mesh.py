@@ -59,7 +59,9 @@ def test_arrays_of_a_mesh(tmp_path):
     assert found["normals"].shape == (7, 3) and np.allclose(found["normals"][:4], (0, 0, 1), atol=1e-5)
     assert set(found["primvars"]) == {"st", "First", "factor of heat", "paint", "blender generated"}
     assert np.allclose(found["primvars"]["st"].ravel(), -np.arange(14)) and np.allclose(found["primvars"]["First"].ravel(), np.arange(14))
-    assert np.allclose(found["primvars"]["factor of heat"][:, 0], [0.0, 0.1, 0.2, 0.3, 0.4]) and found["primvars"]["factor of heat"].shape == (5, 4)
+    assert np.allclose(found["primvars"]["factor of heat"][:, 0], [0.0, 0.1, 0.2, 0.3, 0.4]) and found["primvars"][
+        "factor of heat"
+    ].shape == (5, 4)
     assert np.allclose(found["primvars"]["paint"][0], (0.5, 0.25, 0.125, 1.0), atol=0.01)
     generated = found["primvars"]["blender generated"]
     assert np.allclose(generated.min(axis=0), 0.0) and np.allclose(generated.max(axis=0), 1.0)

@@ -28,7 +28,11 @@ CASES = {
     "Parametric": shown("NewGeometry", "Parametric"),
     "Wire": shown("Wireframe", 0, Size=0.08),
     "Pixel wire": shown("Wireframe", 0, Size=3.0, use_pixel_size=True),
-    **{f"{name} {output}": shown("Attribute", output, attribute_name=name) for name in ("bend", "count", "seam", "flow") for output in (0, 3)},
+    **{
+        f"{name} {output}": shown("Attribute", output, attribute_name=name)
+        for name in ("bend", "count", "seam", "flow")
+        for output in (0, 3)
+    },
     **{f"{name} {output}": shown("Attribute", output, attribute_name=name) for name in ("flat", "Map") for output in (0, 1, 2, 3)},
     "flow 2": shown("Attribute", 2, attribute_name="flow"),
     "unnamed": shown("Attribute", 3),

@@ -37,11 +37,18 @@ def shown(image=None, output=0, **fields):
 
 
 CASES = {
-    **{f"cubic {wrap}": shown(lambda: picture("A"), interpolation="Cubic", extension=wrap) for wrap in ("REPEAT", "EXTEND", "CLIP", "MIRROR")},
+    **{
+        f"cubic {wrap}": shown(lambda: picture("A"), interpolation="Cubic", extension=wrap)
+        for wrap in ("REPEAT", "EXTEND", "CLIP", "MIRROR")
+    },
     "smart": shown(lambda: picture("B"), interpolation="Smart"),
     "sphere": shown(lambda: picture("C"), projection="SPHERE"),
     "tube": shown(lambda: picture("D"), projection="TUBE"),
     "closest": shown(lambda: picture("E", alpha=True, is_float=False), interpolation="Closest"),
+    "bytes": shown(lambda: picture("F", is_float=False)),
+    "bytes, alpha": shown(lambda: picture("G", alpha=True, is_float=False)),
+    "bytes, alpha alone": shown(lambda: picture("H", alpha=True, is_float=False), 1),
+    "bytes, alpha, cubic": shown(lambda: picture("I", alpha=True, is_float=False), interpolation="Cubic", extension="CLIP"),
     "none": shown(),
     "no alpha": shown(output=1),
 }

@@ -48,7 +48,7 @@ def test_placements_know_what_cycles_knows(tmp_path):
         thing = leaf(" ".join(case), shown(*case), 0.5)
         thing.location, thing.color, thing.pass_index = (number - 0.5 * len(cases) + 0.5, 0.5, 0), (0.1, 0.2, 0.3, 0.4), 7
     cycles, gonio = (picture[1] for picture in both(tmp_path))
-    assert np.abs(cycles - gonio).max() < 1e-5 and cycles[:14].max() > 1.0, (cycles - gonio)
+    assert np.abs(cycles - gonio).max() < 1e-5 and cycles[:14].max() > 1.0, cycles - gonio
 
 
 def emitter(output, place):

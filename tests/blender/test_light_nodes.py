@@ -4,6 +4,8 @@ import pytest
 
 
 def shown(kind, output, prepare=None):
+    """A maker of materials that shine with a node's output."""
+
     def make():
         from beside_cycles import shining
 
@@ -29,7 +31,11 @@ def tinted(node):
 
 
 CASES = {
-    **{f"{output} {value}": shown("LightFalloff", output, smooth(value)) for output in ("Quadratic", "Linear", "Constant") for value in (0, 3)},
+    **{
+        f"{output} {value}": shown("LightFalloff", output, smooth(value))
+        for output in ("Quadratic", "Linear", "Constant")
+        for value in (0, 3)
+    },
     "length": shown("LightPath", "Ray Length"),
     **{f"to rgb {output}": shown("ShaderToRGB", output) for output in ("Color", "Alpha")},
     "squeeze": shown("Squeeze", 0),

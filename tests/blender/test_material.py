@@ -126,8 +126,8 @@ def test_unsupported_nodes_are_reported_once_with_their_place(tmp_path):
     empty()
     group = bpy.data.node_groups.new("Rust", "ShaderNodeTree")
     group.interface.new_socket("Fac", in_out="OUTPUT", socket_type="NodeSocketFloat")
-    occlusion, stop = group.nodes.new("ShaderNodeAmbientOcclusion"), group.nodes.new("NodeGroupOutput")
-    group.links.new(occlusion.outputs["AO"], stop.inputs[0])
+    near, stop = group.nodes.new("ShaderNodeAmbientOcclusion"), group.nodes.new("NodeGroupOutput")
+    group.links.new(near.outputs["AO"], stop.inputs[0])
     made, tree, end = material("木")
     holder, shader = tree.nodes.new("ShaderNodeGroup"), tree.nodes.new("ShaderNodeBsdfPrincipled")
     holder.node_tree = group

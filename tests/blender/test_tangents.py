@@ -54,7 +54,9 @@ def ball(number, is_smooth, cover):
     uv = uv.reshape(-1, 2)
     uv[:, 0] = np.where(uv[:, 0] > 0.5, 1.0 - uv[:, 0], uv[:, 0])
     mesh.uv_layers[0].uv.foreach_set("vector", uv.ravel())
-    mesh.uv_layers.new(name="Other").uv.foreach_set("vector", (uv @ np.array([[0.6, 0.8], [-0.8, 0.6]]) + uv[:, ::-1] ** 2).astype("f4").ravel())
+    mesh.uv_layers.new(name="Other").uv.foreach_set(
+        "vector", (uv @ np.array([[0.6, 0.8], [-0.8, 0.6]]) + uv[:, ::-1] ** 2).astype("f4").ravel()
+    )
     mesh.materials.append(cover)
     thing = link(bpy.data.objects.new("Ball", mesh))
     # Two objects of a mesh: meshes of one alone are transformed by Cycles beforehand.

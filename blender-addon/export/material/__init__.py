@@ -20,6 +20,7 @@ from . import (  # noqa: F401 (they register their nodes)
     nearby,
     principled,
     procedural,
+    tangent_nodes,
     textures,
     vectors,
     wireframe,

@@ -10,7 +10,7 @@ USUAL_WIDTH = 0.1
 
 
 def bent_by(t, smooth, height, width=USUAL_WIDTH, distance=1.0, strength=1.0):
-    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit; `height` computes the height where it is asked."""
+    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit; `height` computes one where it is asked."""
     if width <= 0.0:
         return smooth
     here = height()

@@ -2,10 +2,9 @@
 """Shader nodes that are one closure each."""
 
 from ...units import LUMENS_PER_WATT
-from .inputs import hit
 from .sockets import input_socket
+from .tangent_nodes import radial_tangent
 from .translator import closure_node
-from .vectors import radial_tangent
 
 DISTRIBUTIONS = {"MULTI_GGX": "MultiGgx", "GGX": "Ggx", "BECKMANN": "Beckmann", "ASHIKHMIN_SHIRLEY": "AshikhminShirley"}
 SUBSURFACE = {

@@ -4,8 +4,8 @@
 from .bump import bent_by
 from .inputs import UV, hit, normal_of
 from .sockets import input_socket
+from .tangent_nodes import tangent_of
 from .translator import value_node
-from .vectors import tangent_of
 
 
 def bend(t, end, material):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
 
-from ..surroundings import LAYER
+from ..surroundings import LAYER, OBJECT
 from .translator import value_node
 
 # Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
@@ -60,7 +60,8 @@ def texture_coordinates(t, node, context, output):
     if name == "Object":
         if node.object is None:
             return t.primvar(POSITION)
-        return to_object_space(t, hit(t, "Position"), node.object.matrix_world.inverted_safe())
+        rows = t.ask(f"{OBJECT}{node.object.original.session_uid}") or node.object.matrix_world.inverted_safe()
+        return to_object_space(t, hit(t, "Position"), rows)
     if name == "Normal":
         return t.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Normal"}}, hit(t, "Normal"), kind="VECTOR")
     if name == "Reflection":
@@ -117,7 +118,7 @@ def geometry(t, node, context, output):
     if name == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
     if name == "Tangent":
-        from .vectors import radial_tangent
+        from .tangent_nodes import radial_tangent
 
         return radial_tangent(t)
     computed = {"Pointiness": POINTINESS, "Random Per Island": ISLAND, "Parametric": PARAMETRIC}.get(name)

@@ -16,7 +16,7 @@ ITERATION = "Iteration"
 
 
 class Found(NamedTuple):
-    """Where a value comes from: a node's output, or an unlinked input with no node; and the kinds of the sockets it passes, from its end."""
+    """Where a value comes from: a node's output, or an unlinked input with no node; and the kinds of sockets it passes, from its end."""
 
     node: object
     output: object

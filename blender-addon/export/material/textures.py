@@ -5,7 +5,7 @@ from math import pi
 
 from ..colour_management import gonio_name
 from .box_projection import box_projection
-from .image_filter import multiplied_encoded
+from .image_filter import decoded, multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
@@ -38,15 +38,23 @@ def image_texture(t, node, context, output):
 
 
 def _texel(t, node, context, output, uv):
-    return _with_alpha(t, node, output, _sample(t, node, context, uv, WRAP[node.extension]))
+    wrap, image = WRAP[node.extension], node.image
+    if t.kind == "Material" and image is not None and node.interpolation != "Closest" and _is_encoded(image):
+        is_multiplied = _is_multiplied(t, node, output)
+        number = t.images.encoded(image, node.image_user, t.report, is_multiplied)
+        if number is not None:
+            texel = _look_up(t, node, number, uv, wrap)
+            texel = texel if output.identifier == "Alpha" else decoded(t, texel, texel.component(3))
+            return texel if is_multiplied else _with_alpha(t, node, output, texel)
+    return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
 
 
 def _sample(t, node, context, uv, wrap):
-    if node.image is None:
-        return t.graph.colour(MISSING)
-    number = t.images.texture(node.image, node.image_user, t.report)
-    if number is None:
-        return t.graph.colour(MISSING)
+    number = None if node.image is None else t.images.texture(node.image, node.image_user, t.report)
+    return t.graph.colour(MISSING) if number is None else _look_up(t, node, number, uv, wrap)
+
+
+def _look_up(t, node, number, uv, wrap):
     fields = {
         "texture": number,
         "wrap": [wrap, wrap],
@@ -58,26 +66,37 @@ def _sample(t, node, context, uv, wrap):
     return t.graph.add({"Image": fields}, uv, kind="RGBA")
 
 
+def _is_encoded(image):
+    """Whether an image's colours are bytes of sRGB, which Cycles decodes after it filtered them."""
+    space = image.colorspace_settings
+    return not image.is_float and not space.is_data and gonio_name(space.name) == "srgb_texture"
+
+
+def _is_multiplied(t, node, output):
+    """Cycles' rule: colours are multiplied by alpha, unless the Alpha output is in use too; data, and what has no alpha, never."""
+    image = node.image
+    return (
+        output.identifier != "Alpha"
+        and image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
+        and not image.colorspace_settings.is_data
+        and t.images.has_alpha(image)
+        and not t.images.stores_premultiplied(image)
+        and not node.outputs["Alpha"].is_linked
+    )
+
+
 def _with_alpha(t, node, output, texel):
-    """Cycles' rule: colours stand multiplied by alpha, unless the Alpha output is in use too."""
-    mode = node.image.alpha_mode if node.image else "NONE"
+    """A texel as an output shows it."""
+    image = node.image
     if output.identifier == "Alpha":
-        return t.graph.scalar(1.0) if mode == "NONE" else texel.component(3)
-    # Data is taken as it stands.
-    if (
-        mode in ("NONE", "CHANNEL_PACKED")
-        or texel.is_constant
-        or node.image.colorspace_settings.is_data
-        or not t.images.has_alpha(node.image)
-    ):
+        return t.graph.scalar(1.0) if image is None or image.alpha_mode == "NONE" else texel.component(3)
+    if image is None or texel.is_constant:
         return texel
-    is_premultiplied = mode == "PREMUL" or t.images.stores_premultiplied(node.image)
-    if node.outputs["Alpha"].is_linked:
-        return texel / texel.component(3) if is_premultiplied else texel
-    if is_premultiplied:
-        return texel
-    is_bytes = not node.image.is_float and gonio_name(node.image.colorspace_settings.name) == "srgb_texture"
-    return multiplied_encoded(t, texel, node.interpolation == "Closest") if is_bytes else texel * texel.component(3)
+    if _is_multiplied(t, node, output):
+        return multiplied_encoded(t, texel, node.interpolation == "Closest") if _is_encoded(image) else texel * texel.component(3)
+    stores_product = image.alpha_mode == "PREMUL" or (image.alpha_mode == "STRAIGHT" and t.images.stores_premultiplied(image))
+    takes_apart = stores_product and not image.colorspace_settings.is_data and t.images.has_alpha(image)
+    return texel / texel.component(3) if takes_apart and node.outputs["Alpha"].is_linked else texel
 
 
 def _wrapped_around(t, value, projection):
