@@ -43,6 +43,12 @@ pub fn constant(value: [f32; 4]) -> Value {
     value.map(Operand::Constant)
 }
 
+/// A value's components, if all are constants.
+pub(crate) fn constants(value: Value) -> Option<[f32; 4]> {
+    let [x, y, z, w] = value.map(Operand::constant);
+    Some([x?, y?, z?, w?])
+}
+
 /// What computes a step; `X` is what the host of the graph knows: hits, images.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kernel<X> {

@@ -56,7 +56,6 @@ impl MxCellNoise {
 
 /// What Worley noise gives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
 pub enum MxWorleyStyle {
     /// Distances to the nearest, second and third point.
     #[default]

@@ -11,6 +11,8 @@ use crate::{
     columns::Io,
     gabor::GaborTexture,
     magic::MagicTexture,
+    mx_noise::{MxFractal, MxNoise},
+    mx_worley::{MxCellNoise, MxWorley},
     noise::NoiseTexture,
     radial_tiling::RadialTiling,
     vector::{hsv_to_rgb, luminance, matrix_transform, normalize, rgb_to_hsv},
@@ -266,6 +268,20 @@ operations! {
         Wavelength<light: Wavelength>(l, wavelength: 1) -> 3, Zero = light.evaluate(l, &wavelength);
         /// The linear Rec.709 colour of a black body of a temperature in kelvin, as Blender's Blackbody node has it.
         Blackbody(l, temperature: 1) -> 3, Zero = blackbody::Blackbody.evaluate(l, &temperature);
+        /// MaterialX's gradient noise, about in [-1, 1].
+        MxNoise<noise: MxNoise>(l, texcoord: 3) -> 4, Zero = noise.evaluate(l, &texcoord);
+        /// MaterialX's fractal of that noise.
+        MxFractal<noise: MxFractal>(l, texcoord: 3, octaves: 1, lacunarity: 1, diminish: 1) -> 4, Zero = {
+            let [x, y, z] = texcoord;
+            noise.evaluate(l, &[x, y, z, octaves[0], lacunarity[0], diminish[0]])
+        };
+        /// MaterialX's noise of whole cells, in [0, 1].
+        MxCellNoise<noise: MxCellNoise>(l, texcoord: 3) -> 3, Zero = noise.evaluate(l, &texcoord);
+        /// MaterialX's Worley noise: distances to points, or the cell.
+        MxWorley<noise: MxWorley>(l, texcoord: 3, jitter: 1) -> 3, Zero = {
+            let [x, y, z] = texcoord;
+            noise.evaluate(l, &[x, y, z, jitter[0]])
+        };
         /// Blender's Voronoi Texture; the outputs are those of its [`Part`](crate::voronoi::Part).
         VoronoiTexture<texture: VoronoiTexture>(
             l, vector: 3, w: 1, scale: 1, detail: 1, roughness: 1, lacunarity: 1, smoothness: 1, exponent: 1, randomness: 1

@@ -1,8 +1,8 @@
 //! The one place that emits a graph's nodes. What is known while the graph is made is computed here, so that only what varies over a surface
 //! becomes a node.
 
-use super::fold::fold;
 use gonio::scene::{Channel, Graph, Input, Operation};
+use gonio_nodes::fold;
 
 /// A number as an input.
 pub(in crate::material) fn scalar(value: f32) -> Input {
@@ -43,15 +43,13 @@ pub(in crate::material) fn component(input: Input, index: usize) -> Input {
 
 /// The operation on inputs: a constant where all are and the operation needs nothing else, else a node.
 pub(in crate::material) fn apply(graph: &mut Graph, operation: Operation, inputs: &[Input]) -> Input {
-    let mut values = [[0.0; 4]; 4];
-    let mut known = inputs.len() <= values.len();
-    for (value, input) in values.iter_mut().zip(inputs) {
-        match input {
-            Input::Constant(constant) => *value = *constant,
-            Input::Node(..) => known = false,
-        }
-    }
-    if let Some(folded) = known.then(|| fold(&operation, &values)).flatten() {
+    let constants = inputs.iter().map(|input| match input {
+        Input::Constant(constant) => Some(*constant),
+        Input::Node(..) => None,
+    });
+    let constants: Option<Vec<[f32; 4]>> = constants.collect();
+    // Operations without inputs ask for a hit.
+    if let Some(folded) = constants.filter(|values| !values.is_empty()).and_then(|values| fold(&operation, &values)) {
         return Input::Constant(folded);
     }
     Input::Node(graph.add(operation, inputs.to_vec()), Channel::Rgb)
@@ -155,7 +153,8 @@ mod tests {
         assert_eq!(product, Input::Constant([0.1, 0.2, 0.4, 0.5]));
         assert_eq!(mix(&mut graph, scalar(1.0), scalar(3.0), scalar(0.5)), scalar(2.0));
         assert_eq!(luminance(&mut graph, colour([1.0; 3])), scalar(1.0));
-        assert_eq!(apply(&mut graph, Operation::Power, &[scalar(-2.0), scalar(2.0)]), scalar(0.0));
+        assert_eq!(apply(&mut graph, Operation::Power, &[scalar(-2.0), scalar(2.0)]), scalar(4.0));
+        assert_eq!(apply(&mut graph, Operation::Power, &[scalar(-2.0), scalar(0.5)]), scalar(0.0));
         assert_eq!(divide(&mut graph, scalar(1.0), scalar(0.0)), scalar(0.0));
         assert!(graph.nodes.is_empty());
     }

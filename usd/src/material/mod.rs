@@ -7,7 +7,6 @@ mod binding;
 mod definition;
 mod document;
 mod emit;
-mod fold;
 mod from_usd;
 mod host;
 mod inputs;

@@ -8,6 +8,7 @@ mod geometric;
 mod hextile;
 mod math;
 mod matrices;
+mod noise;
 mod normals;
 mod pattern;
 mod physical;

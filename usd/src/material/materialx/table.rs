@@ -3,7 +3,7 @@
 
 use super::super::emit::{add, divide, mix, multiply, subtract};
 use super::Rule::{self, Each, Later, Of, Own};
-use super::{adjust, channels, compositing, geometric, hextile, math, matrices, normals, pattern, physical, texture, transform};
+use super::{adjust, channels, compositing, geometric, hextile, math, matrices, noise, normals, pattern, physical, texture, transform};
 use gonio::scene::Input;
 
 /// A node.
@@ -127,14 +127,14 @@ pub(in crate::material) const ROWS: &[Row] = &[
     row("ramp4", Own(pattern::ramp_4)),
     row("splitlr", Own(pattern::split_lr)),
     row("splittb", Own(pattern::split_tb)),
-    row("noise2d", Later),
-    row("noise3d", Later),
-    row("fractal2d", Later),
-    row("fractal3d", Later),
-    row("cellnoise2d", Later),
-    row("cellnoise3d", Later),
-    row("worleynoise2d", Later),
-    row("worleynoise3d", Later),
+    row("noise2d", Own(noise::noise_2d)),
+    row("noise3d", Own(noise::noise_3d)),
+    row("fractal2d", Own(noise::fractal_2d)),
+    row("fractal3d", Own(noise::fractal_3d)),
+    row("cellnoise2d", Own(noise::cells_2d)),
+    row("cellnoise3d", Own(noise::cells_3d)),
+    row("worleynoise2d", Own(noise::worley_2d)),
+    row("worleynoise3d", Own(noise::worley_3d)),
     row("flake2d", Later),
     row("flake3d", Later),
     row("hextilednormalmap", Later),
