@@ -25,7 +25,7 @@ use gonio_bsdf::{
     normals::{Normals, is_raised},
 };
 use gonio_light::hit_weight;
-use gonio_simd::{Frame, Lanes, M, Spectrum};
+use gonio_simd::{Frame, Lanes, M, Spectrum, Vec3};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -102,9 +102,9 @@ fn normals<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, po
     if !asked && (mapped || !(point.alive & is_raised(geometric, point.local_wo)).any()) {
         return None;
     }
-    let smooth = if mapped { &surface.smooth_normal } else { &surface.shading_normal };
+    let smooth = if mapped { frame.to_local(load3(l, &surface.smooth_normal, at)) } else { Vec3::splat(l, [0.0, 0.0, 1.0]) };
     let coat = if program.coat_normal.is_some() { Some(frame.to_local(load3(l, &surface.coat_normal, at))) } else { None };
-    Some(Normals { geometric, smooth: frame.to_local(load3(l, smooth, at)), coat })
+    Some(Normals { geometric, smooth, coat })
 }
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
