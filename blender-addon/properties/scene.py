@@ -39,7 +39,7 @@ def _bounces(name, description, default):
 
 def _clamp(part, sample):
     """The largest value that samples of direct or of indirect light keep."""
-    description = f"Largest value of {sample}, no limit if 0. Less noise, but light is lost"
+    description = f"Largest mean of the channels of {sample}, no limit if 0. Less noise, but light is lost"
     return FloatProperty(name=f"Clamp {part}", description=description, min=0.0, max=1e8, default=0.0, update=tag_data)
 
 

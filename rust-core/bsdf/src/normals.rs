@@ -124,6 +124,16 @@ pub fn raised<L: Lanes>(normal: Vec3<L>, geometric: Vec3<L>, wo: Vec3<L>) -> Vec
     fine.select(normal, turned)
 }
 
+/// The frame about the shading normal where [`is_raised`] says so, else the shading frame to the bit: what a lane gives may not hang on its
+/// neighbours.
+#[inline(always)]
+pub(crate) fn raised_frame<L: Lanes>(geometric: Vec3<L>, wo: Vec3<L>) -> Frame<L> {
+    let l = wo.x.lanes();
+    let (x, y, z) = (Vec3::splat(l, [1.0, 0.0, 0.0]), Vec3::splat(l, [0.0, 1.0, 0.0]), Vec3::splat(l, [0.0, 0.0, 1.0]));
+    let (low, turned) = (is_raised(geometric, wo), tilted(raised(z, geometric, wo)));
+    Frame { x: low.select(turned.x, x), y: low.select(turned.y, y), z: low.select(turned.z, z) }
+}
+
 /// The frame about `normal` whose tangent is the shading frame's.
 #[inline(always)]
 pub(crate) fn tilted<L: Lanes>(normal: Vec3<L>) -> Frame<L> {

@@ -4,7 +4,7 @@ use super::closure::single;
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
 use super::lobes::{Lobes, Normal, Shape, Side, Slot};
-use super::normals::{Normals, Tilts, raised, tilted};
+use super::normals::{Normals, Tilts, raised, raised_frame, tilted};
 use super::parameter as p;
 use super::subsurface::{EntryLobe, LEAST_RADIUS, medium};
 use super::surface::{ParameterValues, Surface};
@@ -101,7 +101,7 @@ impl Surface {
     fn tilts<L: Lanes>(&self, normals: &Normals<L>, wo: Vec3<L>, coat_weight: F<L>) -> Tilts<L> {
         let mut tilts = Tilts::NONE;
         let base = Vec3::splat(wo.x.lanes(), [0.0, 0.0, 1.0]);
-        let specular = tilted(raised(base, normals.geometric, wo));
+        let specular = raised_frame(normals.geometric, wo);
         tilts.specular = Some(specular);
         if self.switches.bump == Bump::Cycles {
             tilts.smooth = Some(normals.smooth);

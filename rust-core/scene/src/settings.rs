@@ -129,9 +129,9 @@ pub struct Settings {
     pub filter: Filter,
     /// Width of the filter in pixels.
     pub filter_width: f32,
-    /// Upper limit of a direct sample's components; 0 is off.
+    /// Upper limit of a direct sample, as the mean of its components; 0 is off.
     pub clamp_direct: f32,
-    /// Upper limit of an indirect sample's components; 0 is off.
+    /// Upper limit of an indirect sample, as the mean of its components; 0 is off.
     pub clamp_indirect: f32,
     /// Worker threads; 0 means one a core.
     pub threads: u32,

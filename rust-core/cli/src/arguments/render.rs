@@ -67,10 +67,10 @@ pub(crate) struct RenderOptions {
     pub(crate) time_limit: f64,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
-    /// Limit of a direct sample's components in nits; 0 is off.
+    /// Limit of a direct sample in nits, as the mean of its components; 0 is off.
     #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_direct: f32,
-    /// Limit of an indirect sample's components in nits; 0 is off.
+    /// Limit of an indirect sample in nits, as the mean of its components; 0 is off.
     #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_indirect: f32,
     /// No light at the camera for stages without lights.

@@ -117,19 +117,6 @@ pub(crate) fn to_film<L: Lanes>(light: Spectrum<L>) -> Rgb<L> {
     light.to_rgb()
 }
 
-/// A contribution clamped to the user's limit against fireflies; zero means no limit.
-#[inline(always)]
-pub(crate) fn clamped<L: Lanes>(value: Spectrum<L>, limit: f32) -> Spectrum<L> {
-    if limit > 0.0 {
-        let largest = value.max_component();
-        let over = largest.gt(limit);
-        let factor = over.select(largest.recip() * limit, largest.lanes().f(1.0));
-        value * factor
-    } else {
-        value
-    }
-}
-
 /// The light pass of light that a path finds: `seen` if the camera sees it, direct after one scattering, indirect after more.
 #[inline(always)]
 pub(crate) fn code_of_found<L: Lanes>(flags: U<L>, seen: u32) -> U<L> {

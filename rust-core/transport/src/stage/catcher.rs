@@ -4,7 +4,7 @@
 //! From there on slots tell the halves apart: slots of pixels come first, then measured points, then either half.
 
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::deposit::{clamped, to_film};
+use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
@@ -96,7 +96,7 @@ pub(crate) fn may_sample<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L
 /// camera paths any more.
 #[inline(always)]
 pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vertex<L>, present: M<L>, sums: &mut TileSums) {
-    let ChunkContext { l, tables, transport, sample, .. } = *chunk;
+    let ChunkContext { l, tables, transport, .. } = *chunk;
     let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WITH_OBJECTS);
     let caught = present & halved & point.slot.lt(CATCHERS_ONLY);
     point.flags = halved.select(point.flags & !flag::CAMERA, point.flags);
@@ -115,7 +115,7 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
     }
     if transport.shows_environment {
         let radiance = kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
-        let value = clamped(radiance * point.throughput, transport.limits.clamp(sample.depth));
+        let value = transport.limits.clamped(radiance * point.throughput, point.bounces);
         add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
     }
 }

@@ -3,7 +3,7 @@
 //! Light of shapes and infinite lights is added here, weighted by MIS (multiple importance sampling).
 
 use crate::accumulate::add::add;
-use crate::accumulate::deposit::{Contribution, Deposits, Source, clamped, code_of_found};
+use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::guides::is_specular_path;
 use crate::accumulate::light_sums::code;
 use crate::kernels::{self, LightHit};
@@ -29,10 +29,10 @@ pub(crate) fn intersect(
     find_first(tables, transport, depth == 0, paths, nearest);
     dispatch!(transport.execution, l => classify(l, tables, nearest));
     while !nearest.at_lights.is_empty() {
-        dispatch!(transport.execution, l => add_shapes(l, tables, transport, depth, paths, nearest, deposits));
+        dispatch!(transport.execution, l => add_shapes(l, tables, transport, paths, nearest, deposits));
         pass_through_lights(tables, transport, paths, nearest);
     }
-    dispatch!(transport.execution, l => add_environment(l, tables, transport, depth, paths, &mut nearest.escaped, deposits));
+    dispatch!(transport.execution, l => add_environment(l, tables, transport, paths, &mut nearest.escaped, deposits));
 }
 
 /// Finds what every path hits; `coherent` ones in packets.
@@ -67,15 +67,7 @@ fn classify<L: Lanes>(l: L, tables: &Tables, nearest: &mut NearestHits) {
 
 /// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
 #[inline(always)]
-fn add_shapes<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    transport: &Transport,
-    depth: u32,
-    paths: &Paths,
-    nearest: &mut NearestHits,
-    deposits: &mut Deposits,
-) {
+fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Paths, nearest: &mut NearestHits, deposits: &mut Deposits) {
     let NearestHits { hits, at_lights, .. } = nearest;
     let count = at_lights.len();
     at_lights.resize(gonio_simd::padded(count), 0);
@@ -91,7 +83,7 @@ fn add_shapes<L: Lanes>(
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
         let (carried, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
-        let value = clamped(radiance * carried.throughput * weight, transport.limits.clamp(depth));
+        let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let (code, specular) = (code_of_found(flags, code::EMISSION), is_specular_path(flags, slot));
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Light(light) };
         deposits.deposit(transport, &light, alive & value.is_lit());
@@ -132,15 +124,7 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &mut Paths
 
 /// Adds the light of infinite lights to paths that escaped, weighted by MIS against next event estimation.
 #[inline(always)]
-fn add_environment<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    transport: &Transport,
-    depth: u32,
-    paths: &Paths,
-    escaped: &mut Vec<u32>,
-    deposits: &mut Deposits,
-) {
+fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Paths, escaped: &mut Vec<u32>, deposits: &mut Deposits) {
     let count = escaped.len();
     escaped.resize(gonio_simd::padded(count), 0);
     for at in (0..count).step_by(L::COUNT) {
@@ -159,7 +143,7 @@ fn add_environment<L: Lanes>(
         let direction = paths.cone(l, path).direction;
         let (light_cache, camera_and_delta) = (transport.light_cache.as_deref(), [camera, delta]);
         let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None) * throughput;
-        let value = clamped(unclamped, transport.limits.clamp(depth));
+        let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let (code, specular) = (code_of_found(flags, code::ENVIRONMENT), is_specular_path(flags, slot));
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
         let counted = deposits.deposit(transport, &light, alive & value.is_lit());

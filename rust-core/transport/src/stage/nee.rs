@@ -1,6 +1,6 @@
 //! Next event estimation (NEE): a light sampled at each hit, its MIS weight (power heuristic), and the shadow ray to it.
 
-use crate::accumulate::deposit::{Contribution, Deposits, clamped, code_of_sampled};
+use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::kernels;
 use crate::stage::catcher;
 use crate::state::chunk::ChunkContext;
@@ -38,7 +38,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     shadows: &mut ShadowRays,
     deposits: &mut Deposits,
 ) {
-    let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
+    let ChunkContext { l, tables, transport, .. } = *chunk;
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.slot, sample.light);
     if !usable.any() {
         deposits.note_lost(point.at.position, present);
@@ -47,7 +47,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let wi = point.at.frame.to_local(sample.wi);
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
     let weight = weight.of(sample, pdf);
-    let value = clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), transport.limits.clamp(context.depth));
+    let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(point.at.position, present.and_not(lit));
     let code = code_of_sampled(point.flags);

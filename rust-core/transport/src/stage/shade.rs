@@ -3,7 +3,7 @@
 //! A register of hits at a time: absorption, BSDF lobes, emission with MIS (multiple importance sampling), AOVs. The [`Integrator`] does the rest:
 //! cut-outs, next event estimation (NEE), and the rays that go on. Out come contributions, shadow rays, the next rays, and subsurface walks.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source, clamped, code_of_found};
+use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::accumulate::light_sums::code;
 use crate::geometry::NONE;
@@ -25,7 +25,7 @@ use gonio_bsdf::{
     normals::{Normals, is_raised},
 };
 use gonio_light::hit_weight;
-use gonio_simd::{Frame, Lanes, M, Spectrum};
+use gonio_simd::{Frame, Lanes, M, Spectrum, Vec3};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -102,9 +102,9 @@ fn normals<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, po
     if !asked && (mapped || !(point.alive & is_raised(geometric, point.local_wo)).any()) {
         return None;
     }
-    let smooth = if mapped { &surface.smooth_normal } else { &surface.shading_normal };
+    let smooth = if mapped { frame.to_local(load3(l, &surface.smooth_normal, at)) } else { Vec3::splat(l, [0.0, 0.0, 1.0]) };
     let coat = if program.coat_normal.is_some() { Some(frame.to_local(load3(l, &surface.coat_normal, at))) } else { None };
-    Some(Normals { geometric, smooth: frame.to_local(load3(l, smooth, at)), coat })
+    Some(Normals { geometric, smooth, coat })
 }
 
 /// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
@@ -193,7 +193,7 @@ fn add_emission<L: Lanes>(
     at: usize,
     deposits: &mut Deposits,
 ) {
-    let ChunkContext { l, tables, transport, sample, .. } = *chunk;
+    let ChunkContext { l, tables, transport, .. } = *chunk;
     let mut value = emission * point.throughput;
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, point.instance);
@@ -206,7 +206,7 @@ fn add_emission<L: Lanes>(
             value = value * hit_weight(point.pdf, pdf, sampled);
         }
     }
-    let value = clamped(value, transport.limits.clamp(sample.depth));
+    let value = transport.limits.clamped(value, point.bounces);
     let source = if transport.passes.groups.wanted() {
         Source::Set(tables.geometry.set_lanes(l, point.instance.keep_if(present)))
     } else {

@@ -3,7 +3,7 @@
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
-use gonio_simd::{Execution, Lanes, M, U};
+use gonio_simd::{Execution, Lanes, M, Spectrum, U};
 use std::sync::Arc;
 
 /// Settings of a view that stages read, as pbrt's integrators hold them.
@@ -52,15 +52,22 @@ pub struct Limits {
     pub max_bounces: u32,
     /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
     pub kind_bounces: [u32; 4],
-    /// Limits of direct and indirect contributions; 0 is off.
+    /// Limits of direct and indirect contributions, as means of their channels; 0 is off.
     pub clamps: [f32; 2],
 }
 
 impl Limits {
-    /// The clamp of contributions at a depth (Cycles' clamping): direct up to depth 1, indirect beyond.
+    /// A contribution within the user's limits against fireflies (Cycles' clamping). Light that surfaces scatter once at most on its way from
+    /// the lamp to the camera is direct; `scattered` counts.
     #[inline(always)]
-    pub(crate) fn clamp(&self, depth: u32) -> f32 {
-        self.clamps[usize::from(depth > 1)]
+    pub(crate) fn clamped<L: Lanes>(&self, value: Spectrum<L>, scattered: U<L>) -> Spectrum<L> {
+        if self.clamps.iter().all(|clamp| *clamp <= 0.0) {
+            return value;
+        }
+        let l = value.lanes();
+        let [direct, indirect] = self.clamps.map(|clamp| if clamp > 0.0 { clamp } else { f32::MAX });
+        let (mean, limit) = (value.mean(), scattered.lt(2).select(l.f(direct), l.f(indirect)));
+        value * mean.gt(limit).select(limit / mean, l.f(1.0))
     }
 
     /// Whether the bounces of each kind are within their limits.
