@@ -81,10 +81,14 @@ def _described(t, material, outputs):
     for made in t.closures:
         wanted += [made["weight"], *(source for _, source in made["parameters"])]
         wanted += [{"Node": [made[key], "Rgb"]} for key in ("normal", "coat_normal", "tangent") if made[key] is not None]
+    if t.bent is not None:
+        wanted.append({"Node": [t.bent.node, "Rgb"]})
     nodes, order = t.graph.reachable(wanted)
     return {
         "origin": {"name": material.name, "file": ""},
         "graph": {"nodes": nodes},
+        # Displacement makes the normal from which others are bent.
+        "normal": None if t.bent is None else order[t.bent.node],
         "closures": [_renumbered(made, order) for made in t.closures],
         "pass_index": material.pass_index,
         "shader_outputs": [{**output, **{key: renumber(output[key], order) for key in ("color", "value")}} for output in outputs],

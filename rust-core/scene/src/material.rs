@@ -167,6 +167,9 @@ pub struct Material {
     pub closures: Vec<Closure>,
     /// The nodes that inputs refer to.
     pub graph: Graph,
+    /// The shading normal in world space that counts as the surface's own, of displacement that is shown as bump: closures' normals are bent
+    /// from it. Closures without a normal of their own name it too.
+    pub normal: Option<NodeId>,
     /// What the material index pass shows.
     pub pass_index: u32,
     /// What shader passes show; entries of one name add up.
@@ -176,7 +179,7 @@ pub struct Material {
 impl Default for Material {
     fn default() -> Self {
         let closures = vec![Closure::default()];
-        Self { origin: Origin::default(), closures, graph: Graph::default(), pass_index: 0, shader_outputs: Vec::new() }
+        Self { origin: Origin::default(), closures, graph: Graph::default(), normal: None, pass_index: 0, shader_outputs: Vec::new() }
     }
 }
 

@@ -66,6 +66,8 @@ fn store_directions<L: Lanes>(l: L, program: &Program, points: &mut SurfaceColum
         direction(normal).normalize_or(smooth).store([a, b, c], at);
     }
     if let Some(normal) = program.normal {
-        bend_normals(l, points, at, direction(normal), program.free_normal);
+        let smooth = load3(l, &points.shading_normal, at);
+        let smooth = program.smooth_normal.map_or(smooth, |own| direction(own).normalize_or(smooth));
+        bend_normals(l, points, at, direction(normal), smooth, program.free_normal);
     }
 }
