@@ -107,12 +107,15 @@ impl CameraTable {
         let flat = parallel || self.lens == Lens::Perspective;
         let along = if flat { -local.z } else { l.f(1.0) };
         let pixel = self.pixel[1].abs();
+        // Aside of the axis pixels are seen from farther off and aslant, by either side: the mean of the two angles, as Cycles has it.
+        let sides = [x.mul_add(x, 1.0).sqrt(), y.mul_add(y, 1.0).sqrt()];
+        let aslant = if self.lens == Lens::Perspective { (sides[0] + sides[1]) * 0.5 } else { l.f(1.0) };
         CameraRay {
             origin: position + start.transform(axes),
             direction: local.transform(axes).normalize(),
             t_min: l.f(self.clipping[0]) / along,
             t_max: (l.f(self.clipping[1]) / along).min(f32::MAX),
-            spread: l.f(if parallel { 0.0 } else { pixel * self.angle_per_step() }) * along * along,
+            spread: l.f(if parallel { 0.0 } else { pixel * self.angle_per_step() }) * along * along * aslant,
             width: l.f(if parallel { pixel } else { 0.0 }),
             mapped: aimed.mapped,
         }
