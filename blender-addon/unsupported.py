@@ -124,7 +124,6 @@ MATERIALS = {
     "repeat": Limit("Repeat zones of more than 512 turns, or whose number varies", "512 turns; none"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
     "painted tiles": _untold("Image tiles that were painted and never saved", "not seen"),
-    "brick": Limit("Brick Texture", "the mean of its bricks"),
     "node": Limit("Other nodes, named in the report", "their main input is passed on; without one, the value of their socket is used"),
 }
 
@@ -133,15 +132,8 @@ LIMITS = {**OBJECTS, **SCENES, **LIGHTS, **WORLDS, **MATERIALS}
 # Nodes, or one of their outputs, that have a value of their own in the place of theirs.
 # bl_idname, or bl_idname and the output's identifier -> the names that the page has for them, and the value.
 STAND_INS = {
-    "ShaderNodeTexNoise": ("Noise Texture", 0.5),
-    "ShaderNodeTexVoronoi": ("Voronoi Texture", 0.5),
-    "ShaderNodeTexWave": ("Wave Texture", 0.5),
-    "ShaderNodeTexMagic": ("Magic Texture", 0.5),
-    "ShaderNodeTexGabor": ("Gabor Texture", 0.5),
-    "ShaderNodeTexWhiteNoise": ("White Noise Texture", 0.5),
     "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
     "ShaderNodeTexPointDensity": ("Point Density", 0.0),
-    "ShaderNodeWavelength": ("Wavelength", 0.5),
     "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
     ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
     ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),

@@ -29,10 +29,6 @@ def stand_in(translator, node, output, context):
         return translator.input(node, "Strength", context, 1.0), LIMITS["ies elsewhere"].line(label)
     if node.bl_idname in ("ShaderNodeTexImage", "ShaderNodeTexEnvironment"):
         return graph.colour(MISSING), f"{label}: not supported; the colour of missing images is used"
-    if node.bl_idname == "ShaderNodeTexBrick":
-        first, second = (translator.input(node, f"Color{n}", context) for n in (1, 2))
-        value = first.mix(second, 0.5) if kind == "RGBA" else graph.scalar(0.1)
-        return value, f"{label}: not supported; the mean of its bricks is used"
     through = main_input(node, output)
     if through is None:
         return translator.default_of(output, kind), f"{label}: not supported; its socket's value is used"
