@@ -110,7 +110,10 @@ NODES = {
         ),
     ),
     "ShaderNodeTexSky": Node(
-        "Sky Texture", FAMILY, cases=_skies(), reason="atmospheres drawn anew; Hošek and Wilkie's data are those for Rec.709, in Cycles for XYZ"
+        "Sky Texture",
+        FAMILY,
+        cases=_skies(),
+        reason="atmospheres drawn anew; Hošek and Wilkie's data are those for Rec.709, in Cycles for XYZ",
     ),
     "ShaderNodeTexIES": Node(
         "IES Texture",
