@@ -59,9 +59,7 @@ def _skies() -> tuple[Case, ...]:
 
 
 NODES = {
-    "ShaderNodeTexImage": Node(
-        "Image Texture", FAMILY, cases=_images(), reason="8-bit sRGB images: colours are decoded before they are filtered, in Cycles after"
-    ),
+    "ShaderNodeTexImage": Node("Image Texture", FAMILY, cases=_images()),
     "ShaderNodeTexEnvironment": Node("Environment Texture", FAMILY, cases=_environments()),
     "ShaderNodeTexChecker": Node(
         "Checker Texture",
@@ -111,7 +109,12 @@ NODES = {
             Case("unlinked", {}, {"Scale": 1.5}, on_sphere=True),
         ),
     ),
-    "ShaderNodeTexSky": Node("Sky Texture", FAMILY, cases=_skies()),
+    "ShaderNodeTexSky": Node(
+        "Sky Texture",
+        FAMILY,
+        cases=_skies(),
+        reason="atmospheres drawn anew; Hošek and Wilkie's data are those for Rec.709, in Cycles for XYZ",
+    ),
     "ShaderNodeTexIES": Node(
         "IES Texture",
         FAMILY,
