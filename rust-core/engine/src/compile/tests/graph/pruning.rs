@@ -28,8 +28,8 @@ fn steps_that_nothing_reads_are_left_out() {
         for i in 0..CHUNK {
             let (normal, height) =
                 (triple(&bench.points.shading_normal, i), f64::from(bench.points.position[1][i] + bench.points.origin[1]));
-            for k in 0..3 {
-                close(values.column(k)[i], normal[k] + height, 1e-3, "sum");
+            for (k, part) in normal.into_iter().enumerate() {
+                close(values.column(k)[i], part + height, 1e-3, "sum");
             }
             assert!(points.coat_normal.iter().any(|column| column[i] != 0.0));
         }
