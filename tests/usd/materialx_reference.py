@@ -1,14 +1,25 @@
-"""MaterialX's nodes in double precision, from the standard library's own definitions: its graphs are walked, and what remains is computed by numpy.
+"""MaterialX's nodes in double precision, from the standard library's own definitions: its graphs are walked, numpy computes what remains.
 
 Values are arrays of rows, one a place, with as many columns as the type has components.
 """
 
 import pathlib
-import xml.etree.ElementTree as ElementTree
+from xml.etree import ElementTree
 
 import numpy as np
 
-COMPONENTS = {"float": 1, "integer": 1, "boolean": 1, "vector2": 2, "color3": 3, "vector3": 3, "color4": 4, "vector4": 4, "matrix33": 9, "matrix44": 16}
+COMPONENTS = {
+    "float": 1,
+    "integer": 1,
+    "boolean": 1,
+    "vector2": 2,
+    "color3": 3,
+    "vector3": 3,
+    "color4": 4,
+    "vector4": 4,
+    "matrix33": 9,
+    "matrix44": 16,
+}
 TINY = 1e-8
 
 
@@ -129,16 +140,16 @@ def binary(name, function, a="in1", b="in2"):
 
 
 for node, compute in {
-    "fract": lambda x: x - np.floor(x), "absval": np.abs, "floor": np.floor, "ceil": np.ceil, "round": lambda x: np.floor(x + 0.5), "sign": np.sign,
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "sqrt": np.sqrt, "ln": np.log, "exp": np.exp,
+    "fract": lambda x: x - np.floor(x), "absval": np.abs, "floor": np.floor, "ceil": np.ceil, "round": lambda x: np.floor(x + 0.5),
+    "sign": np.sign, "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "sqrt": np.sqrt, "ln": np.log, "exp": np.exp,
     "dot": lambda x: x, "not": lambda x: 1 - x, "convert": lambda x: x, "magnitude": lambda x: np.linalg.norm(x, axis=1, keepdims=True),
     "normalize": lambda x: x / np.linalg.norm(x, axis=1, keepdims=True),
     "premult": lambda x: np.hstack([x[:, :3] * x[:, 3:], x[:, 3:]]), "unpremult": lambda x: np.hstack([x[:, :3] / x[:, 3:], x[:, 3:]]),
 }.items():  # fmt: skip
     unary(node, compute)
 for node, compute in {
-    "add": np.add, "subtract": np.subtract, "multiply": np.multiply, "divide": np.divide, "modulo": lambda a, b: a - b * np.floor(a / b), "power": np.power,
-    "min": np.minimum, "max": np.maximum, "and": np.minimum, "or": np.maximum,
+    "add": np.add, "subtract": np.subtract, "multiply": np.multiply, "divide": np.divide, "modulo": lambda a, b: a - b * np.floor(a / b),
+    "power": np.power, "min": np.minimum, "max": np.maximum, "and": np.minimum, "or": np.maximum,
     "dotproduct": lambda a, b: np.sum(a * b, axis=1, keepdims=True), "crossproduct": np.cross,
 }.items():  # fmt: skip
     binary(node, compute)
@@ -301,7 +312,11 @@ def artistic_ior(v, _, output):
 def blackbody(v, *_):
     kelvin = np.clip(v["temperature"], 800, 25000)
     t = 1000 / kelvin
-    x = np.where(kelvin < 4000, np.polyval([-0.2661239, -0.2343580, 0.8776956, 0.179910], t), np.polyval([-3.0258469, 2.1070379, 0.2226347, 0.240390], t))
+    x = np.where(
+        kelvin < 4000,
+        np.polyval([-0.2661239, -0.2343580, 0.8776956, 0.179910], t),
+        np.polyval([-3.0258469, 2.1070379, 0.2226347, 0.240390], t),
+    )
     cold = np.polyval([3.0817580, -5.87338670, 3.75112997, -0.37001483], x)
     warm = np.polyval([-0.9549476, -1.37418593, 2.09137015, -0.16748867], x)
     red = np.polyval([-1.1063814, -1.34811020, 2.18555832, -0.20219683], x)

@@ -348,7 +348,7 @@ def test_unknown_nodes_give_the_default_of_the_input(tmp_path):
     extra = """
     def Shader "Noise"
     {
-        uniform token info:id = "ND_noise3d_color3"
+        uniform token info:id = "ND_flake3d"
         color3f outputs:out
     }
     """

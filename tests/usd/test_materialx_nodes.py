@@ -9,7 +9,7 @@ gonio = pytest.importorskip("gonio")
 pytest.importorskip("pxr")
 MaterialX = pytest.importorskip("MaterialX", reason="the extra materialx is not installed")
 
-import materialx_reference as reference  # noqa: E402
+import materialx_reference as reference
 
 LIBRARIES = pathlib.Path(MaterialX.__file__).parent / "libraries"
 DOCUMENTS = ["stdlib/stdlib_defs.mtlx", "cmlib/cmlib_defs.mtlx", "nprlib/nprlib_defs.mtlx", "pbrlib/pbrlib_defs.mtlx"]
@@ -18,20 +18,36 @@ HEADER = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n)\ndef DomeLigh
 PLACES, SIDE, BESIDE = 8, 3, 16
 # Added to all values, so that negative ones are seen.
 LIFT = 64.0
-TYPES = {"float": "float", "integer": "float", "boolean": "float", "vector2": "float2", "vector3": "float3", "vector4": "float4", "color3": "color3f", "color4": "color4f"}
+TYPES = {
+    "float": "float",
+    "integer": "float",
+    "boolean": "float",
+    "vector2": "float2",
+    "vector3": "float3",
+    "vector4": "float4",
+    "color3": "color3f",
+    "color4": "color4f",
+}
 # Where inputs lie, by category; between 0.1 and 0.9 elsewhere.
 RANGES = {
-    "add": (-4, 4), "subtract": (-4, 4), "multiply": (-4, 4), "modulo": (0.3, 4), "fract": (-4, 4), "absval": (-4, 4), "floor": (-4, 4), "ceil": (-4, 4),
-    "round": (-4, 4), "sign": (-4, 4), "sin": (-6, 6), "cos": (-6, 6), "tan": (-1.3, 1.3), "asin": (-1, 1), "acos": (-1, 1), "atan2": (-2, 2),
-    "min": (-2, 2), "max": (-2, 2), "dotproduct": (-2, 2), "crossproduct": (-2, 2), "magnitude": (-2, 2), "normalize": (-2, 2), "safepower": (-2, 2),
+    "add": (-4, 4), "subtract": (-4, 4), "multiply": (-4, 4), "modulo": (0.3, 4), "fract": (-4, 4), "absval": (-4, 4), "floor": (-4,
+    4), "ceil": (-4, 4),
+    "round": (-4, 4), "sign": (-4, 4), "sin": (-6, 6), "cos": (-6, 6), "tan": (-1.3, 1.3), "asin": (-1, 1), "acos": (-1, 1), "atan2":
+    (-2, 2),
+    "min": (-2, 2), "max": (-2, 2), "dotproduct": (-2, 2), "crossproduct": (-2, 2), "magnitude": (-2, 2), "normalize": (-2, 2),
+    "safepower": (-2, 2),
     "switch": (0, 6), "trianglewave": (-3, 3), "rotate2d": (-90, 90), "rotate3d": (0.1, 9), "blackbody": (900, 15000), "distance": (-2, 2),
 }  # fmt: skip
 # What cannot stand in a picture of values: files, text, noise that waits for the engine, and what knows its place by itself.
 LEFT_OUT = {
-    "image", "tiledimage", "latlongimage", "hextiledimage", "hextilednormalmap", "triplanarprojection", "noise2d", "noise3d", "fractal2d", "fractal3d",
-    "cellnoise2d", "cellnoise3d", "worleynoise2d", "worleynoise3d", "unifiednoise2d", "unifiednoise3d", "randomfloat", "randomcolor", "flake2d", "flake3d",
-    "position", "normal", "tangent", "bitangent", "texcoord", "geomcolor", "geompropvalue", "geompropvalueuniform", "viewdirection", "time", "frame",
-    "transformpoint", "transformvector", "transformnormal", "normalmap", "bump", "heighttonormal", "blur", "tiledcircles", "tiledcloverleafs",
+    "image", "tiledimage", "latlongimage", "hextiledimage", "hextilednormalmap", "triplanarprojection", "noise2d", "noise3d",
+    "fractal2d", "fractal3d",
+    "cellnoise2d", "cellnoise3d", "worleynoise2d", "worleynoise3d", "unifiednoise2d", "unifiednoise3d", "randomfloat", "randomcolor",
+    "flake2d", "flake3d",
+    "position", "normal", "tangent", "bitangent", "texcoord", "geomcolor", "geompropvalue", "geompropvalueuniform", "viewdirection",
+    "time", "frame",
+    "transformpoint", "transformvector", "transformnormal", "normalmap", "bump", "heighttonormal", "blur", "tiledcircles",
+    "tiledcloverleafs",
     "tiledhexagons", "deon_hair_absorption_from_melanin", "chiang_hair_absorption_from_color", "chiang_hair_roughness", "gooch_shade",
 }  # fmt: skip
 
@@ -43,7 +59,11 @@ def cases(library):
         known |= {each.get("name") for each in reference.ElementTree.parse(LIBRARIES / document).getroot().findall("nodedef")}
     for name, definition in library.definitions.items():
         kinds = [each.get("type") for each in definition.findall("input")]
-        if name not in known or definition.get("node") in LEFT_OUT or any(kind not in reference.COMPONENTS for kind in kinds if kind != "string"):
+        if (
+            name not in known
+            or definition.get("node") in LEFT_OUT
+            or any(kind not in reference.COMPONENTS for kind in kinds if kind != "string")
+        ):
             continue
         for output in definition.findall("output"):
             components = reference.COMPONENTS.get(output.get("type"), 0)
@@ -93,10 +113,15 @@ def piece(number, definition, output, part, values):
             readers += node(name, f'        uniform token info:id = "ND_geompropvalue_{kind}"\n        string inputs:geomprop = "{name}"')
     result = f"</M{number}/Node.outputs:{output}>"
     if part:
-        readers += node("Alpha", f'        uniform token info:id = "ND_extract_color4"\n        token inputs:in.connect = {result}\n        int inputs:index = 3')
+        readers += node(
+            "Alpha",
+            f'        uniform token info:id = "ND_extract_color4"\n        token inputs:in.connect = {result}\n        int inputs:index = 3',
+        )
         result = f"</M{number}/Alpha.outputs:out>"
     lifted = f'        uniform token info:id = "ND_add_color3"\n        token inputs:in1.connect = {result}\n        color3f inputs:in2 = ({LIFT}, {LIFT}, {LIFT})'
-    surface = f'        uniform token info:id = "ND_surface_unlit"\n        color3f inputs:emission_color.connect = </M{number}/Lift.outputs:out>'
+    surface = (
+        f'        uniform token info:id = "ND_surface_unlit"\n        color3f inputs:emission_color.connect = </M{number}/Lift.outputs:out>'
+    )
     outputs = "" if output == "out" else f"        token outputs:{output}\n"
     left, top = number % BESIDE * PLACES, number // BESIDE
     points = [(left + place + x, -top - y, 0) for place in range(PLACES) for x, y in ((0, 1), (1, 1), (1, 0), (0, 0))]

@@ -1,4 +1,4 @@
-"""What MaterialX's nodes know of the place on a surface, on squares that are turned, scaled and moved: seen as light, against closed forms."""
+"""What MaterialX's nodes know of places on surfaces: squares that are turned, scaled and moved, seen as light, against closed forms."""
 
 import math
 
@@ -61,7 +61,9 @@ def space(name):
     return f'string inputs:space = "{name}"'
 
 
-# The node that is looked at, those that it reads, and what the middle of the first square must show; {m} is where the middle of a square lies.
+# The node that is looked at with those that it reads, and what the middle of its square must show, which lies at m.
+FROM_OBJECT = '\n        string inputs:fromspace = "object"\n        string inputs:tospace = "world"'
+TO_OBJECT = '\n        string inputs:fromspace = "world"\n        string inputs:tospace = "object"'
 CASES = {
     "position object": (lambda n: shader("N", "ND_position_vector3"), lambda m: (0, 0, 0)),
     "position world": (lambda n: shader("N", "ND_position_vector3", space("world")), lambda m: (m, 0, 0)),
@@ -73,23 +75,48 @@ CASES = {
     "bitangent world": (lambda n: shader("N", "ND_bitangent_vector3", space("world")), lambda m: (-1, 0, 0)),
     "view direction": (lambda n: shader("N", "ND_viewdirection_vector3"), lambda m: (0, 0, -1)),
     "coordinates": (lambda n: shader("N", "ND_texcoord_vector2"), lambda m: (0.5, 0.5)),
-    "point to world": (lambda n: shader("N", "ND_transformpoint_vector3", 'float3 inputs:in = (0.25, 0, 0)\n        string inputs:fromspace = "object"\n        string inputs:tospace = "world"'), lambda m: (m, 0.5, 0)),
-    "vector to world": (lambda n: shader("N", "ND_transformvector_vector3", 'float3 inputs:in = (0.25, 0, 0)\n        string inputs:fromspace = "object"\n        string inputs:tospace = "world"'), lambda m: (0, 0.5, 0)),
-    "vector to object": (lambda n: shader("N", "ND_transformvector_vector3", 'float3 inputs:in = (0, 0.5, 0)\n        string inputs:fromspace = "world"\n        string inputs:tospace = "object"'), lambda m: (0.25, 0, 0)),
-    "normal to world": (lambda n: shader("N", "ND_transformnormal_vector3", 'float3 inputs:in = (3, 0, 0)\n        string inputs:fromspace = "object"\n        string inputs:tospace = "world"'), lambda m: (0, 1, 0)),
+    "point to world": (
+        lambda n: shader("N", "ND_transformpoint_vector3", "float3 inputs:in = (0.25, 0, 0)" + FROM_OBJECT),
+        lambda m: (m, 0.5, 0),
+    ),
+    "vector to world": (
+        lambda n: shader("N", "ND_transformvector_vector3", "float3 inputs:in = (0.25, 0, 0)" + FROM_OBJECT),
+        lambda m: (0, 0.5, 0),
+    ),
+    "vector to object": (
+        lambda n: shader("N", "ND_transformvector_vector3", "float3 inputs:in = (0, 0.5, 0)" + TO_OBJECT),
+        lambda m: (0.25, 0, 0),
+    ),
+    "normal to world": (
+        lambda n: shader("N", "ND_transformnormal_vector3", "float3 inputs:in = (3, 0, 0)" + FROM_OBJECT),
+        lambda m: (0, 1, 0),
+    ),
     # A slope of 16 along u and of 32 along v.
     "height": (lambda n: shader("N", "ND_heighttonormal_vector3", reads(n, "in", "H")) + slope(n), lambda m: coded(-1, -2, 1)),
-    "height, half": (lambda n: shader("N", "ND_heighttonormal_vector3", "float inputs:scale = 0.5\n        " + reads(n, "in", "H")) + slope(n), lambda m: coded(-0.5, -1, 1)),
+    "height, half": (
+        lambda n: shader("N", "ND_heighttonormal_vector3", "float inputs:scale = 0.5\n        " + reads(n, "in", "H")) + slope(n),
+        lambda m: coded(-0.5, -1, 1),
+    ),
     "normal map": (lambda n: shader("N", "ND_normalmap_float", "float3 inputs:in = (1, 0.5, 0.5)"), lambda m: (0, 1, 0)),
-    "normal map, two strengths": (lambda n: shader("N", "ND_normalmap_vector2", "float2 inputs:scale = (1, 0.5)\n        float3 inputs:in = (1, 1, 1)"), lambda m: tuple(np.array([-0.5, 1, 1]) / 1.5)),
-    "normal map in a frame": (lambda n: shader("N", "ND_normalmap_float", "float3 inputs:in = (1, 0.5, 0.75)\n        float3 inputs:normal = (1, 0, 0)\n        float3 inputs:tangent = (0, 0, 1)"), lambda m: tuple(np.array([0.5, 0, 1]) / math.sqrt(1.25))),
-}  # fmt: skip
+    "normal map, two strengths": (
+        lambda n: shader("N", "ND_normalmap_vector2", "float2 inputs:scale = (1, 0.5)\n        float3 inputs:in = (1, 1, 1)"),
+        lambda m: tuple(np.array([-0.5, 1, 1]) / 1.5),
+    ),
+    "normal map in a frame": (
+        lambda n: shader(
+            "N",
+            "ND_normalmap_float",
+            "float3 inputs:in = (1, 0.5, 0.75)\n        float3 inputs:normal = (1, 0, 0)\n        float3 inputs:tangent = (0, 0, 1)",
+        ),
+        lambda m: tuple(np.array([0.5, 0, 1]) / math.sqrt(1.25)),
+    ),
+}
 
 
 def slope(n):
     """A height of 16 u + 32 v."""
-    return (
-        shader("H", "ND_dotproduct_vector2", reads(n, "in1", "UV") + "float2 inputs:in2 = (16, 32)") + shader("UV", "ND_texcoord_vector2")
+    return shader("H", "ND_dotproduct_vector2", reads(n, "in1", "UV") + "float2 inputs:in2 = (16, 32)") + shader(
+        "UV", "ND_texcoord_vector2"
     )
 
 

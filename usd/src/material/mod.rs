@@ -1,6 +1,8 @@
 //! Materials of a stage: which is bound to a prim, and its shading network as a surface of the scene.
 //!
 //! A material's surface is looked for in the render contexts `gonio`, `mtlx` and the universal one, in this order, then in all others that it has.
+//! Its network is read into a neutral document (`from_usd`; documents of MaterialX by `mtlx`), which `network` and the nodes' and surfaces' files
+//! translate without `pxr`; what they ask of the stage goes through `host`. Nodes of the graph are made in `emit` alone.
 
 mod arnold_nodes;
 mod binding;
