@@ -32,6 +32,9 @@ from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
 
+# What closures have as numbers of nodes.
+NORMALS = ("normal", "smooth_normal", "coat_normal", "tangent")
+
 
 @dataclass
 class Translated:
@@ -79,7 +82,7 @@ def _described(t, material, outputs):
     wanted = [output[key] for output in outputs for key in ("color", "value")]
     for made in t.closures:
         wanted += [made["weight"], *(source for _, source in made["parameters"])]
-        wanted += [{"Node": [made[key], "Rgb"]} for key in ("normal", "coat_normal", "tangent") if made[key] is not None]
+        wanted += [{"Node": [made[key], "Rgb"]} for key in NORMALS if made[key] is not None]
     nodes, order = t.graph.reachable(wanted)
     return {
         "origin": {"name": material.name, "file": ""},
@@ -95,7 +98,7 @@ def _renumbered(made, order):
         **made,
         "weight": renumber(made["weight"], order),
         "parameters": [[name, renumber(source, order)] for name, source in made["parameters"]],
-        **{key: None if made[key] is None else order[made[key]] for key in ("normal", "coat_normal", "tangent")},
+        **{key: None if made[key] is None else order[made[key]] for key in NORMALS},
     }
 
 

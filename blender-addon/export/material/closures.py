@@ -34,6 +34,7 @@ def closure(
         "model": model,
         "parameters": [[name, graph.value(value).input()] for name, value in parameters.items()],
         "normal": normal,
+        "smooth_normal": None,
         "coat_normal": coat_normal,
         "tangent": tangent,
         "thin_walled": thin_walled,

@@ -67,7 +67,9 @@ def _append(t, node, output, context, weight):
         share = made.pop("share", None)
         part = weight if share is None else weight * share
         if not part.is_zero():
-            t.closures.append({"weight": part.input(), **made})
+            # Displacement bends the surface's own normal, from which bumps are reckoned.
+            smooth = None if t.bent is None else t.bent.node
+            t.closures.append({"weight": part.input(), **made, "smooth_normal": smooth})
 
 
 def _closures(t, node, context):

@@ -89,6 +89,8 @@ pub struct Closure {
     pub parameters: Vec<(String, Input)>,
     /// A shading normal in world space.
     pub normal: Option<NodeId>,
+    /// The normal in world space that counts as unbent, as where displacement has bent all normals; the mesh's without it.
+    pub smooth_normal: Option<NodeId>,
     /// The coat's normal in world space; the surface's own without it.
     pub coat_normal: Option<NodeId>,
     /// Direction of anisotropy in world space; along the first texture coordinate without it.
@@ -113,6 +115,7 @@ impl Default for Closure {
             model: Model::default(),
             parameters: Vec::new(),
             normal: None,
+            smooth_normal: None,
             coat_normal: None,
             tangent: None,
             thin_walled: false,

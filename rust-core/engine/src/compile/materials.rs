@@ -59,7 +59,8 @@ fn nodes_of(material: &Material) -> impl Iterator<Item = NodeId> {
         Input::Node(node, _) => Some(*node),
         Input::Constant(_) => None,
     });
-    inputs.chain(closures.iter().flat_map(|closure| [closure.normal, closure.coat_normal, closure.tangent]).flatten())
+    inputs
+        .chain(closures.iter().flat_map(|closure| [closure.normal, closure.smooth_normal, closure.coat_normal, closure.tangent]).flatten())
 }
 
 /// What a material shows in passes of its own.
@@ -137,6 +138,7 @@ fn surface(
     }
     let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));
     wanted.normal = direction(closure.normal);
+    wanted.smooth_normal = direction(closure.smooth_normal);
     wanted.coat_normal = direction(closure.coat_normal);
     wanted.tangent = direction(closure.tangent);
     let mut program = Program::new(code, &wanted);

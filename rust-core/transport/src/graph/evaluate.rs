@@ -66,6 +66,11 @@ fn store_directions<L: Lanes>(l: L, program: &Program, points: &mut SurfaceColum
         direction(normal).normalize_or(smooth).store([a, b, c], at);
     }
     if let Some(normal) = program.normal {
-        bend_normals(l, points, at, direction(normal), program.free_normal);
+        let mesh = load3(l, &points.shading_normal, at);
+        let smooth = match program.smooth_normal {
+            Some(smooth) => direction(smooth).normalize_or(mesh),
+            None => mesh,
+        };
+        bend_normals(l, points, at, direction(normal), smooth, program.free_normal);
     }
 }

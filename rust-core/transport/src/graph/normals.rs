@@ -29,10 +29,9 @@ pub(super) fn normal_map<L: Lanes>(l: L, place: &Place<'_, L>, map: [F<L>; 3], s
     from_vector(l, bent * side)
 }
 
-/// Puts the bent normals in place where they are usable.
+/// Puts the bent normals in place where they are usable, and beside them `smooth`, the normals that they were bent from.
 #[inline(always)]
-pub(super) fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: Vec3<L>, free: bool) {
-    let smooth = load3(l, &points.shading_normal, at);
+pub(super) fn bend_normals<L: Lanes>(l: L, points: &mut SurfaceColumns, at: usize, normal: Vec3<L>, smooth: Vec3<L>, free: bool) {
     let (geometric, wo) = (load3(l, &points.geometric_normal, at), load3(l, &points.wo, at));
     let bent = normal.normalize_or(smooth);
     let bent = if free { bent } else { facing(l, bent, geometric, wo) };

@@ -19,6 +19,8 @@ pub struct Wanted {
     pub outputs: Vec<(usize, usize, Value)>,
     /// The shading normal.
     pub normal: Option<Value>,
+    /// What counts as the unbent normal in the place of the mesh's.
+    pub smooth_normal: Option<Value>,
     /// The coat's normal.
     pub coat_normal: Option<Value>,
     /// The direction of anisotropy.
@@ -43,6 +45,8 @@ pub struct Program {
     pub normal: Option<Direction>,
     /// Whether that normal is taken as it is; else it is turned so that mirror directions leave the surface.
     pub free_normal: bool,
+    /// What counts as the unbent normal in the place of the mesh's; asked for beside a shading normal alone.
+    pub smooth_normal: Option<Direction>,
     /// The coat's normal.
     pub coat_normal: Option<Direction>,
     /// The direction of anisotropy.
@@ -56,7 +60,7 @@ pub struct Program {
 impl Program {
     /// The part of a graph that computes what is wanted.
     pub fn new(code: &Code<HitStep>, wanted: &Wanted) -> Self {
-        let directions = [wanted.normal, wanted.coat_normal, wanted.tangent];
+        let directions = [wanted.normal, wanted.smooth_normal, wanted.coat_normal, wanted.tangent];
         let parameters = wanted.outputs.iter().flat_map(|(_, width, value)| value.iter().take(*width));
         let operands: Vec<Operand> =
             parameters.chain(directions.iter().flatten().flat_map(|value| value.iter().take(3))).copied().collect();
@@ -66,9 +70,9 @@ impl Program {
         let outputs = outputs.map(|(offset, width, _)| Output { offset: *offset, sources: sources.by_ref().take(*width).collect() });
         let outputs = outputs.collect();
         let mut direction = |value: Option<Value>| value.map(|_| std::array::from_fn(|_| sources.next().unwrap_or(Source::Constant(0.0))));
-        let [normal, coat_normal, tangent] = directions.map(&mut direction);
+        let [normal, smooth_normal, coat_normal, tangent] = directions.map(&mut direction);
         let light_path = asks_for_ray(&steps);
-        Self { steps, outputs, normal, free_normal: wanted.free_normal, coat_normal, tangent, uv: wanted.uv, light_path }
+        Self { steps, outputs, normal, free_normal: wanted.free_normal, smooth_normal, coat_normal, tangent, uv: wanted.uv, light_path }
     }
     /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {
