@@ -192,3 +192,21 @@ fn any_vector_bends_the_normals() {
         }
     }
 }
+
+#[test]
+fn any_vector_counts_as_the_unbent_normal() {
+    let bench = Bench::new(&json!([{ "operation": "Normal", "inputs": [] }, { "operation": "Incoming", "inputs": [] }]));
+    let [normal, incoming] = [0, 1].map(|number| bench.code().value(read(number)));
+    let wanted = Wanted { normal: Some(normal), smooth_normal: Some(incoming), free_normal: true, ..Wanted::default() };
+    let program = bench.program(wanted);
+    for execution in Execution::all() {
+        let (after, _) = bench.run_program(&program, execution);
+        for i in 0..CHUNK {
+            let (normal, wo) = (triple(&bench.points.shading_normal, i), triple(&bench.points.wo, i));
+            for k in 0..3 {
+                close(after.shading_normal[k][i], normal[k], 1e-4, "bent");
+                close(after.smooth_normal[k][i], wo[k], 1e-4, "unbent");
+            }
+        }
+    }
+}
