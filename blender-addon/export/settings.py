@@ -4,6 +4,8 @@
 from ..units import LUMENS_PER_WATT
 
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
+# Whole widths in pixels a unit of Cycles' filter width: its windows reach a width to either side, its Gaussian's deviation is a quarter of it.
+WIDTHS = {"gaussian": 1.5, "blackman-harris": 2.0, "tent": 1.0}
 # Darker films are as noisy as this one.
 LEAST_EXPOSURE = 1e-6
 # Exponents of the way into the mist, as Cycles has them.
@@ -20,6 +22,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
 
     prefix = "preview_" if preview else ""
     samples = ask("preview_samples", 1024) or 1 << 24 if preview else ask("samples", 128)
+    shape = FILTERS.get(ask("pixel_filter_type", "BLACKMAN_HARRIS"), "blackman-harris")
     arguments = {
         "width": int(width),
         "height": int(height),
@@ -39,8 +42,9 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         # Limits are in Blender's units, the scene's radiances in cd/m².
         "clamp_direct": float(ask("clamp_direct", 0.0)) * LUMENS_PER_WATT,
         "clamp_indirect": float(ask("clamp_indirect", 0.0)) * LUMENS_PER_WATT,
-        "filter": FILTERS.get(ask("pixel_filter_type", "BLACKMAN_HARRIS"), "blackman-harris"),
-        "filter_width": float(ask("filter_width", 1.5)),
+        "filter": shape,
+        # A box is one pixel wide, as in Cycles.
+        "filter_width": float(ask("filter_width", 1.5)) * WIDTHS[shape] if shape in WIDTHS else 1.0,
         "time_limit": 0.0 if preview else float(ask("time_limit", 0.0)),
         "threads": int(render.threads) if render.threads_mode == "FIXED" else 0,
         "film_transparent": bool(render.film_transparent),

@@ -22,7 +22,8 @@ class GONIO_RENDER_PT_film_pixel_filter(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.prop(scene.gonio, "pixel_filter_type", text="Type")
-        layout.prop(scene.gonio, "filter_width", text="Width")
+        if scene.gonio.pixel_filter_type != "BOX":
+            layout.prop(scene.gonio, "filter_width", text="Width")
 
 
 class GONIO_RENDER_PT_film_tone_mapping(RenderPanel, Panel):
