@@ -16,6 +16,8 @@ DOCUMENTS = ["stdlib/stdlib_defs.mtlx", "cmlib/cmlib_defs.mtlx", "nprlib/nprlib_
 HEADER = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n)\ndef DomeLight "Dark"\n{\n    float inputs:intensity = 0\n}\n'
 # Places that a node is evaluated at, pixels along the side of one, and nodes beside one another.
 PLACES, SIDE, BESIDE = 8, 3, 16
+# How far values may lie apart.
+TOLERANCE = 1e-4
 # Added to all values, so that negative ones are seen.
 LIFT = 64.0
 TYPES = {
@@ -143,7 +145,11 @@ def Material "M{number}"
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
-    """What gonio and what the definitions give: name, output, part, both values at the places."""
+    return measured(tmp_path_factory.mktemp("materialx"))
+
+
+def measured(folder):
+    """What gonio and what the definitions give: category, name, output, part, both values at the places; and the messages."""
     library = reference.Library(LIBRARIES)
     random = np.random.default_rng(5)
     rows, stage = [], HEADER
@@ -151,7 +157,7 @@ def found(tmp_path_factory):
         values = chosen(definition, np.random.default_rng(abs(hash_of(definition.get("name")))) if part == 0 else random)
         stage += piece(len(rows), definition, output, part, values)
         expected = reference.Evaluator(library, {"UV0": np.zeros((1, 2))}).value(definition, values, output)
-        rows.append((definition.get("name"), output, part, np.broadcast_to(expected, (PLACES, expected.shape[1]))))
+        rows.append((definition.get("node"), definition.get("name"), output, part, np.broadcast_to(expected, (PLACES, expected.shape[1]))))
     across, down = BESIDE * PLACES, -(-len(rows) // BESIDE)
     stage += f"""
 def Camera "Camera"
@@ -163,7 +169,7 @@ def Camera "Camera"
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }}
 """
-    path = tmp_path_factory.mktemp("materialx") / "nodes.usda"
+    path = folder / "nodes.usda"
     path.write_text(stage)
     scene = gonio.load_usd(str(path), camera_light=False)
     scene.set(width=across * SIDE, height=down * SIDE, samples=1, passes=["color"], max_bounces=0)
@@ -174,6 +180,14 @@ def Camera "Camera"
     return [(*row, centre) for row, centre in zip(rows, centres, strict=False)], [message for _, message in scene.diagnostics]
 
 
+def difference(expected, seen, part):
+    """The largest difference of a node's values, as a share of one and the value."""
+    expected = expected[:, 3:] if part else expected[:, :3]
+    usable = np.isfinite(expected) & (np.abs(expected) < LIFT / 2)
+    apart = np.abs(np.where(usable, expected - seen[:, : expected.shape[1]], 0))
+    return float((apart / (1 + np.abs(np.where(usable, expected, 0)))).max())
+
+
 def hash_of(name):
     """The same number for a name in every run."""
     return sum(ord(letter) * 31**place for place, letter in enumerate(name)) % (1 << 31)
@@ -182,13 +196,11 @@ def hash_of(name):
 def test_nodes_give_what_their_definitions_say(found):
     rows, messages = found
     wrong, checked = [], 0
-    for name, output, part, expected, seen in rows:
-        expected = expected[:, 3:] if part else expected[:, :3]
-        usable = np.isfinite(expected) & (np.abs(expected) < LIFT / 2)
-        difference = np.abs(np.where(usable, expected - seen[:, : expected.shape[1]], 0)) / (1 + np.abs(np.where(usable, expected, 0)))
+    for _, name, output, part, expected, seen in rows:
+        largest = difference(expected, seen, part)
         checked += 1
-        if difference.max() > 1e-4:
-            wrong.append(f"{name}.{output}[{part}]: {difference.max():.2g}\n    {expected[0]} {seen[0]}")
+        if largest > TOLERANCE:
+            wrong.append(f"{name}.{output}[{part}]: {largest:.2g}\n    {expected[0]} {seen[0]}")
     assert not wrong, f"{len(wrong)} of {checked} differ\n" + "\n".join(wrong)
     assert checked > 350
     assert not messages, messages[:5]

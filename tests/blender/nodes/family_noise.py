@@ -1,6 +1,6 @@
 """Textures that are made of hashes: noise, Voronoi cells, waves, white noise, Gabor's."""
 
-from .case import WHOLE, Case, Node, modes
+from .case import WHOLE, Case, Node
 
 FAMILY = "Texture"
 NOISES = ["FBM", "MULTIFRACTAL", "RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL", "HETERO_TERRAIN"]

@@ -1,6 +1,6 @@
 """Vectors and normals: mappings, turns, spaces, bumps, tangents, displacement."""
 
-from .case import Case, Node, modes
+from .case import Case, Node
 
 FAMILY = "Vector"
 WIDTH = "heights are taken as far apart as the ray is wide, which away from the picture's middle is some 1 % less than in Cycles"
