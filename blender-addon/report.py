@@ -66,6 +66,8 @@ class Report:
     def __init__(self) -> None:
         self._lines: dict[Diagnostic, None] = {}
         self._by_place: dict[tuple[str, str], list[Diagnostic]] = {}
+        # Paths of the shader nodes of each data-block that reach what is shown.
+        self._nodes: dict[tuple[str, str], set[str]] = {}
         # Windows ask at every drawing.
         self._counted: list[Counted] | None = None
 
@@ -83,6 +85,10 @@ class Report:
         told = LIMITS[limit]
         self.add(kind, name, told.line(subject), severity=told.severity, material=material, node=node)
 
+    def saw(self, kind: str, name: str, node: str) -> None:
+        """Counts a shader node of a data-block."""
+        self._nodes.setdefault((kind, name), set()).add(node)
+
     @contextmanager
     def guard(self, kind: str, name: str, consequence: str, **place) -> Iterator[None]:
         """What fails within costs its own data-block alone: a line says why, and what happens instead."""
@@ -99,18 +105,19 @@ class Report:
 
     def forget(self, kind: str, name: str) -> None:
         """Drops the lines of a data-block that is exported again."""
+        self._nodes.pop((kind, name), None)
         for line in self._by_place.pop((kind, name), ()):
             del self._lines[line]
             self._counted = None
 
     def forget_all(self, kind: str) -> None:
         """Drops the lines of all data-blocks of a kind."""
-        for place in [place for place in self._by_place if place[0] == kind]:
+        for place in [place for place in self._by_place.keys() | self._nodes.keys() if place[0] == kind]:
             self.forget(*place)
 
     def clear(self) -> None:
         """Drops all lines."""
-        self._lines, self._by_place, self._counted = {}, {}, None
+        self._lines, self._by_place, self._nodes, self._counted = {}, {}, {}, None
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
@@ -126,6 +133,13 @@ class Report:
                 alike.setdefault((line.severity, line.kind, line.message), []).append(line)
             self._counted = [Counted(lines[0], len(lines)) for lines in alike.values()]
         return self._counted
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        """How many shader nodes are shown as they are, and how many there are; a node that a line names is not shown as it is."""
+        named = {(line.kind, line.name, line.node) for line in self._lines if line.node is not None}
+        seen = {(*place, node) for place, nodes in self._nodes.items() for node in nodes} | named
+        return len(seen) - len(named), len(seen)
 
     def summary(self) -> str:
         """One sentence for a status bar; empty when there is nothing to say."""

@@ -34,6 +34,9 @@ def wrapped(text: str, width: float, measure) -> list[str]:
 def draw_lines(layout, width: float) -> None:
     """The report's lines, whole, in a column of so many pixels."""
     lines = report.latest().counted
+    exact, nodes = report.latest().nodes
+    if nodes:
+        layout.label(text=f"{exact} of {nodes} shader nodes are exact", icon="NODE_MATERIAL")
     if not lines:
         layout.label(text="Everything was understood", icon="CHECKMARK")
         return

@@ -202,3 +202,26 @@ def test_vector_curves_and_tangents_are_followed(tmp_path):
     description, lines = translated(made)
     assert {"Cross", "Normalize"} <= {node["operation"] for node in description["graph"]["nodes"] if isinstance(node["operation"], str)}
     assert not lines
+
+
+@pytest.mark.blender
+def test_the_report_counts_nodes_that_are_exact(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, material
+
+    empty()
+    made, tree, end = material()
+    occlusion, noise, shader = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("AmbientOcclusion", "TexNoise", "BsdfPrincipled"))
+    tree.links.new(noise.outputs["Color"], shader.inputs["Base Color"])
+    tree.links.new(noise.outputs[0], shader.inputs["Metallic"])
+    tree.links.new(occlusion.outputs["AO"], shader.inputs["Roughness"])
+    tree.nodes.new("ShaderNodeTexMagic")
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.context.object.data.materials.append(made)
+    link(bpy.data.objects.new("Again", bpy.context.object.data))
+    exported, report = exporter()
+    for _ in range(2):
+        exported.sync(depsgraph())
+        # Noise and shader are exact, occlusion is not; what nothing reads does not count.
+        assert report.nodes == (2, 3)

@@ -26,6 +26,8 @@ def flatten(t, socket, context, weight):
     if node is not None and node.bl_idname in ABSENT:
         t.tell("absent", node, context, node.bl_label)
         return
+    if node is not None:
+        t.saw(node, context)
     t.ways += 1
     if t.ways > MOST_WAYS:
         if node is not None and not t.ways_told:

@@ -112,6 +112,10 @@ class Translator:
         message = f"{words_of(problem)}; {consequence}"
         self.report.add(self.kind, self.owner.name, message, severity="ERROR", **self._place(node, context))
 
+    def saw(self, node, context):
+        """Counts a node for the report."""
+        self.report.saw(self.kind, self.owner.name, self._place(node, context)["node"])
+
     def _place(self, node, context):
         path = "/".join([*(group.name for group in context.groups()), node.name])
         return {"material": self.owner.name if self.kind == "Material" else None, "node": path}
@@ -193,6 +197,7 @@ class Translator:
 
     def _compute(self, node, output, context):
         kind = KINDS.get(output.type, "VALUE")
+        self.saw(node, context)
         handler, value = VALUES.get(node.bl_idname), None
         try:
             value = None if handler is None else handler(self, node, context, output)
