@@ -81,7 +81,8 @@ LIGHTS = {
     "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
-    "ies elsewhere": Limit("IES textures on surfaces, with a vector of their own, or more than one a lamp", "even light of the strength"),
+    "ies elsewhere": Limit("IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"),
+    "ies between angles": _untold("IES textures on surfaces between the angles of their file", "linear, where Cycles has cubic curves"),
     "shining meshes": _untold("Photometric units of meshes that shine", "emission in W/m², times 177.83 lm/W"),
     "catcher's groups": _untold("Light groups of shadow catchers", "without what the catcher leaves out"),
 }

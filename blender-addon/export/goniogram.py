@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The IES texture node of lamps: a goniogram on the lamp's emission, with Cycles' strength and orientation."""
+"""The IES texture node, with Cycles' strength and orientation: a goniogram on a lamp's emission, a picture of one elsewhere."""
 
 from math import pi
 from pathlib import Path
 
 import bpy
 import gonio
+import numpy as np
 
 from ..units import LUMENS_PER_WATT
+from .material.inputs import hit
 from .material.translator import value_node
 
 # What makes a lamp of 1 W have the file's candela.
@@ -16,18 +18,58 @@ WATTS_OF_CANDELA = 4.0 * pi / LUMENS_PER_WATT
 
 @value_node("ShaderNodeTexIES")
 def _ies(translator, node, context, _output):
-    """The node's strength, and the goniogram on the translator; none where the node is not understood."""
-    if translator.kind != "Light" or translator.goniogram is not None or translator.linked(node, "Vector", context):
+    """Of lamps the node's strength, and the goniogram on the translator; elsewhere the strength times the value towards its vector."""
+    t = translator
+    has_own = t.kind == "Light" and t.goniogram is None and not t.linked(node, "Vector", context)
+    if not has_own and t.kind != "Material":
         return None
+    strength = t.input(node, "Strength", context, 1.0)
     try:
-        description, warnings = gonio.read_goniogram(*_file(node, translator.owner))
+        description, warnings = gonio.read_goniogram(*_file(node, t.owner))
     except (OSError, gonio.Error) as error:
-        translator.say(node, context, f"{error}; the light counts as uniform")
-        return translator.input(node, "Strength", context, 1.0)
+        t.say(node, context, f"{error}; the light counts as uniform")
+        return strength
     for warning in warnings:
-        translator.say(node, context, warning)
-    translator.goniogram = _as_cycles(description)
-    return translator.input(node, "Strength", context, 1.0)
+        t.say(node, context, warning)
+    if has_own:
+        t.goniogram = _as_cycles(description)
+        return strength
+    if description["photometric_type"] != "C":
+        return None
+    return strength * _towards(t, node, context, _as_cycles(description))
+
+
+def _towards(t, node, context, goniogram):
+    """The goniogram's factor in a direction, from a picture of it: planes from left to right, angles from the nadir upwards."""
+    towards = (t.input(node, "Vector", context) if t.linked(node, "Vector", context) else hit(t, "Incoming")).normalized()
+    x, y, z = (towards.component(axis) for axis in range(3))
+    pixels = _picture(goniogram)
+    number = t.images.changing(("ies", t.owner.name, node.name), f"intensities of {node.name}", pixels)
+    height, width = pixels.shape[:2]
+    # Texels stand for the angles themselves, so that the outer ones lie on the edges.
+    plane = y.apply("ArcTangent2", x) * (0.5 / pi) + 0.5 / width
+    angle = ((-z).apply("ArcCosine") * (1.0 / pi) * (height - 1) + 0.5) * (1.0 / height)
+    fields = {
+        "texture": number,
+        "wrap": ["Repeat", "Clamp"],
+        "filter": "Linear",
+        "scale": [1.0] * 4,
+        "bias": [0.0] * 4,
+        "fallback": [0.0] * 4,
+    }
+    return t.graph.add({"Image": fields}, t.graph.combine(plane, angle, t.graph.scalar(0.0)), kind="RGBA").component(0)
+
+
+def _picture(goniogram):
+    """Factors (angles, planes, 4) at whole degrees, the nadir in the last row; zero beyond the file's angles."""
+    planes, angles = goniogram["horizontal_deg"], goniogram["vertical_deg"]
+    factors = np.reshape(goniogram["factors"], (len(planes), len(angles)))
+    down = np.arange(181.0)
+    columns = np.stack([np.interp(down, angles, row, left=0.0, right=0.0) for row in factors])
+    across = np.stack([np.interp(np.arange(360.0), planes, column) for column in columns.T])
+    pixels = np.ones((181, 360, 4), dtype=np.float32)
+    pixels[..., :3] = across[::-1, :, None]
+    return pixels
 
 
 def _file(node, owner):
