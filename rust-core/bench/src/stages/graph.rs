@@ -86,13 +86,15 @@ fn arithmetic(graph: &mut Graph, place: Input) -> NodeId {
     last
 }
 
-/// A graph whose last node `build` gives, for a place that varies.
+/// A graph whose last node `build` gives, for a place that varies; a distance is the fourth component, other values are the first.
 fn shading(name: &str, build: impl FnOnce(&mut Graph, Input) -> NodeId) -> Case {
     let mut graph = Graph::default();
     let place = whole(graph.add(Operation::Position, Vec::new()));
     let last = build(&mut graph, place);
     let code = Code::new(&graph, |_, _| Hit::Step(()));
-    let (program, sources) = Program::new(&code, &code.value(whole(last)));
+    let value = code.value(whole(last));
+    let looked_at = if matches!(graph.nodes[usize::from(last.0)].operation, Operation::VoronoiTexture(_)) { value[3] } else { value[0] };
+    let (program, sources) = Program::new(&code, &[looked_at]);
     let mut positions = cube();
     positions.iter_mut().flat_map(|column| column.iter_mut()).for_each(|x| *x *= EXTENT);
     let out = Column::new(BATCH);

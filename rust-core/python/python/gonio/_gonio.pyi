@@ -29,6 +29,7 @@ __all__ = [
     "Measurements",
     "Picture",
     "Reading",
+    "compute",
     "false_colour",
     "glare",
     "measure",
@@ -198,6 +199,7 @@ class Picture:
     def tobytes(self) -> bytes: ...
     def write(self, path: str | PathLike[str]) -> None: ...
 
+def compute(operation: str | Mapping[str, Any], inputs: Sequence[Buffer]) -> Array | None: ...
 def false_colour(
     values: Buffer,
     *,
