@@ -51,7 +51,7 @@ pub(super) fn cases() -> Vec<Case> {
         texture("wave", Operation::WaveTexture(WaveTexture::default()), false, &[1.0, 2.0, 2.0, 1.0, 0.5, 0.0]),
         texture("magic", Operation::MagicTexture(MagicTexture { depth: 2 }), false, &[1.0, 1.0]),
         texture("brick", Operation::BrickTexture(bricks), false, &[1.0, 0.02, 0.1, 0.0, 0.5, 0.25]),
-        texture("Gabor 3D", Operation::GaborTexture(GaborTexture { dimensions: 3 }), false, &[1.0, 2.0, 1.0, 0.785, 0.0]),
+        texture("Gabor 3D", Operation::GaborTexture(GaborTexture { dimensions: 3 }), false, &[1.0, 2.0, 1.0, 0.785, 0.577]),
     ]
 }
 
