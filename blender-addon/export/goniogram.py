@@ -10,6 +10,7 @@ import numpy as np
 
 from ..units import LUMENS_PER_WATT
 from .material.inputs import hit
+from .material.textures import look_up
 from .material.translator import value_node
 
 # What makes a lamp of 1 W have the file's candela.
@@ -49,15 +50,7 @@ def _towards(t, node, context, goniogram):
     # Texels stand for the angles themselves, so that the outer ones lie on the edges.
     plane = y.apply("ArcTangent2", x) * (0.5 / pi) + 0.5 / width
     angle = ((-z).apply("ArcCosine") * (1.0 / pi) * (height - 1) + 0.5) * (1.0 / height)
-    fields = {
-        "texture": number,
-        "wrap": ["Repeat", "Clamp"],
-        "filter": "Linear",
-        "scale": [1.0] * 4,
-        "bias": [0.0] * 4,
-        "fallback": [0.0] * 4,
-    }
-    return t.graph.add({"Image": fields}, t.graph.combine(plane, angle, t.graph.scalar(0.0)), kind="RGBA").component(0)
+    return look_up(t, number, t.graph.combine(plane, angle, t.graph.scalar(0.0)), ("Repeat", "Clamp")).component(0)
 
 
 def _picture(goniogram):

@@ -9,7 +9,7 @@ import numpy as np
 from mathutils import Matrix
 
 from .material.inputs import GENERATED, direction
-from .material.textures import coordinates, equirectangular
+from .material.textures import coordinates, equirectangular, look_up
 from .material.translator import value_node
 from .material.vectors import transform3d
 
@@ -56,12 +56,11 @@ def sky_texture(t, node, context, output):
 
 def _on_surface(t, node, context, picture, towards):
     """The picture where a vector points, whose height counts as it is, whatever its length."""
-    path = "/".join([*(group.name for group in context.groups()), node.name])
-    number = t.images.changing(("sky on surfaces", t.owner.original.session_uid, path), picture.name, picture.pixels)
+    owner = ("sky on surfaces", t.owner.original.session_uid, t.path(node, context))
+    number = t.images.changing(owner, picture.name, picture.pixels)
     height = towards.component(2).apply("ArcSine") * (1.0 / pi) + 0.5
     place = t.graph.combine(equirectangular(t, towards).component(0), height, t.graph.scalar(0.0))
-    looks = {"wrap": ["Repeat", "Clamp"], "filter": "Linear", "scale": [1.0] * 4, "bias": [0.0] * 4, "fallback": [0.0] * 4}
-    return t.graph.add({"Image": {"texture": number, **looks}}, place, kind="RGBA")
+    return look_up(t, number, place, ("Repeat", "Clamp"))
 
 
 def _drawn(node):

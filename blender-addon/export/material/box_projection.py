@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's box projection: an image from the six sides of a box, blended where the surface turns from one to the next."""
 
-from .inputs import direction, hit
+from .inputs import carried, direction, hit
 
 # Below this, sides that meet are told apart by their order.
 SHARP = 1e-6
@@ -23,7 +23,7 @@ def box_projection(t, place, blend):
 
 
 def _object_normal(t):
-    return t.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Normal"}}, hit(t, "Normal"), kind="VECTOR").normalized()
+    return carried(t, hit(t, "Normal"), "World", "Object", "Normal").normalized()
 
 
 def _weights(t, n, blend):

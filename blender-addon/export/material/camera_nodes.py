@@ -2,7 +2,7 @@
 """Coordinates of the camera: the Camera Data node, and what other nodes take from it."""
 
 from ..surroundings import CAMERA, Eye
-from .inputs import hit
+from .inputs import applied, hit
 from .translator import value_node
 
 # Looks along +z from the world's origin: before there is a camera.
@@ -14,12 +14,6 @@ def eye(t):
     if t.kind != "Material":
         return None
     return t.ask(CAMERA) or NO_CAMERA
-
-
-def applied(t, rows, value, is_point=True):
-    """Three rows applied to a point or a direction."""
-    rows = [[*row[:3], row[3] if is_point else 0.0] for row in rows]
-    return t.graph.add({"Transform3d": {"rows": rows}}, value, kind="VECTOR")
 
 
 def in_camera(t):

@@ -2,7 +2,7 @@
 """Displacement of the material's output as a bent normal, and the nodes that compute it."""
 
 from .bump import bent_by
-from .inputs import UV, hit, normal_of
+from .inputs import UV, carried, hit, normal_of
 from .sockets import input_socket
 from .tangent_nodes import tangent_of
 from .translator import value_node
@@ -18,11 +18,6 @@ def bend(t, end, material):
     bent = bent_by(t, smooth, lambda: t.socket(moved, t.root).as_kind("VECTOR").dot(smooth))
     if bent.node != smooth.node:
         t.bend(bent)
-
-
-def carried(t, value, start, end, quantity):
-    """A value carried from one space to another."""
-    return t.graph.add({"Transform": {"from": start, "to": end, "quantity": quantity}}, value, kind="VECTOR")
 
 
 @value_node("ShaderNodeDisplacement")

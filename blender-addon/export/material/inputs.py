@@ -61,9 +61,9 @@ def texture_coordinates(t, node, context, output):
         if node.object is None:
             return t.primvar(POSITION)
         rows = t.ask(f"{OBJECT}{node.object.original.session_uid}") or node.object.matrix_world.inverted_safe()
-        return to_object_space(t, hit(t, "Position"), rows)
+        return applied(t, rows, hit(t, "Position"))
     if name == "Normal":
-        return t.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Normal"}}, hit(t, "Normal"), kind="VECTOR")
+        return carried(t, hit(t, "Normal"), "World", "Object", "Normal")
     if name == "Reflection":
         normal, incoming = hit(t, "Normal"), hit(t, "Incoming")
         return normal * (normal.dot(incoming) * 2.0) - incoming
@@ -74,7 +74,7 @@ def texture_coordinates(t, node, context, output):
 
 def _world_coordinates(t, node, name):
     if name == "Object" and node.object is not None:
-        return to_object_space(t, direction(t), node.object.matrix_world.inverted_safe(), is_point=False)
+        return applied(t, node.object.matrix_world.inverted_safe(), direction(t), is_point=False)
     if name in ("Generated", "Object", "Normal"):
         return direction(t)
     if name == "Reflection":
@@ -82,10 +82,15 @@ def _world_coordinates(t, node, name):
     return None
 
 
-def to_object_space(t, value, matrix, is_point=True):
-    """A matrix applied to a point or a direction."""
+def applied(t, matrix, value, is_point=True):
+    """The first three rows of a matrix applied to a point or a direction."""
     rows = [[*row[:3], row[3] if is_point else 0.0] for row in matrix[:3]]
     return t.graph.add({"Transform3d": {"rows": rows}}, value, kind="VECTOR")
+
+
+def carried(t, value, start, end, quantity):
+    """A value carried from one space to another, "World" and "Object"."""
+    return t.graph.add({"Transform": {"from": start, "to": end, "quantity": quantity}}, value, kind="VECTOR")
 
 
 def direction(t):

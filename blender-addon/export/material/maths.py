@@ -31,13 +31,6 @@ def _ping_pong(a, b):
     return abs(fraction * b * 2.0 - b)
 
 
-def power(a, b):
-    """As in Cycles: negative bases have powers of whole numbers, and else zero."""
-    whole = 1.0 - abs(b.fraction().sign())
-    odd = (b * 0.5).fraction() * 2.0
-    return abs(a) ** b * (1.0 - a.less(0.0) * (1.0 - whole * (1.0 - odd * 2.0)))
-
-
 def _smooth_minimum(a, b, c):
     h = (c - abs(a - b)).maximum(0.0) / c
     smooth = a.minimum(b) - h * h * h * c * (1.0 / 6.0)
@@ -60,7 +53,7 @@ OPERATIONS = {
     "MULTIPLY": lambda a, b, c: a * b,
     "DIVIDE": lambda a, b, c: a / b,
     "MULTIPLY_ADD": lambda a, b, c: a * b + c,
-    "POWER": lambda a, b, c: power(a, b),
+    "POWER": lambda a, b, c: a**b,
     "LOGARITHM": lambda a, b, c: a.apply("Logarithm") / b.apply("Logarithm"),
     "SQRT": lambda a, b, c: a.sqrt(),
     "INVERSE_SQRT": lambda a, b, c: a.graph.value(1.0) / a.sqrt(),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Directions in the surface, and normals given by them: Normal Map and Tangent."""
 
-from .inputs import GENERATED, SMOOTH_NORMAL, TANGENT, UV, hit
+from .inputs import GENERATED, SMOOTH_NORMAL, TANGENT, UV, carried, hit
 from .translator import value_node
 
 
@@ -19,7 +19,7 @@ def normal_map(t, node, context, output):
     if node.space.startswith("BLENDER_"):
         vector = vector * (1.0, -1.0, -1.0)
     if node.space.endswith("OBJECT"):
-        vector = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, vector, kind="VECTOR")
+        vector = carried(t, vector, "Object", "World", "Normal")
     mapped = vector.normalized() * (hit(t, "FrontFacing") * 2.0 - 1.0)
     return mapped if strength.equals(1.0) else hit(t, "Normal").mix(mapped, strength).normalized()
 
@@ -29,8 +29,7 @@ def _in_tangents(t, vector, uv):
     along, normal = tangent_of(t, uv), of_mesh(t, SMOOTH_NORMAL)
     across = normal.cross(along) * along.component(3)
     bent = along * vector.component(0) + across * vector.component(1) + normal * vector.component(2)
-    fields = {"from": "Object", "to": "World", "quantity": "Normal"}
-    return t.graph.add({"Transform": fields}, bent, kind="VECTOR") * (hit(t, "FrontFacing") * 2.0 - 1.0)
+    return carried(t, bent, "Object", "World", "Normal") * (hit(t, "FrontFacing") * 2.0 - 1.0)
 
 
 def tangent_of(t, uv):
@@ -61,6 +60,6 @@ def radial_tangent(t, axis="Z"):
 
 def upright(t, tangent):
     """A direction in the mesh's own space as one in the world at right angles to the shading normal."""
-    world = t.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": "Normal"}}, tangent, kind="VECTOR")
+    world = carried(t, tangent, "Object", "World", "Normal")
     shading = hit(t, "Normal")
     return shading.cross(world.cross(shading).normalized())

@@ -55,15 +55,13 @@ def _sample(t, node, context, uv, wrap):
 
 
 def _look_up(t, node, number, uv, wrap):
-    fields = {
-        "texture": number,
-        "wrap": [wrap, wrap],
-        "filter": FILTERS[node.interpolation],
-        "scale": [1.0] * 4,
-        "bias": [0.0] * 4,
-        "fallback": list(MISSING),
-    }
-    return t.graph.add({"Image": fields}, uv, kind="RGBA")
+    return look_up(t, number, uv, (wrap, wrap), FILTERS[node.interpolation], MISSING)
+
+
+def look_up(t, number, uv, wrap, texture_filter="Linear", fallback=(0.0, 0.0, 0.0, 0.0)):
+    """The texel of a picture of the scene."""
+    fields = {"texture": number, "wrap": list(wrap), "filter": texture_filter, "fallback": list(fallback)}
+    return t.graph.add({"Image": {**fields, "scale": [1.0] * 4, "bias": [0.0] * 4}}, uv, kind="RGBA")
 
 
 def _is_encoded(image):

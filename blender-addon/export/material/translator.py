@@ -114,11 +114,14 @@ class Translator:
 
     def saw(self, node, context):
         """Counts a node for the report."""
-        self.report.saw(self.kind, self.owner.name, self._place(node, context)["node"])
+        self.report.saw(self.kind, self.owner.name, self.path(node, context))
+
+    def path(self, node, context):
+        """A node's name behind those of the groups that it stands in."""
+        return "/".join([*(group.name for group in context.groups()), node.name])
 
     def _place(self, node, context):
-        path = "/".join([*(group.name for group in context.groups()), node.name])
-        return {"material": self.owner.name if self.kind == "Material" else None, "node": path}
+        return {"material": self.owner.name if self.kind == "Material" else None, "node": self.path(node, context)}
 
     def socket(self, socket, context):
         """The value that reaches an input, converted to the input's kind."""

@@ -3,7 +3,8 @@
 
 from mathutils import Euler, Matrix, Vector
 
-from .maths import power, wrap
+from .inputs import applied, carried
+from .maths import wrap
 from .translator import value_node
 
 
@@ -11,7 +12,7 @@ def transform3d(t, value, matrix):
     """A 4×4 matrix applied to a point; nothing if it is the identity."""
     if all(abs(matrix[i][j] - (1.0 if i == j else 0.0)) < 1e-9 for i in range(3) for j in range(4)):
         return value
-    return t.graph.add({"Transform3d": {"rows": [list(row) for row in matrix[:3]]}}, value, kind="VECTOR")
+    return applied(t, matrix, value)
 
 
 def mapping_matrix(kind, location, rotation, scale):
@@ -87,7 +88,7 @@ OPERATIONS = {
     "SCALE": lambda a, b, c, s: a * s,
     "NORMALIZE": lambda a, b, c, s: a.normalized(),
     "ABSOLUTE": lambda a, b, c, s: abs(a),
-    "POWER": lambda a, b, c, s: power(a, b),
+    "POWER": lambda a, b, c, s: a**b,
     "SIGN": lambda a, b, c, s: a.sign(),
     "MINIMUM": lambda a, b, c, s: a.minimum(b),
     "MAXIMUM": lambda a, b, c, s: a.maximum(b),
@@ -144,7 +145,7 @@ def vector_transform(t, node, context, output):
         # Nothing has a space of its own there, and normals that meet one stay as they are.
         start, end = ("WORLD" if space == "OBJECT" else space for space in (start, end))
     if "CAMERA" in (start, end):
-        from .camera_nodes import applied, eye
+        from .camera_nodes import eye
 
         seen_by = eye(t)
         if seen_by is None:
@@ -161,5 +162,4 @@ def vector_transform(t, node, context, output):
 
 def _between(t, value, start, end, kind):
     """A value carried between the spaces of the world and of the object."""
-    fields = {"from": start.capitalize(), "to": end.capitalize(), "quantity": kind.capitalize()}
-    return t.graph.add({"Transform": fields}, value, kind="VECTOR")
+    return carried(t, value, start.capitalize(), end.capitalize(), kind.capitalize())

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Wireframe node: how near the hit is to the edges of its triangle."""
 
-from .displacement import carried
-from .inputs import TRIANGLE, hit
+from .inputs import TRIANGLE, carried, hit
+from .tangent_nodes import of_mesh
 from .translator import value_node
 
 
@@ -14,19 +14,13 @@ def wireframe(t, node, context, output):
     if node.use_pixel_size:
         half = half * ((_across(t, 0) + _across(t, 1)) * 0.5)
     place, near = hit(t, "Position"), half * half
-    corners = [carried(t, _corner(t, name), "Object", "World", "Point") for name in TRIANGLE]
+    corners = [carried(t, of_mesh(t, name), "Object", "World", "Point") for name in TRIANGLE]
     away = t.graph.scalar(1.0)
     for number, corner in enumerate(corners):
         edge = corner - corners[number - 1]
         across = edge.cross(place - corner)
         away = away * (1.0 - across.dot(across).less(edge.dot(edge) * near))
     return 1.0 - away
-
-
-def _corner(t, name):
-    """The same for the whole triangle, also beside the hit."""
-    t.primvars.add(name)
-    return t.graph.add({"Primvar": {"name": name, "fallback": [0.0] * 4}}, kind="VECTOR")
 
 
 def _across(t, axis):
