@@ -20,7 +20,7 @@ def bake(t, total, report):
     loaded = {image.name: _pixels(image, t.images) if is_there else LOST for image, is_there in pictures}
     for top in range(0, rows, 64):
         directions = _directions(rows, range(top, min(top + 64, rows)))
-        values.append(evaluate(t.graph, total.input(), directions.shape, _leaves(t, directions, loaded)))
+        values += evaluate(t.graph, [total.input()], directions.shape, _leaves(t, directions, loaded))
     pixels = np.concatenate(values, axis=0).astype(np.float32)
     pixels[..., :3] = np.nan_to_num(np.maximum(pixels[..., :3], 0.0), posinf=0.0)
     pixels[..., 3] = 1.0

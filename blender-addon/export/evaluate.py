@@ -39,8 +39,8 @@ class Pictures:
         return LOST if pixels is None else pixels
 
 
-def evaluate(graph, source, shape, leaf):
-    """A source of a graph as an array that ends in four components; `leaf(operation, inputs)` gives what is no arithmetic, or None."""
+def evaluate(graph, sources, shape, leaf):
+    """Sources of a graph as arrays that end in four components; `leaf(operation, inputs)` gives what is no arithmetic, or None."""
     results = []
 
     def read(source):
@@ -56,7 +56,7 @@ def evaluate(graph, source, shape, leaf):
             if value is None:
                 value = _computed(operation, inputs)
             results.append(np.zeros(shape) if value is None else np.broadcast_to(value, shape))
-        return np.array(read(source))
+        return [np.array(read(source)) for source in sources]
 
 
 def _computed(operation, inputs):

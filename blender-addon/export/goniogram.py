@@ -45,7 +45,7 @@ def _towards(t, node, context, goniogram):
     towards = (t.input(node, "Vector", context) if t.linked(node, "Vector", context) else hit(t, "Incoming")).normalized()
     x, y, z = (towards.component(axis) for axis in range(3))
     pixels = _picture(goniogram)
-    number = t.images.changing(("ies", t.owner.name, node.name), f"intensities of {node.name}", pixels)
+    number = t.images.changing(("ies", t.owner.original.session_uid, t.path(node, context)), f"intensities of {node.name}", pixels)
     height, width = pixels.shape[:2]
     # Texels stand for the angles themselves, so that the outer ones lie on the edges.
     plane = y.apply("ArcTangent2", x) * (0.5 / pi) + 0.5 / width

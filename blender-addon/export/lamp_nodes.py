@@ -17,6 +17,8 @@ from .material.translator import Translator
 DIRECTIONS, SIDE = 8192, 96
 # The same of a pattern: planes through the axis and angles from it, texels a side.
 PLANES, ANGLES, PATTERN_SIDE = 721, 361, 256
+# Graphs keep the values of all their nodes for so many directions or points.
+AT_ONCE = 1 << 14
 # Channels that differ by less, as parts of their largest values, have one pattern.
 SAME_PATTERN = 1e-3
 
@@ -104,9 +106,13 @@ class Light:
 
     def values(self, t, products):
         """The sum of products of sources of a graph: red, green and blue of each direction or point, not negative."""
-        shape, total = self._normal.shape, np.zeros((len(self._normal), 3))
-        for factors in products:
-            total += np.prod([evaluate(t.graph, factor, shape, self._leaf(t)) for factor in factors], axis=0)[:, :3]
+        total = np.zeros((len(self._normal), 3))
+        factors = [factor for product in products for factor in product]
+        for first in range(0, len(total), AT_ONCE):
+            piece = slice(first, first + AT_ONCE)
+            found = iter(evaluate(t.graph, factors, self._normal[piece].shape, self._leaf(t, piece)))
+            for product in products:
+                total[piece] += np.prod([next(found) for _ in product], axis=0)[:, :3]
         return np.maximum(np.nan_to_num(total, posinf=0.0), 0.0)
 
     def mean(self, t, products):
@@ -119,11 +125,12 @@ class Light:
                 total += np.average(self.values(t, [factors]), axis=0, weights=self._weights)
         return total
 
-    def _leaf(self, t):
-        world = _vectors(self._normal[:, :3] @ self._turn.T)
-        place = _vectors(self._point[:, :3] @ self._matrix[:3, :3].T + self._matrix[:3, 3])
+    def _leaf(self, t, piece):
+        normal, point, uv = self._normal[piece], self._point[piece], self._uv[piece]
+        world = _vectors(normal[:, :3] @ self._turn.T)
+        place = _vectors(point[:, :3] @ self._matrix[:3, :3].T + self._matrix[:3, 3])
         plain = {"Normal": world, "GeometricNormal": world, "Incoming": world, "Position": place, "FrontFacing": np.ones_like(world)}
-        primvars = {UV: self._uv, POSITION: self._point, GENERATED: self._normal}
+        primvars = {UV: uv, POSITION: point, GENERATED: normal}
 
         def leaf(operation, inputs):
             if isinstance(operation, str):

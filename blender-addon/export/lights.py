@@ -18,22 +18,22 @@ from .transforms import columns, without_scale
 from .visibility import RAYS
 
 
-def describe(group, matrix, images, report):
-    """The descriptions of one lamp at one place: one, or one a part of its pattern."""
-    lamp = group.data
+def describe(group, place, images, report):
+    """The descriptions of one lamp at the place of a number: one, or one a part of its pattern."""
+    lamp, matrix = group.data, group.matrices[place]
     is_photometric = luminaire.is_photometric(lamp)
     parts = parts_of(lamp, matrix, images, report, has_pattern=not is_photometric and not is_portal(lamp))
-    return [_described(group, matrix, images, report, part, number) for number, part in enumerate(parts)]
+    return [_described(group, place, images, report, part) for part in parts]
 
 
-def _described(group, matrix, images, report, part, number):
-    lamp = group.data
+def _described(group, place, images, report, part):
+    lamp, matrix = group.data, group.matrices[place]
     strength = part.colour * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
     texture = None
     if part.pixels is not None:
-        texture = images.changing(("lamp", group.name, str(np.asarray(matrix).tolist()), number), f"pattern of {group.name}", part.pixels)
+        texture = images.changing(("lamp", group.name, place), f"pattern of {group.name}", part.pixels)
     description = {
         "origin": {"name": group.name, "file": ""},
         "shape": shape,
@@ -140,9 +140,9 @@ class Lights:
     def _described(self, group):
         """The descriptions of a lamp's placements."""
         found = []
-        for matrix in group.matrices:
+        for place, matrix in enumerate(group.matrices):
             if np.isfinite(matrix).all():
-                found += describe(group, matrix, self._images, self._report)
+                found += describe(group, place, self._images, self._report)
             else:
                 self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
         return found
