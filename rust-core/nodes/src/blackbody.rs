@@ -1,6 +1,6 @@
 //! Blender's Blackbody node: the colour of a glowing body, at a luminance near 1.
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};
 
@@ -74,6 +74,6 @@ impl Blackbody {
             *value = cold.select(l.f(COLD[channel]), hot.select(l.f(HOT[channel]), *value));
             *value = value.keep_if(value.gt(0.0));
         }
-        finite(color)
+        all_finite(color)
     }
 }

@@ -1,6 +1,6 @@
 //! Blender's Brick Texture: rows of bricks with mortar between.
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use gonio_simd::{F, Lanes, M, U};
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,6 @@ impl BrickTexture {
         let inside = along.min(up).min((width - along).min(row_height - up));
         let t = ((1.0 - inside / mortar_size) / mortar_smooth).saturate();
         let soft = mortar_smooth.eq(0.0).select(l.f(1.0), t * t * (3.0 - t * 2.0));
-        finite([tint, soft.keep_if(!inside.ge(mortar_size))])
+        all_finite([tint, soft.keep_if(!inside.ge(mortar_size))])
     }
 }

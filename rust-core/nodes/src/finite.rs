@@ -1,14 +1,18 @@
 //! Results that later nodes can bear.
 
-use crate::periodic;
 use gonio_simd::{F, Lanes};
 
-/// The values, 0 where they are infinite or NaN.
+/// The value, 0 where it is infinite or NaN.
 #[inline(always)]
-pub(crate) fn finite<L: Lanes, const N: usize>(values: [F<L>; N]) -> [F<L>; N] {
-    let mut finite = values;
-    for value in &mut finite {
-        *value = periodic::finite(*value);
+pub(crate) fn finite<L: Lanes>(x: F<L>) -> F<L> {
+    x.keep_if(x.is_finite())
+}
+
+/// Several at once.
+#[inline(always)]
+pub(crate) fn all_finite<L: Lanes, const N: usize>(mut values: [F<L>; N]) -> [F<L>; N] {
+    for value in &mut values {
+        *value = finite(*value);
     }
-    finite
+    values
 }

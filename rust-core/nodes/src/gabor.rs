@@ -3,7 +3,7 @@
 //! Lagae et al., Procedural Noise using Sparse Gabor Convolution, ACM TOG 28(3), 2009; Tavernier et al., Making Gabor Noise Fast and Normalized,
 //! Eurographics 2019; Tricard et al., Procedural Phasor Noise, ACM TOG 38(4), 2019.
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use crate::hash::{hash3, hash4, to_unit};
 use core::f32::consts::{PI, SQRT_2};
 use gonio_simd::{F, Lanes, U};
@@ -157,7 +157,7 @@ impl GaborTexture {
         let value = (imaginary / most).mul_add(0.5, 0.5);
         let phase = (imaginary.atan2(real) + PI) / (2.0 * PI);
         let intensity = (real * real + imaginary * imaginary).sqrt() / most;
-        finite([value, phase, intensity])
+        all_finite([value, phase, intensity])
     }
 }
 

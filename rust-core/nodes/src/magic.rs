@@ -1,6 +1,7 @@
 //! Blender's Magic Texture.
 
-use crate::periodic::{cosine, finite, remainder, sine};
+use crate::finite::finite;
+use crate::periodic::{cosine, remainder, sine};
 use core::f32::consts::TAU;
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};

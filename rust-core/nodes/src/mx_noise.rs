@@ -2,7 +2,7 @@
 //!
 //! The nodes' amplitude and pivot are left to arithmetic: value · amplitude + pivot.
 
-use crate::periodic::finite;
+use crate::finite::all_finite;
 use crate::perlin::{noise2, noise3};
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};
@@ -25,14 +25,6 @@ fn shifted<L: Lanes>(mut p: [F<L>; 3], shift: [f32; 3]) -> [F<L>; 3] {
 #[inline(always)]
 fn gradient_noise<L: Lanes, const C: usize>(solid: bool, p: [F<L>; 3]) -> [F<L>; C] {
     if solid { noise3(p) } else { noise2([p[0], p[1]]) }
-}
-
-#[inline(always)]
-fn all_finite<L: Lanes, const C: usize>(mut values: [F<L>; C]) -> [F<L>; C] {
-    for value in &mut values {
-        *value = finite(*value);
-    }
-    values
 }
 
 /// Gradient noise, about in [-1, 1].

@@ -1,7 +1,7 @@
 //! MaterialX's noises of cells: random numbers of cells, and Worley's, in two and three dimensions (1.39's reference in GLSL).
 
+use crate::finite::finite;
 use crate::hash::{hash2, hash3, hash4, to_unit};
-use crate::periodic::finite;
 use gonio_simd::{F, Lanes, U};
 use serde::{Deserialize, Serialize};
 

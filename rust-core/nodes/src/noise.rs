@@ -1,8 +1,8 @@
 //! Blender's Noise Texture.
 
+use crate::finite::finite;
 use crate::fractal::{MOST_DETAIL, NoiseKind, Octaves, fractal};
 use crate::hash::{hash1, hash2, to_unit};
-use crate::periodic::finite;
 use crate::perlin;
 use gonio_simd::{F, Lanes, One};
 use serde::{Deserialize, Serialize};

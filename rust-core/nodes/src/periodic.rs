@@ -63,12 +63,6 @@ pub(crate) fn cosine<L: Lanes>(x: F<L>) -> F<L> {
     within_turn(x).cos()
 }
 
-/// The value, 0 where it is infinite or NaN.
-#[inline(always)]
-pub(crate) fn finite<L: Lanes>(x: F<L>) -> F<L> {
-    x.keep_if(x.is_finite())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 //!
 //! Of a polygon with a broken number of sides the last segment is narrower. Its corners and those beside it are circles that touch both sides.
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use core::f32::consts::{PI, TAU};
 use gonio_simd::{F, Lanes, M};
 use serde::{Deserialize, Serialize};
@@ -174,7 +174,7 @@ impl RadialTiling {
         let number = (angle / segment).floor();
         let around = Around { radius: (x * x + y * y).sqrt(), signed, angle, within: angle - number * segment, number };
         let [x, y, width, turn] = self.in_segment(l, &polygon, &around);
-        finite(match self.part {
+        all_finite(match self.part {
             TilingPart::Coordinates => [x, y, l.f(0.0)],
             TilingPart::Segment => [(sides * (signed / TAU + below)).floor(), width, turn],
         })

@@ -199,8 +199,6 @@ operations! {
         ArcTangent2(l, y, x) = y.atan2(x);
         /// 1 where `a` is less than `b`, else 0.
         Less(l, a, b) = l.f(1.0).keep_if(a.lt(b));
-        /// 1 where both are the same number, else 0.
-        Equal(l, a, b) = l.f(1.0).keep_if(a.eq(b));
         /// The unpolarised reflectance of a smooth dielectric at the cosine `cosine`, either sign; `eta` is the index of refraction on the far
         /// side over that on the near side.
         Fresnel(l, cosine, eta) = fresnel(l, cosine, eta);
@@ -363,8 +361,6 @@ operations! {
         Incoming() -> 3, Zero;
         /// 1 where the front is seen, 0 where the back is.
         FrontFacing() -> 1, Splat;
-        /// The barycentric coordinates of the triangle's corners 1 and 2.
-        Barycentric() -> 2, Zero;
         /// What is known of the ray; for shadow rays its depths are zero.
         LightPath<value: LightPathValue>() -> 1, Splat;
         /// The world-space vector in the surface to the next pixel along one of two directions that span it.

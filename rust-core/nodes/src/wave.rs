@@ -1,7 +1,8 @@
 //! Blender's Wave Texture.
 
+use crate::finite::finite;
 use crate::fractal::{MOST_DETAIL, NoiseKind, Octaves, fractal};
-use crate::periodic::{finite, sine};
+use crate::periodic::sine;
 use core::f32::consts::{FRAC_PI_2, TAU};
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! Blender's Wavelength node: the colour of light of one wavelength.
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};
 
@@ -90,6 +90,6 @@ impl Wavelength {
             *value *= 1.0 / BRIGHTEST;
             *value = value.keep_if(value.gt(0.0) & visible);
         }
-        finite(color)
+        all_finite(color)
     }
 }

@@ -124,8 +124,8 @@ fn surface(
             continue;
         };
         let places = parameter.offset..parameter.offset + parameter.width();
-        let value = code.value(*input);
-        let value = &value[..parameter.width()];
+        let whole = code.value(*input);
+        let value = &whole[..parameter.width()];
         // A graph may give constants, too.
         for (place, operand) in places.clone().zip(value) {
             if let Operand::Constant(value) = operand {
@@ -134,7 +134,7 @@ fn surface(
         }
         if value.iter().any(|operand| matches!(operand, Operand::Variable(_))) {
             varying[places].fill(true);
-            wanted.outputs.push((parameter.offset, parameter.width(), code.value(*input)));
+            wanted.outputs.push((parameter.offset, parameter.width(), whole));
         }
     }
     let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));

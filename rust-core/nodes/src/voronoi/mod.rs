@@ -8,7 +8,7 @@ mod octaves;
 mod smooth;
 mod sphere;
 
-use crate::finite::finite;
+use crate::finite::all_finite;
 use gonio_simd::{F, Lanes};
 use serde::{Deserialize, Serialize};
 
@@ -107,7 +107,7 @@ impl VoronoiTexture {
             exponent,
             randomness: randomness.saturate(),
         };
-        finite(match self.dimensions {
+        all_finite(match self.dimensions {
             1 => self.of_dimensions::<L, 1>(l, [w * scale], shape),
             2 => self.of_dimensions::<L, 2>(l, [x * scale, y * scale], shape),
             3 => self.of_dimensions::<L, 3>(l, [x * scale, y * scale, z * scale], shape),

@@ -65,6 +65,13 @@ pub enum HitStep {
     Point(Operation),
 }
 
+impl HitStep {
+    /// Whether it asks what is known of the ray.
+    pub fn asks_for_ray(&self) -> bool {
+        matches!(self, Self::Point(Operation::LightPath(_)))
+    }
+}
+
 /// The tables and the points that steps ask, from an entry of the chunk on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Points<'a> {

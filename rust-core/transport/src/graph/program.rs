@@ -1,7 +1,7 @@
 //! A material's program: what its graph computes for one closure, one mix or one set of passes.
 
 use super::HitStep;
-use gonio_nodes::{Code, Kernel, Operand, Operation, Source, Value};
+use gonio_nodes::{Code, Kernel, Operand, Source, Value};
 
 /// A parameter that the graph computes.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +71,7 @@ impl Program {
         let outputs = outputs.collect();
         let mut direction = |value: Option<Value>| value.map(|_| std::array::from_fn(|_| sources.next().unwrap_or(Source::Constant(0.0))));
         let [normal, smooth_normal, coat_normal, tangent] = directions.map(&mut direction);
-        let light_path = asks_for_ray(&steps);
+        let light_path = steps.kernels().any(|kernel| matches!(kernel, Kernel::Hit(step) if step.asks_for_ray()));
         Self { steps, outputs, normal, smooth_normal, free_normal: wanted.free_normal, coat_normal, tangent, uv: wanted.uv, light_path }
     }
     /// Whether there is nothing to run.
@@ -82,8 +82,4 @@ impl Program {
     pub fn kernels(&self) -> impl Iterator<Item = &Kernel<HitStep>> {
         self.steps.kernels()
     }
-}
-
-fn asks_for_ray(steps: &gonio_nodes::Program<HitStep>) -> bool {
-    steps.kernels().any(|kernel| matches!(kernel, Kernel::Hit(HitStep::Point(Operation::LightPath(_)))))
 }

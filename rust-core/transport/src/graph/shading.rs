@@ -32,7 +32,6 @@ pub(super) fn point_value<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, op
         Operation::GeometricNormal => load3(l, &points.geometric_normal, at),
         Operation::Incoming => load3(l, &points.wo, at),
         Operation::FrontFacing => return [l.f(1.0).keep_if(l.load(&points.side, at).gt(0.0)); 4],
-        Operation::Barycentric => Vec3::new(l.load(&points.barycentric[0], at), l.load(&points.barycentric[1], at), l.f(0.0)),
         Operation::LightPath(value) => return [light_path(l, points, at, *value); 4],
         Operation::PositionStep { axis } => step(l, points, at, *axis),
         _ => Vec3::splat(l, [0.0; 3]),

@@ -114,7 +114,7 @@ fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, nam
 
 /// Whether any step asks for the ray.
 pub(super) fn asks_for_ray(code: &Code<HitStep>) -> bool {
-    code.steps.iter().any(|step| matches!(step.kernel, Kernel::Hit(HitStep::Point(Operation::LightPath(_)))))
+    code.steps.iter().any(|step| matches!(&step.kernel, Kernel::Hit(step) if step.asks_for_ray()))
 }
 
 fn filter_of(filter: TextureFilter) -> Filter {
