@@ -6,6 +6,7 @@
 //! A [`Surface`] is compiled once for a material; [`Surface::resolve`] turns the parameter values of a batch of hits into [`Lobes`], in which
 //! all attenuation by layers at the view is contained; evaluation and sampling loop over the lobes' slots, which are the same in all lanes.
 
+mod adjoint;
 mod base;
 mod closure;
 mod coat;
@@ -30,6 +31,7 @@ mod tests;
 mod transmission;
 mod turn;
 
+pub use adjoint::LightHits;
 pub use lobes::{BsdfSample, Lobes, MAXIMUM, SpecularRay, Way};
 pub use measured::MeasuredBsdf;
 pub use resolve::Hits;

@@ -10,6 +10,7 @@ mod slot;
 mod specular_rays;
 
 pub(crate) use coat_tint::CoatTint;
+pub(crate) use eval::{Asked, evaluate};
 pub use sample::BsdfSample;
 pub(crate) use slot::{Shape, Side, Slot};
 pub use specular_rays::{SpecularRay, Way};

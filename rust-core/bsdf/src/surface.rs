@@ -41,6 +41,8 @@ pub struct LobeSet {
     pub anisotropic: bool,
     /// Turned tangent.
     pub turned: bool,
+    /// Metal or transmission that may be smooth: what it sends on casts caustics.
+    pub smooth: bool,
 }
 
 /// What is known before any hit: constants, which of them a graph overrides, and the model's choices.
@@ -80,6 +82,10 @@ impl Surface {
     pub fn is_see_through(&self) -> bool {
         self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
     }
+    /// Whether light that passes may be refracted sharply.
+    pub fn refracts(&self) -> bool {
+        self.lobes.smooth && self.lobes.transmission && !self.switches.thin_walled
+    }
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {
@@ -89,6 +95,9 @@ impl Surface {
         colour.ln() * rate
     }
 }
+
+/// Roughness below this may make a delta lobe, however it is stretched.
+const SMOOTH: f32 = 5e-3;
 
 /// What values a parameter can take.
 struct Reach<'a> {
@@ -126,6 +135,7 @@ impl Reach<'_> {
             cut_out: !self.is(p::OPACITY, 1.0),
             anisotropic,
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
+            smooth: (metal || transmission) && self.smooth(),
             straight: false,
         }
     }
@@ -150,8 +160,13 @@ impl Reach<'_> {
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
             film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
             straight: closure == Closure::Transparent,
+            smooth: (reflects || matches!(closure, Closure::Glass | Closure::Refraction)) && self.smooth(),
             ..LobeSet::default()
         }
+    }
+    /// Whether facets can be so even that they mirror.
+    fn smooth(&self) -> bool {
+        self.varying[p::ROUGHNESS] || self.constants[p::ROUGHNESS] < SMOOTH
     }
     /// Whether a film can be there.
     fn film(&self) -> bool {

@@ -5,13 +5,29 @@ use gonio_simd::{F, Lanes, Spectrum, Vec3};
 
 /// What an evaluation is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(crate) enum Asked {
     /// A direction that a light gave.
     All,
     /// A direction that the lobes gave: bump rules leave more open.
     Sampled,
     /// The part of a light's direction that is not of facets and interfaces.
     Diffuse,
+    /// A light path's direction towards the light, seen from where the path goes: all but what interfaces let pass.
+    Swapped,
+    /// What interfaces let pass, alone.
+    Refracted,
+}
+
+impl Asked {
+    /// Whether a lobe's shape counts at all.
+    #[inline(always)]
+    fn counts<L: Lanes>(self, shape: &Shape<'_, L>) -> bool {
+        match self {
+            Self::All | Self::Sampled | Self::Swapped => true,
+            Self::Diffuse => !matches!(shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)),
+            Self::Refracted => matches!(shape, Shape::Glass(_)),
+        }
+    }
 }
 
 impl<L: Lanes> Lobes<'_, L> {
@@ -31,11 +47,16 @@ impl<L: Lanes> Lobes<'_, L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
-            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)) {
+            if !asked.counts(&slot.shape) {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
-            let open = asked == Asked::Sampled && (!slot.is_diffuse() || slot.side != Side::Reflected);
+            if matches!(asked, Asked::Swapped | Asked::Refracted) && matches!(slot.shape, Shape::Glass(_)) {
+                let passed = (wo.z * wi.z).lt(0.0);
+                value = value.keep_if(if asked == Asked::Refracted { passed } else { !passed });
+            }
+            let given = matches!(asked, Asked::All | Asked::Diffuse);
+            let open = !given && (!slot.is_diffuse() || slot.side != Side::Reflected);
             if let Some(factor) = self.tilts.shadow(slot.normal, wi, slot.is_diffuse(), open) {
                 value = value * factor;
             }
@@ -56,7 +77,7 @@ impl<L: Lanes> Lobes<'_, L> {
 
 /// [`Lobes::sum`] as a function of its own, for evaluation and sampling alike.
 #[inline(never)]
-pub(super) fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Spectrum<L>, F<L>) {
+pub(crate) fn evaluate<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, asked: Asked) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || lobes.sum(l, wo, wi, asked),

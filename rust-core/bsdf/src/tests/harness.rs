@@ -95,7 +95,7 @@ fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
 }
 
 #[inline(always)]
-fn lanes<L: Lanes>(l: L, triples: &[[f32; 3]]) -> [F<L>; 3] {
+pub(super) fn lanes<L: Lanes>(l: L, triples: &[[f32; 3]]) -> [F<L>; 3] {
     let mut axes = [[0.5; 16]; 3];
     for (lane, triple) in triples.iter().enumerate() {
         (0..3).for_each(|axis| axes[axis][lane] = triple[axis]);
@@ -104,7 +104,7 @@ fn lanes<L: Lanes>(l: L, triples: &[[f32; 3]]) -> [F<L>; 3] {
 }
 
 #[inline(always)]
-fn rgb<L: Lanes>(light: Spectrum<L>) -> [[f32; 16]; 3] {
+pub(super) fn rgb<L: Lanes>(light: Spectrum<L>) -> [[f32; 16]; 3] {
     let colour = light.to_rgb();
     [colour.r.to_array(), colour.g.to_array(), colour.b.to_array()]
 }

@@ -1,5 +1,6 @@
 //! Tests of the surface models. Settings are shared: a new row in [`rows`] gets every statistical test.
 
+mod adjoint;
 mod chi_square;
 mod cycles;
 mod film;

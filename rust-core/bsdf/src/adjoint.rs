@@ -1,0 +1,104 @@
+//! The adjoint BSDF: what a surface makes of a path that comes from a light, which carries flux where a camera's path carries importance.
+//!
+//! Layers take from each other by the *view's* angle, and measured tables need not be reciprocal, so a light path's scattering is evaluated the
+//! way a camera path would see it: with the direction towards the camera as the view. Only interfaces that light passes are evaluated the way
+//! the path runs: radiance behind them is kept without the squared index (`glass.rs`), which makes what they do to flux the same both ways.
+//! Shading normals bring the factor of Veach (Robust Monte Carlo Methods, 1997, section 5.3).
+
+use super::lobes::{Asked, evaluate};
+use super::normals::Normals;
+use super::resolve::Hits;
+use super::{BsdfSample, Lobes, Surface};
+use gonio_simd::{F, Lanes, M, Select, Spectrum, Vec3};
+
+/// Cosines below this are those of directions in the plane, of which nothing can be said.
+const GRAZING: f32 = 1e-6;
+
+/// A register of hits of light paths: the hits as resolved for the direction towards the light, and the triangle's normal.
+#[derive(Clone, Copy, Debug)]
+pub struct LightHits<'a, L: Lanes> {
+    /// Parameters and, as the view, the direction towards the light.
+    pub hits: Hits<'a, L>,
+    /// Unit normal of the triangle in the shading frame, on the light's side.
+    pub geometric: Vec3<L>,
+}
+
+impl Surface {
+    /// Flux that leaves into unit direction `to`, per solid angle and unit of flux that arrives, without delta lobes. `lobes` are resolved for the
+    /// direction towards the light; `room` is written over.
+    #[inline(always)]
+    pub fn flux<'s, L: Lanes>(
+        &'s self,
+        l: L,
+        light: &LightHits<'_, L>,
+        lobes: &Lobes<'s, L>,
+        to: Vec3<L>,
+        room: &mut Lobes<'s, L>,
+    ) -> Spectrum<L> {
+        let from = light.hits.wo;
+        let behind = to.z.lt(0.0);
+        let turned = |v: Vec3<L>| behind.select(about_x(v), v);
+        let normals = light.hits.normals.map(|normals| Normals {
+            geometric: other_side(behind, normals.geometric),
+            smooth: other_side(behind, normals.smooth),
+            coat: normals.coat.map(|coat| other_side(behind, coat)),
+        });
+        let view = turned(to);
+        let entering = light.hits.entering.and_not(behind) | behind.and_not(light.hits.entering);
+        self.resolve(l, &Hits { wo: view, entering, normals: normals.as_ref(), ..light.hits }, room);
+        let seen = evaluate(l, room, view, turned(from), Asked::Swapped).0;
+        let [arriving, leaving] = [light.geometric.dot(from).abs(), light.geometric.dot(to).abs()];
+        let mut sum = seen * ratio(leaving, arriving);
+        if self.lobes.transmission && behind.any() {
+            let passed = evaluate(l, lobes, from, to, Asked::Refracted).0;
+            sum += passed * bend(light, to);
+        }
+        sum
+    }
+
+    /// The throughput factor of a sampled direction for a path from a light.
+    #[inline(always)]
+    pub fn flux_factor<'s, L: Lanes>(
+        &'s self,
+        l: L,
+        light: &LightHits<'_, L>,
+        lobes: &Lobes<'s, L>,
+        sample: &BsdfSample<L>,
+        room: &mut Lobes<'s, L>,
+    ) -> Spectrum<L> {
+        let plain = sample.value * sample.pdf.recip();
+        let alone = sample.delta | sample.entered;
+        let straight = sample.straight | sample.entered;
+        let delta = plain * straight.select(l.f(1.0), bend(light, sample.wi));
+        if (alone | sample.pdf.le(0.0)).all() {
+            return delta;
+        }
+        let scattered = self.flux(l, light, lobes, sample.wi, room) * sample.pdf.recip();
+        alone.select(delta, scattered)
+    }
+}
+
+/// What bent normals do to flux that leaves `from` for `to`: the cosines about the shading normal in place of those about the triangle's.
+#[inline(always)]
+fn bend<L: Lanes>(light: &LightHits<'_, L>, to: Vec3<L>) -> F<L> {
+    let from = light.hits.wo;
+    let shaded = ratio(from.z.abs(), light.geometric.dot(from).abs());
+    shaded * ratio(light.geometric.dot(to).abs(), to.z.abs())
+}
+
+#[inline(always)]
+fn ratio<L: Lanes>(a: F<L>, b: F<L>) -> F<L> {
+    (a / b.max(GRAZING)).keep_if(b.gt(GRAZING))
+}
+
+/// A vector in the shading frame as the surface's other side has it: turned about the tangent.
+#[inline(always)]
+fn about_x<L: Lanes>(v: Vec3<L>) -> Vec3<L> {
+    Vec3::new(v.x, -v.y, -v.z)
+}
+
+/// A normal on the side that is looked at: turned round, and seen in the frame of that side.
+#[inline(always)]
+fn other_side<L: Lanes>(behind: M<L>, normal: Vec3<L>) -> Vec3<L> {
+    Vec3::select(behind, about_x(-normal), normal)
+}
