@@ -1,5 +1,7 @@
 //! Pixel filters as distributions: a sample's place in the pixel is drawn by the filter, so that every sample has weight one.
 
+use gonio_simd::{F, Lanes};
+
 /// Knots of the tabulated inverse.
 pub const KNOTS: usize = 257;
 
@@ -17,4 +19,15 @@ pub enum Placement {
 pub struct FilterTable {
     /// Offset from the pixel's centre in pixels at u = i / 256.
     pub inverse: Vec<f32>,
+}
+
+impl FilterTable {
+    /// Where in the pixel a sample lies, pixels from its centre: the tabulated inverse at `u`.
+    #[inline(always)]
+    pub fn offset<L: Lanes>(&self, l: L, u: F<L>) -> F<L> {
+        let place = u * (self.inverse.len() - 1) as f32;
+        let floor = place.floor();
+        let [low, high] = l.gather_pairs(&self.inverse, floor.to_i32());
+        low.lerp(high, place - floor)
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::chief::chief_ray;
 use crate::{CameraTable, Lens, panorama};
-use gonio_simd::{F, Lanes, M, Vec3};
+use gonio_simd::{F, Lanes, M, One, Vec3};
 use std::f32::consts::TAU;
 
 #[cfg(test)]
@@ -42,6 +42,12 @@ struct Mapped<L: Lanes> {
 }
 
 impl CameraTable {
+    /// Width of a pixel about a point that the camera may see, metres.
+    pub fn pixel_width(&self, point: [f32; 3]) -> Option<f32> {
+        let seen = self.importance(One, Vec3::splat(One, point), [One.f(0.5); 2]);
+        (seen.valid.any() && seen.importance.0 > 0.0).then(|| seen.importance.0.sqrt().recip())
+    }
+
     /// How the camera sees a point through a place of the lens that `lens` in the unit square stands for, as in [`CameraTable::ray`].
     ///
     /// A pixel's radiance is the mean over the raster and the lens of the radiance along camera rays. For a fixed place of the lens a raster

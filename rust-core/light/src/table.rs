@@ -117,6 +117,13 @@ impl LightTable {
     pub fn group(&self, light: u32, one_by_one: bool) -> usize {
         if one_by_one { light as usize } else { (self.rows[light as usize * ROW + field::FLAGS].to_bits() & flag::KIND) as usize }
     }
+    /// The middle of a light that has a place and sends light.
+    pub fn centre(&self, light: u32) -> Option<[f32; 3]> {
+        let row = self.rows.as_chunks::<ROW>().0.get(light as usize)?;
+        let flags = row[field::FLAGS].to_bits();
+        let [x, y, z] = [0, 1, 2].map(|axis| row[field::BOUND_CENTRE + axis]);
+        (flags & (flag::LIT | flag::INFINITE) == flag::LIT).then_some([x, y, z])
+    }
     /// Whether a light emits from all around.
     pub fn is_dome(&self, light: u32) -> bool {
         self.infinite.iter().any(|infinite| infinite.light == light && infinite.kind == LightKind::Dome)

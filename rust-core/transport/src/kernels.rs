@@ -10,7 +10,7 @@ use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
 use crate::tables::Tables;
-use gonio_bsdf::{BsdfSample, Lobes, ParameterValues, SpecularRay, Surface, Way};
+use gonio_bsdf::{BsdfSample, LightHits, Lobes, ParameterValues, SpecularRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -39,12 +39,53 @@ pub(crate) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi
     )
 }
 
+/// [`Lobes::eval`] without the density.
+#[inline(never)]
+pub(crate) fn eval<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Spectrum<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.eval(l, wo, wi).0,
+    )
+}
+
 /// [`Lobes::sample`].
 #[inline(never)]
 pub fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
     l.vectorize(
         #[inline(always)]
         || lobes.sample(l, wo, u),
+    )
+}
+
+/// [`Surface::flux`].
+#[inline(never)]
+pub(crate) fn flux<'s, L: Lanes>(
+    l: L,
+    surface: &'s Surface,
+    light: &LightHits<'_, L>,
+    lobes: &Lobes<'s, L>,
+    to: Vec3<L>,
+    room: &mut Lobes<'s, L>,
+) -> Spectrum<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.flux(l, light, lobes, to, room),
+    )
+}
+
+/// [`Surface::flux_factor`].
+#[inline(never)]
+pub(crate) fn flux_factor<'s, L: Lanes>(
+    l: L,
+    surface: &'s Surface,
+    light: &LightHits<'_, L>,
+    lobes: &Lobes<'s, L>,
+    sample: &BsdfSample<L>,
+    room: &mut Lobes<'s, L>,
+) -> Spectrum<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.flux_factor(l, light, lobes, sample, room),
     )
 }
 

@@ -26,6 +26,8 @@ pub enum Start<'a> {
     Camera(&'a CameraTable, &'a Placement),
     /// At sensors; depth 1 is their first rays'.
     Sensors(&'a SensorTable),
+    /// Nowhere: light paths start at lights, see [`crate::LightTracer`].
+    Lights,
 }
 
 /// Traces batches of one view of a scene.
@@ -111,6 +113,10 @@ impl Tracer<'_> {
                 std::mem::swap(&mut ws.paths, &mut ws.queues.next);
                 steps::set_masks(self.tables, &mut ws.paths);
                 1
+            }
+            Start::Lights => {
+                ws.paths.count = 0;
+                0
             }
         };
         ws.statistics.spent(Stage::Generate, time);

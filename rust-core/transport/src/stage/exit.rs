@@ -10,12 +10,13 @@ use gonio_bsdf::subsurface;
 use gonio_camera::sampler::dimension;
 use gonio_simd::Lanes;
 
-/// Lights and scatters walks that come out, as a white Lambertian surface; `base` is the first sampler dimension that it uses.
+/// Scatters walks that come out, as a white Lambertian surface, and lights them if they are to be `lit`; `base` is the first sampler dimension that it uses.
 #[inline(always)]
 pub(crate) fn light_and_scatter<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
     base: u32,
+    lit: bool,
     queues: &mut Queues,
     deposits: &mut Deposits,
 ) {
@@ -23,7 +24,7 @@ pub(crate) fn light_and_scatter<L: Lanes>(
     let lobes = subsurface::exit(l);
     let index = sample.index(l, point.slot);
     let [u_light, u_roulette] = sample.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
-    if !tables.lights.is_empty() {
+    if lit && !tables.lights.is_empty() {
         let [u, v] = sample.sampler.pair(l, index, base + dimension::LIGHT);
         sample_light(chunk, point, &lobes, [u_light, u, v], point.alive, &mut queues.shadows, deposits);
     }

@@ -3,12 +3,12 @@
 use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
+use gonio_camera::Placement;
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_camera::{CameraRay, CameraTable};
-use gonio_camera::{FilterTable, Placement};
-use gonio_simd::{F, Lanes, PADDING, Spectrum, U};
+use gonio_simd::{Lanes, PADDING, Spectrum, U};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ pub fn generate<L: Lanes>(
         let [u, v] = match placement {
             Placement::Filter(filter) => {
                 let u = sampler.pair(l, index, dimension::PIXEL);
-                [filter_offset(l, filter, u[0]), filter_offset(l, filter, u[1])]
+                [filter.offset(l, u[0]), filter.offset(l, u[1])]
             }
             Placement::Grid(side) => {
                 let step = |i: u32| l.f((i as f32 + 0.5) / *side as f32 - 0.5);
@@ -88,14 +88,4 @@ fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
         counts: l.u(0),
         medium: Spectrum::zero(l),
     }
-}
-
-/// Where in the pixel a sample lies: the filter's tabulated inverse.
-#[inline(always)]
-fn filter_offset<L: Lanes>(l: L, filter: &FilterTable, u: F<L>) -> F<L> {
-    let knots = (filter.inverse.len() - 1) as f32;
-    let place = u * knots;
-    let floor = place.floor();
-    let [low, high] = l.gather_pairs(&filter.inverse, floor.to_i32());
-    low.lerp(high, place - floor)
 }

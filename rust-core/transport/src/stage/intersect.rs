@@ -3,12 +3,13 @@
 //! Light of shapes and infinite lights is added here, weighted by MIS (multiple importance sampling).
 
 use crate::accumulate::add::add;
-use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
+use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, to_film};
 use crate::accumulate::guides::is_specular_path;
 use crate::accumulate::light_sums::code;
 use crate::kernels::{self, LightHit};
 use crate::state::columns::gather3;
 use crate::state::flag;
+use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::NearestHits;
 use crate::state::paths::{CarriedLanes, Paths, PreviousLanes, TrackLanes};
 use crate::tables::Tables;
@@ -33,6 +34,31 @@ pub(crate) fn intersect(
         pass_through_lights(tables, transport, paths, nearest);
     }
     dispatch!(transport.execution, l => add_environment(l, tables, transport, paths, &mut nearest.escaped, deposits));
+}
+
+/// Finds what every light path hits: lights are passed, and send nothing.
+pub(crate) fn find_surfaces(tables: &Tables, transport: &Transport, paths: &mut Paths, nearest: &mut NearestHits) {
+    find_first(tables, transport, false, paths, nearest);
+    dispatch!(transport.execution, l => classify(l, tables, nearest));
+    while !nearest.at_lights.is_empty() {
+        pass_through_lights(tables, transport, paths, nearest);
+    }
+}
+
+/// Notes the flux of light paths that left the scene.
+#[inline(always)]
+pub(crate) fn escape<L: Lanes>(l: L, paths: &Paths, escaped: &mut Vec<u32>, starts: &LightStarts, escapes: &mut Escapes) {
+    let count = escaped.len();
+    escaped.resize(gonio_simd::padded(count), 0);
+    for at in (0..count).step_by(L::COUNT) {
+        let alive = l.first(count - at);
+        let path = l.load_integers(escaped, at);
+        let TrackLanes { slot, flags, .. } = paths.track(l, path);
+        let flux = to_film(starts.carried(l, slot, paths.carried(l, path).throughput));
+        let ray = [gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction];
+        escapes.append(ray, flux, flags >> flag::BOUNCE_SHIFT, alive);
+    }
+    escaped.truncate(count);
 }
 
 /// Finds what every path hits; `coherent` ones in packets.
@@ -85,8 +111,9 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
         let weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let (code, specular) = (code_of_found(flags, code::EMISSION), is_specular_path(flags, slot));
+        let brought = transport.is_brought(flags, light, alive);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Light(light) };
-        deposits.deposit(transport, &light, alive & value.is_lit());
+        deposits.deposit(transport, &light, (alive & value.is_lit()).and_not(brought));
     }
     at_lights.truncate(count);
 }
@@ -122,6 +149,12 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &mut Paths
     });
 }
 
+/// Infinite lights whose caustics light paths bring.
+fn brought_infinite<'a>(tables: &'a Tables, transport: &'a Transport) -> impl Iterator<Item = u32> + 'a {
+    let brought = transport.light_paths.as_deref().unwrap_or_default();
+    tables.lights.infinite_lights().filter(|number| brought.get(*number as usize).is_some_and(|brought| *brought != 0))
+}
+
 /// Adds the light of infinite lights to paths that escaped, weighted by MIS against next event estimation.
 #[inline(always)]
 fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Paths, escaped: &mut Vec<u32>, deposits: &mut Deposits) {
@@ -142,7 +175,15 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let from = [position, normal];
         let direction = paths.cone(l, path).direction;
         let (light_cache, camera_and_delta) = (transport.light_cache.as_deref(), [camera, delta]);
-        let unclamped = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None) * throughput;
+        let mut sent = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None);
+        for number in brought_infinite(tables, transport) {
+            let brought = transport.is_brought(flags, l.u(number), alive);
+            if brought.any() {
+                let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number));
+                sent = brought.select((sent - part).max(0.0), sent);
+            }
+        }
+        let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let (code, specular) = (code_of_found(flags, code::ENVIRONMENT), is_specular_path(flags, slot));
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
@@ -155,7 +196,8 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                     * throughput
                     * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
-                deposits.deposit_to_group(&transport.passes.groups, &part, counted & value.is_lit());
+                let brought = transport.is_brought(flags, l.u(number), counted);
+                deposits.deposit_to_group(&transport.passes.groups, &part, (counted & value.is_lit()).and_not(brought));
             }
         }
     }

@@ -4,6 +4,7 @@
 
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
+use crate::stage::merge::{Found, irradiance};
 use crate::stage::nee::send;
 use crate::state::columns::load3;
 use crate::state::flag;
@@ -75,6 +76,7 @@ pub(crate) fn light_and_start<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let MeasureContext { l, tables, transport, sample: context, ref range, .. } = *chunk;
+    let mut found = Found::default();
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         let index = context.index(l, point.slot);
@@ -86,7 +88,13 @@ pub(crate) fn light_and_start<L: Lanes>(
             let sample = kernels::sample_li(l, tables, light_cache, &point.at.position, &point.at.frame.z, &[u_light, u, v]);
             queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
         }
-        start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), next);
+        if let Some(photons) = &transport.photons {
+            let irradiance = irradiance(l, photons, point.at.position, point.at.geometric, point.alive, &mut found);
+            let light = Contribution::sampled(l.u(0), point.slot, irradiance * point.throughput, l.u(0), None);
+            deposits.deposit(transport, &light, point.alive & irradiance.is_lit());
+        }
+        let brought = if transport.photons.is_some() { flag::LIGHT_BROUGHT } else { 0 };
+        start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), brought, next);
     }
 }
 
@@ -131,7 +139,7 @@ fn queue_shadow_ray<L: Lanes>(
 }
 
 #[inline(always)]
-fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], next: &mut Paths) {
+fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, next: &mut Paths) {
     let local = cosine_hemisphere(u);
     let direction = point.at.frame.to_world(local).normalize();
     // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
@@ -144,7 +152,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], next: &mut Path
         width: point.width,
         spread: l.f(CONE_PER_ROUGHNESS),
         slot: point.slot,
-        flags: l.u(flag::NON_SPECULAR_SEEN | (1 << flag::BOUNCE_SHIFT)),
+        flags: l.u(flag::NON_SPECULAR_SEEN | brought | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
         medium: Spectrum::zero(l),
     };

@@ -10,17 +10,23 @@
 //!   and BSDF sampling ([`scatter`]).
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
+//! - [`merge`] takes up photons behind mirrors and smooth glass.
 //! - [`shadow`] traces shadow rays and adds what arrives.
+//!
+//! `schedule/light` starts light paths by [`emit`], and shades by [`forward`].
 
 pub(crate) mod catcher;
 pub(crate) mod closure;
+pub(crate) mod emit;
 pub(crate) mod exit;
 pub(crate) mod first_surface;
+pub(crate) mod forward;
 pub(crate) mod generate;
 pub(crate) mod integrator;
 pub(crate) mod intersect;
 pub(crate) mod light_queue;
 pub(crate) mod measure;
+pub(crate) mod merge;
 pub(crate) mod nee;
 pub(crate) mod scatter;
 pub(crate) mod sensors;

@@ -75,7 +75,7 @@ pub(crate) fn send<L: Lanes>(
 
 /// The diffuse and the glossy share of what all lobes scatter.
 #[inline(always)]
-fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Spectrum<L>) -> [Spectrum<L>; 2] {
+pub(crate) fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Spectrum<L>) -> [Spectrum<L>; 2] {
     let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
     // What facets send to the other side is transmitted.
     let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));

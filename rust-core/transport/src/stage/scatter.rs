@@ -7,8 +7,8 @@ use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
-use gonio_bsdf::{Lobes, subsurface::Medium};
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_bsdf::{BsdfSample, Lobes, subsurface::Medium};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// First depths of Russian roulette, for paths that leave diffusely and for any path: highlights and glass show more of what comes later.
 const ROULETTE_FROM: [u32; 2] = [1, 5];
@@ -68,6 +68,15 @@ fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diff
     if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
 }
 
+/// What a path keeps of [`flag::LIGHT_BROUGHT`], or begins with where it scatters by other than mirrors and smooth glass; and where it started.
+#[inline(always)]
+fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
+    let l = chunk.l;
+    let seen = point.bounces.eq(0) | l.m(chunk.transport.photons.is_some());
+    let rough = l.u(flag::LIGHT_BROUGHT).keep_if(seen & (point.flags & flag::WALKED).eq(0));
+    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough) | (point.flags & flag::FROM_LIGHT)
+}
+
 /// Samples the BSDF and appends the paths that go on, after Russian roulette. `ending` paths have no bounce left: only what goes straight
 /// through goes on, as the NEE before counted on it.
 #[inline(always)]
@@ -83,26 +92,43 @@ pub(crate) fn scatter<L: Lanes>(
     if !(going_on | ending).any() {
         return;
     }
+    let sample = kernels::sample(chunk.l, lobes, point.local_wo, [u[0], u[1], u[2]]);
+    let factor = sample.value * sample.pdf.recip();
+    send_on(chunk, point, lobes.medium(), (&sample, factor), u[3], [going_on, ending], next, walks);
+}
+
+/// Appends the paths that go on in sampled directions, with `factor` on their throughput, and starts walks under the surface.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a vertex, a direction and where the path goes on")]
+pub(crate) fn send_on<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    point: &Vertex<L>,
+    medium: Option<&Medium<L>>,
+    (sample, factor): (&BsdfSample<L>, Spectrum<L>),
+    u_roulette: F<L>,
+    [going_on, ending]: [M<L>; 2],
+    next: &mut Paths,
+    walks: &mut Walks,
+) {
     let l = chunk.l;
-    let sample = kernels::sample(l, lobes, point.local_wo, [u[0], u[1], u[2]]);
     let wi = point.at.frame.to_world(sample.wi).normalize();
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.at.geometric.dot(wi).lt(0.0);
     // What facets refract goes on where bent normals send it: lost, it would darken smooth edges.
     let consistent = (sample.transmitted & (across | !sample.diffuse)) | (!sample.transmitted).and_not(across);
-    let throughput = point.throughput * sample.value * sample.pdf.recip();
+    let throughput = point.throughput * factor;
     let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
         & throughput.max_component().is_finite();
-    if let Some(medium) = lobes.medium() {
+    if let Some(medium) = medium {
         let entered = alive & sample.entered;
         alive = alive.and_not(sample.entered);
         start_walks(point, wi, throughput, medium, entered, walks);
     }
     let survival = survival(chunk, throughput, sample.diffuse);
-    alive &= u[3].lt(survival);
+    alive &= u_roulette.lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {
         return;
@@ -111,7 +137,8 @@ pub(crate) fn scatter<L: Lanes>(
     let non_specular = (point.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
-    let scattered = delta | non_specular | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let kept = brought(chunk, point, sample);
+    let scattered = delta | non_specular | kept | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;

@@ -92,7 +92,12 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
 
 /// The normals beside the shading normal, where the material or the way that the view meets them asks for any.
 #[inline(always)]
-fn normals<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>, at: usize) -> Option<Normals<L>> {
+pub(crate) fn normals<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    material: &SurfaceMaterial,
+    point: &Vertex<L>,
+    at: usize,
+) -> Option<Normals<L>> {
     let (l, surface, program) = (chunk.l, &chunk.columns.surface, &material.program);
     let frame = &point.at.frame;
     let geometric = frame.to_local(point.at.geometric);
@@ -195,6 +200,7 @@ fn add_emission<L: Lanes>(
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let mut value = emission * point.throughput;
+    let mut present = present;
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, point.instance);
         let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
@@ -204,6 +210,11 @@ fn add_emission<L: Lanes>(
             let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.at.position };
             let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
             value = value * hit_weight(point.pdf, pdf, sampled);
+        }
+        if transport.light_paths.is_some() {
+            let lights = present & first.ne(NONE);
+            let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(lights);
+            present = present.and_not(transport.is_brought(point.flags, light, lights));
         }
     }
     let value = transport.limits.clamped(value, point.bounces);

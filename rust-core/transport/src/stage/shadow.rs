@@ -29,14 +29,29 @@ pub(crate) fn trace_shadows(
     chunk: &mut ChunkColumns,
     deposits: &mut Deposits,
 ) {
-    let n = shadows.count;
-    if n == 0 {
+    if shadows.count == 0 {
         return;
     }
+    catcher::set_shadow_masks(tables, shadows);
+    occlude(tables, transport, coherent, shadows, trace, chunk);
+    dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
+    deposits.note_arrivals(shadows, &trace.blocked);
+    shadows.count = 0;
+}
+
+/// Finds which rays something opaque blocks (`trace.blocked`), and dims the contributions of the others by what they pass.
+pub(crate) fn occlude(
+    tables: &Tables,
+    transport: &Transport,
+    coherent: bool,
+    shadows: &mut ShadowRays,
+    trace: &mut ShadowTrace,
+    chunk: &mut ChunkColumns,
+) {
+    let n = shadows.count;
     trace.blocked.clear();
     trace.blocked.resize(n + gonio_simd::PADDING, 1);
     trace.passed.clear();
-    catcher::set_shadow_masks(tables, shadows);
     let (rays, blocked) = (shadows.rays.batch(0..n), &mut trace.blocked[..n]);
     let packets = coherent && tables.bvh.has_shadow_packets(transport.execution);
     if tables.any_transparent {
@@ -49,9 +64,6 @@ pub(crate) fn trace_shadows(
     if !trace.passed.is_empty() {
         dim_by_surfaces(tables, transport, trace, shadows, chunk);
     }
-    dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
-    deposits.note_arrivals(shadows, &trace.blocked);
-    shadows.count = 0;
 }
 
 #[inline(always)]

@@ -30,6 +30,8 @@ pub(crate) struct WalkContext<'a> {
     pub(crate) transport: &'a Transport,
     pub(crate) sample: &'a SampleContext<'a>,
     pub(crate) paths: &'a Paths,
+    /// Whether what comes out is lit, as camera paths want it.
+    pub(crate) lit: bool,
 }
 
 /// Walks until all walks are out or lost; those that are out are lit and scatter. Returns how many rays were traced.
@@ -138,12 +140,12 @@ fn exit_chunk<L: Lanes>(
     queues: &mut Queues,
     deposits: &mut Deposits,
 ) {
-    let WalkContext { tables, transport, sample, paths } = *context;
+    let WalkContext { tables, transport, sample, paths, lit } = *context;
     let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns };
     let base = sample.dimension(dimension::MEASURE);
     for at in (0..count).step_by(L::COUNT) {
         let point = exit_point(&chunk, at, &queues.walks);
-        light_and_scatter(&chunk, &point, base, queues, deposits);
+        light_and_scatter(&chunk, &point, base, lit, queues, deposits);
     }
 }
 
@@ -154,7 +156,8 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
     let walk = l.load_integers(chunk.order, at);
     // Surface columns face the ray's start, which is inside; the way out is the other one.
     let normal = -load3(l, &surface.shading_normal, at);
-    let flags = l.gather_integers(&walks.flags, walk);
+    // Light paths bring nothing to where a walk comes out.
+    let flags = l.gather_integers(&walks.flags, walk) | flag::WALKED;
     Vertex {
         alive: l.first(chunk.count - at),
         path: l.u(0),

@@ -12,8 +12,14 @@ pub(crate) const LAST_SHIFT: u32 = 3;
 pub(crate) const FIRST_SHIFT: u32 = 5;
 /// Of hits, not of paths: a shadow ray is what passes here.
 pub(crate) const SHADOW: u32 = 128;
+/// The path started at a light.
+pub(crate) const FROM_LIGHT: u32 = 256;
+/// To the last surface that did not scatter specularly light paths bring light: the camera sees it, or photons are taken up there.
+pub(crate) const LIGHT_BROUGHT: u32 = 512;
+/// Of vertices, not of paths: light came out here from under the surface.
+pub(crate) const WALKED: u32 = 1024;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 8;
+pub(crate) const BOUNCE_SHIFT: u32 = 11;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {

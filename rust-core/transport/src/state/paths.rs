@@ -174,7 +174,12 @@ impl Paths {
     pub(crate) fn set_masks(&mut self) {
         for (mask, track) in self.rays.mask[..self.count].iter_mut().zip(self.track.chunks_exact(4)) {
             let flags = track[FLAGS];
-            *mask = if flags & flag::CAMERA != 0 { ray_mask::CAMERA } else { ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3) };
+            *mask = match flags {
+                _ if flags & flag::CAMERA != 0 => ray_mask::CAMERA,
+                // What a light sends is seen by what casts shadows.
+                _ if flags & flag::FROM_LIGHT != 0 && flags >> flag::BOUNCE_SHIFT == 0 => ray_mask::SHADOW,
+                _ => ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3),
+            };
         }
     }
 }

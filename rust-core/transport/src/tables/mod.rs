@@ -2,6 +2,7 @@
 
 pub(crate) mod light_groups;
 pub(crate) mod material;
+pub(crate) mod photons;
 pub mod ray_mask;
 pub(crate) mod shader_passes;
 pub(crate) mod transport;

@@ -1,6 +1,8 @@
 //! Settings of a view that stages read: bounce limits, clamps, wanted passes, seed. Nothing changes them during a render.
 
+use crate::state::flag;
 use crate::tables::light_groups::GroupPasses;
+use crate::tables::photons::PhotonMap;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
 use gonio_simd::{Execution, Lanes, M, Spectrum, U};
@@ -33,6 +35,28 @@ pub struct Transport {
     pub path_filter: PathFilter,
     /// How light is gathered.
     pub estimator: Estimator,
+    /// By light, 1 where light paths bring its caustics; `None` where camera paths look for all of them.
+    pub light_paths: Option<Arc<[u32]>>,
+    /// Photons that camera paths take up behind mirrors and smooth glass.
+    pub photons: Option<Arc<PhotonMap>>,
+}
+
+impl Transport {
+    /// Where light that a camera path found is brought by light paths: mirrors or smooth glass sent it on last, and light paths
+    /// bring what they do to the surface before. Each path of light so belongs to one technique.
+    #[inline(always)]
+    pub(crate) fn is_brought<L: Lanes>(&self, flags: U<L>, light: U<L>, found: M<L>) -> M<L> {
+        let l = flags.lanes();
+        let Some(brought) = &self.light_paths else { return l.m(false) };
+        let caustic = found & is_caustic(flags);
+        if caustic.any() { caustic & l.gather_integers(brought, light.keep_if(caustic)).ne(0) } else { caustic }
+    }
+}
+
+/// Whether mirrors or smooth glass stand between a path's end and the last surface to which light paths bring light.
+#[inline(always)]
+fn is_caustic<L: Lanes>(flags: U<L>) -> M<L> {
+    (flags & (flag::LIGHT_BROUGHT | flag::DELTA)).eq(flag::LIGHT_BROUGHT | flag::DELTA) & !(flags >> flag::BOUNCE_SHIFT).lt(2)
 }
 
 /// How light is gathered.

@@ -4,6 +4,7 @@ use crate::accumulate::deposit::Deposits;
 use crate::stage::integrator::Integrator;
 use crate::stage::light_queue::sample_queued;
 use crate::stage::measure::{self, MeasureContext};
+use crate::stage::merge::merge;
 use crate::stage::nee::{queue_shadow_ray, sample_light};
 use crate::stage::scatter::{pass_straight, scatter};
 use crate::stage::shade::{add_seen, guide_and_measure};
@@ -54,6 +55,13 @@ impl Integrator for PathIntegrator {
         };
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
         let [non_specular, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
+        if let Some(photons) = &transport.photons {
+            // At what the camera sees directly, light paths left their light in the picture.
+            let unseen = going_on & non_specular & point.bounces.ne(0);
+            if unseen.any() {
+                merge(chunk, photons, point, lobes, unseen, &mut queues.photons, deposits);
+            }
+        }
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if (non_specular & going_on).any() && !tables.lights.is_empty() {
             if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {

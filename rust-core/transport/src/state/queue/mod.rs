@@ -8,6 +8,7 @@ pub(crate) mod shadow_rays;
 pub(crate) mod shadow_trace;
 pub(crate) mod walks;
 
+use crate::state::light_paths::LightPathQueues;
 use crate::state::paths::Paths;
 use branches::Branches;
 use light_samples::LightSampleQueue;
@@ -30,4 +31,8 @@ pub(crate) struct Queues {
     pub(crate) measure: MeasurePoints,
     /// NEE of the chunk under way.
     pub(crate) light_samples: LightSampleQueue,
+    /// Photons about the points of a register.
+    pub(crate) photons: [Vec<u32>; gonio_simd::PADDING],
+    /// What light paths start with and bring.
+    pub(crate) light_paths: LightPathQueues,
 }

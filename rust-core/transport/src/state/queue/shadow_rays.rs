@@ -43,10 +43,17 @@ pub(crate) struct ShadowRays {
 
 impl Default for ShadowRays {
     fn default() -> Self {
+        Self::with_mask(ray_mask::SHADOW)
+    }
+}
+
+impl ShadowRays {
+    /// An empty queue of rays with these visibility bits.
+    pub(crate) fn with_mask(mask: u8) -> Self {
         let room = SHADOW_ROOM;
         Self {
             count: 0,
-            rays: Rays::new(room, ray_mask::SHADOW),
+            rays: Rays::new(room, mask),
             contribution: SpectrumColumns::new(room),
             slot: Column::new(room),
             code: Column::new(room),
@@ -54,9 +61,7 @@ impl Default for ShadowRays {
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
         }
     }
-}
 
-impl ShadowRays {
     /// Whether the shadow rays of some more hits fit into the queue.
     pub(crate) fn has_room(&self, hits: usize, shadow_rays_per_hit: usize) -> bool {
         self.count + hits * shadow_rays_per_hit <= SHADOW_ROOM - PADDING

@@ -1,0 +1,122 @@
+//! Emission: light paths start at lights, or with rays of a table (pbrt's `Light::SampleLe`).
+
+use crate::state::flag;
+use crate::state::light_paths::LightStarts;
+use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::rays::RayLanes;
+use crate::state::sample::SampleContext;
+use crate::tables::Tables;
+use gonio_bsdf::parameter::spectrum;
+use gonio_camera::sampler::{BATCH, dimension};
+use gonio_light::{EmissionSampler, EmittedRay};
+use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, U, Vec3};
+
+/// Where light paths start.
+#[derive(Clone, Copy, Debug)]
+pub enum Emission<'a> {
+    /// At the scene's lights.
+    Lights(&'a EmissionSampler),
+    /// With the rays of a table, in order; behind its end it begins again.
+    Rays(&'a RayTable),
+}
+
+/// Rays that carry flux, each as much as if it were the only one. Rebased world space.
+#[derive(Clone, Debug, Default)]
+pub struct RayTable {
+    /// Where they start.
+    pub origin: [Vec<f32>; 3],
+    /// Unit directions.
+    pub direction: [Vec<f32>; 3],
+    /// Flux, R, G, B.
+    pub flux: [Vec<f32>; 3],
+}
+
+impl RayTable {
+    /// Rays in it.
+    pub fn len(&self) -> usize {
+        self.flux[0].len()
+    }
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Some of its rays, by their numbers.
+    #[inline(always)]
+    fn rays<L: Lanes>(&self, l: L, number: U<L>) -> EmittedRay<L> {
+        let three = |columns: &[Vec<f32>; 3]| {
+            let [x, y, z] = columns;
+            Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number))
+        };
+        let flux = three(&self.flux);
+        EmittedRay {
+            origin: three(&self.origin),
+            normal: Vec3::splat(l, [0.0; 3]),
+            direction: three(&self.direction),
+            flux: spectrum(Rgb::new(flux.x, flux.y, flux.z)),
+            light: l.u(0),
+            clear: l.f(0.0),
+        }
+    }
+}
+
+/// A ray that leaves a light's surface starts so far off it, over the size of its coordinates: it may not meet the triangle that it leaves.
+const OFFSET: f32 = 2e-6;
+
+/// Starts a batch of light paths, one a slot.
+#[inline(always)]
+pub(crate) fn emit<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    emission: Emission<'_>,
+    sample: &SampleContext<'_>,
+    batch: u64,
+    starts: &mut LightStarts,
+    paths: &mut Paths,
+) {
+    paths.count = 0;
+    for first in (0..BATCH as u32).step_by(L::COUNT) {
+        let slot = l.iota() + first;
+        let ray = match emission {
+            Emission::Lights(sampler) => {
+                let index = sample.index(l, slot);
+                let [u_light, _] = sample.sampler.pair(l, index, sample.dimension(dimension::LIGHT_CHOICE));
+                let place = sample.sampler.pair(l, index, dimension::PIXEL);
+                let direction = sample.sampler.pair(l, index, dimension::LENS);
+                sampler.sample(l, &tables.lights, u_light, place, direction)
+            }
+            Emission::Rays(table) => table.rays(l, numbers(l, table.len(), batch, first)),
+        };
+        starts.flux.store(ray.flux, first as usize);
+        ray.light.store(&mut starts.light, first as usize);
+        ray.clear.store(&mut starts.clear, first as usize);
+        let carries = ray.flux.is_lit() & ray.flux.max_component().is_finite();
+        paths.append(&started(l, &ray, slot), carries);
+    }
+}
+
+/// Numbers of the rays that a batch's register takes from a table.
+#[inline(always)]
+fn numbers<L: Lanes>(l: L, count: usize, batch: u64, first: u32) -> U<L> {
+    let mut numbers = [0; PADDING];
+    let start = batch * BATCH as u64 + u64::from(first);
+    numbers.iter_mut().zip(start..).for_each(|(number, at)| *number = (at % count as u64) as u32);
+    l.load_integers(&numbers, 0)
+}
+
+#[inline(always)]
+fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
+    let off = ray.origin.max_abs() * OFFSET;
+    PathLanes {
+        ray: RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+        from: PreviousLanes { position: ray.origin, normal: ray.normal },
+        throughput: Spectrum::one(l),
+        pdf: l.f(1.0),
+        width: l.f(0.0),
+        spread: F::from_bits(l.u(0)),
+        slot,
+        // Seen by what sees shadow rays, as all that a light sends.
+        flags: l.u(flag::DELTA | flag::FROM_LIGHT),
+        counts: l.u(0),
+        medium: Spectrum::zero(l),
+    }
+}

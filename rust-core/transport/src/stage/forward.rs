@@ -1,0 +1,237 @@
+//! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
+
+use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
+use crate::stage::integrator::Integrator;
+use crate::stage::measure::MeasureContext;
+use crate::stage::nee::shares;
+use crate::stage::scatter::{pass_straight, send_on};
+use crate::stage::shade::normals;
+use crate::state::chunk::ChunkContext;
+use crate::state::flag::{self, event};
+use crate::state::light_paths::ArrivalLanes;
+use crate::state::paths::Paths;
+use crate::state::queue::Queues;
+use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::rays::RayLanes;
+use crate::state::vertex::Vertex;
+use crate::tables::material::{SurfaceMaterial, parameter_values, threshold};
+use crate::{geometry::shadow_ray_to, kernels};
+use gonio_bsdf::{Hits, LightHits, Lobes};
+use gonio_camera::sampler::dimension;
+use gonio_camera::{CameraTable, Placement};
+use gonio_simd::{F, Lanes, M, One, SpectrumColumns, U};
+
+/// What of light paths is wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// Flux that arrives on surfaces.
+    pub arrivals: Arriving,
+    /// Whether paths go on by mirrors and smooth glass alone: camera paths find all that goes on otherwise.
+    pub specular_only: bool,
+    /// Light that surfaces send to the camera, which sees them directly; not that of a path's first surface.
+    pub picture: Option<Picture<'a>>,
+}
+
+/// Which arrivals are noted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arriving {
+    /// None.
+    No,
+    /// All, at any surface.
+    All,
+    /// Photons: those after a scattering, at surfaces that are not specular alone.
+    Photons,
+}
+
+/// The picture that light paths bring light to.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture<'a> {
+    /// The camera.
+    pub camera: &'a CameraTable,
+    /// Where in a pixel its filter looks.
+    pub placement: &'a Placement,
+    /// First column and row of the window, and those behind the last.
+    pub window: [[u32; 2]; 2],
+}
+
+/// Light paths: no light is sampled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightIntegrator<'a> {
+    pub(crate) wanted: Wanted<'a>,
+}
+
+impl Integrator for LightIntegrator<'_> {
+    const WALKS: bool = true;
+
+    fn shadow_rays_per_hit(&self) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(
+        &self,
+        chunk: &ChunkContext<'_, L>,
+        material: &SurfaceMaterial,
+        point: &mut Vertex<L>,
+        lobes: &Lobes<'_, L>,
+        at: usize,
+        queues: &mut Queues,
+        _deposits: &mut Deposits,
+    ) {
+        let ChunkContext { l, transport, sample: context, .. } = *chunk;
+        let clear = l.gather(&queues.light_paths.starts.clear, point.slot);
+        point.alive &= point.bounces.ne(0) | l.gather(&chunk.hits.t, point.path).ge(clear);
+        let index = context.index(l, point.slot);
+        let base = context.dimension(0);
+        let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
+        let present = if material.surface.lobes.cut_out {
+            let passed = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
+            pass_straight(chunk, point, passed & transport.limits.allow_straight(point.counts), &mut queues.next);
+            point.alive.and_not(passed)
+        } else {
+            point.alive
+        };
+        let [non_specular, all_delta] = lobes.specularity(l);
+        point.all_delta = all_delta;
+        let noted = match self.wanted.arrivals {
+            Arriving::No => l.m(false),
+            Arriving::All => present,
+            Arriving::Photons => present & non_specular & point.bounces.ne(0),
+        };
+        if noted.any() && !material.surface.lobes.straight {
+            arrive(chunk, point, noted, at, queues);
+        }
+        let values = parameter_values(material, &chunk.columns.outputs);
+        let normals = normals(chunk, material, point, at);
+        let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
+        let hits = Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true };
+        let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric) };
+        let mut room = Lobes::empty(l);
+        let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
+        if let Some(picture) = &self.wanted.picture {
+            let caustic = going_on & non_specular & point.bounces.ne(0);
+            if caustic.any() && !material.holdout {
+                connect(chunk, material, point, (&light, lobes), caustic, picture, &mut room, queues);
+            }
+        }
+        let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
+        let sample = kernels::sample(l, lobes, point.local_wo, [u_lobe, u, v]);
+        let goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
+        let factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
+        let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
+        let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
+        let masks = [going_on & goes, ending];
+        send_on(chunk, point, lobes.medium(), (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);
+    }
+
+    #[inline(always)]
+    fn measure<L: Lanes>(&self, _: &MeasureContext<'_, L>, _: &mut ShadowRays, _: &mut Paths, _: &mut Deposits) {}
+}
+
+/// Notes flux that arrived.
+#[inline(always)]
+fn arrive<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, present: M<L>, at: usize, queues: &mut Queues) {
+    let (l, surface) = (chunk.l, &chunk.columns.surface);
+    let starts = &queues.light_paths.starts;
+    let hit = ArrivalLanes {
+        instance: point.instance,
+        primitive: l.load_integers(&surface.primitive, at),
+        barycentric: [l.load(&surface.barycentric[0], at), l.load(&surface.barycentric[1], at)],
+        side: l.load(&surface.side, at),
+        position: point.at.position,
+        direction: -point.wo,
+        flux: to_film(starts.carried(l, point.slot, point.throughput)),
+        flags: point.flags,
+        light: l.gather_integers(&starts.light, point.slot),
+    };
+    queues.light_paths.arrivals.append(&hit, present);
+}
+
+/// Queues rays to the lens for light that the camera may see.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a surface, its light and where it is seen")]
+fn connect<'s, L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    material: &'s SurfaceMaterial,
+    point: &Vertex<L>,
+    (light, lobes): (&LightHits<'_, L>, &Lobes<'s, L>),
+    caustic: M<L>,
+    picture: &Picture<'_>,
+    room: &mut Lobes<'s, L>,
+    queues: &mut Queues,
+) {
+    let ChunkContext { l, sample: context, .. } = *chunk;
+    let index = context.index(l, point.slot);
+    let base = context.dimension(0);
+    let lens = context.sampler.pair(l, index, base + dimension::LIGHT);
+    let filter = context.sampler.pair(l, index, base + dimension::MEASURE);
+    let seen = picture.camera.importance(l, point.at.position, lens);
+    let (pixel, inside) = picture.pixel(l, seen.raster, filter);
+    let to = -seen.direction;
+    let front = point.at.geometric.dot(to).gt(0.0);
+    let local = point.at.frame.to_local(to);
+    // Neither side of the triangle may be told from the other by the shading normal alone: it would leak light.
+    let usable = caustic & seen.valid & inside & (front & local.z.gt(0.0) | (!front) & local.z.lt(0.0));
+    if !usable.any() {
+        return;
+    }
+    let scattered = kernels::flux(l, &material.surface, light, lobes, local, room);
+    let starts = &queues.light_paths.starts;
+    let value = starts.carried(l, point.slot, point.throughput) * scattered * seen.importance;
+    let lit = usable & value.is_lit() & value.max_component().is_finite();
+    let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
+    // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes.
+    let shares = Some(shares(l, lobes, point.local_wo, local, scattered));
+    let light = l.gather_integers(&starts.light, point.slot);
+    let code = code_of_found(l.u(event::DIFFUSE | (2 << flag::BOUNCE_SHIFT)), 0);
+    let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
+    queues.light_paths.connections.rays.append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares }, lit);
+}
+
+impl Picture<'_> {
+    /// The pixel whose filter, drawn from, looks at a place of the raster; and whether it lies in the window.
+    #[inline(always)]
+    fn pixel<L: Lanes>(&self, l: L, raster: [F<L>; 2], u: [F<L>; 2]) -> (U<L>, M<L>) {
+        let offset = match self.placement {
+            Placement::Filter(filter) => [filter.offset(l, u[0]), filter.offset(l, u[1])],
+            Placement::Grid(_) => [u[0] - 0.5, u[1] - 0.5],
+        };
+        let [min, max] = self.window;
+        // The camera looks from a pixel's middle at middle + offset, so what lies at a place is seen by the pixel about place − offset.
+        let place = [(raster[0] - offset[0]).floor(), (raster[1] - offset[1]).floor()];
+        let inside = |axis: usize| place[axis].ge(min[axis] as f32) & place[axis].lt(max[axis] as f32);
+        let inside = inside(0) & inside(1);
+        let column = (place[0] - min[0] as f32).keep_if(inside).to_i32();
+        let row = (place[1] - min[1] as f32).keep_if(inside).to_i32();
+        (row * (max[0] - min[0]) + column, inside)
+    }
+}
+
+/// Light that light paths brought to a pixel of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Splat {
+    /// Pixel of the window, row by row.
+    pub pixel: u32,
+    /// Light that it left.
+    pub light: u32,
+    /// Radiance of the pixel, R, G, B, times the number of paths.
+    pub value: [f32; 3],
+    /// Diffuse and glossy shares of what the surface scattered.
+    pub shares: [[f32; 3]; 2],
+}
+
+impl Splat {
+    /// The splats of the connections that nothing blocked.
+    pub(crate) fn collect(rays: &ShadowRays, blocked: &[u8], splats: &mut Vec<Self>) {
+        let three = |columns: &SpectrumColumns, at: usize| {
+            let value = to_film(columns.load(One, at));
+            [value.r.0, value.g.0, value.b.0]
+        };
+        splats.extend((0..rays.count).filter(|at| blocked[*at] == 0).map(|at| Self {
+            pixel: rays.slot[at],
+            light: rays.light[at],
+            value: three(&rays.contribution, at),
+            shares: [three(&rays.shares[0], at), three(&rays.shares[1], at)],
+        }));
+    }
+}

@@ -1,0 +1,124 @@
+//! Vertex merging (photon mapping): camera paths take up the photons about their vertices, but for those that the camera sees directly.
+
+use crate::accumulate::deposit::{Contribution, Deposits, Source, to_film};
+use crate::accumulate::light_sums::code;
+use crate::kernels;
+use crate::state::chunk::ChunkContext;
+use crate::state::flag;
+use crate::state::vertex::Vertex;
+use crate::tables::light_groups::UNSEEN;
+use crate::tables::photons::PhotonMap;
+use gonio_bsdf::Lobes;
+use gonio_simd::{Lanes, M, PADDING, Spectrum, U, Vec3};
+use std::f32::consts::PI;
+
+/// Photons about the points of a register.
+pub(crate) type Found = [Vec<u32>; PADDING];
+
+/// Adds the light of photons about the chosen points.
+#[inline(always)]
+pub(crate) fn merge<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    map: &PhotonMap,
+    point: &Vertex<L>,
+    lobes: &Lobes<'_, L>,
+    chosen: M<L>,
+    found: &mut Found,
+    deposits: &mut Deposits,
+) {
+    let ChunkContext { l, transport, .. } = *chunk;
+    let most = find(l, map, point.at.position, chosen, found);
+    if most == 0 {
+        return;
+    }
+    let scale = 1.0 / (PI * map.radius() * map.radius());
+    let value = transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.throughput * scale, point.bounces + 2);
+    let code = ((point.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
+    let light = Contribution { slot: point.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
+    let counted = deposits.deposit(transport, &light, chosen & value.is_lit() & value.max_component().is_finite());
+    let groups = &transport.passes.groups;
+    if !groups.wanted() || !counted.any() {
+        return;
+    }
+    for number in 0..groups.count as u32 {
+        let part = gathered(l, map, point, lobes, found, most, Some((&groups.of_light, number))) * point.throughput * scale;
+        deposits.sums.groups.add(l.u(number), point.slot, to_film(part), counted & part.is_lit());
+    }
+}
+
+/// Irradiance that the photons about a register of points bring to their front, R, G, B.
+#[inline(always)]
+pub(crate) fn irradiance<L: Lanes>(
+    l: L,
+    map: &PhotonMap,
+    position: Vec3<L>,
+    normal: Vec3<L>,
+    chosen: M<L>,
+    found: &mut Found,
+) -> Spectrum<L> {
+    let most = find(l, map, position, chosen, found);
+    let mut sum = Spectrum::zero(l);
+    for at in 0..most {
+        let (number, here) = numbers(l, found, at);
+        let photon = map.photons(l, number);
+        sum += photon.flux.keep_if(here & normal.dot(photon.wi).gt(0.0));
+    }
+    sum * (1.0 / (PI * map.radius() * map.radius()))
+}
+
+/// Lists the photons about each chosen point; gives the length of the longest list.
+#[inline(always)]
+fn find<L: Lanes>(l: L, map: &PhotonMap, position: Vec3<L>, chosen: M<L>, found: &mut Found) -> usize {
+    let [x, y, z] = [position.x, position.y, position.z].map(|x| x.to_array());
+    let mut most = 0;
+    for (lane, found) in found.iter_mut().enumerate().take(L::COUNT) {
+        found.clear();
+        if chosen.bits() >> lane & 1 == 1 {
+            map.about(l, [x[lane], y[lane], z[lane]], found);
+            most = most.max(found.len());
+        }
+    }
+    most
+}
+
+/// The photons at a place of all lists, and which lists are so long.
+#[inline(always)]
+fn numbers<L: Lanes>(l: L, found: &Found, at: usize) -> (U<L>, M<L>) {
+    let (mut numbers, mut lanes) = ([0; PADDING], 0_u64);
+    for (lane, list) in found.iter().enumerate().take(L::COUNT) {
+        if let Some(number) = list.get(at) {
+            numbers[lane] = *number;
+            lanes |= 1 << lane;
+        }
+    }
+    (l.load_integers(&numbers, 0), M(l.mask_from_bits(lanes)))
+}
+
+/// What the photons send to the previous vertex, times the area that they are gathered from; of one group of lights, or of all.
+#[inline(always)]
+fn gathered<L: Lanes>(
+    l: L,
+    map: &PhotonMap,
+    point: &Vertex<L>,
+    lobes: &Lobes<'_, L>,
+    found: &Found,
+    most: usize,
+    group: Option<(&[u32], u32)>,
+) -> Spectrum<L> {
+    let mut sum = Spectrum::zero(l);
+    let geometric = point.at.frame.to_local(point.at.geometric);
+    for at in 0..most {
+        let (number, mut here) = numbers(l, found, at);
+        let photon = map.photons(l, number);
+        if let Some((of_light, number)) = group {
+            let own = l.gather_integers(of_light, photon.light.keep_if(here));
+            here &= own.ne(UNSEEN) & own.eq(number);
+        }
+        let wi = point.at.frame.to_local(photon.wi);
+        let cosine = geometric.dot(wi);
+        // BSDF × |cos| about the shading normal, for flux that fell on the triangle.
+        let value = kernels::eval(l, lobes, point.local_wo, wi) * cosine.abs().max(1e-3).recip();
+        sum += (value * photon.flux).keep_if(here);
+    }
+    sum
+}
