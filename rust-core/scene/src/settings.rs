@@ -44,6 +44,23 @@ impl Integrator {
     pub const NAMES: [(Self, &'static str); 3] = [(Self::Path, "path"), (Self::Direct, "direct"), (Self::Whitted, "whitted")];
 }
 
+/// Whether light paths bring the light that comes by mirrors and smooth glass to surfaces that the camera sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Caustics {
+    /// Where a light stands within something that refracts: no camera path would find it.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never: camera paths find what they happen to hit.
+    Off,
+}
+
+impl Caustics {
+    /// All of them with their names.
+    pub const NAMES: [(Self, &'static str); 3] = [(Self::Auto, "auto"), (Self::On, "on"), (Self::Off, "off")];
+}
+
 /// What is where the camera sees no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
@@ -122,6 +139,9 @@ pub struct Settings {
     /// The mist pass.
     #[serde(default)]
     pub mist: Mist,
+    /// Whether light paths bring caustics; for [`Integrator::Path`].
+    #[serde(default)]
+    pub caustics: Caustics,
     /// Where in a pixel samples lie; but for [`Antialiasing::Sampled`] it takes the number of samples that it tells and no filter.
     #[serde(default)]
     pub antialiasing: Antialiasing,
@@ -180,6 +200,7 @@ impl Default for Settings {
             kind_bounces: all_bounces(),
             background: Background::default(),
             mist: Mist::default(),
+            caustics: Caustics::default(),
             antialiasing: Antialiasing::default(),
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,

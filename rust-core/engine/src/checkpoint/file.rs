@@ -1,4 +1,4 @@
-//! The file: the line `gonio checkpoint 1`, the length of the description, the description in JSON, the film tile by tile, a digest of all that.
+//! The file: the line `gonio checkpoint 2`, the length of the description, the description in JSON, the film tile by tile and what light paths brought, a digest of all that.
 
 use super::{Checkpoint, Identity};
 use crate::scene::Digesting;
@@ -14,7 +14,7 @@ use std::{
     path::Path,
 };
 
-const MAGIC: &[u8] = b"gonio checkpoint 1\n";
+const MAGIC: &[u8] = b"gonio checkpoint 2\n";
 /// Longest description.
 const MOST_DESCRIPTION: u32 = 1 << 24;
 
@@ -85,7 +85,7 @@ fn description(input: &mut impl Read) -> io::Result<Identity> {
     let mut magic = [0; MAGIC.len()];
     input.read_exact(&mut magic)?;
     if magic != MAGIC {
-        return Err(invalid("its first line is not 'gonio checkpoint 1'".into()));
+        return Err(invalid("its first line is not 'gonio checkpoint 2'".into()));
     }
     let mut length = [0; 4];
     input.read_exact(&mut length)?;

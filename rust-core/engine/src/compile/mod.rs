@@ -3,6 +3,7 @@
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
 mod bounds;
+mod casters;
 mod catchers;
 mod geometry;
 mod goniograms;
@@ -26,6 +27,7 @@ mod view;
 mod whitted;
 
 pub use bounds::Bounds;
+pub(crate) use casters::Casters;
 pub use luminaires::luminous_fluxes;
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
@@ -58,6 +60,8 @@ pub struct CompiledScene {
     pub diagnostics: Vec<Diagnostic>,
     /// Sizes and times.
     pub statistics: CompileStatistics,
+    /// What casts caustics.
+    pub(crate) casters: Casters,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
@@ -129,6 +133,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let any_absorbing =
         scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
+    let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
+    casters::report(scene, &casters, &mut diagnostics);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -152,6 +158,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         bounds,
         diagnostics,
         statistics,
+        casters,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         images: textures.kept,

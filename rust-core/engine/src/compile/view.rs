@@ -94,6 +94,8 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         light_cache: None,
         path_filter: PathFilter::All,
         estimator,
+        light_paths: None,
+        photons: None,
     }
 }
 

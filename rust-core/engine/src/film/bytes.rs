@@ -4,12 +4,16 @@ use super::{
     Film, block_at,
     noise::Halves,
     raw::{array, number},
+    splats::SplatFilm,
     sums::Sums,
     tile::TileFilm,
     zones::ZONES,
 };
 use crate::camera::sampler::BATCH;
-use std::io::{Error, ErrorKind, Read, Result, Write};
+use std::{
+    io::{Error, ErrorKind, Read, Result, Write},
+    sync::Mutex,
+};
 
 /// Bytes of a tile without sums.
 pub(crate) const LEAST_TILE: u64 = 4 + 8 + 4 * ZONES as u64 + 3 * 4;
@@ -17,13 +21,21 @@ pub(crate) const LEAST_TILE: u64 = 4 + 8 + 4 * ZONES as u64 + 3 * 4;
 impl Film {
     /// Writes what has been added so far; every tile is whole, one may have more samples than another.
     pub(crate) fn write(&self, out: &mut impl Write) -> Result<()> {
-        (0..self.tile_count()).try_for_each(|tile| self.read(tile, |film| film.write(out)))
+        // Held to the end, so that no block is in the tiles and not here.
+        let splats = self.splats();
+        out.write_all(&splats.as_ref().map_or(0.0, |splats| splats.scale()).to_le_bytes())?;
+        (0..self.tile_count()).try_for_each(|tile| self.read(tile, |film| film.write(out)))?;
+        splats.map_or(Ok(()), |splats| splats.write(out))
     }
 
     /// Takes what [`Film::write`] has written of a film of the same settings.
     pub(crate) fn fill(&mut self, input: &mut impl Read) -> Result<()> {
         let most = block_at(self.plan.range.end, self.plan.samples).unwrap_or(0);
         let values = self.layout.channels * BATCH;
+        let mut scale = [0; 8];
+        input.read_exact(&mut scale)?;
+        let scale = Some(f64::from_le_bytes(scale)).filter(|scale| *scale > 0.0 && scale.is_finite());
+        self.splats = scale.map(|scale| Mutex::new(SplatFilm::scaled(&self.layout, self.window, scale)));
         for tile in 0..self.tile_count() {
             let mut film = self.tile(tile);
             film.fill(input, values)?;
@@ -31,7 +43,7 @@ impl Film {
                 return Err(damaged("a tile's number of blocks"));
             }
         }
-        Ok(())
+        self.splats().map_or(Ok(()), |mut splats| splats.fill(input))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
-    camera::sampler::{BATCH, TILE, tile_code},
+    camera::sampler::{BATCH, TILE, tile_code, tile_place},
     scene::{Aov, Crop},
     threads::available_threads,
 };
@@ -114,6 +114,8 @@ impl Film {
             let area = self.tile_area(tile);
             let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
             let left = (area.min[0] - self.window.min[0]) as usize;
+            let corner = [left, (area.min[1] - self.window.min[1]) as usize];
+            let splats = self.splats();
             self.read(tile, |film| {
                 least = least.min(film.least_samples());
                 total += film.total_samples();
@@ -127,6 +129,9 @@ impl Film {
                     self.develop_tile(*aov, &developing, &mut part);
                     if let Some(first) = self.layout.catchers {
                         catcher::show(*aov, &developing, first, self.exposure, &mut part);
+                    }
+                    if let Some(splats) = &splats {
+                        splats.show(*aov, &developing, &self.layout, self.exposure, corner, &mut part);
                     }
                 }
             });
@@ -185,6 +190,10 @@ impl Part<'_> {
             let row = &mut self.rows[first..first + self.size[0] * self.channels];
             row.chunks_exact_mut(self.channels).enumerate().for_each(|(x, pixel)| change(tile_code([x, y]), pixel));
         }
+    }
+    /// The same, given its place in the tile too.
+    pub(super) fn for_each_at(&mut self, mut change: impl FnMut(usize, [usize; 2], &mut [f32])) {
+        self.for_each(|code, pixel| change(code, tile_place(code), pixel));
     }
     /// Sets every pixel of the tile by channel and Morton number.
     fn fill(&mut self, value: impl Fn(usize, usize) -> f64) {

@@ -9,6 +9,7 @@ mod edge_aware;
 mod filter;
 mod noise;
 mod raw;
+mod splats;
 mod sums;
 mod tile;
 mod zones;
@@ -21,6 +22,8 @@ pub use edge_aware::edge_aware;
 pub use filter::tabulate;
 pub use gonio_camera::{FilterTable, Placement};
 pub(crate) use noise::decides;
+use splats::SplatFilm;
+pub(crate) use splats::{SplatBlock, SplatLayout};
 pub use tile::{Block, TileFilm, TileState};
 pub use zones::{ZONE, ZONES, zone_of};
 
@@ -30,7 +33,7 @@ use crate::{
 };
 use std::{
     ops::Range,
-    sync::{Mutex, PoisonError},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 use tile::Plan;
 
@@ -51,6 +54,8 @@ pub struct Film {
     exposure: f32,
     plan: Plan,
     tiles: Vec<Mutex<TileFilm>>,
+    /// What light paths bring, where some are traced. Locked before a tile.
+    splats: Option<Mutex<SplatFilm>>,
     columns: u32,
 }
 
@@ -64,7 +69,7 @@ impl Film {
         let plan = Plan::new(settings, &layout, across(0) * across(1));
         let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect };
         let (resolution, columns) = (settings.resolution, across(0));
-        let mut film = Self { resolution, window, frame, layout, names, exposure, plan, tiles: Vec::new(), columns };
+        let mut film = Self { resolution, window, frame, layout, names, exposure, plan, tiles: Vec::new(), splats: None, columns };
         let tile = |tile: u32| {
             // Tiles of other parts of the render have no pixels here, so that nobody waits for them.
             let size = if film.plan.tiles.contains(&tile) { film.tile_size(tile as usize) } else { [0; 2] };
@@ -72,6 +77,17 @@ impl Film {
         };
         film.tiles = (0..across(0) * across(1)).map(tile).collect();
         film
+    }
+
+    /// Makes room for what light paths bring; `power` is that of their lights.
+    pub(crate) fn with_splats(mut self, power: Option<f64>) -> Self {
+        self.splats = power.map(|power| Mutex::new(SplatFilm::new(&self.layout, self.window, power)));
+        self
+    }
+
+    /// What light paths brought so far.
+    pub(crate) fn splats(&self) -> Option<MutexGuard<'_, SplatFilm>> {
+        self.splats.as_ref().map(|splats| splats.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Tiles of a window.
@@ -106,9 +122,15 @@ impl Film {
     /// Adds a block to a tile, and gives what the tile is then; blocks that come early wait for those before them. `white` is the colour that is
     /// shown as white, by which noise is measured. `ready` is called when the tile has more samples.
     pub(crate) fn add(&self, tile: usize, number: u32, block: Block, white: f32, ready: impl FnOnce()) -> TileState {
+        let mut splats = self.splats();
         let mut film = self.tile(tile);
         let before = film.state();
-        film.add(number, block, &self.plan, white);
+        for brought in film.add(number, block, &self.plan, white) {
+            if let Some(splats) = &mut splats {
+                splats.add(&brought);
+            }
+        }
+        drop(splats);
         let after = film.state();
         if after.next > before.next {
             ready();
@@ -147,11 +169,13 @@ impl Film {
         for tile in later.tiles() {
             std::mem::swap(&mut self.tiles[tile as usize], &mut later.tiles[tile as usize]);
         }
+        self.join_splats(&later);
         self.plan.tiles.end = later.plan.tiles.end;
     }
 
     /// Adds a film of the same tiles with the samples that follow; both are complete.
     pub(crate) fn join_samples(&mut self, later: Self) {
+        self.join_splats(&later);
         for (tile, later) in self.tiles.iter_mut().zip(later.tiles) {
             let later = later.into_inner().unwrap_or_else(PoisonError::into_inner);
             tile.get_mut().unwrap_or_else(PoisonError::into_inner).join(later, &self.plan);
@@ -159,12 +183,18 @@ impl Film {
         self.plan.range.end = later.plan.range.end;
     }
 
+    fn join_splats(&self, later: &Self) {
+        if let (Some(mut splats), Some(later)) = (self.splats(), later.splats()) {
+            splats.join(&later);
+        }
+    }
+
     /// Runs `read` on a tile's sums.
     pub fn read<R>(&self, tile: usize, read: impl FnOnce(&TileFilm) -> R) -> R {
         read(&self.tile(tile))
     }
 
-    fn tile(&self, tile: usize) -> std::sync::MutexGuard<'_, TileFilm> {
+    fn tile(&self, tile: usize) -> MutexGuard<'_, TileFilm> {
         // A worker that panicked has ended the render; what it had added is whole.
         self.tiles[tile].lock().unwrap_or_else(PoisonError::into_inner)
     }

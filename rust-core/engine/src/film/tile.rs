@@ -5,6 +5,7 @@ use super::{
     blocks::{self, GROUP, block_at},
     catcher, is_index,
     noise::{Halves, decides},
+    splats::SplatBlock,
     sums::{Place, Rules, Sums},
     zones::{ZONE, ZONES, zone_of},
 };
@@ -25,6 +26,8 @@ pub struct Block {
     pub zones: u64,
     /// Luminance of the colour; empty where nobody looks at the noise.
     pub luminance: Vec<f32>,
+    /// What its light paths brought.
+    pub(crate) splats: SplatBlock,
 }
 
 /// Sums over all blocks so far.
@@ -112,12 +115,15 @@ impl TileFilm {
         Self { samples: [0; ZONES], next: plan.first(), pixels, zones, sums: Sums::default(), halves, waiting: BTreeMap::new() }
     }
 
-    /// Adds block `number`; one that comes early waits. `white` is the value that is shown as white.
-    pub(super) fn add(&mut self, number: u32, block: Block, plan: &Plan, white: f32) {
+    /// Adds block `number`; one that comes early waits. `white` is the value that is shown as white. Gives the splats of the blocks that were added.
+    pub(super) fn add(&mut self, number: u32, block: Block, plan: &Plan, white: f32) -> Vec<SplatBlock> {
         self.waiting.insert(number, block);
-        while let Some(block) = self.waiting.remove(&self.next) {
+        let mut splats = Vec::new();
+        while let Some(mut block) = self.waiting.remove(&self.next) {
+            splats.push(std::mem::take(&mut block.splats));
             self.add_now(block, plan, white);
         }
+        splats
     }
 
     fn add_now(&mut self, block: Block, plan: &Plan, white: f32) {
@@ -187,7 +193,7 @@ impl Block {
         }
         let mut luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
         unpack(packed, &mut luminance, false);
-        Self { sums, zones, luminance }
+        Self { sums, zones, luminance, splats: SplatBlock::default() }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
 mod learn;
+mod light_paths;
 mod meter;
+mod photons;
 mod progress;
 mod schedule;
 mod source;
@@ -19,6 +21,8 @@ use crate::{
     threads::available_threads,
     transport::{SensorTable, Statistics},
 };
+use light_paths::LightPaths;
+use photons::PhotonMaps;
 use schedule::Schedule;
 use source::Source;
 use std::{
@@ -47,6 +51,8 @@ pub(crate) struct Shared {
     /// What the first worker learns.
     pub(crate) learned: OnceLock<Learned>,
     pub(crate) film: Film,
+    pub(crate) light_paths: Option<LightPaths>,
+    photons: Option<PhotonMaps>,
     pub(crate) schedule: Schedule,
     /// Tiles that have news for the host, which it has not taken yet.
     pub(crate) news: Vec<AtomicBool>,
@@ -67,15 +73,16 @@ pub(crate) struct Learned {
 impl Render {
     /// Starts rendering; settings are those of the compiled view.
     pub fn start(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution) -> Result<Self> {
-        let view = View::new(&scene, settings, execution)?;
-        let film = film_of(&scene, settings, view.window, view.exposure);
-        Ok(Self::run(scene, settings, Source::View(view), film))
+        let (view, light_paths) = view(&scene, settings, execution)?;
+        let power = light_paths.as_ref().map(LightPaths::power);
+        let film = film_of(&scene, settings, view.window, view.exposure).with_splats(power);
+        Ok(Self::run(scene, settings, Source::View(view), film, light_paths))
     }
 
     /// Goes on with a film that the same render has left; see [`crate::checkpoint`].
     pub fn resume(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution, film: Film) -> Result<Self> {
-        let view = View::new(&scene, settings, execution)?;
-        Ok(Self::run(scene, settings, Source::View(view), film))
+        let (view, light_paths) = view(&scene, settings, execution)?;
+        Ok(Self::run(scene, settings, Source::View(view), film, light_paths))
     }
 
     /// Starts measuring at sensors, whose picture has the resolution of the settings.
@@ -84,20 +91,26 @@ impl Render {
         transport.passes.illuminance = false;
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
-        Self::run(scene, settings, Source::Sensors { sensors, transport }, film)
+        Self::run(scene, settings, Source::Sensors { sensors, transport }, film, None)
     }
 
-    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film) -> Self {
+    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film, light_paths: Option<LightPaths>) -> Self {
         let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
         let schedule = Schedule::new(tiles, settings);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let tiles = film.tile_count();
+        let photons = match &source {
+            Source::View(view) if light_paths.is_some() => Some(PhotonMaps::new(&scene, view)),
+            _ => None,
+        };
         let shared = Arc::new(Shared {
             scene,
             source,
             settings: settings.clone(),
             learned: OnceLock::new(),
             film,
+            photons,
+            light_paths,
             schedule,
             news: (0..tiles).map(|_| AtomicBool::new(false)).collect(),
             cancel: AtomicBool::new(false),
@@ -171,6 +184,19 @@ impl Render {
             None => Ok(()),
         }
     }
+}
+
+/// A view, and the light paths that go with it.
+fn view(scene: &CompiledScene, settings: &Settings, execution: gonio_simd::Execution) -> Result<(View, Option<LightPaths>)> {
+    let mut view = View::new(scene, settings, execution)?;
+    let planned = light_paths::plan(scene, settings, &view);
+    Ok(match planned {
+        Some((light_paths, started)) => {
+            view.transport.light_paths = Some(started);
+            (view, Some(light_paths))
+        }
+        None => (view, None),
+    })
 }
 
 fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {

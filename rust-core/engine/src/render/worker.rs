@@ -4,14 +4,14 @@ use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source:
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     camera::sampler::Runs,
-    film::Block,
+    film::{Block, SplatBlock},
     scene::{Antialiasing, Aov, Crop, Integrator},
-    transport::{PathFilter, Tracer, Transport, Workspace},
+    transport::{PathFilter, PhotonMap, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{PoisonError, atomic::Ordering},
+    sync::{Arc, PoisonError, atomic::Ordering},
 };
 
 /// Camera rays a pixel that show denoisers enough of what is seen in mirrors and smooth glass.
@@ -49,7 +49,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let specular_rays = specular_rays(shared);
     let path_filter = if specular_rays.is_some() { PathFilter::ExceptSpecular } else { PathFilter::All };
-    let transport = Transport { light_cache, path_filter, ..shared.source.transport().clone() };
+    let photons = photons(shared, work, room, &cancelled);
+    let transport = Transport { light_cache, path_filter, photons, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -65,6 +66,12 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     if let Some(rays) = specular_rays {
         tracer.trace_specular([area.min, area.max], zones, work.samples.clone(), rays, &mut room.workspace, &cancelled);
     }
+    let mut splats = SplatBlock::default();
+    let layout = shared.film.splats().map(|film| film.layout().clone());
+    if let (Some(light_paths), Source::View(view), Some(layout)) = (&shared.light_paths, &shared.source, layout) {
+        let of_block = (work.tile, work.samples.clone());
+        splats = light_paths.trace(shared, view, of_block, &layout, &mut room.workspace, &cancelled);
+    }
     if cancelled() {
         return;
     }
@@ -74,7 +81,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let origin = shared.scene.tables.origin;
     // Where samples follow discontinuities every pixel has its own slot.
     let packed = if rule.is_some() { u64::MAX } else { zones };
-    let block = Block::new(&shared.film, &workspace.deposits.sums, zones, packed, origin);
+    let block = Block { splats, ..Block::new(&shared.film, &workspace.deposits.sums, zones, packed, origin) };
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
     let state = shared.film.add(work.tile, work.block, block, white, || {
@@ -84,6 +91,13 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
         }
     });
     shared.schedule.decided(work.tile, state);
+}
+
+/// The photons that the block's paths take up.
+fn photons(shared: &Shared, work: &Work, room: &mut Room, cancelled: &dyn Fn() -> bool) -> Option<Arc<PhotonMap>> {
+    let (maps, light_paths) = (shared.photons.as_ref()?, shared.light_paths.as_ref()?);
+    let block = (work.block, work.samples.end - work.samples.start);
+    maps.of_block(block, &shared.scene, shared.source.transport(), light_paths, &mut room.workspace, cancelled)
 }
 
 /// For each sample, camera rays of their own for what is seen in mirrors and smooth glass, where denoisers ask for them and samples are drawn at random.

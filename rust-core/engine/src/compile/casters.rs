@@ -1,0 +1,97 @@
+//! What casts caustics: instances that mirror or refract light sharply. Light paths are aimed at them.
+
+use super::bounds::Bounds;
+use crate::{
+    bsdf::Surface,
+    error::Diagnostic,
+    light::LightTable,
+    scene::{Caustics, Instances, Origin, Scene},
+    transport::{MaterialTable, Shading},
+};
+
+/// Most targets of light paths; more are joined with their neighbours.
+const MOST_TARGETS: usize = 16;
+
+/// What casts caustics, in rebased world space.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Casters {
+    /// Spheres around them, all of them covered.
+    pub(crate) targets: Vec<([f32; 3], f32)>,
+    /// What refracts and has a light within it, the first of them: no path from a camera finds such a light but by chance.
+    pub(crate) enclosing: Option<Origin>,
+}
+
+impl Casters {
+    /// Those of a scene.
+    pub(super) fn of(scene: &Scene, meshes: &[Bounds], materials: &MaterialTable, lights: &LightTable, origin: [f64; 3]) -> Self {
+        let mut boxes = Vec::new();
+        let mut enclosing: Option<Origin> = None;
+        for instances in &scene.instances {
+            let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };
+            if !is_one(instances, materials, |surface| surface.lobes.smooth) {
+                continue;
+            }
+            let refracts = is_one(instances, materials, Surface::refracts);
+            for transform in &instances.transforms {
+                let placed = mesh.transformed(transform);
+                if placed.is_empty() {
+                    continue;
+                }
+                boxes.push(placed);
+                let within =
+                    |centre: [f32; 3]| (0..3).all(|i| (placed.min[i]..=placed.max[i]).contains(&(f64::from(centre[i]) + origin[i])));
+                if enclosing.is_none() && refracts && (0..lights.len() as u32).any(|light| lights.centre(light).is_some_and(within)) {
+                    enclosing = Some(instances.origin.clone());
+                }
+            }
+        }
+        Self { targets: joined(boxes).iter().map(|one| sphere(one, origin)).collect(), enclosing }
+    }
+}
+
+/// Says where light paths begin to run by themselves.
+pub(super) fn report(scene: &Scene, casters: &Casters, diagnostics: &mut Vec<Diagnostic>) {
+    if let (Caustics::Auto, Some(origin)) = (scene.settings.caustics, &casters.enclosing) {
+        let message = "a light stands within it; light paths bring what it refracts to the surfaces that the camera sees";
+        diagnostics.push(Diagnostic::info(origin, message));
+    }
+}
+
+/// Whether a closure of any of the materials is of some kind.
+fn is_one(instances: &Instances, materials: &MaterialTable, of_kind: impl Fn(&Surface) -> bool) -> bool {
+    let shading = |material: usize| materials.numbers.get(material).copied();
+    instances.materials.iter().filter_map(|material| shading(material.index())).any(|shading| {
+        let surfaces = match shading {
+            Shading::Surface(surface) => surface as usize..surface as usize + 1,
+            Shading::Mix(mix) => {
+                let mix = &materials.mixes[mix as usize];
+                mix.first as usize..mix.first as usize + mix.count
+            }
+        };
+        materials.surfaces[surfaces].iter().any(|surface| of_kind(&surface.surface))
+    })
+}
+
+/// Joins the two boxes whose common box is least larger, until few are left. Of very many those that follow one another are joined first.
+fn joined(mut boxes: Vec<Bounds>) -> Vec<Bounds> {
+    while boxes.len() > 4 * MOST_TARGETS {
+        boxes = boxes.chunks(2).map(|pair| pair.iter().copied().reduce(union).unwrap_or_default()).collect();
+    }
+    while boxes.len() > MOST_TARGETS {
+        let pairs = (0..boxes.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let growth = |(i, j): (usize, usize)| union(boxes[i], boxes[j]).radius();
+        let Some((i, j)) = pairs.min_by(|a, b| growth(*a).total_cmp(&growth(*b))) else { break };
+        let last = boxes.swap_remove(i);
+        boxes[j] = union(boxes[j], last);
+    }
+    boxes
+}
+
+fn union(a: Bounds, b: Bounds) -> Bounds {
+    Bounds { min: std::array::from_fn(|i| a.min[i].min(b.min[i])), max: std::array::from_fn(|i| a.max[i].max(b.max[i])) }
+}
+
+fn sphere(bounds: &Bounds, origin: [f64; 3]) -> ([f32; 3], f32) {
+    let centre = bounds.centre();
+    (std::array::from_fn(|i| (centre[i] - origin[i]) as f32), (bounds.radius() * (1.0 + 1e-6)) as f32)
+}

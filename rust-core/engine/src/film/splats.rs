@@ -1,0 +1,191 @@
+//! Light that light paths bring to any pixel of the picture (pbrt's `AddSplat`), in fixed point: whole numbers add up to the same bits in any order.
+
+use super::ChannelLayout;
+use super::develop::{Developing, Part};
+use super::raw::array;
+use crate::{
+    camera::sampler::BATCH,
+    scene::{Aov, Crop, LightPart, ScatteringKind},
+    transport::{GroupPasses, Splat},
+};
+use std::io::{Read, Result, Write};
+
+/// Values are counted in units of the lights' power times this, which leaves room for a thousand million million times as much in a pixel.
+const UNIT: f64 = 1.0 / (1 << 20) as f64;
+/// Most that one splat counts, in units.
+const MOST: f64 = (1_u64 << 52) as f64;
+
+/// The light that a pass shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Share {
+    /// All of it.
+    Radiance,
+    /// What the first surface's lobes of a kind scatter.
+    Kind(ScatteringKind),
+    /// What the lights of a group send.
+    Group(u16),
+}
+
+/// What is summed, and in which units.
+#[derive(Clone, Debug)]
+pub(crate) struct SplatLayout {
+    /// Reciprocal of a unit's value.
+    scale: f64,
+    parts: Vec<Share>,
+    /// Width and height.
+    size: [usize; 2],
+}
+
+/// Sums of splats over the window.
+#[derive(Clone, Debug)]
+pub(crate) struct SplatFilm {
+    layout: SplatLayout,
+    /// Light paths so far.
+    paths: u64,
+    /// By part, channel and pixel.
+    sums: Vec<i64>,
+}
+
+/// The splats of a block.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SplatBlock {
+    /// Light paths that were traced for it.
+    pub(crate) paths: u64,
+    pixels: Vec<u32>,
+    /// All parts of a splat, three channels each.
+    values: Vec<i64>,
+}
+
+impl SplatLayout {
+    /// The splats of a block in fixed point. `limit` is the most that one may bring to its pixel as a sample's part, 0 for any.
+    pub(crate) fn block(&self, splats: &[Splat], paths: u64, groups: &GroupPasses, limit: f32) -> SplatBlock {
+        let mut block = SplatBlock { paths, ..SplatBlock::default() };
+        let most = f64::from(limit) * (self.size[0] * self.size[1]) as f64;
+        for splat in splats {
+            let value = splat.value.map(f64::from);
+            let mean = value.iter().sum::<f64>() / 3.0;
+            let clamp = if limit > 0.0 && mean > most { most / mean } else { 1.0 };
+            block.pixels.push(splat.pixel);
+            for part in &self.parts {
+                for (channel, value) in value.iter().enumerate() {
+                    let share = match part {
+                        Share::Radiance => 1.0,
+                        Share::Kind(kind) => kind_share(splat, *kind, channel),
+                        Share::Group(number) => f64::from(u8::from(groups.of_light.get(splat.light as usize) == Some(&u32::from(*number)))),
+                    };
+                    block.values.push((value * share * clamp * self.scale).clamp(-MOST, MOST).round() as i64);
+                }
+            }
+        }
+        block
+    }
+}
+
+impl SplatFilm {
+    /// Empty sums for the passes of a film; `power` is that of the lights whose paths bring light.
+    pub(super) fn new(layout: &ChannelLayout, window: Crop, power: f64) -> Self {
+        let unit = power.max(f64::MIN_POSITIVE).log2().ceil().exp2() * UNIT;
+        Self::scaled(layout, window, unit.recip())
+    }
+
+    /// The same with a known scale.
+    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, scale: f64) -> Self {
+        let of_aov = |aov: &Aov| match aov {
+            Aov::Light(kind, LightPart::Indirect) => Some(Share::Kind(*kind)),
+            Aov::LightGroup(number) => Some(Share::Group(*number)),
+            _ => None,
+        };
+        let parts: Vec<Share> = [Share::Radiance].into_iter().chain(layout.aovs.iter().filter_map(of_aov)).collect();
+        let size = [0, 1].map(|axis| (window.max[axis] - window.min[axis]) as usize);
+        let sums = vec![0; parts.len() * 3 * size[0] * size[1]];
+        Self { layout: SplatLayout { scale, parts, size }, paths: 0, sums }
+    }
+
+    /// What is summed.
+    pub(crate) fn layout(&self) -> &SplatLayout {
+        &self.layout
+    }
+
+    /// Adds a block.
+    pub(super) fn add(&mut self, block: &SplatBlock) {
+        self.paths += block.paths;
+        let (channels, pixels) = (self.layout.parts.len() * 3, self.layout.size[0] * self.layout.size[1]);
+        for (pixel, values) in block.pixels.iter().zip(block.values.chunks_exact(channels)) {
+            for (channel, value) in values.iter().enumerate() {
+                let sum = &mut self.sums[channel * pixels + *pixel as usize];
+                *sum = sum.saturating_add(*value);
+            }
+        }
+    }
+
+    /// Adds other sums of the same film.
+    pub(super) fn join(&mut self, other: &Self) {
+        self.paths += other.paths;
+        self.sums.iter_mut().zip(&other.sums).for_each(|(sum, more)| *sum = sum.saturating_add(*more));
+    }
+
+    /// Adds to the pixels of a tile what light paths brought there; `corner` is the tile's first pixel in the window.
+    pub(super) fn show(
+        &self,
+        aov: Aov,
+        tile: &Developing<'_>,
+        layout: &ChannelLayout,
+        exposure: f32,
+        corner: [usize; 2],
+        out: &mut Part<'_>,
+    ) {
+        let (part, factor) = match aov {
+            Aov::Color => (Share::Radiance, f64::from(exposure)),
+            Aov::Luminance => (Share::Radiance, 1.0),
+            Aov::Light(kind, LightPart::Indirect) => (Share::Kind(kind), 1.0),
+            Aov::LightGroup(number) => (Share::Group(number), f64::from(exposure)),
+            _ => return,
+        };
+        let Some(first) = self.layout.parts.iter().position(|known| *known == part).map(|part| part * 3) else { return };
+        let scale = factor / (self.layout.scale * self.paths.max(1) as f64);
+        let pixels = self.layout.size[0] * self.layout.size[1];
+        let divisor = super::divisor(aov).and_then(|aov| layout.offset(aov));
+        out.for_each_at(|code, [x, y], values| {
+            let pixel = (corner[1] + y) * self.layout.size[0] + corner[0] + x;
+            let light = [0, 1, 2].map(|channel| self.sums[(first + channel) * pixels + pixel] as f64 * scale);
+            if aov == Aov::Luminance {
+                values[0] += crate::colour::luminance(light) as f32;
+                return;
+            }
+            for (channel, (value, light)) in values.iter_mut().zip(light).enumerate() {
+                let colour = divisor.map_or(1.0, |offset| tile.sums[(offset + channel) * BATCH + code] * tile.scale(code));
+                *value += if colour > 0.0 { (light / colour) as f32 } else { 0.0 };
+            }
+        });
+    }
+
+    /// Reciprocal of a unit's value: a power of two.
+    pub(super) fn scale(&self) -> f64 {
+        self.layout.scale
+    }
+
+    /// Writes the sums.
+    pub(super) fn write(&self, out: &mut impl Write) -> Result<()> {
+        out.write_all(&self.paths.to_le_bytes())?;
+        out.write_all(bytemuck::cast_slice(&self.sums))
+    }
+
+    /// Takes what [`Self::write`] has written.
+    pub(super) fn fill(&mut self, input: &mut impl Read) -> Result<()> {
+        let mut paths = [0; 8];
+        input.read_exact(&mut paths)?;
+        self.paths = u64::from_le_bytes(paths);
+        self.sums = array(input, self.sums.len())?;
+        Ok(())
+    }
+}
+
+/// The share of a kind in what the first surface scatters.
+fn kind_share(splat: &Splat, kind: ScatteringKind, channel: usize) -> f64 {
+    let [diffuse, glossy] = splat.shares.map(|share| f64::from(share[channel]));
+    match kind {
+        ScatteringKind::Diffuse => diffuse,
+        ScatteringKind::Glossy => glossy,
+        ScatteringKind::Transmission => (1.0 - diffuse - glossy).max(0.0),
+    }
+}

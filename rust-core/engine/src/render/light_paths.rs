@@ -1,0 +1,89 @@
+//! Light paths of a render: which lights they start at, and how many go with a block of camera paths.
+
+use super::Shared;
+use crate::{
+    compile::{CompiledScene, View},
+    film::{SplatBlock, SplatLayout},
+    light::EmissionSampler,
+    scene::{Caustics, Crop, Integrator, Settings},
+    transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Picture, Receiver, Transport, Wanted, Workspace},
+};
+use std::{ops::Range, sync::Arc};
+
+/// How light paths of a render start.
+#[derive(Debug)]
+pub(crate) struct LightPaths {
+    sampler: EmissionSampler,
+}
+
+/// Samples of a pixel that have batch numbers of their own in a tile.
+const SAMPLES: u64 = 1 << 32;
+
+/// The light paths that a view asks for, if any, and by light whether they start there.
+pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> Option<(LightPaths, Arc<[u32]>)> {
+    let wanted = match settings.caustics {
+        Caustics::Off => false,
+        Caustics::On => true,
+        Caustics::Auto => scene.casters.enclosing.is_some(),
+    };
+    if !wanted || settings.integrator != Integrator::Path || view.rule.is_some() || scene.casters.targets.is_empty() {
+        return None;
+    }
+    let lights = &scene.tables.lights;
+    // Rays that look for a wide sky find it better than its paths find the picture.
+    let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(!lights.is_dome(light))).collect();
+    let numbers: Vec<u32> = (0..lights.len() as u32).filter(|light| started[*light as usize] != 0).collect();
+    let origin = scene.tables.origin;
+    let centre = scene.bounds.centre();
+    let sphere = (std::array::from_fn(|i| (centre[i] - origin[i]) as f32), (scene.bounds.radius() * (1.0 + 1e-5)) as f32);
+    let sampler = EmissionSampler::new(lights, Some(&numbers), sphere, &scene.casters.targets);
+    (!sampler.is_empty()).then_some((LightPaths { sampler }, started))
+}
+
+impl LightPaths {
+    /// How paths start.
+    pub(super) fn sampler(&self) -> &EmissionSampler {
+        &self.sampler
+    }
+
+    /// Power of the lights, as splats are counted by.
+    pub(super) fn power(&self) -> f64 {
+        self.sampler.total_power().iter().sum()
+    }
+
+    /// Traces the light paths that go with some samples of a tile: as many as a whole tile has pixels, for each sample.
+    pub(super) fn trace(
+        &self,
+        shared: &Shared,
+        view: &View,
+        (tile, samples): (usize, Range<u32>),
+        splats: &SplatLayout,
+        workspace: &mut Workspace,
+        cancelled: &dyn Fn() -> bool,
+    ) -> SplatBlock {
+        let Crop { min, max } = view.window;
+        let picture = Picture { camera: &view.camera, placement: &view.placement, window: [min, max] };
+        let wanted = Wanted { arrivals: Arriving::No, specular_only: true, picture: Some(picture) };
+        let transport: &Transport = &view.transport;
+        let tracer = LightTracer { tables: &shared.scene.tables, transport, emission: Emission::Lights(&self.sampler), wanted };
+        let mut brought = Vec::new();
+        let mut paths = 0;
+        for sample in samples {
+            if cancelled() {
+                break;
+            }
+            let batch = tile as u64 * SAMPLES + u64::from(sample);
+            tracer.trace(batch, &mut Unasked, &mut brought, workspace, cancelled);
+            paths += LIGHT_BATCH as u64;
+        }
+        splats.block(&brought, paths, &transport.passes.groups, transport.limits.clamps[1])
+    }
+}
+
+/// Nobody asks where else light went.
+struct Unasked;
+
+impl Receiver for Unasked {
+    fn arrived(&mut self, _: &Arrivals) {}
+    fn escaped(&mut self, _: &Escapes) {}
+}

@@ -1,0 +1,105 @@
+//! The photon maps of a render: one for each block of samples, shared by all tiles, with radii that shrink from block to block.
+//!
+//! The estimate is that of stochastic progressive photon mapping (Hachisuka and Jensen 2009; Knaus and Zwicker 2011): its error from the radius
+//! goes to zero as samples grow.
+
+use super::light_paths::LightPaths;
+use crate::{
+    compile::{CompiledScene, View},
+    transport::{
+        Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, PhotonMap, Receiver, Transport, Wanted, Workspace,
+    },
+};
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, OnceLock, PoisonError},
+};
+
+/// Batches of light paths that a map takes for each sample of its block, and most of them.
+const BATCHES_PER_SAMPLE: u64 = 16;
+const MOST_BATCHES: u64 = 128;
+/// Maps that are kept: tiles are never further apart than that.
+const KEPT: usize = 3;
+/// The first radius in pixels, as the nearest thing that casts caustics is seen.
+const PIXELS: f64 = 3.0;
+/// Part of its square that the radius keeps as blocks go on (alpha of Knaus and Zwicker).
+const KEEPS: f64 = 2.0 / 3.0;
+/// Numbers of batches that no splats use.
+const OTHER_BATCHES: u64 = 1 << 63;
+
+/// A map, made by the first who wants it.
+type Slot = Arc<OnceLock<Option<Arc<PhotonMap>>>>;
+
+/// The maps of a render.
+#[derive(Debug)]
+pub(super) struct PhotonMaps {
+    /// Of the first block, metres.
+    radius: f64,
+    maps: Mutex<BTreeMap<u32, Slot>>,
+}
+
+impl PhotonMaps {
+    /// Those of a view.
+    pub(super) fn new(scene: &CompiledScene, view: &View) -> Self {
+        let room = scene.bounds.radius().max(f64::MIN_POSITIVE);
+        let pixel = |target: &([f32; 3], f32)| view.camera.pixel_width(target.0).map(f64::from);
+        let pixel = scene.casters.targets.iter().filter_map(pixel).fold(f64::INFINITY, f64::min);
+        let radius = if pixel.is_finite() { pixel * PIXELS } else { room * 2e-3 };
+        Self { radius: radius.clamp(room * 1e-4, room * 1e-2), maps: Mutex::default() }
+    }
+
+    /// The map of a block with so many samples.
+    pub(super) fn of_block(
+        &self,
+        (block, samples): (u32, u32),
+        scene: &CompiledScene,
+        transport: &Transport,
+        light_paths: &LightPaths,
+        workspace: &mut Workspace,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Arc<PhotonMap>> {
+        let slot = {
+            let mut maps = self.maps.lock().unwrap_or_else(PoisonError::into_inner);
+            let slot = maps.entry(block).or_default().clone();
+            while maps.len() > KEPT {
+                maps.pop_first();
+            }
+            slot
+        };
+        let make = || {
+            let batches = (u64::from(samples) * BATCHES_PER_SAMPLE).min(MOST_BATCHES);
+            let mut photons = Photons::default();
+            let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
+            let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Lights(light_paths.sampler()), wanted };
+            for batch in 0..batches {
+                if cancelled() {
+                    return None;
+                }
+                let number = OTHER_BATCHES | u64::from(block) << 32 | batch;
+                tracer.trace(number, &mut photons, &mut Vec::new(), workspace, cancelled);
+            }
+            let radius = self.radius * f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
+            let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
+            let map = PhotonMap::new(&photons.0, radius as f32, share);
+            // Without any, camera paths look for the light as they did.
+            Some(Arc::new(map))
+        };
+        slot.get_or_init(make).clone()
+    }
+}
+
+/// Keeps what arrives.
+#[derive(Default)]
+struct Photons(Vec<Photon>);
+
+impl Receiver for Photons {
+    fn arrived(&mut self, arrivals: &Arrivals) {
+        self.0.extend((0..arrivals.count).map(|entry| Photon {
+            position: [0, 1, 2].map(|axis| arrivals.position[axis][entry]),
+            direction: [0, 1, 2].map(|axis| arrivals.direction[axis][entry]),
+            flux: [0, 1, 2].map(|axis| arrivals.flux[axis][entry]),
+            light: arrivals.light[entry],
+        }));
+    }
+    fn escaped(&mut self, _: &Escapes) {}
+}
