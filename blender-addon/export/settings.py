@@ -6,6 +6,7 @@ from ..units import LUMENS_PER_WATT
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
 # Whole widths in pixels a unit of Cycles' filter width: its windows reach a width to either side, its Gaussian's deviation is a quarter of it.
 WIDTHS = {"gaussian": 1.5, "blackman-harris": 2.0, "tent": 1.0}
+CAUSTICS = {"AUTO": "auto", "ON": "on", "OFF": "off"}
 # Darker films are as noisy as this one.
 LEAST_EXPOSURE = 1e-6
 # Exponents of the way into the mist, as Cycles has them.
@@ -34,6 +35,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         # Noise counts by what is shown as white in Blender's units.
         "noise_white": LUMENS_PER_WATT / max(float(ask("film_exposure", 1.0)), LEAST_EXPOSURE),
         "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
+        "caustics": CAUSTICS.get(ask("caustics", "AUTO"), "auto"),
         "max_bounces": int(ask("max_bounces", 12)),
         "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
         "max_glossy_bounces": int(ask("glossy_bounces", 4)),

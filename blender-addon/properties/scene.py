@@ -19,6 +19,12 @@ PIXEL_FILTERS = (
     ("TENT", "Tent", "Linear fall to the edge of the filter", 3),
 )
 
+CAUSTICS = (
+    ("AUTO", "Automatic", "Where a lamp stands within something that refracts, as a bulb in its globe", 0),
+    ("ON", "On", "Wherever mirrors and clear glass throw light onto what the camera sees", 1),
+    ("OFF", "Off", "Never: camera paths show what they happen to find", 2),
+)
+
 
 def _threshold(name, description, default):
     """A relative error at which sampling stops."""
@@ -100,6 +106,13 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
     glossy_bounces: _bounces("Glossy Bounces", "Most glossy bounces of a light path, within the total", 4)
     transmission_bounces: _bounces("Transmission Bounces", "Most passages through refractive surfaces, within the total", 12)
     transparent_max_bounces: _bounces("Transparent Max Bounces", "Most transparent surfaces that a ray passes; not part of the total", 8)
+    caustics: EnumProperty(
+        name="Caustics",
+        description="Light paths from the lamps bring the light that mirrors and clear glass throw onto surfaces",
+        items=CAUSTICS,
+        default="AUTO",
+        update=tag_data,
+    )
     clamp_direct: _clamp("Direct", "a direct sample")
     clamp_indirect: _clamp("Indirect", "an indirect sample")
 

@@ -36,4 +36,18 @@ class GONIO_RENDER_PT_light_paths_clamping(RenderPanel, Panel):
         column.prop(scene.gonio, "clamp_indirect", text="Indirect Light")
 
 
-PANELS = (GONIO_RENDER_PT_light_paths, GONIO_RENDER_PT_light_paths_max_bounces, GONIO_RENDER_PT_light_paths_clamping)
+class GONIO_RENDER_PT_light_paths_caustics(RenderPanel, Panel):
+    bl_label = "Caustics"
+    bl_parent_id = "GONIO_RENDER_PT_light_paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_settings(self, layout, scene):
+        layout.prop(scene.gonio, "caustics", text="Light Paths")
+
+
+PANELS = (
+    GONIO_RENDER_PT_light_paths,
+    GONIO_RENDER_PT_light_paths_max_bounces,
+    GONIO_RENDER_PT_light_paths_clamping,
+    GONIO_RENDER_PT_light_paths_caustics,
+)

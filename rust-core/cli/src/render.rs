@@ -211,6 +211,7 @@ impl Job<'_> {
         settings.min_samples = options.min_spp;
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
         settings.integrator = options.integrator.into();
+        settings.caustics = options.caustics.into();
         settings.light_samples = options.light_samples;
         settings.filter = match options.filter {
             FilterArgument::Box => Filter::Box,

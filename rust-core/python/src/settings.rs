@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Antialiasing, Background, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -39,7 +39,8 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "tile_range" => s.tile_range = value.extract()?,
         "seed" => s.seed = value.extract()?,
         "threads" => s.threads = value.extract()?,
-        "integrator" => s.integrator = integrator(value)?,
+        "integrator" => s.integrator = named(key, value, &Integrator::NAMES)?,
+        "caustics" => s.caustics = named(key, value, &Caustics::NAMES)?,
         "max_bounces" => s.max_bounces = value.extract()?,
         "light_samples" => s.light_samples = value.extract()?,
         "max_diffuse_bounces" => s.kind_bounces[0] = value.extract()?,
@@ -82,11 +83,11 @@ fn crop(value: &Bound<'_, PyAny>) -> PyResult<Option<Crop>> {
     Ok(bounds.map(|[x0, y0, x1, y1]| Crop { min: [x0, y0], max: [x1, y1] }))
 }
 
-fn integrator(value: &Bound<'_, PyAny>) -> PyResult<Integrator> {
+fn named<T: Copy>(key: &str, value: &Bound<'_, PyAny>, names: &[(T, &str)]) -> PyResult<T> {
     let found: String = value.extract()?;
-    let known = Integrator::NAMES.iter().find(|(_, name)| *name == found);
-    let expected = || wrong("integrator", format!("'{found}' was found, expected {}", Integrator::NAMES.map(|(_, name)| name).join(", ")));
-    known.map(|(integrator, _)| *integrator).ok_or_else(expected)
+    let known = names.iter().find(|(_, name)| *name == found);
+    let all = || names.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ");
+    known.map(|(known, _)| *known).ok_or_else(|| wrong(key, format!("'{found}' was found, expected {}", all())))
 }
 
 /// A name, or the number of places along a pixel's side.

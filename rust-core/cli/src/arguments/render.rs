@@ -2,7 +2,7 @@
 
 use super::{CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
 use clap::{Args, ValueEnum};
-use gonio::scene::{Antialiasing, MOST_LIGHT_SAMPLES};
+use gonio::scene::{Antialiasing, Caustics, MOST_LIGHT_SAMPLES};
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -41,6 +41,9 @@ pub(crate) struct RenderOptions {
     /// The light transport: full global illumination, direct light alone, or direct light without noise with mirrors and clear glass.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
+    /// Light paths from the lamps bring what mirrors and clear glass throw onto surfaces that the camera sees: where a lamp stands within something that refracts, always, or never.
+    #[arg(long, value_enum, default_value_t = CausticsArgument::Auto)]
+    pub(crate) caustics: CausticsArgument,
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
     #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     pub(crate) light_samples: u32,
@@ -111,4 +114,24 @@ pub(crate) enum FilterArgument {
     Gaussian,
     /// Blackman–Harris.
     BlackmanHarris,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum CausticsArgument {
+    /// Where a lamp stands within something that refracts.
+    Auto,
+    /// Always.
+    On,
+    /// Never: camera paths find what they happen to hit.
+    Off,
+}
+
+impl From<CausticsArgument> for Caustics {
+    fn from(argument: CausticsArgument) -> Self {
+        match argument {
+            CausticsArgument::Auto => Self::Auto,
+            CausticsArgument::On => Self::On,
+            CausticsArgument::Off => Self::Off,
+        }
+    }
 }

@@ -416,6 +416,7 @@ class Scene:
         seed: int | None = ...,
         threads: int | None = ...,
         integrator: str | None = ...,
+        caustics: str | None = ...,
         max_bounces: int | None = ...,
         light_samples: int | None = ...,
         max_diffuse_bounces: int | None = ...,
