@@ -55,7 +55,7 @@ impl LightPaths {
     pub(super) fn trace(
         &self,
         shared: &Shared,
-        view: &View,
+        (view, transport): (&View, &Transport),
         (tile, samples): (usize, Range<u32>),
         splats: &SplatLayout,
         workspace: &mut Workspace,
@@ -64,7 +64,6 @@ impl LightPaths {
         let Crop { min, max } = view.window;
         let picture = Picture { camera: &view.camera, placement: &view.placement, window: [min, max] };
         let wanted = Wanted { arrivals: Arriving::No, specular_only: true, picture: Some(picture) };
-        let transport: &Transport = &view.transport;
         let tracer = LightTracer { tables: &shared.scene.tables, transport, emission: Emission::Lights(&self.sampler), wanted };
         let mut brought = Vec::new();
         let mut paths = 0;

@@ -80,7 +80,9 @@ impl PhotonMaps {
             }
             let radius = self.radius * f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
-            let map = PhotonMap::new(&photons.0, radius as f32, share);
+            // Of surfaces about the casters' room as large as its sphere.
+            let area = 4.0 * std::f64::consts::PI * scene.bounds.radius().powi(2);
+            let map = PhotonMap::new(&photons.0, radius as f32, share, area);
             // Without any, camera paths look for the light as they did.
             Some(Arc::new(map))
         };

@@ -70,7 +70,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let layout = shared.film.splats().map(|film| film.layout().clone());
     if let (Some(light_paths), Source::View(view), Some(layout)) = (&shared.light_paths, &shared.source, layout) {
         let of_block = (work.tile, work.samples.clone());
-        splats = light_paths.trace(shared, view, of_block, &layout, &mut room.workspace, &cancelled);
+        splats = light_paths.trace(shared, (view, &tracer.transport), of_block, &layout, &mut room.workspace, &cancelled);
     }
     if cancelled() {
         return;

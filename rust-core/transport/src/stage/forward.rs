@@ -3,6 +3,7 @@
 use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
+use crate::stage::merge::{Found, carried_on};
 use crate::stage::nee::shares;
 use crate::stage::scatter::{pass_straight, send_on};
 use crate::stage::shade::normals;
@@ -15,8 +16,9 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, parameter_values, threshold};
+use crate::tables::photons::PhotonMap;
 use crate::{geometry::shadow_ray_to, kernels};
-use gonio_bsdf::{Hits, LightHits, Lobes};
+use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;
 use gonio_camera::{CameraTable, Placement};
 use gonio_simd::{F, Lanes, M, One, SpectrumColumns, U};
@@ -116,7 +118,10 @@ impl Integrator for LightIntegrator<'_> {
         }
         let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
         let sample = kernels::sample(l, lobes, point.local_wo, [u_lobe, u, v]);
-        let goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
+        let mut goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
+        if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
+            goes |= goes_on(chunk, point, (photons, &sample), going_on.and_not(goes), base, &mut queues.photons);
+        }
         let factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
@@ -126,6 +131,30 @@ impl Integrator for LightIntegrator<'_> {
 
     #[inline(always)]
     fn measure<L: Lanes>(&self, _: &MeasureContext<'_, L>, _: &mut ShadowRays, _: &mut Paths, _: &mut Deposits) {}
+}
+
+/// Which light paths of a picture go on where they scatter otherwise than specularly: where much light arrives, camera paths seldom look.
+#[inline(always)]
+fn goes_on<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    point: &Vertex<L>,
+    (photons, sample): (&PhotonMap, &BsdfSample<L>),
+    chosen: M<L>,
+    base: u32,
+    found: &mut Found,
+) -> M<L> {
+    let l = chunk.l;
+    // Camera paths light what the first surface of a light path sends on; beyond its first that is not specular it is on its way.
+    let chosen = chosen & point.bounces.ne(0);
+    let under_way = (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    // Camera paths find what enters a surface first.
+    let first = chosen.and_not(under_way | sample.entered);
+    if !first.any() {
+        return chosen & under_way;
+    }
+    let share = carried_on(l, photons, point.at.position, first, found);
+    let [_, u] = chunk.sample.sampler.pair(l, chunk.sample.index(l, point.slot), base + dimension::CLOSURE);
+    (chosen & under_way) | (first & u.lt(share))
 }
 
 /// Notes flux that arrived.

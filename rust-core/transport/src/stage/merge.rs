@@ -9,7 +9,7 @@ use crate::state::vertex::Vertex;
 use crate::tables::light_groups::UNSEEN;
 use crate::tables::photons::PhotonMap;
 use gonio_bsdf::Lobes;
-use gonio_simd::{Lanes, M, PADDING, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U, Vec3};
 use std::f32::consts::PI;
 
 /// Photons about the points of a register.
@@ -31,7 +31,10 @@ pub(crate) fn merge<L: Lanes>(
     if most == 0 {
         return;
     }
-    let scale = 1.0 / (PI * map.radius() * map.radius());
+    // The rest goes to the first surface by light paths, which begin where there is much.
+    let seen_directly = (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    let carried_on = map.carried_on(irradiance_of(l, map, found, most, None).mean()).keep_if(seen_directly);
+    let scale = (1.0 - carried_on) * (1.0 / (PI * map.radius() * map.radius()));
     let value = transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.throughput * scale, point.bounces + 2);
     let code = ((point.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
     let light = Contribution { slot: point.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
@@ -57,11 +60,28 @@ pub(crate) fn irradiance<L: Lanes>(
     found: &mut Found,
 ) -> Spectrum<L> {
     let most = find(l, map, position, chosen, found);
+    irradiance_of(l, map, found, most, Some(normal))
+}
+
+/// Share of the flux at each chosen point that light paths carry on, see [`PhotonMap::carried_on`].
+#[inline(always)]
+pub(crate) fn carried_on<L: Lanes>(l: L, map: &PhotonMap, position: Vec3<L>, chosen: M<L>, found: &mut Found) -> F<L> {
+    let most = find(l, map, position, chosen, found);
+    map.carried_on(irradiance_of(l, map, found, most, None).mean())
+}
+
+/// Irradiance by listed photons: of those on a normal's side, or of both sides together.
+#[inline(always)]
+fn irradiance_of<L: Lanes>(l: L, map: &PhotonMap, found: &Found, most: usize, normal: Option<Vec3<L>>) -> Spectrum<L> {
     let mut sum = Spectrum::zero(l);
     for at in 0..most {
         let (number, here) = numbers(l, found, at);
         let photon = map.photons(l, number);
-        sum += photon.flux.keep_if(here & normal.dot(photon.wi).gt(0.0));
+        let counts = match normal {
+            Some(normal) => here & normal.dot(photon.wi).gt(0.0),
+            None => here,
+        };
+        sum += photon.flux.keep_if(counts);
     }
     sum * (1.0 / (PI * map.radius() * map.radius()))
 }

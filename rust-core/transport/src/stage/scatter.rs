@@ -68,13 +68,18 @@ fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diff
     if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
 }
 
-/// What a path keeps of [`flag::LIGHT_BROUGHT`], or begins with where it scatters by other than mirrors and smooth glass; and where it started.
+/// Flags of what light paths bring, and where the path started: kept by mirrors and smooth glass, else begun anew ([`flag::LIGHT_BROUGHT`]).
 #[inline(always)]
 fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
     let l = chunk.l;
-    let seen = point.bounces.eq(0) | l.m(chunk.transport.photons.is_some());
-    let rough = l.u(flag::LIGHT_BROUGHT).keep_if(seen & (point.flags & flag::WALKED).eq(0));
-    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough) | (point.flags & flag::FROM_LIGHT)
+    let first = point.bounces.eq(0);
+    let here = (point.flags & flag::WALKED).eq(0);
+    let rough = l.u(flag::LIGHT_BROUGHT).keep_if((first | l.m(chunk.transport.photons.is_some())) & here);
+    // Light paths that scatter so are on their way to what the camera sees.
+    let ends = first | (point.flags & flag::FROM_LIGHT).ne(0);
+    let directly = l.u(flag::SEEN_DIRECTLY).keep_if(ends & here.and_not(sample.delta));
+    let kept = point.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY);
+    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough) | directly | kept
 }
 
 /// Samples the BSDF and appends the paths that go on, after Russian roulette. `ending` paths have no bounce left: only what goes straight

@@ -18,8 +18,10 @@ pub(crate) const FROM_LIGHT: u32 = 256;
 pub(crate) const LIGHT_BROUGHT: u32 = 512;
 /// Of vertices, not of paths: light came out here from under the surface.
 pub(crate) const WALKED: u32 = 1024;
+/// The camera sees the path's first surface directly, which did not scatter specularly: light paths can end there.
+pub(crate) const SEEN_DIRECTLY: u32 = 2048;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 11;
+pub(crate) const BOUNCE_SHIFT: u32 = 12;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {

@@ -1,7 +1,7 @@
 //! The photon map: where light paths left flux on surfaces that are not specular, on a hash grid, to be merged with camera paths.
 
 use gonio_bsdf::parameter::spectrum;
-use gonio_simd::{Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
+use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
 
 /// Flux that arrived at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Photon {
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
     radius: f32,
+    /// Irradiance above which light paths go on rather than camera paths look for the place, mean of R, G, B.
+    bright: f32,
     /// First photon of each bucket, and the number of all.
     starts: Vec<u32>,
     position: [Vec<f32>; 3],
@@ -28,6 +30,9 @@ pub struct PhotonMap {
     /// Items of fluxes, the fourth word unused.
     flux: Vec<f32>,
 }
+
+/// A place is bright where its irradiance is so many times the mean over all surfaces.
+const BRIGHT: f64 = 8.0;
 
 /// A register of photons.
 #[derive(Clone, Copy, Debug)]
@@ -39,13 +44,15 @@ pub(crate) struct PhotonLanes<L: Lanes> {
 }
 
 impl PhotonMap {
-    /// Sorts photons into cells; `share` is the part of a path in all that were traced.
-    pub fn new(photons: &[Photon], radius: f32, share: f64) -> Self {
+    /// Sorts photons into cells; `share` is the part of a path in all that were traced, `area` about that of the scene's surfaces.
+    pub fn new(photons: &[Photon], radius: f32, share: f64, area: f64) -> Self {
         if photons.is_empty() || radius <= 0.0 {
             return Self::default();
         }
         let buckets = photons.len().next_power_of_two().max(16);
-        let map = Self { radius, starts: vec![0; buckets + 1], ..Self::default() };
+        let flux: f64 = photons.iter().flat_map(|photon| photon.flux).map(f64::from).sum::<f64>() / 3.0 * share;
+        let bright = (flux / area.max(f64::MIN_POSITIVE) * BRIGHT) as f32;
+        let map = Self { radius, bright, starts: vec![0; buckets + 1], ..Self::default() };
         let bucket_of = |photon: &Photon| map.bucket(photon.position.map(|x| map.cell(x)));
         let mut starts = map.starts.clone();
         photons.iter().for_each(|photon| starts[bucket_of(photon) + 1] += 1);
@@ -79,6 +86,14 @@ impl PhotonMap {
     /// Radius within which photons are merged, metres.
     pub fn radius(&self) -> f32 {
         self.radius
+    }
+
+    /// Share of the light from a place of some irradiance that light paths carry on; camera paths that see their first surface directly take the rest.
+    #[inline(always)]
+    pub(crate) fn carried_on<L: Lanes>(&self, irradiance: F<L>) -> F<L> {
+        let ratio = irradiance * self.bright.max(f32::MIN_POSITIVE).recip();
+        let square = ratio * ratio;
+        (square / (square + 1.0)).min(1.0)
     }
 
     fn cell(&self, x: f32) -> i64 {
