@@ -7,7 +7,7 @@
 //! gather from them as they are.
 
 mod axis;
-mod bytes;
+pub(crate) mod bytes;
 mod colour;
 mod coordinates;
 mod diagram;
