@@ -65,7 +65,7 @@ fn symmetries_are_found_by_the_errors() {
             assert_eq!(reduced.goniogram.warnings, []);
             assert_eq!(reduced.errors.len(), reduced.goniogram.intensities.len());
             if let Some(test) = reduced.tests.last().filter(|test| test.holds) {
-                assert!((0.7..1.1).contains(&test.chi_square), "{test:?}");
+                assert!((0.7..1.3).contains(&test.chi_square), "{test:?}");
             }
             close(reduced.goniogram.flux(), measurement.flux, 1e-9);
         }
@@ -77,6 +77,17 @@ fn a_tilt_below_the_noise_of_each_direction_shows_in_the_planes() {
     // Each direction has an error of about a tenth, the tilt is 3 %.
     let tilted = measured(|c, g| lobe(g) * (1.0 + 0.03 * c.to_radians().cos()), 2.0, 3);
     assert_eq!(tilted.reduced(None).unwrap().goniogram.symmetry, Symmetry::AboutC0);
+}
+
+#[test]
+fn dim_directions_do_not_hide_the_beam() {
+    // A beam of a few directions that leans by about two standard errors each, in much dim light without noise.
+    let beam = |c: f64, g: f64| if g < 8.0 { 900.0 + if g > 0.0 { 12.0 * (7.0 * c).to_radians().cos() } else { 0.0 } } else { 0.01 };
+    assert_eq!(measured(beam, 0.15, 3).reduced(None).unwrap().goniogram.symmetry, Symmetry::AboutC0);
+    // What has no errors may differ by what facets do, and no more.
+    let facets = |of: f64| measured(move |c, g| lobe(g) * (1.0 + of * (5.0 * c + 20.0).to_radians().cos()), 0.0, 3);
+    assert_eq!(facets(1e-3).reduced(None).unwrap().goniogram.symmetry, Symmetry::Rotational);
+    assert_eq!(facets(2e-2).reduced(None).unwrap().goniogram.symmetry, Symmetry::None);
 }
 
 #[test]

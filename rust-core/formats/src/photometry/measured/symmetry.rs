@@ -16,23 +16,26 @@ const ALLOWED: f64 = 1.1;
 const SPREADS: f64 = 4.0;
 /// Standard errors by which no single plane may differ from its group.
 const LARGEST: f64 = 6.0;
-/// Differences below this share of the peak are none: they are added to the errors.
-const FLOOR: f64 = 5e-4;
+/// Differences of that share of a group's mean are no asymmetry, nor are those of [`FLOOR`] of the peak: facets do as much.
+const RIPPLE: f64 = 1e-3;
+/// See [`RIPPLE`].
+const FLOOR: f64 = 1e-4;
 
 /// How well a symmetry fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetryTest {
     /// The symmetry.
     pub symmetry: Symmetry,
-    /// χ² per degree of freedom of the intensities; near 1 where the symmetry holds.
+    /// χ² per degree of freedom of the intensities; near 1 where the symmetry holds, 0 where errors are too small to matter.
     pub chi_square: f64,
-    /// The degrees of freedom.
-    pub degrees: usize,
+    /// The degrees of freedom, each as far as noise is what differences come from.
+    pub degrees: f64,
     /// χ² per degree of freedom of the planes' fluxes.
     pub flux_chi_square: f64,
     /// The largest difference between a plane and its group's mean, in standard errors.
     pub largest: f64,
     /// Whether it holds: both χ² are at most 1.1 + 4 √(2 / degrees of freedom), and the largest difference at most six standard errors.
+    /// A thousandth of the group's mean and 0.0001 of the peak are added to the errors.
     pub holds: bool,
 }
 
@@ -43,37 +46,44 @@ pub(super) type Group = (f64, Vec<usize>);
 #[derive(Clone, Copy, Default)]
 struct ChiSquare {
     sum: f64,
-    degrees: usize,
+    degrees: f64,
+    /// What differences too small to be asymmetry may add.
+    ripple: f64,
     largest: f64,
 }
 
 impl ChiSquare {
     /// Adds a group of values that should be one, each with its variance.
-    fn add(&mut self, values: &[[f64; 2]], floor: f64) {
+    fn add(&mut self, values: &[[f64; 2]], peak: f64) {
         let count = values.len() as f64;
         let mean = values.iter().map(|[value, _]| value).sum::<f64>() / count;
-        let pooled = values.iter().map(|[_, variance]| variance).sum::<f64>() / count + floor * floor;
+        let noise = values.iter().map(|[_, variance]| variance).sum::<f64>() / count;
+        let floor = (RIPPLE * mean).powi(2) + (FLOOR * peak).powi(2);
         // Dark directions tell nothing.
-        if values.len() < 2 || pooled <= 0.0 || values.iter().all(|value| *value == [0.0; 2]) {
+        if values.len() < 2 || noise + floor <= 0.0 || values.iter().all(|value| *value == [0.0; 2]) {
             return;
         }
-        self.degrees += values.len() - 1;
+        let squares: f64 = values.iter().map(|[value, _]| (value - mean).powi(2)).sum();
+        // Where noise is the least part, many such directions would hide what the others say.
+        if noise >= floor {
+            self.sum += squares / (noise + floor);
+            self.degrees += (count - 1.0) * noise / (noise + floor);
+            self.ripple += (count - 1.0) * floor / (noise + floor);
+        }
         for [value, variance] in values {
-            let square = (value - mean).powi(2);
-            self.sum += square / pooled;
             // Few counts give small errors by chance: the group's is the least.
-            let variance = (variance + floor * floor).max(pooled) * (1.0 - 1.0 / count);
-            self.largest = self.largest.max((square / variance).sqrt());
+            let variance = (variance.max(noise) + floor) * (1.0 - 1.0 / count);
+            self.largest = self.largest.max(((value - mean).powi(2) / variance).sqrt());
         }
     }
 
     fn per_degree(&self) -> f64 {
-        if self.degrees == 0 { 0.0 } else { self.sum / self.degrees as f64 }
+        if self.degrees > 0.0 { self.sum / self.degrees } else { 0.0 }
     }
 
     fn holds(&self) -> bool {
-        let limit = ALLOWED + SPREADS * (2.0 / self.degrees.max(1) as f64).sqrt();
-        self.per_degree() <= limit && self.largest <= LARGEST
+        let limit = ALLOWED * self.degrees + SPREADS * (2.0 * self.degrees).sqrt() + self.ripple;
+        self.sum <= limit && self.largest <= LARGEST
     }
 }
 
@@ -102,10 +112,10 @@ impl Measurement {
         for (_, members) in &groups {
             for gamma in (0..self.gammas.len()).filter(|gamma| !self.is_pole(*gamma)) {
                 let values: Vec<[f64; 2]> = members.iter().map(|plane| self.at(*plane, gamma)).collect();
-                each.add(&values, FLOOR * peak);
+                each.add(&values, peak);
             }
             let values: Vec<[f64; 2]> = members.iter().map(|plane| fluxes[*plane]).collect();
-            whole.add(&values, FLOOR * mean);
+            whole.add(&values, mean);
         }
         Some(SymmetryTest {
             symmetry,
