@@ -46,7 +46,7 @@ pub use fit::{Fit, FittedAlbedo};
 pub use format::Format;
 pub use hemispheres::Hemispheres;
 pub use measured::{Measured, read};
-pub use patches::{Band, Basis, Matrix, Patches};
+pub use patches::{Band, Basis, Matrix, PatchCounts, Patches, Shares};
 pub use report::{Albedo, Reciprocity};
 pub use resample::Grid;
 pub use rgl::{Rgl, RglGrid};
