@@ -10,7 +10,7 @@ export PYO3_PYTHON := $(BIN)/python
 # Blender as a Python package, in the versions that Python 3.11 can load.
 BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
-FUZZED := ies ldt goniogram weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
+FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
 .PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers clean
 

@@ -1,7 +1,7 @@
-//! IES and EULUMDAT.
+//! IES, EULUMDAT and TM-33.
 
 use crate::Reader;
-use gonio_formats::photometry::{Goniogram, PolarUnit, Symmetry, cone_diagram, ies, ldt, polar_diagram, read};
+use gonio_formats::photometry::{Goniogram, PolarUnit, Symmetry, cone_diagram, ies, ldt, polar_diagram, read, tm33};
 
 /// The readers, and everything that is done with what they give.
 pub(crate) fn readers() -> Vec<Reader> {
@@ -14,6 +14,7 @@ pub(crate) fn readers() -> Vec<Reader> {
             memory: 1 << 20,
         },
         Reader { name: "ldt", seeds: ldt_seeds, read: |bytes| ldt::read(bytes).is_ok(), memory: 1 << 20 },
+        Reader { name: "tm33", seeds: tm33_seeds, read: |bytes| tm33::read(bytes).is_ok(), memory: 1 << 20 },
         // Resampling to type C has a grid of its own size.
         Reader {
             name: "goniogram",
@@ -45,11 +46,11 @@ fn use_all(goniogram: &Goniogram) {
     drop([goniogram.rotated(90.0), goniogram.rotated(12.3)]);
     drop([goniogram.scaled_to_flux(1000.0), goniogram.with_lamp_set(1)]);
     drop([polar_diagram(goniogram, PolarUnit::CandelaPerKilolumen), polar_diagram(goniogram, PolarUnit::Candela), cone_diagram(goniogram)]);
-    drop([ies::read(&ies::write(goniogram)), ldt::read(&ldt::write(goniogram))]);
+    drop([ies::read(&ies::write(goniogram)), ldt::read(&ldt::write(goniogram)), tm33::read(&tm33::write(goniogram, true))]);
 }
 
 fn all_seeds() -> Vec<Vec<u8>> {
-    ies_seeds().into_iter().chain(ldt_seeds()).collect()
+    [ies_seeds(), ldt_seeds(), tm33_seeds()].concat()
 }
 
 fn ies_seeds() -> Vec<Vec<u8>> {
@@ -69,6 +70,14 @@ fn ies_seeds() -> Vec<Vec<u8>> {
         (head + &format!("{vertical}\n{horizontal}\n{candela}\n")).into_bytes()
     };
     files.map(write).into_iter().collect()
+}
+
+fn tm33_seeds() -> Vec<Vec<u8>> {
+    let write = |bytes: Vec<u8>| ies::read(&bytes).map(|goniogram| tm33::write(&goniogram, false));
+    let areas = "<EmissionAreas><BottomFace><NumberBottom>1</NumberBottom><BottomArea><Length>600</Length><Width>300</Width>\
+                 <Circular>true</Circular></BottomArea></BottomFace></EmissionAreas></Emitter>";
+    let with_areas = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).replace("</Emitter>", areas).into_bytes();
+    ies_seeds().into_iter().filter_map(|bytes| write(bytes).ok()).map(with_areas).collect()
 }
 
 fn ldt_seeds() -> Vec<Vec<u8>> {

@@ -7,7 +7,7 @@
 //! gather from them as they are.
 
 mod axis;
-mod bytes;
+pub(crate) mod bytes;
 mod colour;
 mod coordinates;
 mod diagram;
@@ -46,7 +46,7 @@ pub use fit::{Fit, FittedAlbedo};
 pub use format::Format;
 pub use hemispheres::Hemispheres;
 pub use measured::{Measured, read};
-pub use patches::{Band, Basis, Matrix, Patches};
+pub use patches::{Band, Basis, Matrix, PatchCounts, Patches, Shares};
 pub use report::{Albedo, Reciprocity};
 pub use resample::Grid;
 pub use rgl::{Rgl, RglGrid};

@@ -5,7 +5,7 @@ use super::text::number;
 use crate::error::{FormatError, Result};
 
 /// Relative difference that files may have by rounding.
-const TOLERANCE: f64 = 0.02;
+pub(crate) const TOLERANCE: f64 = 0.02;
 
 /// Negative intensities below this share of the peak are stray light of the measurement.
 const STRAY: f64 = 0.01;

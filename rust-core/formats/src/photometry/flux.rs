@@ -52,6 +52,13 @@ impl Goniogram {
         stored * self.copies()
     }
 
+    /// Each stored intensity's weight in sr in the flux between two γ in degrees; type C.
+    pub(crate) fn flux_weights(&self, vertical: [f64; 2]) -> Vec<f64> {
+        let (along, down) = (self.plane_weights(), polar_weights(&self.vertical, vertical, 0.0));
+        let copies = self.copies();
+        along.iter().flat_map(|plane| down.iter().map(move |weight| copies * plane * weight)).collect()
+    }
+
     /// How often the stored part fills the whole.
     fn copies(&self) -> f64 {
         match self.symmetry {
@@ -85,6 +92,11 @@ fn flat_weights(angles: &[f64], limits: [f64; 2]) -> Vec<f64> {
         let (a, b) = (a - start, b - start);
         [b - a, (b - a) * (b + a) / 2.0]
     })
+}
+
+/// The weights of angles from the polar axis in degrees, for a flux per radian about it.
+pub(crate) fn polar_weights_of(angles: &[f64]) -> Vec<f64> {
+    polar_weights(angles, ALL, 0.0)
 }
 
 /// ∫ hatᵢ(t) sin(t + offset) dt, with `offset` in degrees.

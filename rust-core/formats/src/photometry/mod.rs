@@ -1,13 +1,15 @@
 //! Goniograms: luminous intensity by direction, as luminaires' makers hand it out.
 //!
-//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019) and EULUMDAT files and gives one [`Goniogram`] in candela and metres; [`ies`]
-//! and [`ldt`] hold the two formats' readers and writers, [`polar_diagram`] and [`cone_diagram`] the two drawings that lighting people
-//! look for.
+//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019), EULUMDAT and TM-33 files and gives one [`Goniogram`] in candela and metres;
+//! [`ies`], [`ldt`] and [`tm33`] hold the formats' readers and writers, [`measured`] makes goniograms of what was counted,
+//! [`polar_diagram`] and [`cone_diagram`] are the two drawings that lighting people look for.
 //!
 //! The luminaire's frame: the photometric zero direction (γ = 0, nadir) is −Z, C0 is +X, C90 is +Y.
 
 pub mod ies;
 pub mod ldt;
+pub mod measured;
+pub mod tm33;
 
 mod arrange;
 mod axis;
@@ -15,6 +17,7 @@ mod beside;
 mod check;
 mod cone;
 mod convert;
+mod direct_ratio;
 mod figures;
 mod flux;
 mod goniogram;
@@ -41,7 +44,7 @@ pub use zones::{Bug, Zones};
 
 use crate::error::{FormatError, Result};
 
-/// Reads an IES or EULUMDAT file; its content decides, and where that is not clear the ending of `name`.
+/// Reads an IES, EULUMDAT or TM-33 file; its content decides, and where that is not clear the ending of `name`.
 ///
 /// # Errors
 /// What the format's own reader says, or that the bytes are neither.
@@ -55,13 +58,15 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
 /// As [`read`].
 pub fn read_with(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Goniogram> {
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-    if ies::looks_like(bytes) {
+    if tm33::looks_like(bytes) {
+        tm33::read(bytes)
+    } else if ies::looks_like(bytes) {
         ies::read_with(bytes, beside)
     } else if ending == "ldt" || ldt::looks_like(bytes) {
         ldt::read(bytes)
     } else if ending == "ies" {
         ies::read_with(bytes, beside)
     } else {
-        Err(FormatError::line(1, "neither a TILT= line (IES) nor EULUMDAT's leading numbers were found"))
+        Err(FormatError::line(1, "neither a TILT= line (IES) nor EULUMDAT's leading numbers nor TM-33's XML were found"))
     }
 }

@@ -54,7 +54,11 @@ impl Goniogram {
         match &self.tilt {
             _ if !degrees.is_finite() => problem("expected a number"),
             None => problem("the file has no tilt factors"),
-            Some(tilt) => Ok(self.clone().times(tilt.factor(degrees.abs()))),
+            Some(tilt) => {
+                let mut tilted = self.clone().times(tilt.factor(degrees.abs()));
+                tilted.stated.light_output_ratio = None;
+                Ok(tilted)
+            }
         }
     }
 

@@ -6,9 +6,11 @@ mod data;
 mod diagrams;
 mod ies;
 mod ldt;
+mod measured;
 mod plausible;
 mod quantities;
 mod round_trip;
+mod tm33;
 mod ugr;
 mod zones;
 

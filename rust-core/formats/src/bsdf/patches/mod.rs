@@ -1,9 +1,11 @@
 //! Matrices over patches of directions, as Radiance and WINDOW use them (Klems 1994).
 
 mod basis;
+mod counted;
 mod sample;
 
 pub use basis::Basis;
+pub use counted::{PatchCounts, Shares};
 
 use super::colour::Channels;
 use super::direction::{Direction, through};

@@ -3,6 +3,7 @@
 mod bad_input;
 mod chi_square;
 mod colours;
+mod counted;
 mod fit;
 mod formats;
 mod klems;

@@ -7,7 +7,7 @@ mod tilt;
 mod write;
 
 pub use read::{read, read_with};
-pub use write::write;
+pub use write::{Generation, write, write_2019};
 
 /// A revision of the standard.
 ///

@@ -14,7 +14,35 @@ const REQUIRED: [&str; 4] = ["TEST", "TESTLAB", "ISSUEDATE", "MANUFAC"];
 ///
 /// All factors are in the candela; numbers have ten digits. A goniogram without symmetry gets its planes at 0 and 360.
 pub fn write(goniogram: &Goniogram) -> Vec<u8> {
-    let mut text = String::from("IESNA:LM-63-2002\n");
+    written(goniogram, "IESNA:LM-63-2002", "1")
+}
+
+/// How the intensities of an LM-63-2019 file came about: the code in the place that earlier revisions keep for the future.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Generation {
+    /// Nobody says.
+    #[default]
+    Undefined,
+    /// By a computer's simulation.
+    Simulation,
+}
+
+impl Generation {
+    fn code(self) -> &'static str {
+        match self {
+            Self::Undefined => "1.00001",
+            Self::Simulation => "1.00010",
+        }
+    }
+}
+
+/// The same as LM-63-2019.
+pub fn write_2019(goniogram: &Goniogram, generation: Generation) -> Vec<u8> {
+    written(goniogram, "IES:LM-63-2019", generation.code())
+}
+
+fn written(goniogram: &Goniogram, version: &str, future: &str) -> Vec<u8> {
+    let mut text = format!("{version}\n");
     header(&mut text, goniogram);
     tilt(&mut text, goniogram.tilt.as_ref());
     let circle = goniogram.photometric_type == PhotometricType::C && goniogram.symmetry == Symmetry::None;
@@ -23,7 +51,7 @@ pub fn write(goniogram: &Goniogram) -> Vec<u8> {
         Some(grid) => (&grid.horizontal, &grid.intensities),
         None => (&goniogram.horizontal, &goniogram.intensities),
     };
-    head(&mut text, goniogram, horizontal.len());
+    head(&mut text, goniogram, horizontal.len(), future);
     list(&mut text, &goniogram.vertical);
     list(&mut text, horizontal);
     intensities.chunks(goniogram.vertical.len().max(1)).for_each(|plane| list(&mut text, plane));
@@ -52,7 +80,7 @@ fn tilt(text: &mut String, tilt: Option<&Tilt>) {
     list(text, &tilt.factors);
 }
 
-fn head(text: &mut String, goniogram: &Goniogram, planes: usize) {
+fn head(text: &mut String, goniogram: &Goniogram, planes: usize, future: &str) {
     let lamps = goniogram.lamps();
     let count = lamps.map_or(1, |lamps| lamps.count.max(1));
     let flux = lamps.filter(|lamps| !lamps.absolute).and_then(|lamps| lamps.flux);
@@ -66,7 +94,7 @@ fn head(text: &mut String, goniogram: &Goniogram, planes: usize) {
     let vertical = goniogram.vertical.len();
     let lumens = number(lumens);
     let _ = writeln!(text, "{count} {lumens} 1 {vertical} {planes} {photometric_type} 2 {width} {length} {height}");
-    let _ = writeln!(text, "1 1 {}", number(lamps.map_or(0.0, |lamps| lamps.watts)));
+    let _ = writeln!(text, "1 {future} {}", number(lamps.map_or(0.0, |lamps| lamps.watts)));
 }
 
 /// Numbers in lines of a bounded length.

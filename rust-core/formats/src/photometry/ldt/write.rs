@@ -1,5 +1,6 @@
 //! The writer.
 
+use crate::photometry::check::TOLERANCE;
 use crate::photometry::text::{encode, number, one_line};
 use crate::photometry::{Goniogram, OpeningShape, PhotometricType, Symmetry};
 use std::borrow::Cow;
@@ -7,7 +8,8 @@ use std::borrow::Cow;
 /// Writes EULUMDAT for the lamp set the goniogram is for, the others beside it as alternatives; ISO 8859-1, numbers of ten digits.
 ///
 /// Photometric types A and B are resampled to type C. Lamps without a flux of their own become absolute photometry: the luminaire's flux
-/// with a negative number of lamps.
+/// with a negative number of lamps. The light output ratio and the downward fraction are the stated ones where the intensities bear them out
+/// within 2 %, else the intensities' own; direct ratios that are not stated are reckoned.
 pub fn write(goniogram: &Goniogram) -> Vec<u8> {
     let goniogram = match goniogram.photometric_type {
         PhotometricType::C => Cow::Borrowed(goniogram),
@@ -18,7 +20,7 @@ pub fn write(goniogram: &Goniogram) -> Vec<u8> {
     let mut lines = head(&goniogram, &planes);
     lines.extend(geometry(&goniogram, flux));
     lines.extend(lamp_sets(&goniogram, flux));
-    lines.extend(goniogram.stated.direct_ratios.unwrap_or_default().map(number));
+    lines.extend(goniogram.stated.direct_ratios.unwrap_or_else(|| rounded(goniogram.direct_ratios())).map(number));
     lines.extend(planes.iter().chain(&goniogram.vertical).map(|angle| number(*angle)));
     for plane in stored {
         lines.extend(plane.iter().map(|intensity| number(intensity * 1000.0 / flux)));
@@ -98,9 +100,18 @@ fn geometry(goniogram: &Goniogram, lamp_flux: f64) -> Vec<String> {
     let body = if goniogram.body == [0.0; 3] { [area[0], area[1], goniogram.opening.size[2]] } else { goniogram.body };
     let lengths = body.iter().chain(&area).chain(&goniogram.opening.heights);
     let flux = goniogram.flux();
-    let down = if flux > 0.0 { goniogram.flux_below() / flux } else { 0.0 };
-    let ratios = [100.0 * down, 100.0 * flux / lamp_flux, 1.0, goniogram.stated.measurement_tilt];
+    let (down, output) = (if flux > 0.0 { goniogram.flux_below() / flux } else { 0.0 }, flux / lamp_flux);
+    // Counted fluxes are better than what interpolation makes of the table.
+    let stated = |stated: Option<f64>, own: f64, allowed: f64| stated.filter(|stated| (stated - own).abs() <= allowed).unwrap_or(own);
+    let down = stated(goniogram.stated.downward_fraction, down, TOLERANCE);
+    let output = stated(goniogram.stated.light_output_ratio, output, TOLERANCE * output);
+    let ratios = [100.0 * down, 100.0 * output, 1.0, goniogram.stated.measurement_tilt];
     lengths.map(|metres| number(metres * 1000.0)).chain(ratios.map(number)).collect()
+}
+
+/// Direct ratios have three digits.
+fn rounded(ratios: [f64; 10]) -> [f64; 10] {
+    ratios.map(|ratio| (1e3 * ratio).round() / 1e3)
 }
 
 fn lamp_sets(goniogram: &Goniogram, lamp_flux: f64) -> Vec<String> {
