@@ -6,9 +6,11 @@ use gonio_table::Distribution2D;
 use std::f32::consts::{PI, TAU};
 
 /// Cells of the distribution, at most; finer images are averaged.
-const LARGEST: [usize; 2] = [1024, 512];
+pub(super) const LARGEST: [usize; 2] = [1024, 512];
 /// Every direction keeps this share of the mean: an even image has nothing else, and lights alone still find all there is.
 const FLOOR: f64 = 0.05;
+/// The same of rays that the dome sends, which nothing else would find.
+const EMISSION_FLOOR: f64 = 0.01;
 
 /// Where a textured dome is brighter than in the mean: scattered rays find the rest as well.
 ///
@@ -26,7 +28,7 @@ pub(crate) struct DomeDistribution {
 pub(crate) const EVEN_SAMPLED_PART: f64 = FLOOR;
 
 /// Luminance of each cell: the mean over its pixels and their neighbours.
-fn cells(image: &LightTexture, [width, height]: [usize; 2]) -> Vec<f64> {
+pub(super) fn cells(image: &LightTexture, [width, height]: [usize; 2]) -> Vec<f64> {
     let pixel = |x: usize, y: usize| {
         let at = 3 * (y * image.width + x);
         super::build::luminance([image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]])
@@ -51,15 +53,22 @@ fn cells(image: &LightTexture, [width, height]: [usize; 2]) -> Vec<f64> {
 }
 
 impl DomeDistribution {
+    /// For light sampling.
     pub(crate) fn new(image: &LightTexture) -> Self {
+        Self::by(image, |v, mean| (v - mean).max(0.0) + FLOOR * mean)
+    }
+    /// For rays that the dome sends: in proportion to its luminance.
+    pub(crate) fn of_emission(image: &LightTexture) -> Self {
+        Self::by(image, |v, mean| v + EMISSION_FLOOR * mean)
+    }
+    fn by(image: &LightTexture, weight: impl Fn(f64, f64) -> f64) -> Self {
         let size = [image.width.min(LARGEST[0]), image.height.min(LARGEST[1])];
         let luminance = cells(image, size);
         let sine = |row: usize| (std::f64::consts::PI * (row as f64 + 0.5) / size[1] as f64).sin();
         let sines: f64 = (0..size[1]).map(sine).sum::<f64>() * size[0] as f64;
         let weighted: f64 = luminance.iter().enumerate().map(|(i, v)| v * sine(i / size[0])).sum();
         let mean = weighted / sines;
-        let above = |v: f64| (v - mean).max(0.0) + FLOOR * mean;
-        let weights: Vec<f32> = luminance.iter().enumerate().map(|(i, v)| (above(*v) * sine(i / size[0])) as f32).collect();
+        let weights: Vec<f32> = luminance.iter().enumerate().map(|(i, v)| (weight(*v, mean) * sine(i / size[0])) as f32).collect();
         let sampled: f64 = weights.iter().map(|weight| f64::from(*weight)).sum();
         let sampled_part = if weighted > 0.0 { (sampled / weighted).min(1.0) } else { 1.0 };
         Self { distribution: Distribution2D::new(&weights, size[0]), mean_luminance: mean, sampled_part }

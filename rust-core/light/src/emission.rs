@@ -27,7 +27,7 @@ impl LightTable {
         if !light.flag(flag::VARIED).any() {
             return plain;
         }
-        let shaped = plain * (shaping(l, light, -wi, l.m(true)) * self.goniogram_factor(l, light, -wi) * per_area(l, light, -wi));
+        let shaped = plain * self.beam(l, light, -wi);
         let width = light.integer(field::TEXTURE_WIDTH);
         let textured = width.ne(0);
         if !textured.any() {
@@ -45,6 +45,12 @@ impl LightTable {
             image = dome.select(self.textures.lookup(l, first, size, uv, true), image);
         }
         shaped * light.spectrum(image)
+    }
+
+    /// Factor on the radiance towards unit `direction`: shaping, goniogram and opening.
+    #[inline(always)]
+    pub(super) fn beam<L: Lanes>(&self, l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> Spectrum<L> {
+        shaping(l, light, direction, l.m(true)) * self.goniogram_factor(l, light, direction) * per_area(l, light, direction)
     }
 
     /// Factor of each light's goniogram towards unit `direction`; 1 for lights without one.

@@ -1,9 +1,10 @@
-//! Lights, as next event estimation (NEE) needs them: what they emit, how a direction to one is sampled, and with which density.
+//! Lights, as next event estimation (NEE) and light paths need them: what they emit, how a direction to one is sampled, how rays leave it, and with which
+//! densities.
 //!
 //! The compile step writes [`LightRecord`]s; [`LightTable`] lays them out. At a vertex [`LightTable::sample_li`] selects a light by importance, among
 //! many by the light tree (light BVH) and the learned light cache. Then it samples a direction: solid angle sampling where the shape allows it.
 //! [`LightTable::eval_hit`] and [`LightTable::eval_escaped`] give the light that a BSDF's ray found, and its density or weight for MIS (multiple
-//! importance sampling). Formulas are UsdLux's, in cd/m².
+//! importance sampling). [`EmissionSampler::sample`] draws a ray that a light sends, for light paths. Formulas are UsdLux's, in cd/m².
 
 mod beam;
 mod blackbody;
@@ -13,6 +14,7 @@ mod disk;
 mod distant;
 mod dome;
 mod emission;
+mod emit;
 mod emitter;
 mod eval_escaped;
 mod eval_hit;
@@ -46,6 +48,7 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
+pub use emit::{AIMED, EmissionSampler, EmittedRay};
 pub use far_field::FarField;
 pub use fixed_samples::FixedLightSample;
 pub use goniogram::{AngularType, Goniogram};

@@ -34,6 +34,12 @@ impl TexturePool {
         self.values.push(0.0);
         Some(Placed { first, width: image.width as u32, height: image.height as u32 })
     }
+    /// An image by itself.
+    pub(crate) fn image(&self, placed: Placed) -> LightTexture {
+        let Placed { first, width, height } = placed;
+        let (first, width, height) = (first as usize, width as usize, height as usize);
+        LightTexture { width, height, rgb: self.values[first..first + 3 * width * height].to_vec() }
+    }
     /// Bilinear; `wrap` joins the left edge to the right one, other edges repeat their last pixel. `place` is in the unit square from the top left.
     #[inline(always)]
     pub(crate) fn lookup<L: Lanes>(&self, l: L, first: U<L>, size: [U<L>; 2], place: [F<L>; 2], wrap: bool) -> Rgb<L> {

@@ -98,7 +98,7 @@ fn densities<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], hits: &[Column; 3]
 }
 
 /// The place `(s, t)` of a direction's point on the surface: the element that lies nearest, by search over the bins' corners.
-fn bin_of(record: &LightRecord, from: Vector, point: Vector, bins: usize) -> usize {
+pub(super) fn bin_of(record: &LightRecord, from: Vector, point: Vector, bins: usize) -> usize {
     let columns = record.to_world.map(widen);
     let inverse = crate::vector::inverse_rows([columns[0], columns[1], columns[2]]).expect("shapes of the test are regular");
     let v = [0, 1, 2].map(|k| point[k] - columns[3][k]);

@@ -5,6 +5,7 @@ mod agreement;
 mod basics;
 mod beam;
 mod dome;
+mod emit;
 mod goniogram;
 mod harness;
 mod light_cache;
