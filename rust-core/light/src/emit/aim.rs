@@ -87,19 +87,19 @@ impl Targets {
         (centre, radius, (place - number).max(0.0).min(1.0 - f32::EPSILON))
     }
 
-    /// A direction from `p` into the cone around one of the spheres, each wider by `margin`.
+    /// A direction from `p` into the cone around one of the spheres.
     #[inline(always)]
-    pub(super) fn direction<L: Lanes>(&self, l: L, p: Vec3<L>, margin: F<L>, u: [F<L>; 2]) -> Vec3<L> {
+    pub(super) fn direction<L: Lanes>(&self, l: L, p: Vec3<L>, u: [F<L>; 2]) -> Vec3<L> {
         let (centre, radius, left) = self.choose(l, u[0]);
-        direction_to(l, centre - p, radius + margin, [left, u[1]])
+        direction_to(l, centre - p, radius, [left, u[1]])
     }
 
     /// Density per solid angle of [`Self::direction`].
     #[inline(always)]
-    pub(super) fn density<L: Lanes>(&self, l: L, p: Vec3<L>, margin: F<L>, direction: Vec3<L>) -> F<L> {
+    pub(super) fn density<L: Lanes>(&self, l: L, p: Vec3<L>, direction: Vec3<L>) -> F<L> {
         let mut sum = l.f(0.0);
         for (centre, radius) in &self.spheres {
-            sum += density_to(l, Vec3::splat(l, *centre) - p, margin + *radius, direction);
+            sum += density_to(l, Vec3::splat(l, *centre) - p, l.f(*radius), direction);
         }
         sum * (1.0 / self.spheres.len().max(1) as f32)
     }
@@ -162,7 +162,7 @@ pub(super) fn direction_to<L: Lanes>(l: L, v: Vec3<L>, radius: F<L>, u: [F<L>; 2
 
 /// Density of [`direction_to`].
 #[inline(always)]
-fn density_to<L: Lanes>(l: L, v: Vec3<L>, radius: F<L>, direction: Vec3<L>) -> F<L> {
+pub(super) fn density_to<L: Lanes>(l: L, v: Vec3<L>, radius: F<L>, direction: Vec3<L>) -> F<L> {
     let (ahead, fall) = cone(l, v, radius);
     // The squared chord is 2 (1 − cos) without its cancellation.
     let chord = (direction - ahead).length_squared();

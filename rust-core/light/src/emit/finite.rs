@@ -7,7 +7,7 @@ use super::place::{Ways, any_round_place, opposite, round_area, round_normal, sh
 use super::row::{Model, Own, at};
 use crate::row::{Reader, field};
 use crate::table::LightTable;
-use gonio_simd::{F, Frame, Lanes, M, Vec3};
+use gonio_simd::{F, Lanes, M, Vec3};
 use std::f32::consts::PI;
 
 /// Where a ray starts.
@@ -25,14 +25,14 @@ pub(super) struct Start<L: Lanes> {
 }
 
 /// A place that rays start from, as the two ways to draw it know it.
-struct Placed<L: Lanes> {
-    origin: Vec3<L>,
-    normal: Vec3<L>,
-    cosine: F<L>,
+pub(super) struct Placed<L: Lanes> {
+    pub(super) origin: Vec3<L>,
+    pub(super) normal: Vec3<L>,
+    pub(super) cosine: F<L>,
     /// Density of the place where the direction comes first.
-    by_direction: F<L>,
+    pub(super) by_direction: F<L>,
     /// Density of place and direction where the place comes first.
-    by_aim: F<L>,
+    pub(super) by_aim: F<L>,
 }
 
 impl EmissionSampler {
@@ -55,22 +55,18 @@ impl EmissionSampler {
         let mut direction = sent;
         let mut start = Placed { origin, normal: Vec3::splat(l, [0.0; 3]), cosine: l.f(1.0), by_direction: l.f(1.0), by_aim: zero };
         let mut uv = [zero; 2];
-        if !(ways.flat | ways.round).all() {
-            let margin = light.value(field::HALF).keep_if(ways.facing);
-            if aimed.any() {
-                direction = aimed.select(self.targets.direction(l, origin, margin, u_direction), direction);
-            }
-            if !self.targets.is_empty() {
-                start.by_aim = self.targets.density(l, origin, margin, direction);
-            }
+        // Points.
+        if !self.targets.is_empty() && !(ways.flat | ways.round | ways.facing).all() {
+            direction = aimed.select(self.targets.direction(l, origin, u_direction), direction);
+            start.by_aim = self.targets.density(l, origin, direction);
         }
         if ways.flat.any() {
             let place = self.flat_place(l, table, light, own, u_place);
             let on = place.local.transform(light.frame()) + origin;
             if aimed.any() {
-                direction = (aimed & ways.flat).select(self.targets.direction(l, on, zero, u_direction), direction);
+                direction = (aimed & ways.flat).select(self.targets.direction(l, on, u_direction), direction);
             }
-            let by_aim = if self.targets.is_empty() { zero } else { place.pdf * self.targets.density(l, on, zero, direction) };
+            let by_aim = if self.targets.is_empty() { zero } else { place.pdf * self.targets.density(l, on, direction) };
             let cosine = light.vector(field::NORMAL).dot(direction);
             let behind = cosine.lt(0.0) & light.flag(crate::row::flag::TWO_SIDED);
             let normal = light.vector(field::NORMAL) * l.f(1.0).copysign(behind.select(l.f(-1.0), l.f(1.0)));
@@ -79,17 +75,15 @@ impl EmissionSampler {
             uv = [place.uv[0].keep_if(ways.flat), place.uv[1].keep_if(ways.flat)];
         }
         if ways.round.any() {
-            let (placed, towards) = self.round(l, light, [ways.round, ways.sphere], aimed, direction, [u_place, u_direction]);
+            let (placed, towards) = self.round(l, light, [ways.round, ways.sphere], aimed, sent, [u_place, u_direction]);
             start = start.where_is(ways.round, placed);
             direction = ways.round.select(towards, direction);
         }
         let mut clear = zero;
         if ways.facing.any() {
-            let share = own.value(at::AREA).recip();
-            let (on, from) = facing_place(light, direction, u_place);
-            let facing =
-                Placed { origin: on + origin, normal: direction, cosine: l.f(1.0), by_direction: share, by_aim: start.by_aim * share };
-            start = start.where_is(ways.facing, facing);
+            let (placed, towards, from) = self.facing(l, light, own, [ways.facing, aimed], sent, [u_place, u_direction]);
+            start = start.where_is(ways.facing, placed);
+            direction = ways.facing.select(towards, direction);
             clear = from.keep_if(ways.facing);
         }
         let mut density = pdf * start.by_direction;
@@ -193,18 +187,4 @@ impl<L: Lanes> Placed<L> {
             by_aim: mask.select(other.by_aim, self.by_aim),
         }
     }
-}
-
-/// A place relative to the centre on the disk across `direction`, and from where on the ray is one that a point sees.
-///
-/// A point at distance d from the centre sees a disk of radius r about it, turned to the point: rays that come under an angle to the centre whose
-/// tangent is at most r / d. A ray that passes the centre at distance b is one of these from b² / √(r² − b²) on behind its nearest place.
-#[inline(always)]
-fn facing_place<L: Lanes>(light: &Reader<'_, L>, direction: Vec3<L>, u: [F<L>; 2]) -> (Vec3<L>, F<L>) {
-    let radius = light.value(field::HALF);
-    let (sine_turn, cosine_turn) = u[1].sin_cos_turns();
-    let off = u[0].sqrt() * radius;
-    let frame = Frame::from_normal(direction);
-    let place = frame.x * (off * cosine_turn) + frame.y * (off * sine_turn);
-    (place, radius * u[0] / (1.0 - u[0]).max(f32::EPSILON).sqrt())
 }

@@ -2,14 +2,14 @@
 //!
 //! What a ray carries is [`LightTable::le`] over the density of its being drawn, so light paths and light sampling agree whatever a light is like.
 //! Lights with a place draw the direction by their far field and the place even over what they show to it, which leaves no noise where the
-//! far field is tabulated finely. Veach's thesis (1997, section 8.2) calls what this samples the emitted importance's counterpart; pbrt has it as
-//! `Light::SampleLe` (Physically Based Rendering, 4th edition, section 12.5 of the online text on light transport).
+//! far field is tabulated finely. pbrt calls it `Light::SampleLe`, Mitsuba `sample_ray`.
 
 mod aim;
 mod beams;
 mod body;
 mod build;
 mod choice;
+mod facing;
 mod finite;
 mod image;
 mod infinite;

@@ -17,6 +17,9 @@ const FEWEST: f64 = 6.0;
 const MANY_EDGES: usize = 24;
 /// Columns around the pole of what is not the same all around.
 const COLUMNS: usize = 64;
+/// So many looks are tabulated finely; of more, as the triangles of a mesh with a beam may have, each by fewer columns and one point a cell.
+const MOST_FINE: usize = 64;
+const COARSE_COLUMNS: usize = 8;
 /// Parts of a focus' beam that are cut apart: the cosine's power falls by √½ over each.
 const FOCUS_STEPS: u32 = 24;
 
@@ -46,8 +49,13 @@ impl Profiles {
             return *known;
         }
         let heights = heights(body, goniogram);
-        let columns = if body.is_round() { 1 } else { COLUMNS };
-        let (cells, integral) = cells(body, &heights, columns);
+        let fine = self.known.len() < MOST_FINE;
+        let columns = match (body.is_round(), fine) {
+            (true, _) => 1,
+            (false, true) => COLUMNS,
+            (false, false) => COARSE_COLUMNS,
+        };
+        let (cells, integral) = cells(body, &heights, columns, fine);
         let placed = if integral.iter().any(|x| *x > 0.0) { self.beams.insert(&heights, &cells) } else { Placed::default() };
         let found = Profile { model: Model::Table, placed, integral };
         self.known.insert(key, found);
@@ -124,11 +132,12 @@ fn direction(t: f64, turn: f64) -> [f64; 3] {
     [sine * cosine_turn, sine * sine_turn, 1.0 - 2.0 * t]
 }
 
-/// Mean luminance sent from each cell, and the integral by component: two-point Gauss quadrature both ways.
-fn cells(body: &Body<'_>, heights: &[f64], columns: usize) -> (Vec<f64>, [f64; 3]) {
+/// Mean luminance sent from each cell, and the integral by component: two-point Gauss quadrature both ways where it is to be fine.
+fn cells(body: &Body<'_>, heights: &[f64], columns: usize, fine: bool) -> (Vec<f64>, [f64; 3]) {
     let off = 0.5 / 3.0_f64.sqrt();
-    let points = [0.5 - off, 0.5 + off];
-    let around: &[f64] = if columns == 1 { &[0.5] } else { &points };
+    let (one, two) = ([0.5], [0.5 - off, 0.5 + off]);
+    let points: &[f64] = if fine { &two } else { &one };
+    let around: &[f64] = if columns == 1 { &one } else { points };
     let (mut cells, mut integral) = (Vec::new(), [0.0; 3]);
     for pair in heights.windows(2) {
         let height = pair[1] - pair[0];

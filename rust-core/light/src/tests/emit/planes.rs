@@ -2,9 +2,9 @@
 
 use super::cases::{Case, finite, infinite, table};
 use super::harness::{mean, shoot, triple};
-use crate::tests::harness::{draw, estimate, numbers};
+use crate::tests::harness::{draw, estimate, light, numbers, turned};
 use crate::vector::{add, cross, dot, scale, unit_or, widen};
-use crate::{EmissionSampler, LightRecord, LightTable};
+use crate::{EmissionSampler, LightKind, LightRecord, LightTable};
 use gonio_simd::Execution;
 
 /// A square: its middle, unit normal, and half its side.
@@ -105,4 +105,41 @@ fn infinite_lights_bring_by_paths_what_they_bring_by_light_sampling() {
     for case in infinite() {
         compare(&case, ([0.5, 0.0, 2.0], 3.0));
     }
+}
+
+#[test]
+fn lights_of_all_kinds_together_bring_the_same() {
+    let skies = infinite().into_iter().map(|case| LightRecord { radiance: case.record.radiance.map(|x| 0.02 * x), ..case.record });
+    let places = finite().into_iter().filter(|case| case.name != "thin spot").map(|case| case.record);
+    let records: Vec<LightRecord> = places.chain(skies).collect();
+    let table = table(&records);
+    for plane in PLANES {
+        let [expected, spread] = plane.by_light_sampling(&table, 12, 1024);
+        for targets in [vec![], vec![plane.sphere(), ([0.0, 0.0, 9.0], 0.3)]] {
+            let sampler = EmissionSampler::new(&table, None, ([0.5, 0.0, 2.0], 3.0), &targets);
+            let [found, error] = plane.by_paths(&table, &sampler, 3, 1 << 18);
+            let allowed = 4.0 * error.hypot(spread) + 2e-3 * expected;
+            assert!((found - expected).abs() < allowed, "{}: {found} ± {error} for {expected} ± {spread}", targets.len());
+        }
+    }
+}
+
+#[test]
+fn triangles_of_a_mesh_with_a_beam_are_tabulated_coarsely_and_lose_nothing() {
+    // More looks than are tabulated finely.
+    let triangle = |i: usize| {
+        let axes = turned([0.3, 0.3, 1.0], [0.02 * i as f32, 0.013 * i as f32, 0.0]);
+        let record = light(LightKind::Triangle, [axes[1], axes[0], [0.0, 0.0, 1.0]], [0.01 * i as f32 - 0.5, 0.1, 2.0]);
+        LightRecord { goniogram: Some(0), ..record }
+    };
+    let records: Vec<LightRecord> = (0..100).map(triangle).collect();
+    let table = table(&records);
+    let plane = Plane { middle: [0.1, 0.2, 0.5], normal: [0.0, 0.0, 1.0], half: 0.8 };
+    let [expected, spread] = plane.by_light_sampling(&table, 12, 1024);
+    let sampler = EmissionSampler::new(&table, None, ([0.0; 3], 5.0), &[]);
+    let [found, error] = plane.by_paths(&table, &sampler, 3, 1 << 17);
+    assert!((found - expected).abs() < 4.0 * error.hypot(spread) + 2e-3 * expected, "{found} ± {error} for {expected} ± {spread}");
+    let fine = EmissionSampler::new(&table, Some(&[99]), ([0.0; 3], 5.0), &[]).power(99)[1];
+    let coarse = sampler.power(99)[1];
+    assert!((coarse / fine - 1.0).abs() < 0.05, "{coarse} for {fine}");
 }
