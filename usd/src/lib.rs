@@ -40,5 +40,5 @@ pub mod vt;
 pub mod xform;
 
 pub use goniogram::LuminaireFile;
-pub use options::{Complexity, Purpose, SampleTime, StageOptions, VariantSelection};
+pub use options::{Complexity, Purpose, SampleTime, StageOptions, Standing, VariantSelection};
 pub use stage::{CameraInfo, Loaded, Stage, StageInfo, load_stage};

@@ -95,6 +95,17 @@ impl VariantSelection {
     }
 }
 
+/// Where a prim stands to the part of the stage that is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It is read.
+    Within,
+    /// It holds what is read.
+    Above,
+    /// It is left out.
+    Beside,
+}
+
 /// What of a stage is read, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageOptions {
@@ -106,6 +117,8 @@ pub struct StageOptions {
     pub complexity: Complexity,
     /// Prim paths to which the stage is limited; empty means all of it.
     pub population_mask: Vec<String>,
+    /// Path of a prim that is read alone, with all below it: nothing beside it is, but for what it refers to.
+    pub subtree: Option<String>,
     /// Choices that replace those of the files.
     pub variants: Vec<VariantSelection>,
     /// A layer that is put over the stage.
@@ -129,6 +142,7 @@ impl Default for StageOptions {
             purposes: None,
             complexity: Complexity::default(),
             population_mask: Vec::new(),
+            subtree: None,
             variants: Vec::new(),
             session_layer: None,
             load_payloads: true,
@@ -156,6 +170,21 @@ impl StageOptions {
         options
     }
 
+    /// Where a prim stands to those that are read.
+    pub fn standing(&self, path: &str) -> Standing {
+        let below = |path: &str, root: &str| path.strip_prefix(root).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+        match &self.subtree {
+            Some(root) if !below(path, root) => {
+                if below(root, path) {
+                    Standing::Above
+                } else {
+                    Standing::Beside
+                }
+            }
+            _ => Standing::Within,
+        }
+    }
+
     /// Whether things of this purpose are shown.
     pub fn shows(&self, purpose: Purpose) -> bool {
         purpose == Purpose::Default || self.purposes.as_deref().unwrap_or(&[Purpose::Render]).contains(&purpose)
@@ -165,6 +194,14 @@ impl StageOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_subtree_holds_what_is_below_its_root() {
+        let options = StageOptions { subtree: Some("/A/Lamp".into()), ..StageOptions::default() };
+        let found = ["/A/Lamp", "/A/Lamp/B", "/A", "/A/Lamp2", "/B"].map(|path| options.standing(path));
+        assert_eq!(found, [Standing::Within, Standing::Within, Standing::Above, Standing::Beside, Standing::Beside]);
+        assert_eq!(StageOptions::default().standing("/B"), Standing::Within);
+    }
 
     #[test]
     fn variants_are_parsed() {

@@ -3,6 +3,7 @@
 mod grid;
 mod info;
 mod open;
+mod placed;
 mod problem;
 
 pub use info::{CameraInfo, StageInfo};

@@ -8,7 +8,7 @@ mod surface;
 use crate::context::Context;
 use crate::draw_mode::{self, DrawMode};
 use crate::model::{Element, Inherited, Kind, Model, Slots};
-use crate::options::Purpose;
+use crate::options::{Purpose, Standing};
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
@@ -135,14 +135,23 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         stack: &mut Stack<'py>,
         predicate: &Bound<'py, PyAny>,
     ) -> Result<()> {
+        // Prototypes stand elsewhere: what places them is what counts.
+        let limited = model.root.is_empty() && self.context.options.subtree.is_some();
+        let standing = if limited { self.context.options.standing(&prim.path()) } else { Standing::Within };
         let type_name = prim.type_name();
         let kind = self.kind(&type_name, prim);
-        if kind == PrimKind::Leaf {
+        if kind == PrimKind::Leaf || standing == Standing::Beside {
             return Ok(());
         }
         *self.context.prim_counts.entry(type_name.clone()).or_default() += 1;
         let Some(branch) = self.branch(prim, above) else { return Ok(()) };
         let is_shown = branch.purpose.is_none_or(|purpose| self.context.options.shows(purpose));
+        if standing == Standing::Above {
+            let below = Rc::new(Branch { primvars: primvar::handed_down(self.context, prim, &branch.primvars), ..branch });
+            let children = self.children(prim, predicate, &below);
+            stack.extend(children);
+            return Ok(());
+        }
         if branch.draw_mode != DrawMode::Default && draw_mode::applies(self.context, prim) {
             return if is_shown { self.stand_in(prim, &branch, model) } else { Ok(()) };
         }

@@ -15,6 +15,7 @@ mod file;
 mod file_name;
 mod frames;
 mod glare;
+mod goniometer;
 mod info;
 mod light_words;
 mod measure;
@@ -64,6 +65,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
+        Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),

@@ -7,6 +7,8 @@ pub mod antialias;
 pub mod checkpoint;
 pub mod compile;
 pub mod film;
+pub mod goniometer;
+pub mod light_paths;
 pub mod measure;
 pub mod output;
 pub mod render;

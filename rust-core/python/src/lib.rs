@@ -8,7 +8,9 @@ mod description;
 mod error;
 mod film;
 mod glare;
+mod goniometer;
 mod light;
+mod luminaire_reading;
 mod measure;
 mod measured;
 #[cfg(unix)]
@@ -43,7 +45,11 @@ mod _gonio {
     #[pymodule_export]
     use crate::glare::{Coverage, Glare, GlareSource, glare};
     #[pymodule_export]
+    use crate::goniometer::goniometer;
+    #[pymodule_export]
     use crate::light::blackbody_rgb;
+    #[pymodule_export]
+    use crate::luminaire_reading::LuminaireReading;
     #[pymodule_export]
     use crate::measure::{GridReading, Measurements, Reading, measure_scene};
     #[pymodule_export]

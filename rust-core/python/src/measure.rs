@@ -24,7 +24,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    fn of(reading: measure::Reading) -> Self {
+    pub(crate) fn of(reading: measure::Reading) -> Self {
         Self { reading, coverage: None }
     }
 }

@@ -5,10 +5,10 @@ use crate::{
     kernel::{Case, Kernel, Outcome},
     scenes,
 };
-use gonio::compile::CompiledScene;
+use gonio::compile::{CompiledScene, View};
 use gonio::error::Result;
 use gonio::light::EmissionSampler;
-use gonio::scene::Scene;
+use gonio::scene::{Scene, Settings};
 use gonio::transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Receiver, Transport, Wanted, Workspace};
 use gonio_simd::Execution;
 use std::sync::{Arc, atomic::AtomicBool};
@@ -31,8 +31,9 @@ struct Arrived {
 pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
     let case = |name: &str, scene: &Scene| {
         let scene = compiled(scene, cancel)?;
-        let sampler = scene.emission(None);
-        let transport = scene.light_transport(&gonio::scene::Settings::default(), Execution::best());
+        let (centre, radius) = (scene.bounds.centre().map(|x| x as f32), scene.bounds.radius() as f32);
+        let sampler = EmissionSampler::new(&scene.tables.lights, None, (centre, radius), &[]);
+        let transport = View::new(&scene, &Settings::default(), Execution::best())?.transport;
         let kernel = LightPaths { scene, sampler, transport, workspace: Workspace::default(), arrived: Arrived::default() };
         Ok(Case::new(name, "path", LIGHT_BATCH, kernel))
     };

@@ -5,6 +5,7 @@ mod function;
 mod generation;
 mod graph;
 mod light;
+mod light_paths;
 mod render;
 mod texture;
 mod tone;
@@ -34,6 +35,8 @@ pub enum Stage {
     Bsdf,
     /// Sampling lights by type.
     Light,
+    /// Paths that start at lights.
+    LightPaths,
     /// Elementary functions, gathers, compaction.
     Function,
     /// From scene-linear light to display values.
@@ -44,7 +47,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order of a path.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Generation,
         Self::Traversal,
         Self::Triangle,
@@ -52,6 +55,7 @@ impl Stage {
         Self::Graph,
         Self::Bsdf,
         Self::Light,
+        Self::LightPaths,
         Self::Function,
         Self::Tone,
         Self::Render,
@@ -67,6 +71,7 @@ impl Stage {
             Self::Graph => "graph",
             Self::Bsdf => "bsdf",
             Self::Light => "light",
+            Self::LightPaths => "light-paths",
             Self::Function => "function",
             Self::Tone => "tone",
             Self::Render => "render",
@@ -93,6 +98,7 @@ impl Stage {
             Self::Graph => Ok(graph::cases()),
             Self::Bsdf => Ok(bsdf::cases()),
             Self::Light => light::cases(cancel),
+            Self::LightPaths => light_paths::cases(cancel),
             Self::Function => Ok(function::cases()),
             Self::Tone => Ok(tone::cases()),
             Self::Render => render::cases(options, cancel),

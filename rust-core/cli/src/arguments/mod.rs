@@ -7,6 +7,7 @@ mod daylight;
 mod falsecolor;
 mod farm;
 mod glare;
+mod goniometer;
 mod info;
 mod measure;
 mod output;
@@ -24,6 +25,7 @@ pub(super) use daylight::DaylightArguments;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
 pub(super) use farm::FarmArguments;
 pub(super) use glare::GlareArguments;
+pub(super) use goniometer::GoniometerOptions;
 pub(super) use info::InfoOptions;
 pub(super) use measure::{GridArguments, MeasureOptions};
 pub(super) use output::OutputArguments;
@@ -37,6 +39,7 @@ pub(super) use work::WorkArguments;
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
 use gonio::scene::Integrator;
+use goniometer::GONIOMETER_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 
@@ -75,6 +78,12 @@ pub(super) enum Command {
     /// alone.
     #[command(after_long_help = MEASURE_EXAMPLES)]
     Measure(Box<MeasureOptions>),
+    /// Measure a luminaire of a USD stage as a goniophotometer does: intensities by direction, flux, light output ratio; write it as EULUMDAT, IES or TM-33.
+    ///
+    /// Light is followed from the sources within a prim (lights, glowing surfaces, ray files) through its reflectors, lenses and covers to where it
+    /// leaves. Every value has a standard error. What is absorbed or cut off is told in lumens.
+    #[command(after_long_help = GONIOMETER_EXAMPLES)]
+    Goniometer(Box<GoniometerOptions>),
     /// Draw the luminance or the illuminance of an EXR file or a Radiance picture in fixed steps with a legend, or as isolines over the picture.
     Falsecolor(FalsecolorOptions),
     /// Put a stage's light on one page: luminaires with flux and watts, pictures, calculation grids, polar diagrams.

@@ -4,7 +4,7 @@ mod json;
 mod text;
 pub(super) mod ugr;
 
-pub(super) use text::as_text;
+pub(super) use text::{as_text, symmetry_name};
 
 use super::{
     arguments::{PhotometryOptions, SymmetryName},

@@ -90,7 +90,7 @@ pub(super) fn type_name(photometric_type: PhotometricType) -> &'static str {
     }
 }
 
-pub(super) fn symmetry_name(symmetry: Symmetry) -> &'static str {
+pub(crate) fn symmetry_name(symmetry: Symmetry) -> &'static str {
     match symmetry {
         Symmetry::None => "no symmetry",
         Symmetry::Rotational => "rotational",

@@ -1,6 +1,7 @@
 //! World bounds.
 
-use crate::scene::{Mesh, Scene, Transform};
+use super::lights::sized;
+use crate::scene::{LightShape, Mesh, Scene, Transform};
 
 /// A box, empty when its minimum is above its maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +23,25 @@ impl Bounds {
     pub fn of_scene(scene: &Scene) -> Self {
         let meshes: Vec<Self> = scene.meshes.iter().map(of_mesh).collect();
         of_instances(scene, &meshes)
+    }
+    /// World bounds of a scene's lights that have a place.
+    pub(crate) fn of_lights(scene: &Scene) -> Self {
+        let mut bounds = Self::default();
+        for light in scene.lights.iter().filter(|light| !light.shape.is_at_infinity()) {
+            // Sizes are in the map's axes.
+            let half = match &light.shape {
+                LightShape::Point => [0.0; 3],
+                LightShape::Opening(opening) => opening.size.map(|x| 0.5 * x),
+                LightShape::Rectangle { .. } | LightShape::Disk { .. } | LightShape::Ellipse { .. } => [1.0, 1.0, 0.0],
+                _ => [1.0; 3],
+            };
+            let placed = Self { min: half.map(|x| -x), max: half }.transformed(&sized(light));
+            if !placed.is_empty() {
+                bounds.extend(placed.min);
+                bounds.extend(placed.max);
+            }
+        }
+        bounds
     }
     /// Whether nothing is inside.
     pub fn is_empty(&self) -> bool {

@@ -104,7 +104,7 @@ pub(super) fn emitters(light: &Light, origin: [f64; 3], goniogram: Option<&Arc<G
 }
 
 /// The light's map with its size in the axes: half sides, radii, half length.
-fn sized(light: &Light) -> Transform {
+pub(super) fn sized(light: &Light) -> Transform {
     let [x, y, z] = match light.shape {
         LightShape::Rectangle { width, height } => [0.5 * width, 0.5 * height, 1.0],
         LightShape::Disk { radius } => [radius, radius, 1.0],

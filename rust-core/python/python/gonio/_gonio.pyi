@@ -47,6 +47,8 @@ __all__ = [
     "load_usd",
     "blackbody_rgb",
     "goniogram_figures",
+    "goniometer",
+    "LuminaireReading",
     "read_goniogram",
     "ugr_table",
     "__version__",
@@ -191,6 +193,81 @@ def measure(
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurements: ...
 
+@final
+class LuminaireReading:
+    @property
+    def c(self) -> Array: ...
+    @property
+    def gamma(self) -> Array: ...
+    @property
+    def intensities(self) -> Array: ...
+    @property
+    def standard_errors(self) -> Array: ...
+    @property
+    def tristimulus(self) -> Array: ...
+    @property
+    def colour_temperatures(self) -> Array: ...
+    @property
+    def emitted(self) -> Reading: ...
+    @property
+    def flux(self) -> Reading: ...
+    @property
+    def absorbed(self) -> Reading: ...
+    @property
+    def cut_off(self) -> Reading: ...
+    @property
+    def light_output_ratio(self) -> Reading | None: ...
+    @property
+    def peak(self) -> Reading: ...
+    @property
+    def peak_direction(self) -> tuple[float, float]: ...
+    @property
+    def opening(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def round(self) -> bool: ...
+    @property
+    def body(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def screen(self) -> Array | None: ...
+    @property
+    def screen_errors(self) -> Array | None: ...
+    @property
+    def rays(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def diagnostics(self) -> list[tuple[str, str]]: ...
+    def csv(self) -> str: ...
+    def write(
+        self,
+        path: str | PathLike[str],
+        *,
+        symmetry: str = "auto",
+        name: str | None = None,
+        manufacturer: str = "",
+        watts: float | None = None,
+    ) -> None: ...
+
+def goniometer(
+    source: Scene | str | PathLike[str],
+    luminaire: str | None = None,
+    *,
+    frame: float | None = None,
+    down: Sequence[float] = ...,
+    c0: Sequence[float] = ...,
+    c_step: float = 15.0,
+    g_step: float = 5.0,
+    gammas: Sequence[float] | Buffer | None = None,
+    error: float = 0.01,
+    rays: int = 200_000_000,
+    time_limit: float | None = None,
+    screen: Sequence[float] | None = None,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Callable[[int, int, float | None, float], bool | None] | None = None,
+) -> LuminaireReading: ...
 @final
 class Picture:
     @property

@@ -96,6 +96,19 @@ impl MaterialTable {
             Shading::Mix(mix) => self.mixes[mix as usize].transparent,
         }
     }
+    /// Whether a material of the geometry may emit, and not everywhere alike.
+    pub fn emits_unevenly(&self, number: u32) -> bool {
+        match self.shading(number) {
+            Shading::Surface(surface) => {
+                let material = &self.surfaces[surface as usize];
+                material.emissive && !material.emits_evenly()
+            }
+            Shading::Mix(mix) => {
+                let mix = &self.mixes[mix as usize];
+                mix.emissive && mix.even_emission.is_none()
+            }
+        }
+    }
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
         let emission = match self.shading(number) {

@@ -1,0 +1,22 @@
+//! What is asked for.
+
+use super::{Angles, Frame, Rays, Screen, Stop};
+
+/// What is measured of a luminaire, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The photometric frame.
+    pub frame: Frame,
+    /// Directions.
+    pub angles: Angles,
+    /// When to stop.
+    pub stop: Stop,
+    /// Sources that are known by their rays, beside the scene's lights.
+    pub rays: Vec<Rays>,
+    /// A screen near the luminaire.
+    pub screen: Option<Screen>,
+    /// Seed of the random numbers.
+    pub seed: u32,
+    /// Worker threads; 0 means one a core.
+    pub threads: u32,
+}

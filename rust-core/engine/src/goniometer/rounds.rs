@@ -1,0 +1,175 @@
+//! A measurement under way: rounds of batches until it is exact enough, and the reading at the end.
+
+use super::{
+    Options, Reading,
+    reading::{Fluxes, ScreenReading, Value},
+    shining::{Sources, power},
+    tally::{Flux, Instrument, Tally},
+};
+use crate::{
+    compile::{Bounds, CompiledScene},
+    error::Result,
+    light_paths::{Channels, Estimate, Job, Watch, trace_batches},
+    transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, Statistics, Transport, Wanted},
+};
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
+
+/// How far a measurement is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Paths traced.
+    pub paths: u64,
+    /// The most there may be.
+    pub most: u64,
+    /// Relative standard error of the peak, once it is known.
+    pub error: Option<f64>,
+    /// Time since the start.
+    pub elapsed: Duration,
+}
+
+/// A measurement under way.
+pub(super) struct Run<'a> {
+    options: &'a Options,
+    instrument: &'a Instrument,
+    parts: Vec<(Emission<'a>, Tally<'a>)>,
+    /// Batches of each part.
+    batches: u64,
+    start: Instant,
+    statistics: Statistics,
+    converged: bool,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(options: &'a Options, instrument: &'a Instrument, sources: &'a Sources, start: Instant) -> Self {
+        let most = options.stop.batches() * LIGHT_BATCH as u64;
+        let parts = sources.emissions().map(|emission| (emission, Tally::new(instrument, power(emission), most))).collect();
+        Self { options, instrument, parts, batches: 0, start, statistics: Statistics::default(), converged: false }
+    }
+
+    /// Traces until the rule says that it is enough.
+    pub(super) fn trace(
+        &mut self,
+        scene: &CompiledScene,
+        transport: &Transport,
+        cancel: &AtomicBool,
+        progress: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<()> {
+        let stop = &self.options.stop;
+        let deadline = stop.time.and_then(|time| self.start.checked_add(time));
+        let wanted = Wanted { arrivals: Arriving::No, specular_only: false, picture: None };
+        let most = stop.batches() * self.parts.len() as u64 * LIGHT_BATCH as u64;
+        let mut error = None;
+        while self.batches < stop.batches() {
+            let round = self.batches..stop.next(self.batches);
+            let mut before = self.batches * self.parts.len() as u64;
+            let mut traced = round.end;
+            for (emission, tally) in &self.parts {
+                let tracer = LightTracer { tables: &scene.tables, transport, emission: *emission, wanted };
+                // All parts trace as many batches: what one has the others get, even late.
+                let end = traced;
+                // The first round is traced in any case: without it nothing would be known.
+                let deadline = deadline.filter(|_| end == round.end && round.start > 0);
+                let job = Job { scene, tracer: &tracer, threads: self.options.threads, deadline };
+                let mut tell = |done: u64| {
+                    progress(&Progress { paths: (before + done) * LIGHT_BATCH as u64, most, error, elapsed: self.start.elapsed() })
+                };
+                let (done, statistics) = trace_batches(&job, round.start..end, tally, &mut Watch { cancel, progress: &mut tell })?;
+                self.statistics.add(&statistics);
+                before += done;
+                traced = round.start + done;
+            }
+            self.batches = traced;
+            error = Some(self.peak().relative_error());
+            self.converged = self.is_exact_enough();
+            if self.converged || traced < round.end {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn sum(&self, of: impl Fn(&Tally<'a>) -> Estimate) -> Estimate {
+        self.parts.iter().fold(Estimate::default(), |sum, (_, tally)| sum.plus(&of(tally)))
+    }
+
+    fn flux(&self, flux: Flux) -> Estimate {
+        self.sum(|tally| tally.flux(flux, self.batches))
+    }
+
+    /// Intensity at angles by their numbers.
+    fn intensity(&self, plane: usize, gamma: usize) -> Estimate {
+        let cell = self.instrument.cells.index(plane, gamma);
+        self.sum(|tally| tally.direction(cell, self.batches)).scaled(1.0 / self.instrument.cells.solid_angle(gamma))
+    }
+
+    fn intensities(&self) -> impl Iterator<Item = Estimate> + '_ {
+        let gammas = self.options.angles.gamma.len();
+        (0..self.options.angles.c.len() * gammas).map(move |i| self.intensity(i / gammas, i % gammas))
+    }
+
+    fn peak(&self) -> Estimate {
+        self.intensities().reduce(|a, b| if b.luminance() > a.luminance() { b } else { a }).unwrap_or_default()
+    }
+
+    fn is_exact_enough(&self) -> bool {
+        let error = self.options.stop.error;
+        let escaped = self.flux(Flux::Escaped);
+        // Where nothing leaves there is nothing to wait for.
+        let closed = escaped.mean == [0.0; 3];
+        error > 0.0 && (closed || self.peak().relative_error() <= error && escaped.relative_error() <= error)
+    }
+
+    pub(super) fn reading(&self, bounds: &Bounds) -> Reading {
+        let estimates: Vec<Estimate> = self.intensities().collect();
+        let value = |estimate: Estimate| Value { value: estimate.luminance(), error: estimate.error() };
+        let flux = |flux: Flux| value(self.flux(flux));
+        let extent = |cell: usize| {
+            self.parts.iter().fold([0.0; 3], |sum: Channels, (_, tally)| {
+                let part = tally.extent(cell);
+                [0, 1, 2].map(|k| sum[k] + part[k])
+            })
+        };
+        Reading {
+            frame: self.options.frame,
+            angles: self.options.angles.clone(),
+            rgb: estimates.iter().map(|estimate| estimate.mean).collect(),
+            intensities: estimates.iter().map(Estimate::luminance).collect(),
+            errors: estimates.iter().map(Estimate::error).collect(),
+            fluxes: Fluxes {
+                emitted: flux(Flux::Emitted),
+                escaped: flux(Flux::Escaped),
+                absorbed: flux(Flux::Absorbed),
+                cut_off: flux(Flux::CutOff),
+            },
+            escaped_rgb: self.flux(Flux::Escaped).mean,
+            opening: self.instrument.extent.opening(extent),
+            body: body(bounds, self.options),
+            screen: self.screen(),
+            paths: self.batches * self.parts.len() as u64 * LIGHT_BATCH as u64,
+            elapsed: self.start.elapsed(),
+            converged: self.converged,
+            statistics: self.statistics,
+            diagnostics: Vec::new(),
+        }
+    }
+
+    fn screen(&self) -> Option<ScreenReading> {
+        let (screen, plane) = self.options.screen.zip(self.instrument.screen.as_ref())?;
+        let cells = (0..plane.len()).map(|cell| self.sum(|tally| tally.on_screen(cell, self.batches)).scaled(1.0 / plane.cell_area));
+        let (illuminance, errors) = cells.map(|cell| (cell.luminance(), cell.error())).unzip();
+        Some(ScreenReading { screen, illuminance, errors })
+    }
+}
+
+/// The box about all that belongs to the luminaire, in its frame.
+fn body(bounds: &Bounds, options: &Options) -> [[f64; 3]; 2] {
+    let mut body = Bounds::default();
+    for corner in 0..8 {
+        let corner = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { bounds.min[k] } else { bounds.max[k] });
+        body.extend(options.frame.point(corner));
+    }
+    if body.is_empty() { [[0.0; 3]; 2] } else { [body.min, body.max] }
+}

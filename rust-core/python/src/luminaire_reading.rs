@@ -1,0 +1,200 @@
+//! What the goniophotometer has found.
+
+use crate::{
+    array::Array,
+    error::{exception, setting},
+    measure::Reading,
+};
+use gonio::{
+    Diagnostic,
+    goniometer::{self, Value, colour},
+    measure,
+    output::write_atomically,
+};
+use gonio_formats::photometry::{
+    Symmetry,
+    measured::{MeasurementHead, Reduced},
+};
+use pyo3::prelude::*;
+use std::{io::Write, path::PathBuf};
+
+/// A luminaire as the goniophotometer sees it. Arrays of directions have a row for each C plane and a column for each γ.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct LuminaireReading {
+    pub(crate) reading: goniometer::Reading,
+    pub(crate) name: String,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+fn with_error(value: Value) -> Reading {
+    Reading::of(measure::Reading { value: value.value, standard_error: value.error })
+}
+
+#[pymethods]
+impl LuminaireReading {
+    /// C planes in degrees.
+    #[getter]
+    fn c(&self) -> Array {
+        Array::flat(self.reading.angles.c.clone())
+    }
+    /// γ in degrees.
+    #[getter]
+    fn gamma(&self) -> Array {
+        Array::flat(self.reading.angles.gamma.clone())
+    }
+    /// Luminous intensities in cd.
+    #[getter]
+    fn intensities(&self) -> Array {
+        self.rows(&self.reading.intensities)
+    }
+    /// Their standard errors in cd.
+    #[getter]
+    fn standard_errors(&self) -> Array {
+        self.rows(&self.reading.errors)
+    }
+    /// CIE 1931 tristimulus values in cd of all directions, plane by plane: (N, 3).
+    #[getter]
+    fn tristimulus(&self) -> Array {
+        Array::rows(self.reading.rgb.iter().flat_map(|rgb| colour::tristimulus(*rgb)).collect(), 3)
+    }
+    /// Colour temperatures in K; nan where there is no light, or none of a black body's colour.
+    #[getter]
+    fn colour_temperatures(&self) -> Array {
+        let kelvin: Vec<f64> = self.reading.rgb.iter().map(|rgb| colour::colour_temperature(*rgb).unwrap_or(f64::NAN)).collect();
+        self.rows(&kelvin)
+    }
+    /// Flux in lm that the sources send.
+    #[getter]
+    fn emitted(&self) -> Reading {
+        with_error(self.reading.fluxes.emitted)
+    }
+    /// Flux in lm that leaves the luminaire.
+    #[getter]
+    fn flux(&self) -> Reading {
+        with_error(self.reading.fluxes.escaped)
+    }
+    /// Flux in lm that the luminaire absorbs.
+    #[getter]
+    fn absorbed(&self) -> Reading {
+        with_error(self.reading.fluxes.absorbed)
+    }
+    /// Flux in lm of paths that were too long.
+    #[getter]
+    fn cut_off(&self) -> Reading {
+        with_error(self.reading.fluxes.cut_off)
+    }
+    /// Flux over that of the sources; None where these send none.
+    #[getter]
+    fn light_output_ratio(&self) -> Option<Reading> {
+        self.reading.light_output_ratio().map(with_error)
+    }
+    /// The greatest intensity in cd.
+    #[getter]
+    fn peak(&self) -> Reading {
+        with_error(self.reading.peak().1)
+    }
+    /// C and γ of the greatest intensity, degrees.
+    #[getter]
+    fn peak_direction(&self) -> (f64, f64) {
+        self.reading.direction(self.reading.peak().0).into()
+    }
+    /// Least and greatest coordinates of where light leaves, in the luminaire's axes, metres.
+    #[getter]
+    fn opening(&self) -> ([f64; 3], [f64; 3]) {
+        self.reading.opening.bounds.into()
+    }
+    /// Whether the opening is round.
+    #[getter]
+    fn round(&self) -> bool {
+        self.reading.opening.round
+    }
+    /// Least and greatest coordinates of all that belongs to the luminaire, in its axes, metres.
+    #[getter]
+    fn body(&self) -> ([f64; 3], [f64; 3]) {
+        self.reading.body.into()
+    }
+    /// Illuminance in lx on the screen, row by row; None without one.
+    #[getter]
+    fn screen(&self) -> Option<Array> {
+        self.reading.screen.as_ref().map(|screen| Array::rows(screen.illuminance.clone(), screen.screen.size[0]))
+    }
+    /// Its standard errors in lx.
+    #[getter]
+    fn screen_errors(&self) -> Option<Array> {
+        self.reading.screen.as_ref().map(|screen| Array::rows(screen.errors.clone(), screen.screen.size[0]))
+    }
+    /// Rays that were traced from the sources.
+    #[getter]
+    fn rays(&self) -> u64 {
+        self.reading.paths
+    }
+    /// Time that it took.
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.reading.elapsed.as_secs_f64()
+    }
+    /// Whether the error that was asked for was reached.
+    #[getter]
+    fn converged(&self) -> bool {
+        self.reading.converged
+    }
+    /// What is not as asked for, as (origin, message).
+    #[getter]
+    fn diagnostics(&self) -> Vec<(String, String)> {
+        self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+    }
+    /// All directions as comma-separated values.
+    fn csv(&self) -> String {
+        self.reading.csv()
+    }
+    /// Writes EULUMDAT (.ldt), LM-63-2019 (.ies) or TM-33 (.xml). symmetry: "auto" (the highest that the errors bear out), "none", "rotational", "c0",
+    /// "c90" or "quadrants", whose equal intensities are averaged.
+    #[pyo3(signature = (path, *, symmetry = "auto", name = None, manufacturer = "", watts = None))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        symmetry: &str,
+        name: Option<String>,
+        manufacturer: &str,
+        watts: Option<f64>,
+    ) -> PyResult<()> {
+        let name = name.unwrap_or_else(|| self.name.clone());
+        let head = MeasurementHead { name, manufacturer: manufacturer.to_owned(), ..MeasurementHead::default() };
+        let symmetry = symmetry_of(symmetry)?;
+        let reduced = self.reading.measurement(head, watts).reduced(symmetry).map_err(|error| setting("symmetry", error.problem))?;
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        let bytes = match ending.as_str() {
+            "ldt" => Reduced::to_ldt,
+            "ies" => Reduced::to_ies,
+            "xml" => Reduced::to_tm33,
+            _ => return Err(setting("path", format!("{}: the ending is '{ending}', expected ldt, ies or xml", path.display()))),
+        };
+        py.detach(|| write_atomically(&path, true, |file| file.write_all(&bytes(&reduced)))).map_err(exception)
+    }
+    fn __repr__(&self) -> String {
+        let (flux, peak) = (self.reading.fluxes.escaped.value, self.reading.peak().1.value);
+        format!("<gonio.LuminaireReading: {flux:.1} lm, {peak:.1} cd at most>")
+    }
+}
+
+impl LuminaireReading {
+    fn rows(&self, values: &[f64]) -> Array {
+        Array::rows(values.to_vec(), self.reading.angles.gamma.len())
+    }
+}
+
+fn symmetry_of(name: &str) -> PyResult<Option<Symmetry>> {
+    Ok(match name {
+        "auto" => None,
+        "none" => Some(Symmetry::None),
+        "rotational" => Some(Symmetry::Rotational),
+        "c0" => Some(Symmetry::AboutC0),
+        "c90" => Some(Symmetry::AboutC90),
+        "quadrants" => Some(Symmetry::Quadrants),
+        other => {
+            let expected = "auto, none, rotational, c0, c90 or quadrants";
+            return Err(setting("symmetry", format!("'{other}' was found, expected {expected}")));
+        }
+    })
+}

@@ -1,0 +1,160 @@
+"""`gonio goniometer`: a luminaire of a stage, its files, and what goes wrong."""
+
+import json
+import math
+
+import gonio
+import numpy as np
+import pytest
+
+STAGE = """#usda 1.0
+(
+    metersPerUnit = 0.01
+    upAxis = "{up}"
+)
+def Xform "World"
+{{
+    double3 xformOp:translate = (300, 20, 50)
+    float xformOp:rotateZ = 30
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateZ"]
+    def Xform "Lamp"
+    {{
+        def DiskLight "Face"
+        {{
+            float inputs:radius = 10
+            double gonio:photometry:quantity = 1000
+            token gonio:photometry:unit = "lm"
+            {light}
+        }}
+        {part}
+    }}
+    def SphereLight "Other"
+    {{
+        float inputs:intensity = 1000
+    }}
+    def Mesh "Floor"
+    {{
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-900, -900, -90), (900, -900, -90), (900, 900, -90), (-900, 900, -90)]
+    }}
+    def Xform "Empty"
+    {{
+    }}
+}}
+"""
+QUICK = ("--rays", "2M", "--error", "0", "--g-step", "10", "--c-step", "30")
+
+
+@pytest.fixture
+def lamp(tmp_path):
+    """A Lambertian disk of 1000 lm that looks along −z, among other things."""
+
+    def write(light="", part="", up="Z"):
+        path = tmp_path / "lamp.usda"
+        path.write_text(STAGE.format(light=light, part=part, up=up))
+        return path
+
+    return write
+
+
+def test_a_disk_follows_lambert(run, lamp, tmp_path):
+    ldt, table = tmp_path / "lamp.ldt", tmp_path / "lamp.csv"
+    done = run("goniometer", lamp(), "--luminaire", "/World/Lamp", *QUICK, "-o", ldt, "--csv", table, "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["emitted_lm"]["value"] == pytest.approx(1000, rel=1e-3)
+    assert found["flux_lm"]["value"] == pytest.approx(1000, rel=1e-3)
+    assert found["light_output_ratio"]["value"] == pytest.approx(1, rel=1e-6)
+    intensities = np.array(found["intensities_cd"])
+    expected = 1000 / math.pi * np.cos(np.radians(found["gamma_deg"]))
+    inside = np.array(found["gamma_deg"]) < 85
+    assert intensities[:, inside] == pytest.approx(np.broadcast_to(expected[inside], (12, 9)), rel=0.06)
+    assert intensities[:, inside].mean(0) == pytest.approx(expected[inside], rel=0.015)
+    assert found["symmetry"] == "rotational" and found["opening_m"]["round"]
+    figures = gonio.goniogram_figures(ldt.read_bytes(), "lamp.ldt")
+    assert figures["peak_cd"] == pytest.approx(1000 / math.pi, rel=0.02)
+    assert figures["lamp_flux_lm"] == pytest.approx(1000, rel=1e-3)
+    assert table.read_text().count("\n") == 1 + 12 * 19
+
+
+def test_axes_can_be_named(run, lamp):
+    turned = "float xformOp:rotateX = -90\n            uniform token[] xformOpOrder = [\"xformOp:rotateX\"]"
+    stage = lamp(light=turned, up="Y")
+    done = run("goniometer", stage, "-l", "/World/Lamp", *QUICK, "--down", "-y", "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["peak_direction_deg"][1] == 0
+
+
+def test_a_screen_has_its_illuminance(run, lamp, tmp_path):
+    points = tmp_path / "screen.csv"
+    done = run("goniometer", lamp(), "-l", "/World/Lamp", *QUICK, "--screen", "1,0.2,0.2,2,2", "--screen-csv", points, "--json")
+    assert done.returncode == 0, done.stderr
+    # A disk of radius r at distance d: π L r² / (r² + d²) on its axis, with π L = M = 1000 lm / (π r²).
+    expected = 1000 / (math.pi * (0.01 + 1))
+    assert json.loads(done.stdout)["screen"]["illuminance_lx"] == pytest.approx([expected] * 4, rel=0.06)
+    assert points.read_text().count("\n") == 5
+
+
+def test_text_says_where_the_light_went(run, lamp):
+    done = run("goniometer", lamp(), "-l", "/World/Lamp", *QUICK)
+    assert done.returncode == 0, done.stderr
+    for words in ("sources: 1000", "light output ratio 100", "absorbed:", "cut off: 0", "peak:", "beam angle", "opening: round, 0.2", "rays:"):
+        assert words in done.stdout, done.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--luminaire", "/World/Nothing"), "there is no prim /World/Nothing"),
+        (("--luminaire", "/World/Empty"), "no light"),
+        (("--luminaire", "/World/Lamp", "--c-step", "7"), "c-step"),
+        (("--luminaire", "/World/Lamp", "--error", "200%"), "error"),
+        (("--luminaire", "/World/Lamp", "--rays", "1e30"), "rays"),
+        (("--luminaire", "/World/Lamp", "-o", "lamp.txt"), "lamp.txt"),
+        (("--luminaire", "/World/Lamp", "--rays-file", "missing.ray"), "missing.ray"),
+        (("--luminaire", "/World/Lamp", "--screen", "1,2"), "screen"),
+    ],
+)
+def test_what_cannot_be_measured_is_told(run, lamp, options, words):
+    done = run("goniometer", lamp(), *options)
+    assert done.returncode == 1 and words in done.stderr and done.stderr.count("error:") == 1, done.stderr
+
+
+def test_a_lamp_in_a_box_keeps_its_light(run, lamp):
+    box = """def Cube "Box"
+        {
+            double size = 40
+        }"""
+    done = run("goniometer", lamp(part=box), "-l", "/World/Lamp", "--rays", "500k", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["flux_lm"]["value"] == 0 and "never leave" in done.stderr
+    assert found["absorbed_lm"]["value"] == pytest.approx(1000, rel=1e-2)
+
+
+def test_python_has_arrays(lamp, tmp_path):
+    calls = []
+    stage = lamp()
+    found = gonio.goniometer(stage, "/World/Lamp", rays=2_000_000, error=0, g_step=10, c_step=90, progress=lambda *now: calls.append(now))
+    assert np.asarray(found.intensities).shape == (4, 19) and np.asarray(found.tristimulus).shape == (76, 3)
+    assert np.asarray(found.tristimulus)[:, 1] == pytest.approx(np.asarray(found.intensities).ravel())
+    assert found.emitted.value == pytest.approx(found.flux.value + found.absorbed.value + found.cut_off.value)
+    assert found.peak_direction[1] == 0 and not found.diagnostics
+    found.write(tmp_path / "lamp.ies", symmetry="rotational")
+    assert b"IES:LM-63" in (tmp_path / "lamp.ies").read_bytes()
+    with pytest.raises(gonio.SettingError):
+        found.write(tmp_path / "lamp.txt")
+    with pytest.raises(gonio.Cancelled):
+        gonio.goniometer(stage, "/World/Lamp", rays=1 << 36, error=0, progress=lambda *now: False)
+
+
+def test_scenes_are_luminaires(tmp_path):
+    scene = gonio.Scene()
+    scene.add_light("point", (100.0,) * 3)
+    found = gonio.goniometer(scene, rays=2_000_000, error=0, g_step=15, c_step=45, threads=1)
+    assert np.asarray(found.intensities) == pytest.approx(np.full((8, 13), 100.0), rel=0.03)
+    again = gonio.goniometer(scene, rays=2_000_000, error=0, g_step=15, c_step=45, threads=2)
+    assert (np.asarray(again.intensities) == np.asarray(found.intensities)).all()
+    with pytest.raises(gonio.SettingError, match="no light"):
+        gonio.goniometer(gonio.Scene())
