@@ -83,7 +83,8 @@ impl<'a> Run<'a> {
             }
             self.batches = traced;
             error = Some(self.peak().relative_error());
-            self.converged = self.is_exact_enough();
+            // Who asks for no error asks for all rays.
+            self.converged = if stop.error > 0.0 { self.is_exact_enough() } else { traced == stop.batches() };
             if self.converged || traced < round.end {
                 break;
             }
@@ -119,7 +120,7 @@ impl<'a> Run<'a> {
         let escaped = self.flux(Flux::Escaped);
         // Where nothing leaves there is nothing to wait for.
         let closed = escaped.mean == [0.0; 3];
-        error > 0.0 && (closed || self.peak().relative_error() <= error && escaped.relative_error() <= error)
+        closed || self.peak().relative_error() <= error && escaped.relative_error() <= error
     }
 
     pub(super) fn reading(&self, bounds: &Bounds) -> Reading {

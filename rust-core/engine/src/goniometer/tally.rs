@@ -16,6 +16,8 @@ pub(super) enum Flux {
 }
 
 const FLUXES: usize = 4;
+/// One ray of so many tells where light leaves: it costs more than all else here.
+const SEEN: usize = 8;
 
 /// What rays are sorted by.
 #[derive(Clone, Debug)]
@@ -127,8 +129,10 @@ impl Receiver for Room<'_> {
             if let Some(cell) = cells.find(frame.direction(direction)) {
                 self.directions.add(cell, flux);
             }
-            for cell in extent.find([0, 1, 2].map(|k| place[k] - origin[k])) {
-                self.extent.add(cell, flux);
+            if entry % SEEN == 0 {
+                for cell in extent.find([0, 1, 2].map(|k| place[k] - origin[k])) {
+                    self.extent.add(cell, flux);
+                }
             }
             if let Some(screen) = screen
                 && let Some(cell) = screen.find([0, 1, 2].map(|k| place[k] + rebased[k]), direction)
