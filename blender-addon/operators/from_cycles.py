@@ -46,6 +46,12 @@ def take_over(owner, names: dict[str, str]) -> list[str]:
     return changed
 
 
+def _marks_caustics(scene) -> bool:
+    """Whether Cycles is to look for shadow caustics: a light and something that casts them are marked."""
+    lights = [each for each in scene.objects if each.type == "LIGHT" and getattr(each.data.cycles, "is_caustics_light", False)]
+    return bool(lights) and any(getattr(each.cycles, "is_caustics_caster", False) for each in scene.objects)
+
+
 class GONIO_OT_settings_from_cycles(bpy.types.Operator):
     """Take sampling, light paths, film, passes and portals over from what this file says to Cycles"""
 
@@ -59,6 +65,9 @@ class GONIO_OT_settings_from_cycles(bpy.types.Operator):
 
     def execute(self, context):
         changed = take_over(context.scene, SCENE)
+        if _marks_caustics(context.scene) and context.scene.gonio.caustics != "ON":
+            context.scene.gonio.caustics = "ON"
+            changed.append("caustics")
         for layer in context.scene.view_layers:
             changed += take_over(layer, VIEW_LAYER)
         lights = {each.data for each in context.scene.objects if each.type == "LIGHT"}
