@@ -37,7 +37,7 @@ pub use state::workspaces::Workspaces;
 pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
-pub use tables::photons::{Photon, PhotonMap};
+pub use tables::photons::{Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
 pub use tables::transport::{Estimator, Limits, Mist, Passes, PathFilter, Transport};
 pub use tables::{Tables, ray_mask};

@@ -6,9 +6,7 @@
 use super::light_paths::LightPaths;
 use crate::{
     compile::{CompiledScene, View},
-    transport::{
-        Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, PhotonMap, Receiver, Transport, Wanted, Workspace,
-    },
+    transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, Photons, Receiver, Transport, Wanted, Workspace},
 };
 use std::{
     collections::BTreeMap,
@@ -28,7 +26,7 @@ const KEEPS: f64 = 2.0 / 3.0;
 const OTHER_BATCHES: u64 = 1 << 63;
 
 /// A map, made by the first who wants it.
-type Slot = Arc<OnceLock<Option<Arc<PhotonMap>>>>;
+type Slot = Arc<OnceLock<Option<Arc<Photons>>>>;
 
 /// The maps of a render.
 #[derive(Debug)]
@@ -57,7 +55,7 @@ impl PhotonMaps {
         light_paths: &LightPaths,
         workspace: &mut Workspace,
         cancelled: &dyn Fn() -> bool,
-    ) -> Option<Arc<PhotonMap>> {
+    ) -> Option<Arc<Photons>> {
         let slot = {
             let mut maps = self.maps.lock().unwrap_or_else(PoisonError::into_inner);
             let slot = maps.entry(block).or_default().clone();
@@ -68,7 +66,7 @@ impl PhotonMaps {
         };
         let make = || {
             let batches = (u64::from(samples) * BATCHES_PER_SAMPLE).min(MOST_BATCHES);
-            let mut photons = Photons::default();
+            let mut photons = Arrived::default();
             let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
             let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Lights(light_paths.sampler()), wanted };
             for batch in 0..batches {
@@ -78,11 +76,11 @@ impl PhotonMaps {
                 let number = OTHER_BATCHES | u64::from(block) << 32 | batch;
                 tracer.trace(number, &mut photons, &mut Vec::new(), workspace, cancelled);
             }
-            let radius = self.radius * f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
+            let shrinks = f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
             // Of surfaces about the casters' room as large as its sphere.
             let area = 4.0 * std::f64::consts::PI * scene.bounds.radius().powi(2);
-            let map = PhotonMap::new(&photons.0, radius as f32, share, area);
+            let map = Photons::new(&photons.0, self.radius * shrinks, shrinks, share, area);
             // Without any, camera paths look for the light as they did.
             Some(Arc::new(map))
         };
@@ -92,9 +90,9 @@ impl PhotonMaps {
 
 /// Keeps what arrives.
 #[derive(Default)]
-struct Photons(Vec<Photon>);
+struct Arrived(Vec<Photon>);
 
-impl Receiver for Photons {
+impl Receiver for Arrived {
     fn arrived(&mut self, arrivals: &Arrivals) {
         self.0.extend((0..arrivals.count).map(|entry| Photon {
             position: [0, 1, 2].map(|axis| arrivals.position[axis][entry]),

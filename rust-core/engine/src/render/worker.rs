@@ -6,7 +6,7 @@ use crate::{
     camera::sampler::Runs,
     film::{Block, SplatBlock},
     scene::{Antialiasing, Aov, Crop, Integrator},
-    transport::{PathFilter, PhotonMap, Tracer, Transport, Workspace},
+    transport::{PathFilter, Photons, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
 use std::{
@@ -94,7 +94,7 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
 }
 
 /// The photons that the block's paths take up.
-fn photons(shared: &Shared, work: &Work, room: &mut Room, cancelled: &dyn Fn() -> bool) -> Option<Arc<PhotonMap>> {
+fn photons(shared: &Shared, work: &Work, room: &mut Room, cancelled: &dyn Fn() -> bool) -> Option<Arc<Photons>> {
     let (maps, light_paths) = (shared.photons.as_ref()?, shared.light_paths.as_ref()?);
     let block = (work.block, work.samples.end - work.samples.start);
     maps.of_block(block, &shared.scene, shared.source.transport(), light_paths, &mut room.workspace, cancelled)

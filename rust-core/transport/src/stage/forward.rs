@@ -120,7 +120,7 @@ impl Integrator for LightIntegrator<'_> {
         let sample = kernels::sample(l, lobes, point.local_wo, [u_lobe, u, v]);
         let mut goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
         if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
-            goes |= goes_on(chunk, point, (photons, &sample), going_on.and_not(goes), base, &mut queues.photons);
+            goes |= goes_on(chunk, point, (&photons.coarse, &sample), going_on.and_not(goes), base, &mut queues.photons);
         }
         let factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);

@@ -89,7 +89,7 @@ pub(crate) fn light_and_start<L: Lanes>(
             queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
         }
         if let Some(photons) = &transport.photons {
-            let irradiance = irradiance(l, photons, point.at.position, point.at.geometric, point.alive, &mut found);
+            let irradiance = irradiance(l, &photons.fine, point.at.position, point.at.geometric, point.alive, &mut found);
             let light = Contribution::sampled(l.u(0), point.slot, irradiance * point.throughput, l.u(0), None);
             deposits.deposit(transport, &light, point.alive & irradiance.is_lit());
         }
@@ -152,7 +152,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
         width: point.width,
         spread: l.f(CONE_PER_ROUGHNESS),
         slot: point.slot,
-        flags: l.u(flag::NON_SPECULAR_SEEN | brought | (1 << flag::BOUNCE_SHIFT)),
+        flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
         medium: Spectrum::zero(l),
     };

@@ -78,8 +78,8 @@ fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bs
     // Light paths that scatter so are on their way to what the camera sees.
     let ends = first | (point.flags & flag::FROM_LIGHT).ne(0);
     let directly = l.u(flag::SEEN_DIRECTLY).keep_if(ends & here.and_not(sample.delta));
-    let kept = point.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY);
-    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough) | directly | kept
+    let kept = point.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY | flag::ROUGH);
+    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | kept
 }
 
 /// Samples the BSDF and appends the paths that go on, after Russian roulette. `ending` paths have no bounce left: only what goes straight

@@ -157,7 +157,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
     // Surface columns face the ray's start, which is inside; the way out is the other one.
     let normal = -load3(l, &surface.shading_normal, at);
     // Light paths bring nothing to where a walk comes out.
-    let flags = l.gather_integers(&walks.flags, walk) | flag::WALKED;
+    let flags = l.gather_integers(&walks.flags, walk) | (flag::WALKED | flag::ROUGH);
     Vertex {
         alive: l.first(chunk.count - at),
         path: l.u(0),

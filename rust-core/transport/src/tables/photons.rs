@@ -16,6 +16,15 @@ pub struct Photon {
     pub light: u32,
 }
 
+/// The photons of a block of samples.
+#[derive(Clone, Debug, Default)]
+pub struct Photons {
+    /// For what is seen directly or in mirrors and through glass: its blur shows.
+    pub fine: PhotonMap,
+    /// For light that goes on from there to other surfaces: fewer photons, of a radius that always finds some.
+    pub coarse: PhotonMap,
+}
+
 /// Photons by cells of a grid whose width is twice the radius: what lies about a point is in eight cells.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
@@ -43,9 +52,28 @@ pub(crate) struct PhotonLanes<L: Lanes> {
     pub(crate) flux: Spectrum<L>,
 }
 
+/// Most photons of a coarse map.
+const MOST_COARSE: usize = 1 << 16;
+/// Photons that a place of mean irradiance finds in it.
+const FOUND_COARSE: f64 = 16.0;
+
+impl Photons {
+    /// Sorts photons into cells. `radius` is that of the fine map, `shrinks` the part of the coarse map's that later blocks keep; `share` is the part of
+    /// a path in all that were traced, `area` about that of the scene's surfaces.
+    pub fn new(photons: &[Photon], radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
+        let step = photons.len().div_ceil(MOST_COARSE).max(1);
+        let some: Vec<Photon> = photons.iter().step_by(step).copied().collect();
+        let wide = (FOUND_COARSE * area / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
+        Self {
+            fine: PhotonMap::new(photons, radius as f32, share, area),
+            coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64, area),
+        }
+    }
+}
+
 impl PhotonMap {
     /// Sorts photons into cells; `share` is the part of a path in all that were traced, `area` about that of the scene's surfaces.
-    pub fn new(photons: &[Photon], radius: f32, share: f64, area: f64) -> Self {
+    fn new(photons: &[Photon], radius: f32, share: f64, area: f64) -> Self {
         if photons.is_empty() || radius <= 0.0 {
             return Self::default();
         }
@@ -79,12 +107,12 @@ impl PhotonMap {
     }
 
     /// Whether nothing arrived.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.radius <= 0.0
     }
 
     /// Radius within which photons are merged, metres.
-    pub fn radius(&self) -> f32 {
+    pub(crate) fn radius(&self) -> f32 {
         self.radius
     }
 

@@ -2,7 +2,7 @@
 
 use crate::state::flag;
 use crate::tables::light_groups::GroupPasses;
-use crate::tables::photons::PhotonMap;
+use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
 use gonio_simd::{Execution, Lanes, M, Spectrum, U};
@@ -38,7 +38,7 @@ pub struct Transport {
     /// By light, 1 where light paths bring its caustics; `None` where camera paths look for all of them.
     pub light_paths: Option<Arc<[u32]>>,
     /// Photons that camera paths take up behind mirrors and smooth glass.
-    pub photons: Option<Arc<PhotonMap>>,
+    pub photons: Option<Arc<Photons>>,
 }
 
 impl Transport {

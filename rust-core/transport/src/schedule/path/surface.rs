@@ -9,6 +9,7 @@ use crate::stage::nee::{queue_shadow_ray, sample_light};
 use crate::stage::scatter::{pass_straight, scatter};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
+use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
 use crate::state::queue::light_samples::LightSampleQueue;
@@ -58,8 +59,11 @@ impl Integrator for PathIntegrator {
         if let Some(photons) = &transport.photons {
             // At what the camera sees directly, light paths left their light in the picture.
             let unseen = going_on & non_specular & point.bounces.ne(0);
-            if unseen.any() {
-                merge(chunk, photons, point, lobes, unseen, &mut queues.photons, deposits);
+            let rough = (point.flags & flag::ROUGH).ne(0);
+            for (map, chosen) in [(&photons.fine, unseen.and_not(rough)), (&photons.coarse, unseen & rough)] {
+                if chosen.any() {
+                    merge(chunk, map, point, lobes, chosen, &mut queues.photons, deposits);
+                }
             }
         }
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
