@@ -1,7 +1,9 @@
-//! Camera rays on lanes: perspective and parallel projections, panoramas, and the lens.
+//! Camera rays on lanes and what cameras receive: perspective and parallel projections, panoramas, and the lens.
 
 mod aperture;
+mod chief;
 mod filter;
+mod importance;
 mod panorama;
 pub mod sampler;
 #[cfg(test)]
@@ -9,6 +11,7 @@ mod tests;
 
 pub use aperture::{Aperture, concentric_disk, regular_polygon};
 pub use filter::{FilterTable, KNOTS, Placement};
+pub use importance::Seen;
 
 use gonio_simd::{F, Lanes, M, Vec3};
 use panorama::{equidistant, equirectangular, equisolid};

@@ -2,6 +2,9 @@
 
 use gonio_simd::{F, Lanes, M, Vec3};
 
+/// Sine of the angle to a direction that a whole line of the picture shows, below which a direction has no place in it.
+const POLE: f32 = 1e-6;
+
 /// Latitude and longitude.
 #[inline(always)]
 pub(super) fn equirectangular<L: Lanes>(longitude: F<L>, latitude: F<L>) -> Vec3<L> {
@@ -40,4 +43,35 @@ pub(super) fn opening<L: Lanes>(l: L, direction: Vec3<L>) -> [Vec3<L>; 2] {
     let clear = squared.gt(1e-12);
     let x = clear.select(across * squared.max(1e-12).inverse_root(), Vec3::splat(l, [1.0, 0.0, 0.0]));
     [x, direction.cross(x)]
+}
+
+/// Longitude and latitude of a unit direction, their area for a solid angle, and whether they are known.
+#[inline(always)]
+pub(super) fn equirectangular_place<L: Lanes>(direction: Vec3<L>) -> ([F<L>; 2], F<L>, M<L>) {
+    let circle = (direction.x * direction.x + direction.z * direction.z).sqrt();
+    let mapped = circle.gt(POLE);
+    ([direction.x.atan2(-direction.z), direction.y.atan2(circle)], mapped.select(circle, circle.lanes().f(1.0)).recip(), mapped)
+}
+
+/// The place of a unit direction in an equidistant fisheye's picture, its area for a solid angle, and whether it is there.
+#[inline(always)]
+pub(super) fn equidistant_place<L: Lanes>(direction: Vec3<L>, limit: f32) -> ([F<L>; 2], F<L>, M<L>) {
+    let sine = (direction.x * direction.x + direction.y * direction.y).sqrt();
+    let angle = sine.atan2(-direction.z);
+    let off = sine.gt(0.0);
+    let one = sine.lanes().f(1.0);
+    let ratio = off.select(angle / off.select(sine, one), one);
+    ([direction.x * ratio, direction.y * ratio], ratio, angle.le(limit) & (sine.gt(POLE) | direction.z.lt(0.0)))
+}
+
+/// The place of a unit direction in an equisolid-angle fisheye's picture, its area for a solid angle, and whether it is there.
+#[inline(always)]
+pub(super) fn equisolid_place<L: Lanes>(direction: Vec3<L>, limit: f32) -> ([F<L>; 2], F<L>, M<L>) {
+    let sine = (direction.x * direction.x + direction.y * direction.y).sqrt();
+    let radius = (sine.atan2(-direction.z) * 0.5).sin();
+    let off = sine.gt(0.0);
+    let l = sine.lanes();
+    let ratio = off.select(radius / off.select(sine, l.f(1.0)), l.f(0.5));
+    let mapped = radius.le(limit) & (sine.gt(POLE) | direction.z.lt(0.0));
+    ([direction.x * ratio, direction.y * ratio], l.f(0.25), mapped)
 }

@@ -5,7 +5,7 @@ use gonio_simd::{Column, Execution, F, Lanes, One, Vec3, dispatch};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera at the origin whose picture of `resolution` covers a plane of `size` about `middle`.
-fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f32; 2]) -> CameraTable {
+pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f32; 2]) -> CameraTable {
     CameraTable {
         axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         position: [0.0; 3],
@@ -20,7 +20,7 @@ fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f32; 2]) -> 
 }
 
 /// One of each kind, with a picture of 8 × 4.
-fn cameras() -> [CameraTable; 5] {
+pub(crate) fn cameras() -> [CameraTable; 5] {
     let resolution = [8.0, 4.0];
     let (fov, solid) = (4.5f32, 2.5f32);
     [
@@ -54,12 +54,12 @@ fn ray(camera: &CameraTable, raster: [f32; 2], lens: [f32; 2]) -> Ray {
     }
 }
 
-fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+pub(crate) fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f32>().sqrt()
 }
 
 /// Uniform numbers in [0, 1): a counter through a 64-bit mixer (SplitMix64).
-fn uniform(seed: u64, index: u64) -> f32 {
+pub(crate) fn uniform(seed: u64, index: u64) -> f32 {
     let mut z = (seed << 40 ^ index).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -178,7 +178,7 @@ fn spread_is_the_angle_between_neighbours() {
 }
 
 /// Whether a point lies in the opening.
-fn holds(aperture: &Aperture, [x, y]: [f64; 2]) -> bool {
+pub(crate) fn holds(aperture: &Aperture, [x, y]: [f64; 2]) -> bool {
     let x = x / f64::from(aperture.width);
     if aperture.blades < 3 {
         return x * x + y * y <= 1.0;
