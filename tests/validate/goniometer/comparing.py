@@ -1,9 +1,8 @@
 """Compares a goniometer's file with an oracle: `python comparing.py SCENE FILE.ldt|ies [--points]`.
 
-What counts is where the expected intensity is above a tenth of its peak. The goniometer counts rays in zones about its γ, so a round
-luminaire's values are held against the oracle's means over those zones; with `--points` against its intensities in the very directions.
-Where the oracle
-has cells of its own, the file has to have them.
+What counts is where the expected intensity is above a tenth of its peak and surely known. The goniometer counts rays in zones about its γ,
+so a round luminaire's values are held against the oracle's means over those zones; with `--points` against its intensities in the very
+directions. Where the oracle has cells of its own, the file has to have them.
 """
 
 import sys
@@ -17,6 +16,8 @@ import numpy
 
 LIMIT = 0.01
 BRIGHT = 0.1
+# Standard error of what an oracle has to know better than what is judged by it.
+SURE = 0.003
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ def compare(name: str, file: Path, points: bool = False) -> Deviation:
         c, found = planes, candela[:, theirs]
         row = kept.candela[0, ours] if points else kept.cell_means(polar)[theirs]
         wanted, error = numpy.broadcast_to(row, found.shape), numpy.broadcast_to(kept.error[0, ours], found.shape)
-    bright = wanted > BRIGHT * kept.candela.max()
+    bright = (wanted > BRIGHT * kept.candela.max()) & (error < SURE * wanted)
     off = numpy.where(bright, found / numpy.where(bright, wanted, 1.0) - 1.0, 0.0)
     i, j = numpy.unravel_index(numpy.abs(off).argmax(), off.shape)
     mean = float(off[bright].mean())
