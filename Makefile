@@ -91,7 +91,7 @@ compare-cycles: blender
 # Light against closed forms and independent integrals; docs/validation.md is written of what was measured, whether it holds or not.
 validation: blender
 	rm -rf out/validation
-	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/blender/test_lamps_lux.py -m validate; \
+	GONIO_BPY=$(CURDIR)/.venv-bpy50/bin/python $(BIN)/python -m pytest tests/validate/lighting tests/validate/goniometer tests/blender/test_lamps_lux.py -m validate; \
 	    held=$$?; $(BIN)/python tests/validate/lighting/page.py && exit $$held
 
 # Every reader of untrusted files, ten minutes each.
@@ -102,7 +102,7 @@ fuzz:
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
 validate: test-blender compare-cycles validation fuzz
 	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
-	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/blender/test_lamps_lux.py
+	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/validate/goniometer --ignore tests/blender/test_lamps_lux.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 # Two builds, each by the Python that has it, show twelve scenes with the same bits at every SIMD level.

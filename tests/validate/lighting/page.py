@@ -24,13 +24,17 @@ SECTIONS = {
         "The closed form that `gonio photometry` states against 259,200 directions of a render's light, and against what a black cube gets; with the"
         " luminous opening instead of a point where the row says so."
     ),
+    "Goniophotometer": (
+        "Intensities that `gonio goniometer` measures of made-up luminaires, where they are above a tenth of the peak, against closed forms and tracers in"
+        " double precision."
+    ),
     "100 lm at 1 m": "From the hosts: 7.96 lx from an isotropic source, 31.83 lx straight on before a Lambertian one.",
     "Sun and skies": "The sun's place and the skies' luminances.",
 }
 INTRODUCTION = """# Validation
 
 Illuminances that gonio renders against closed forms and against integrals in double precision that share no code with it. `make validation` runs the
-tests in `tests/validate/lighting` and writes this page; every figure is a measured one.
+tests in `tests/validate/lighting` and `tests/validate/goniometer` and writes this page; every figure is a measured one.
 
 The cases are of the kind of CIE 171:2006, computed anew; the report's own tables are not used.
 
