@@ -16,8 +16,8 @@ from typing import Any
 import numpy
 
 HERE = Path(__file__).resolve().parent
-# The validation's Cornell box and what it knows of the other renderers.
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "validate")]
+# The validation's Cornell box and what it knows of the other renderers; the scenes full of caustics, for `scenes` lies in two folders.
+sys.path[:0] = [str(HERE), str(HERE.parent / "caustics"), str(HERE.parents[1] / "validate")]
 
 # What engines print must not come between the answers.
 answers = os.fdopen(os.dup(1), "w")

@@ -24,7 +24,7 @@ class Unavailable(Exception):
 
 @dataclass(frozen=True)
 class Entrant:
-    """An engine, `gonio`, `cycles` or `mitsuba:<variant>`, on a scene."""
+    """An engine with its variant (`gonio`, `cycles:guided`, `mitsuba:llvm_ad_rgb`, `luxcore:BIDIRCPU`) on a scene."""
 
     engine: str
     scene: str
@@ -43,7 +43,7 @@ class Picture:
 def python_of(engine: str) -> Path:
     """The Python that has an engine: `GONIO_PEER_<ENGINE>`, or an environment of the repository."""
     kind = engine.partition(":")[0]
-    folder = {"gonio": ".venv", "cycles": ".venv-bpy50", "mitsuba": ".venv-mitsuba"}[kind]
+    folder = {"gonio": ".venv", "cycles": ".venv-bpy50", "mitsuba": ".venv-mitsuba", "luxcore": ".venv-luxcore"}[kind]
     python = Path(os.environ.get(f"GONIO_PEER_{kind.upper()}", ROOT / folder / "bin" / "python"))
     if not python.exists():
         raise Unavailable(f"{python} is not there")
