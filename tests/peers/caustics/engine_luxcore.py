@@ -18,12 +18,16 @@ from shapes import ball
 LAMP_SUBDIVISIONS = 2
 # Metres within which photons are looked up at first, and to which the radius shrinks: a fiftieth of what one sees, at most.
 PHOTON_RADII = 0.02, 0.002
+# Light paths of a cache, which is made anew every eight samples.
+PHOTONS = 500_000
 # Seconds between looks at the clock.
 PAUSE = 0.01
 
 
 class Engine:
     """A scene laid out; pictures are radiance in cd/m², (height, width, 3), the top row first."""
+
+    is_timed = True
 
     def __init__(self, scene: Scene, threads: int, variant: str) -> None:
         """`variant` is LuxCore's engine, with `photons` (caustics from a photon cache) or `hybrid` (caustics from light paths) after a plus."""
@@ -122,6 +126,8 @@ def settings(scene: Scene, threads: int, variant: str) -> dict[str, object]:
         case "photons":
             made |= {"path.photongi.caustic.enabled": True, "path.photongi.photon.maxdepth": depth}
             made |= {"path.photongi.caustic.lookup.radius": PHOTON_RADII[0], "path.photongi.caustic.updatespp.minradius": PHOTON_RADII[1]}
+            # Less than its own choice, which takes longer than a whole picture here.
+            made |= {"path.photongi.photon.maxcount": PHOTONS, "path.photongi.visibility.maxsamplecount": PHOTONS // 8}
         case "hybrid":
             made |= {"path.hybridbackforward.enable": True}
     return made

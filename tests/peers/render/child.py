@@ -37,7 +37,8 @@ def main(engine: str, name: str, scale: float, threads: int) -> None:
     made = importlib.import_module(f"engine_{module}").Engine
     start = time.perf_counter()
     running = made(scene, threads, *([variant] if variant else []))
-    answer(version=running.version, preparation=time.perf_counter() - start, jit=getattr(running, "jit", 0.0))
+    is_timed = getattr(running, "is_timed", False)
+    answer(version=running.version, preparation=time.perf_counter() - start, jit=getattr(running, "jit", 0.0), is_timed=is_timed)
     for line in sys.stdin:
         asked = json.loads(line)
         before = processor_seconds()

@@ -68,6 +68,8 @@ class Peer:
         self.version: str = said["version"]
         self.preparation: float = said["preparation"] - said["jit"]
         self.jit: float = said["jit"]
+        # Whether samples are milliseconds.
+        self.is_timed: bool = said["is_timed"]
 
     def __enter__(self) -> "Peer":
         return self
@@ -89,6 +91,9 @@ class Peer:
 
     def calibrate(self, seconds: float) -> None:
         """Chooses the samples that take so many seconds."""
+        if self.is_timed:
+            self.samples = round(1000.0 * seconds)
+            return
         self._beside = self.render(0).processor
         enough = ENOUGH * seconds
         self.samples = 4

@@ -4,7 +4,7 @@ import math
 
 from cornell import Diffuse
 from description import Camera, Light, Mesh, Rectangle, Scene
-from shapes import ball, box, downward, facing, placed, moved, quad
+from shapes import ball, box, downward, facing, moved, placed, quad
 
 WALL = Diffuse((0.72, 0.70, 0.66))
 DARK = Diffuse((0.55, 0.6, 0.7))
