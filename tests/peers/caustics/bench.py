@@ -21,7 +21,20 @@ from lineup import SCENES, entrants  # noqa: E402
 from peer import Entrant, Peer, Unavailable  # noqa: E402
 
 OUT = HERE.parents[2] / "out" / "peers" / "caustics"
-HEADS = ["scene", "engine", "budget s", "seconds", "samples", "rMSE", "without outliers", "over gonio", "blocks", "mean", "black blocks"]
+HEADS = [
+    "scene",
+    "engine",
+    "budget s",
+    "seconds",
+    "samples",
+    "rMSE",
+    "without outliers",
+    "over gonio",
+    "of blocks",
+    "blocks",
+    "mean",
+    "black blocks",
+]
 
 
 def main() -> int:
@@ -96,7 +109,7 @@ def text(rows: list[dict[str, Any]]) -> str:
     table = [HEADS]
     for row in rows:
         cells = [row["scene"], row["engine"], f"{row['budget']:g}", f"{row['seconds']:.1f}", f"{row['samples']:.0f}"]
-        cells += [f"{row[name]:.3g}" for name in ("whole", "without_outliers", "over")]
+        cells += [f"{row[name]:.3g}" for name in ("whole", "without_outliers", "over", "coarse")]
         table.append([*cells, *(f"{row[name]:.2%}" for name in ("blocks", "mean", "black"))])
     widths = [max(len(line[column]) for line in table) for column in range(len(HEADS))]
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip() for line in table)

@@ -14,12 +14,13 @@ OUTLIERS = 0.001
 
 @dataclass(frozen=True)
 class Error:
-    """Means over pixels of the squared error over the squared luminance; `blocks` is the median difference of blocks (bias, with enough samples),
-    `mean` that of the whole.
+    """Means over pixels of the squared error over the squared luminance; `coarse` is the same of blocks, in which noise counts less and light that is
+    not there as much (a black picture has 1); `blocks` is the median difference of blocks, `mean` that of the whole.
     """
 
     whole: float
     without_outliers: float
+    coarse: float
     blocks: float
     mean: float
     black: float
@@ -31,7 +32,9 @@ def error(picture: numpy.ndarray, reference: numpy.ndarray) -> Error:
     relative = numpy.sort((((shown - known) / (known + EPSILON * known.mean())) ** 2).ravel())
     kept = relative.size - round(OUTLIERS * relative.size)
     theirs, mine = (compare.blocks(image[..., None]) for image in (shown, known))
+    coarse = float((((theirs - mine) / (mine + EPSILON * known.mean())) ** 2).mean())
     lit = mine > EPSILON * known.mean()
     black = float((theirs[lit] < 0.1 * mine[lit]).mean())
     blocks = float(numpy.median(abs(theirs[lit] / mine[lit] - 1.0)))
-    return Error(float(relative.mean()), float(relative[:kept].mean()), blocks, float(shown.mean() / known.mean() - 1.0), black)
+    mean = float(shown.mean() / known.mean() - 1.0)
+    return Error(float(relative.mean()), float(relative[:kept].mean()), coarse, blocks, mean, black)

@@ -55,12 +55,21 @@ def half(name: str, seed: int, count: float, samples: int) -> numpy.ndarray:
         batches, flux = max(1, round(count / BATCH)), numpy.zeros((world.parts.count, 3))
         for batch in range(batches):
             flux += maps.photons(world, BATCH, 2 * batch + seed) / batches
+            say(f"{name}: batch {batch + 1} of {batches}")
         # Triangles at the poles of turned bodies have no area.
         irradiance = mitsuba.Float((flux / numpy.maximum(world.parts.areas, 1e-15)[:, None]).astype("f4").ravel())
         size, at_once = (scene.width, scene.height), max(1, RAYS // (scene.width * scene.height))
         rounds = max(1, samples // at_once)
-        pictures = [maps.picture(world, eye, irradiance, size, at_once, 2 * k + seed + 1000000) for k in range(rounds)]
-        return numpy.mean(pictures, axis=0)
+        sums = numpy.zeros((scene.height, scene.width, 3))
+        for k in range(rounds):
+            sums += maps.picture(world, eye, irradiance, size, at_once, 2 * k + seed + 1000000) / rounds
+            say(f"{name}: picture {k + 1} of {rounds}")
+        return sums
+
+
+def say(line: str) -> None:
+    """How far it is."""
+    print(line, file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":
