@@ -18,6 +18,8 @@ from description import Mesh, Scene  # noqa: E402
 from lamps import Lamps  # noqa: E402
 
 Bool, Float, UInt32, Colour = mitsuba.Bool, mitsuba.Float, mitsuba.UInt32, mitsuba.Color3f
+# The depth beyond which Mitsuba lets light paths end by chance.
+ROULETTE = 5
 
 
 class Parts:
@@ -162,3 +164,27 @@ def picture(
         throughput *= drjit.select(depth > 4, 1.0 / stays, 1.0)
     sums = [numpy.array(drjit.block_sum(radiance[k], samples)) for k in range(3)]
     return numpy.stack(sums, axis=1).reshape(height, width, 3).astype("f8") / samples
+
+
+@drjit.syntax
+def walked(world: World, count: int) -> int:
+    """Segments of so many light paths under the rules of Mitsuba's `ptracer`."""
+    sampler = mitsuba.load_dict({"type": "independent"})
+    sampler.seed(0, count)
+    ray, flux = world.lamps.ray(sampler.next_1d(), sampler.next_2d(), sampler.next_2d())
+    throughput, active, depth, segments = Colour(1.0), Bool(True), UInt32(1), UInt32(0)
+    del flux
+    context = mitsuba.BSDFContext(mitsuba.TransportMode.Importance)
+    while active:
+        si, place = world.hit(ray, active)
+        segments[active] += 1
+        active &= si.is_valid()
+        sample, weight = si.bsdf(ray).sample(context, si, sampler.next_1d(active), sampler.next_2d(active), active)
+        throughput *= weight
+        ray = si.spawn_ray(si.to_world(sample.wo))
+        depth += 1
+        active &= (depth < world.bounces + 2) & (drjit.max(throughput) > 0.0)
+        stays = drjit.select(depth > ROULETTE, drjit.minimum(drjit.max(throughput), 0.95), 1.0)
+        active &= sampler.next_1d(active) < stays
+        throughput /= stays
+    return int(drjit.sum(mitsuba.UInt64(segments))[0])

@@ -56,3 +56,9 @@ def luminaire(number: int, x: float, z: float) -> list[Mesh]:
 def tubes(x: float, z: float) -> list[Light]:
     """Two flat emitters close under the top of a trough."""
     return [Rectangle(downward(x, H - 0.2 - 0.003, z + dz), LONG - 0.1, 0.03, (9000.0, 9200.0, 9800.0), TROUGH) for dz in (-0.07, 0.07)]
+
+
+def alone() -> Scene:
+    """One luminaire in empty space, for what only follows light; the camera is far below."""
+    view = Camera(facing((0.0, H - 3.2, 0.0), (0.0, H, 0.0), (0.0, 0.0, 1.0)), 30.0)
+    return Scene(luminaire(0, 0.0, 0.0), tubes(0.0, 0.0), view, width=128, height=96)
