@@ -19,6 +19,7 @@ import numpy  # noqa: E402
 from errors import LUMINANCE, error  # noqa: E402
 from lineup import SCENES, entrants  # noqa: E402
 from peer import Entrant, Peer, Unavailable  # noqa: E402
+from reference import kept  # noqa: E402
 
 OUT = HERE.parents[2] / "out" / "peers" / "caustics"
 HEADS = [
@@ -48,12 +49,11 @@ def main() -> int:
     asked = parser.parse_args()
     rows: list[dict[str, Any]] = []
     for scene in asked.scenes or SCENES:
-        file = OUT / "references" / f"{scene}.npz"
-        if not file.exists():
+        found = kept(scene)
+        if found is None:
             print(f"{scene}: no reference, see reference.py", file=sys.stderr)
             return 1
-        with numpy.load(file) as kept:
-            reference, halves = kept["picture"], kept["halves"]
+        reference, halves = found
         rows.append(of_reference(scene, reference, halves))
         engines = [e for e in entrants(scene) if e.startswith(("gonio", *(asked.engines or [""])))]
         rows += held(scene, engines, reference, asked)
