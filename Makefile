@@ -131,7 +131,7 @@ bench-peers: build $(CURDIR)/.venv-bpy50/ready
 bench-caustics: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
 bench-caustics: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/validate/environments.py mitsuba luxcore
-	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/reference.py
+	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/references.py
 	$(BIN)/python tests/peers/caustics/direct.py --seconds 20
 	$(BIN)/python tests/peers/caustics/bench.py $(CAUSTICS)
 	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/rays.py

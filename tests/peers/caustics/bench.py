@@ -1,6 +1,6 @@
 """All contestants at equal wall time on the hard scenes: `bench.py [scene ...] [--seconds 5 20 60] [--rounds 3] [--engines gonio luxcore]`.
 
-References come first: `reference.py`. `GONIO_CAUSTICS` has the settings of gonio with light paths (`lineup.py`), `DRJIT_LIBLLVM_PATH` names the
+References come first: `references.py`. `GONIO_CAUSTICS` has the settings of gonio with light paths (`lineup.py`), `DRJIT_LIBLLVM_PATH` names the
 LLVM of Mitsuba's vector mode. Prints the table; figures and pictures are kept in out/peers/caustics.
 """
 
@@ -19,7 +19,7 @@ import numpy  # noqa: E402
 from errors import LUMINANCE, error  # noqa: E402
 from lineup import SCENES, entrants  # noqa: E402
 from peer import Entrant, Peer, Unavailable  # noqa: E402
-from reference import kept  # noqa: E402
+from references import kept  # noqa: E402
 
 OUT = HERE.parents[2] / "out" / "peers" / "caustics"
 HEADS = [
@@ -51,7 +51,7 @@ def main() -> int:
     for scene in asked.scenes or SCENES:
         found = kept(scene)
         if found is None:
-            print(f"{scene}: no reference, see reference.py", file=sys.stderr)
+            print(f"{scene}: no reference, see references.py", file=sys.stderr)
             return 1
         reference, halves = found
         rows.append(of_reference(scene, reference, halves))

@@ -4,6 +4,8 @@ import os
 
 SCENES = ("lens", "lantern", "glass_ball", "pool", "door_ajar", "louvres")
 IN_THE_SUN = ("glass_ball", "pool")
+# So many that no picture shows where paths end: references add light paths to camera paths, and have more of them.
+BOUNCES = 40
 
 # Settings of `gonio.Scene.set` for gonio with light paths, `name=value` with commas between them; none: plain path tracing alone takes part.
 LIGHT_PATHS = os.environ.get("GONIO_CAUSTICS", "")

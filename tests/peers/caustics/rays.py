@@ -18,7 +18,6 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "render"), str(HERE.parents[1] / "validate")]
 
-import numpy  # noqa: E402
 from description import described  # noqa: E402
 
 # In scalar mode with two threads `ptracer` of Mitsuba 3.9 stops for good after a few samples.

@@ -4,6 +4,7 @@ import math
 
 from cornell import Diffuse
 from description import Camera, Light, Mesh, Rectangle, Scene
+from lineup import BOUNCES
 from shapes import ball, box, downward, facing, moved, placed, quad
 
 WALL = Diffuse((0.72, 0.70, 0.66))
@@ -17,7 +18,7 @@ def scene() -> Scene:
     """In the dark room, z > 0."""
     lamp: list[Light] = [Rectangle(downward(0.0, HEIGHT - 0.002, -1.8), 0.6, 0.6, (9000.0, 8400.0, 7600.0), (0.8, 0.8, 0.8))]
     view = Camera(facing((1.3, 1.5, 3.2), (-0.35, 0.95, 0.2)), 60.0)
-    return Scene([*rooms(), *partition(), *things()], lamp, view, width=192, height=144, bounces=16)
+    return Scene([*rooms(), *partition(), *things()], lamp, view, width=192, height=144, bounces=BOUNCES)
 
 
 def rooms() -> list[Mesh]:

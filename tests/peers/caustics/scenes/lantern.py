@@ -2,6 +2,7 @@
 
 from cornell import Diffuse, Glass
 from description import Camera, Light, Mesh, Scene, Sphere
+from lineup import BOUNCES
 from shapes import ball, box, facing, moved, quad, room
 
 METAL = Diffuse((0.25, 0.22, 0.2))
@@ -14,7 +15,14 @@ POST, PANE = 0.008, 0.003
 def scene() -> Scene:
     """A table in a closed room."""
     flame: list[Light] = [Sphere(moved(X, Y + 0.1, Z), 0.008, (60000.0, 40000.0, 18000.0))]
-    return Scene([*shell(), *things(), *lantern()], flame, Camera(facing((0.5, 1.25, 1.7), (0.05, 0.9, -0.4)), 52.0), width=192, height=144)
+    return Scene(
+        [*shell(), *things(), *lantern()],
+        flame,
+        Camera(facing((0.5, 1.25, 1.7), (0.05, 0.9, -0.4)), 52.0),
+        width=192,
+        height=144,
+        bounces=BOUNCES,
+    )
 
 
 def shell() -> list[Mesh]:

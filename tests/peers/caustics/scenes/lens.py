@@ -5,6 +5,7 @@ import math
 import numpy
 from cornell import Diffuse, Glass
 from description import Camera, Disk, Light, Mesh, Scene
+from lineup import BOUNCES
 from shapes import ball, box, facing, lathed, placed, quad, smoothed
 
 WALL = Diffuse((0.7, 0.7, 0.7))
@@ -19,7 +20,9 @@ PLACE = facing((-0.75, 1.1, 0.9), (0.35, 0.95, -1.2))
 def scene() -> Scene:
     """Seen from beside the tube."""
     lamp: list[Light] = [Disk(PLACE @ moved_back(DISTANCE), LAMP, (4.0e6, 3.6e6, 3.0e6))]
-    return Scene([*room(), tube(), *lens()], lamp, Camera(facing((0.9, 1.5, 2.2), (-0.05, 0.85, -0.6)), 50.0), width=192, height=144)
+    return Scene(
+        [*room(), tube(), *lens()], lamp, Camera(facing((0.9, 1.5, 2.2), (-0.05, 0.85, -0.6)), 50.0), width=192, height=144, bounces=BOUNCES
+    )
 
 
 def room() -> list[Mesh]:

@@ -2,6 +2,7 @@
 
 from cornell import Diffuse, Mirror
 from description import Camera, Light, Mesh, Rectangle, Scene
+from lineup import BOUNCES
 from shapes import box, downward, facing, quad, room
 
 WALL = Diffuse((0.7, 0.7, 0.7))
@@ -19,7 +20,7 @@ def scene() -> Scene:
     for number, (x, z) in enumerate(PLACES):
         meshes += luminaire(number, x, z)
         lights += tubes(x, z)
-    return Scene(meshes, lights, Camera(facing((1.9, 1.8, 2.7), (-0.6, 0.9, -1.2)), 62.0), width=192, height=144)
+    return Scene(meshes, lights, Camera(facing((1.9, 1.8, 2.7), (-0.6, 0.9, -1.2)), 62.0), width=192, height=144, bounces=BOUNCES)
 
 
 def shell() -> list[Mesh]:
@@ -61,4 +62,4 @@ def tubes(x: float, z: float) -> list[Light]:
 def alone() -> Scene:
     """One luminaire in empty space, for what only follows light; the camera is far below."""
     view = Camera(facing((0.0, H - 3.2, 0.0), (0.0, H, 0.0), (0.0, 0.0, 1.0)), 30.0)
-    return Scene(luminaire(0, 0.0, 0.0), tubes(0.0, 0.0), view, width=128, height=96)
+    return Scene(luminaire(0, 0.0, 0.0), tubes(0.0, 0.0), view, width=128, height=96, bounces=BOUNCES)

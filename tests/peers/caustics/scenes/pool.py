@@ -3,6 +3,7 @@
 import numpy
 from cornell import Diffuse, Glass
 from description import Camera, Light, Mesh, Scene, Sun
+from lineup import BOUNCES
 from shapes import box, facing, quad, sheet, smoothed
 
 # Half the width and depth of the basin, how far its floor and the water's surface are below the deck, metres.
@@ -15,7 +16,7 @@ def scene() -> Scene:
     """From the edge of the pool."""
     sun: list[Light] = [Sun(facing((-0.5, 1.3, 0.35), (0.0, 0.0, 0.0)), 0.53, SUN)]
     meshes = [*floor(), *basin(), *deck(), water()]
-    return Scene(meshes, sun, Camera(facing((0.7, 1.7, 2.6), (-0.1, -0.9, -0.2)), 48.0), width=192, height=144)
+    return Scene(meshes, sun, Camera(facing((0.7, 1.7, 2.6), (-0.1, -0.9, -0.2)), 48.0), width=192, height=144, bounces=BOUNCES)
 
 
 def floor() -> list[Mesh]:

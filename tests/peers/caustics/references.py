@@ -1,4 +1,4 @@
-"""References of the hard scenes by maps of caustics, in Mitsuba's vector mode: `reference.py [scene ...] --photons 1e9 --samples 4096`.
+"""References of the hard scenes by maps of caustics, in Mitsuba's vector mode: `references.py [scene ...] --photons 1e9 --samples 4096`.
 
 Run by a Python that has `mitsuba`. Keeps out/peers/caustics/references/<scene>.npz with the picture and its two independent halves. Scenes that
 are not named are made only where none is kept, or the one that is kept is of another form of the scene.
@@ -20,7 +20,7 @@ from lineup import SCENES  # noqa: E402
 
 FOLDER = HERE.parents[2] / "out" / "peers" / "caustics" / "references"
 # Metres: the sides of the parts in which a map keeps flux, a fraction of a pixel's each.
-PART = {"lens": 0.006, "lantern": 0.004, "glass_ball": 0.0015, "pool": 0.006, "door_ajar": 0.02, "louvres": 0.01}
+PART = {"proof": 0.01, "lens": 0.006, "lantern": 0.004, "glass_ball": 0.0015, "pool": 0.006, "door_ajar": 0.02, "louvres": 0.01}
 # Times as many camera paths as elsewhere: where diffuse surfaces light diffuse surfaces through a narrow gap or from a small spot.
 MORE = {"lens": 4, "door_ajar": 4}
 # Light paths and camera rays at once.
