@@ -15,7 +15,7 @@ class Engine:
     """A scene laid out; pictures are radiance in cd/m², (height, width, 3), the top row first."""
 
     def __init__(self, scene: Scene, threads: int, variant: str = "") -> None:
-        """`variant` has further settings of `gonio.Scene.set`: `name=value`, values in JSON, with commas between them."""
+        """`variant` has further settings of `gonio.Scene.set`: `name=value`, values in JSON or else words, with commas between them."""
         self.version = f"gonio {gonio.__version__}, {gonio.simd_level}"
         self._scene = gonio.Scene()
         self._scene.set(width=scene.width, height=scene.height, max_bounces=scene.bounces, passes=["color"], threads=threads)
@@ -75,7 +75,14 @@ class Engine:
 
 def settings(variant: str) -> dict[str, Any]:
     """What a variant sets."""
-    return {name: json.loads(value) for name, _, value in (part.partition("=") for part in variant.split(",") if part)}
+    made: dict[str, Any] = {}
+    for part in filter(None, variant.split(",")):
+        name, _, value = part.partition("=")
+        try:
+            made[name] = json.loads(value)
+        except json.JSONDecodeError:
+            made[name] = value
+    return made
 
 
 def colour(film: gonio.Film) -> numpy.ndarray:
