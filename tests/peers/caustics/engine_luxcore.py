@@ -18,6 +18,8 @@ from shapes import ball
 LAMP_SUBDIVISIONS = 2
 # Metres within which photons are looked up at first, and to which the radius shrinks: a fiftieth of what one sees, at most.
 PHOTON_RADII = 0.02, 0.002
+# Metres within which a photon must be near what the camera sees to be kept; by itself LuxCore looks for seconds for a good radius.
+VISIBILITY = 0.1
 # Light paths of a cache, which is made anew every eight samples.
 PHOTONS = 500_000
 # Seconds between looks at the clock.
@@ -32,7 +34,6 @@ class Engine:
     def __init__(self, scene: Scene, threads: int, variant: str) -> None:
         """`variant` is LuxCore's engine, with `photons` (caustics from a photon cache) or `hybrid` (caustics from light paths) after a plus."""
         pyluxcore.Init()
-        pyluxcore.SetLogHandler(lambda _: None)
         self.version = f"LuxCore {pyluxcore.Version()}"
         self._settings = settings(scene, threads, variant)
         self._shape = scene.height, scene.width, 3
@@ -128,6 +129,7 @@ def settings(scene: Scene, threads: int, variant: str) -> dict[str, object]:
             made |= {"path.photongi.caustic.lookup.radius": PHOTON_RADII[0], "path.photongi.caustic.updatespp.minradius": PHOTON_RADII[1]}
             # Less than its own choice, which takes longer than a whole picture here.
             made |= {"path.photongi.photon.maxcount": PHOTONS, "path.photongi.visibility.maxsamplecount": PHOTONS // 8}
+            made |= {"path.photongi.visibility.lookup.radius": VISIBILITY}
         case "hybrid":
             made |= {"path.hybridbackforward.enable": True}
     return made

@@ -13,7 +13,7 @@ def scene() -> Scene:
     """The shadow of the ball and the light within it, and the wall behind."""
     meshes = [*stage(), smoothed(ball("glass", (0.0, 0.122, 0.0), 0.12, Glass(1.5), 6))]
     sun: list[Light] = [Sun(facing((-1.0, 1.3, 0.7), (0.0, 0.0, 0.0)), 0.53, SUN)]
-    return Scene(meshes, sun, Camera(facing((0.35, 0.6, 0.9), (0.08, 0.08, -0.08)), 40.0), width=192, height=144, bounces=BOUNCES)
+    return Scene(meshes, sun, Camera(facing((0.35, 0.6, 0.9), (0.1, 0.07, -0.07)), 27.0), width=192, height=144, bounces=BOUNCES)
 
 
 def stage() -> list[Mesh]:
