@@ -6,7 +6,8 @@ The crate is under the AGPL. It runs as a program of its own, is linked with not
 
 Its program sends a luminaire's light, by its EULUMDAT file, through a cover and collects it again. It prints the throughput and its seconds with two
 digits, so they should be many. `--sample` is a program of one's own around the Quick Start of the crate's page (an LED, a white housing, an opal
-cover), also outside the project; it prints what it likes.
+cover), also outside the project; it gets the number of photons and prints what it likes. What its housing looks like the page does not say: the stage
+that gonio gets has four walls 25 mm from the axis, 50 mm long, and a cover that scatters all it lets pass. Speeds compare, figures do not.
 
 `--gonio` has {stage}, {photons} and {out}: a stage of the same luminaire with the same cover in /World, how many light paths, and the .ldt to write.
 The crate's own `compare` says how alike the two are.
@@ -66,6 +67,51 @@ COVER = """    def Mesh "Cover" (prepend apiSchemas = ["MaterialBindingAPI"])
 """
 
 
+SAMPLE = """    def DiskLight "Led"
+    {{
+        float inputs:radius = 0.001
+        double gonio:photometry:quantity = 1000
+        token gonio:photometry:unit = "lm"
+    }}
+{meshes}    def Material "White"
+    {{
+        token outputs:surface.connect = </World/White/Surface.outputs:surface>
+        def Shader "Surface"
+        {{
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0.85, 0.85, 0.85)
+            int inputs:useSpecularWorkflow = 1
+            color3f inputs:specularColor = (0, 0, 0)
+            float inputs:ior = 1
+            token outputs:surface
+        }}
+    }}
+    def Material "Opal"
+    {{
+        token outputs:mtlx:surface.connect = </World/Opal/Surface.outputs:out>
+        def Shader "Surface"
+        {{
+            uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+            bool inputs:geometry_thin_walled = 1
+            float inputs:subsurface_weight = 1
+            color3f inputs:subsurface_color = (1, 1, 1)
+            float inputs:specular_weight = 0
+            token outputs:out
+        }}
+    }}
+"""
+QUAD = """    def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
+    {{
+        uniform bool doubleSided = 1
+        uniform token subdivisionScheme = "none"
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [{points}]
+        rel material:binding = </World/{material}>
+    }}
+"""
+
+
 def main() -> int:
     """1 where the crate's program is not there."""
     parser = argparse.ArgumentParser(description="Photons a second of eulumdat-goniosim and of gonio on the same luminaire.")
@@ -84,9 +130,13 @@ def main() -> int:
             theirs = trace(program, cover, photons, folder)
             print(f"{cover or 'free':16} goniosim {photons / theirs[0] / 1e6:8.2f} M photons/s, {theirs[1]:.1f} % come out")
             if asked.gonio:
-                print(of_gonio(asked.gonio, program, cover, photons, folder))
+                print(of_gonio(asked.gonio, program, written(cover, folder), photons))
     if asked.sample:
         print(subprocess.run([asked.sample, str(photons)], capture_output=True, text=True, check=True).stdout)
+        if asked.gonio:
+            with tempfile.TemporaryDirectory() as name:
+                (Path(name) / "stage.usda").write_text(sample())
+                print(of_gonio(asked.gonio, program, Path(name) / "stage.usda", photons))
     return 0
 
 
@@ -101,16 +151,16 @@ def trace(program: str, cover: str, photons: int, folder: Path) -> tuple[float, 
     return float(found[2]), float(found[1])
 
 
-def of_gonio(command: str, program: str, cover: str, photons: int, folder: Path) -> str:
-    """The same of gonio, the whole command, and how alike the files are."""
-    stage = written(cover, folder)
+def of_gonio(command: str, program: str, stage: Path, photons: int) -> str:
+    """The same of gonio, the whole command, and how alike the files are where there are two."""
+    folder = stage.parent
     words = [word.format(stage=stage, photons=photons, out=folder / "ours.ldt") for word in shlex.split(command)]
     start = time.perf_counter()
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     seconds = time.perf_counter() - start
     lines = [f"{'':16} gonio    {photons / seconds / 1e6:8.2f} M photons/s"]
     lines += [f"    {line}" for line in (done.stdout + done.stderr).splitlines()[-8:]]
-    if (folder / "ours.ldt").exists():
+    if (folder / "ours.ldt").exists() and (folder / "theirs.ldt").exists():
         alike = subprocess.run(
             [program, "compare", str(folder / "theirs.ldt"), str(folder / "ours.ldt")], capture_output=True, text=True, check=False
         )
@@ -133,6 +183,18 @@ def written(cover: str, folder: Path) -> Path:
         text += COVER.format(points=", ".join(map(str, corners)), ior=ior)
     (folder / "stage.usda").write_text(text + "}\n")
     return folder / "stage.usda"
+
+
+def sample() -> str:
+    """The stage of the Quick Start, as far as its page tells."""
+    wide, low, cover = 0.025, -0.05, 0.03
+    around = [(-wide, -wide), (wide, -wide), (wide, wide), (-wide, wide)]
+    sides = [[(*a, 0.001), (*b, 0.001), (*b, low), (*a, low)] for a, b in zip(around, around[1:] + around[:1], strict=True)]
+    faces = [("Lid", [(*corner, 0.001) for corner in around], "White")]
+    faces += [(f"Side{number}", side, "White") for number, side in enumerate(sides)]
+    faces.append(("Cover", [(x / wide * cover, y / wide * cover, -DISTANCE) for x, y in around], "Opal"))
+    meshes = "".join(QUAD.format(name=name, points=", ".join(map(str, points)), material=material) for name, points, material in faces)
+    return HEAD.partition("    def RectLight")[0] + SAMPLE.format(meshes=meshes) + "}\n"
 
 
 if __name__ == "__main__":
