@@ -1,5 +1,5 @@
 # What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make same-bits`,
-# `make bench`, `make bench-peers`.
+# `make bench`, `make bench-peers`, `make bench-caustics`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -12,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers clean
+.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -124,6 +124,17 @@ bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/peers/render/bench.py $(PEERS)
 	$(BIN)/python tests/peers/render/scaling.py
 	$(BIN)/python tests/peers/radiance/bench.py $(RADIANCE)
+
+# Error at equal time on six scenes full of caustics, beside Cycles, LuxCore and Mitsuba, in out/peers/caustics; needs what bench-peers needs.
+# References that are missing are made first, in a quarter of an hour each. CAUSTICS="pool --seconds 20" chooses; GONIO_CAUSTICS="name=value,..." has
+# the settings of gonio with light paths.
+bench-caustics: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
+bench-caustics: build $(CURDIR)/.venv-bpy50/ready
+	$(BIN)/python tests/validate/environments.py mitsuba luxcore
+	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/references.py
+	$(BIN)/python tests/peers/caustics/direct.py --seconds 20
+	$(BIN)/python tests/peers/caustics/bench.py $(CAUSTICS)
+	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/rays.py
 
 clean:
 	cargo clean

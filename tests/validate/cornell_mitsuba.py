@@ -42,8 +42,9 @@ def bsdf(surface: cornell.Surface) -> dict[str, Any]:
             return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": rgb(reflectance)}}
         case cornell.Mirror(reflectance, roughness):
             tint = rgb((reflectance,) * 3)
-            conductor = {"type": "roughconductor", "material": "none", "distribution": "ggx", "specular_reflectance": tint}
-            return {"type": "twosided", "bsdf": conductor | {"alpha": roughness**2}}
+            conductor = {"type": "conductor", "material": "none", "specular_reflectance": tint}
+            rough = {"type": "roughconductor", "distribution": "ggx", "alpha": roughness**2} if roughness else {}
+            return {"type": "twosided", "bsdf": conductor | rough}
         case cornell.Glass(ior):
             return {"type": "dielectric", "int_ior": ior, "ext_ior": 1.0}
         case cornell.Principled():
@@ -74,14 +75,16 @@ def camera(samples: int) -> dict[str, Any]:
     }
 
 
-def write_ply(path: Path, part: cornell.Part) -> None:
-    """A mesh as a binary PLY file."""
+def write_ply(path: Path, part: cornell.Part, normals: numpy.ndarray | None = None) -> None:
+    """A mesh as a binary PLY file, with normals (N, 3) at its points or without any."""
     header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(part.points)}\n"
     header += "property float x\nproperty float y\nproperty float z\n"
+    header += "" if normals is None else "property float nx\nproperty float ny\nproperty float nz\n"
     header += f"element face {len(part.triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
     faces = numpy.empty(len(part.triangles), dtype=[("count", "u1"), ("corners", "<i4", 3)])
     faces["count"], faces["corners"] = 3, part.triangles
-    path.write_bytes(header.encode() + part.points.astype("<f4").tobytes() + faces.tobytes())
+    points = part.points if normals is None else numpy.concatenate([part.points, normals], axis=1)
+    path.write_bytes(header.encode() + points.astype("<f4").tobytes() + faces.tobytes())
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 REQUIREMENTS = {
     "bpy50": ["bpy==5.0.*", "numpy"],
     "mitsuba": ["mitsuba>=3.5,<4", "numpy"],
+    "luxcore": ["pyluxcore>=2.10,<3", "numpy"],
     "radiance": ["pyradiance>=1.3,<2"],
     "farm": ["distributed>=2025.1", "openjd-cli>=0.8", "usd-core>=25.5", "numpy"],
 }

@@ -16,8 +16,8 @@ from typing import Any
 import numpy
 
 HERE = Path(__file__).resolve().parent
-# The validation's Cornell box and what it knows of the other renderers.
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "validate")]
+# The validation's Cornell box and what it knows of the other renderers; the scenes full of caustics, for `scenes` lies in two folders.
+sys.path[:0] = [str(HERE), str(HERE.parent / "caustics"), str(HERE.parents[1] / "validate")]
 
 # What engines print must not come between the answers.
 answers = os.fdopen(os.dup(1), "w")
@@ -37,7 +37,8 @@ def main(engine: str, name: str, scale: float, threads: int) -> None:
     made = importlib.import_module(f"engine_{module}").Engine
     start = time.perf_counter()
     running = made(scene, threads, *([variant] if variant else []))
-    answer(version=running.version, preparation=time.perf_counter() - start, jit=getattr(running, "jit", 0.0))
+    is_timed = getattr(running, "is_timed", False)
+    answer(version=running.version, preparation=time.perf_counter() - start, jit=getattr(running, "jit", 0.0), is_timed=is_timed)
     for line in sys.stdin:
         asked = json.loads(line)
         before = processor_seconds()

@@ -4,6 +4,7 @@ Metres, y up, linear Rec.709; radiance in cd/m² (its luminance), intensity in c
 the camera looks along the -z of their frames.
 """
 
+import dataclasses
 import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -36,6 +37,8 @@ class Mesh:
     uvs: numpy.ndarray | None = None
     # (K, 4, 4) float64: one for each copy.
     places: numpy.ndarray = field(default_factory=lambda: numpy.eye(4)[None])
+    # (N, 3) float32 where faces are not flat.
+    normals: numpy.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,16 @@ class Scene:
 
 
 def described(name: str) -> Scene:
-    """The scene `theme` or `theme.variant`: what the function `scene`, or that of the variant's name, of `scenes/<theme>.py` returns."""
+    """The scene `theme` or `theme.variant`: what the function `scene`, or that of the variant's name, of `scenes/<theme>.py` returns; `theme.bare` is
+    the scene without what casts caustics, seen by direct light alone.
+    """
     theme, _, variant = name.partition(".")
-    made: Scene = getattr(importlib.import_module(f"scenes.{theme}"), variant or "scene")()
-    return made
+    is_bare = variant == "bare"
+    made: Scene = getattr(importlib.import_module(f"scenes.{theme}"), "scene" if is_bare else variant or "scene")()
+    return without_casters(made) if is_bare else made
+
+
+def without_casters(scene: Scene) -> Scene:
+    """The same without glass and mirrors and without further bounces."""
+    meshes = [mesh for mesh in scene.meshes if not isinstance(mesh.surface, Glass | Mirror)]
+    return dataclasses.replace(scene, meshes=meshes, bounces=0)

@@ -9,7 +9,7 @@ import bpy
 import mathutils
 import numpy
 from blender_pixels import pixels
-from cornell import Diffuse
+from cornell import Diffuse, Glass, Mirror
 from cornell_cycles import node_name, sockets
 from cycles_settings import unbiased
 from description import LUMENS_PER_WATT, Camera, Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Spot, Sun, Surface, Textured
@@ -22,19 +22,25 @@ RENDER_TIME = re.compile(rb"cycles\.[^\0]*\.render_time\0string\0.{4}(?:(\d+):)?
 class Engine:
     """A scene laid out; pictures are radiance in cd/m², (height, width, 3), the top row first."""
 
-    def __init__(self, scene: Scene, threads: int) -> None:
+    def __init__(self, scene: Scene, threads: int, variant: str = "") -> None:
+        """`variant`: `guided` guides paths, `shadow` casts shadow caustics, `guided+shadow` does both."""
+        kinds = set(variant.split("+")) - {""}
+        assert kinds <= {"guided", "shadow"}, variant
         self.version = f"Cycles of Blender {bpy.app.version_string}"
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self._file = Path(tempfile.mkdtemp()) / "picture.exr"
         settings(bpy.context.scene, scene, threads)
+        bpy.context.scene.cycles.use_guiding = "guided" in kinds
         bpy.context.scene.render.filepath = str(self._file)
         bpy.context.scene.world = world(scene.environment)
         for part in scene.meshes:
             made = mesh(part)
             for place in part.places:
-                linked(part.name, made, place)
+                cast_shadow_caustics(linked(part.name, made, place), part.surface, "shadow" in kinds)
         for light in scene.lights:
-            linked("light", lamp(light), light.matrix).visible_camera = True
+            made = lamp(light)
+            made.cycles.is_caustics_light = "shadow" in kinds
+            linked("light", made, light.matrix).visible_camera = True
         bpy.context.scene.camera = linked("camera", camera(scene.camera), scene.camera.matrix)
         self.render(1, 0)
 
@@ -70,11 +76,19 @@ def linked(name: str, data: bpy.types.ID, matrix: numpy.ndarray) -> bpy.types.Ob
     return made
 
 
+def cast_shadow_caustics(thing: bpy.types.Object, surface: Surface, on: bool) -> None:
+    """Glass casts them onto all that is neither glass nor mirror; Cycles knows no reflected ones."""
+    thing.cycles.is_caustics_caster = on and isinstance(surface, Glass)
+    thing.cycles.is_caustics_receiver = on and not isinstance(surface, Glass | Mirror)
+
+
 def mesh(part: Mesh) -> bpy.types.Mesh:
-    """A mesh with flat faces and its material."""
+    """A mesh, with flat faces unless it has normals, and its material."""
     made = bpy.data.meshes.new(part.name)
     made.from_pydata(part.points.tolist(), [], part.triangles.tolist())
-    made.polygons.foreach_set("use_smooth", [False] * len(made.polygons))
+    made.polygons.foreach_set("use_smooth", [part.normals is not None] * len(made.polygons))
+    if part.normals is not None:
+        made.normals_split_custom_set_from_vertices(part.normals.tolist())
     if part.uvs is not None:
         made.uv_layers.new().data.foreach_set("uv", part.uvs[part.triangles].ravel())
     made.materials.append(material(part.name, part.surface))

@@ -1,5 +1,6 @@
 """Scenes in gonio, by its Python module."""
 
+import json
 import time
 from typing import Any
 
@@ -13,11 +14,12 @@ from description import Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Spot
 class Engine:
     """A scene laid out; pictures are radiance in cd/m², (height, width, 3), the top row first."""
 
-    def __init__(self, scene: Scene, threads: int) -> None:
+    def __init__(self, scene: Scene, threads: int, variant: str = "") -> None:
+        """`variant` has further settings of `gonio.Scene.set`: `name=value`, values in JSON or else words, with commas between them."""
         self.version = f"gonio {gonio.__version__}, {gonio.simd_level}"
         self._scene = gonio.Scene()
         self._scene.set(width=scene.width, height=scene.height, max_bounces=scene.bounces, passes=["color"], threads=threads)
-        self._scene.set(filter="box", filter_width=1.0, samples=1)
+        self._scene.set(filter="box", filter_width=1.0, samples=1, **settings(variant))
         for mesh in scene.meshes:
             self._place(mesh)
         for light in scene.lights:
@@ -47,7 +49,7 @@ class Engine:
 
     def _place(self, mesh: Mesh) -> None:
         uvs = mesh.uvs if isinstance(mesh.surface, Textured) else None
-        number = self._scene.add_mesh(mesh.points, mesh.triangles, uvs=uvs, name=mesh.name)
+        number = self._scene.add_mesh(mesh.points, mesh.triangles, normals=mesh.normals, uvs=uvs, name=mesh.name)
         self._scene.put_instances(number, [self._material(mesh)], mesh.places, name=mesh.name)
 
     def _material(self, mesh: Mesh) -> int:
@@ -69,6 +71,18 @@ class Engine:
     def _surround(self, image: numpy.ndarray) -> None:
         dome = {"shape": {"Dome": {"format": "LatLong"}}, "texture": self._texture("sky", image)}
         self._scene.put_light(light_fields("sky", numpy.eye(4), (1.0, 1.0, 1.0), **dome))
+
+
+def settings(variant: str) -> dict[str, Any]:
+    """What a variant sets."""
+    made: dict[str, Any] = {}
+    for part in filter(None, variant.split(",")):
+        name, _, value = part.partition("=")
+        try:
+            made[name] = json.loads(value)
+        except json.JSONDecodeError:
+            made[name] = value
+    return made
 
 
 def colour(film: gonio.Film) -> numpy.ndarray:

@@ -11,23 +11,28 @@ import drjit
 import mitsuba
 import numpy
 from cornell_mitsuba import bsdf, rgb, write_ply
-from description import Disk, Light, Mesh, Rectangle, Scene, Textured
+from description import Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Sun, Textured
 
 # From gonio's frames, which look and shine along -z, to those of Mitsuba's camera and of its flat shapes.
 LOOKING = numpy.diag([-1.0, 1.0, -1.0, 1.0])
 SHINING = numpy.diag([1.0, -1.0, -1.0, 1.0])
+# Metres from the origin to the disk that stands for the sun; farther off its edge would suffer from single precision.
+FAR = 1000.0
 
 
 class Engine:
     """A scene laid out; pictures are radiance in cd/m², (height, width, 3), the top row first."""
 
     def __init__(self, scene: Scene, threads: int, variant: str) -> None:
+        """`variant` is Mitsuba's own, with the integrator after a plus where it is not `path`."""
+        variant, _, integrator = variant.partition("+")
         mitsuba.set_variant(variant)
         drjit.set_thread_count(threads)
         self._is_vector = variant.startswith("llvm")
         self.version = f"Mitsuba {mitsuba.__version__} {variant}" + (f", LLVM {drjit.detail.llvm_version()}" if self._is_vector else "")
         folder = Path(tempfile.mkdtemp())
-        parts: dict[str, Any] = {"type": "scene", "camera": camera(scene), "integrator": {"type": "path", "max_depth": scene.bounces + 2}}
+        tracing = {"type": integrator or "path", "max_depth": scene.bounces + 2}
+        parts: dict[str, Any] = {"type": "scene", "camera": camera(scene), "integrator": tracing}
         parts |= {f"light {number}": emitter(light) for number, light in enumerate(scene.lights)}
         parts |= {f"mesh {number}": shape(mesh, folder / f"{number}.ply") for number, mesh in enumerate(scene.meshes)}
         self._scene = mitsuba.load_dict(parts)
@@ -73,6 +78,17 @@ def emitter(light: Light) -> dict[str, Any]:
             kind, size = "rectangle", (0.5 * width, 0.5 * height, 1.0, 1.0)
         case Disk(matrix, radius, radiance, behind):
             kind, size = "disk", (radius, radius, 1.0, 1.0)
+        case Sun(matrix, angle, radiance):
+            behind, kind, radius = (0.0, 0.0, 0.0), "disk", FAR * math.tan(math.radians(angle) / 2.0)
+            matrix = matrix.copy()
+            matrix[:3, 3] = FAR * matrix[:3, 2]
+            size = (radius, radius, 1.0, 1.0)
+        case Point(matrix, intensity):
+            return {"type": "point", "position": matrix[:3, 3].tolist(), "intensity": rgb(intensity)}
+        case Sphere(matrix, radius, radiance):
+            black = {"type": "diffuse", "reflectance": rgb((0.0, 0.0, 0.0))}
+            shines = {"type": "area", "radiance": rgb(radiance)}
+            return {"type": "sphere", "center": matrix[:3, 3].tolist(), "radius": radius, "emitter": shines, "surface": black}
         case _:
             raise NotImplementedError(light)
     shines = {"type": "area", "radiance": rgb(radiance)}
@@ -84,5 +100,11 @@ def shape(mesh: Mesh, file: Path) -> dict[str, Any]:
     """A mesh with flat faces, by way of a file."""
     if len(mesh.places) != 1 or isinstance(mesh.surface, Textured):
         raise NotImplementedError(mesh.name)
-    write_ply(file, cornell.Part(mesh.name, mesh.points, mesh.triangles, mesh.surface))
-    return {"type": "ply", "filename": str(file), "face_normals": True, "to_world": place(mesh.places[0]), "surface": bsdf(mesh.surface)}
+    write_ply(file, cornell.Part(mesh.name, mesh.points, mesh.triangles, mesh.surface), mesh.normals)
+    return {
+        "type": "ply",
+        "filename": str(file),
+        "face_normals": mesh.normals is None,
+        "to_world": place(mesh.places[0]),
+        "surface": bsdf(mesh.surface),
+    }

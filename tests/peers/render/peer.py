@@ -24,7 +24,7 @@ class Unavailable(Exception):
 
 @dataclass(frozen=True)
 class Entrant:
-    """An engine, `gonio`, `cycles` or `mitsuba:<variant>`, on a scene."""
+    """An engine with its variant (`gonio`, `cycles:guided`, `mitsuba:llvm_ad_rgb`, `luxcore:BIDIRCPU`) on a scene."""
 
     engine: str
     scene: str
@@ -43,7 +43,7 @@ class Picture:
 def python_of(engine: str) -> Path:
     """The Python that has an engine: `GONIO_PEER_<ENGINE>`, or an environment of the repository."""
     kind = engine.partition(":")[0]
-    folder = {"gonio": ".venv", "cycles": ".venv-bpy50", "mitsuba": ".venv-mitsuba"}[kind]
+    folder = {"gonio": ".venv", "cycles": ".venv-bpy50", "mitsuba": ".venv-mitsuba", "luxcore": ".venv-luxcore"}[kind]
     python = Path(os.environ.get(f"GONIO_PEER_{kind.upper()}", ROOT / folder / "bin" / "python"))
     if not python.exists():
         raise Unavailable(f"{python} is not there")
@@ -68,6 +68,8 @@ class Peer:
         self.version: str = said["version"]
         self.preparation: float = said["preparation"] - said["jit"]
         self.jit: float = said["jit"]
+        # Whether samples are milliseconds.
+        self.is_timed: bool = said["is_timed"]
 
     def __enter__(self) -> "Peer":
         return self
@@ -89,6 +91,9 @@ class Peer:
 
     def calibrate(self, seconds: float) -> None:
         """Chooses the samples that take so many seconds."""
+        if self.is_timed:
+            self.samples = round(1000.0 * seconds)
+            return
         self._beside = self.render(0).processor
         enough = ENOUGH * seconds
         self.samples = 4

@@ -1,5 +1,6 @@
 """Meshes, frames and images that scenes are built of."""
 
+import dataclasses
 import math
 from collections.abc import Sequence
 
@@ -85,6 +86,24 @@ def sheet(name: str, points: numpy.ndarray, surface: Surface, *, closed: bool = 
     v, u = numpy.meshgrid(numpy.linspace(0, 1, rows), numpy.linspace(0, 1, columns), indexing="ij")
     uvs = numpy.stack([u, v], axis=2).reshape(-1, 2).astype("f4")
     return Mesh(name, points.reshape(-1, 3).astype("f4"), triangles, surface, uvs)
+
+
+def smoothed(mesh: Mesh) -> Mesh:
+    """The mesh with normals at its points, means of its faces' by area; points at the same place share theirs."""
+    a, b, c = (mesh.points[mesh.triangles[:, k]].astype("f8") for k in range(3))
+    _, place = numpy.unique(numpy.round(mesh.points.astype("f8"), 7), axis=0, return_inverse=True)
+    sums = numpy.zeros((place.max() + 1, 3))
+    for k in range(3):
+        numpy.add.at(sums, place.ravel()[mesh.triangles[:, k]], numpy.cross(b - a, c - a))
+    normals = (sums / numpy.linalg.norm(sums, axis=1, keepdims=True))[place.ravel()]
+    return dataclasses.replace(mesh, normals=normals.astype("f4"))
+
+
+def placed(mesh: Mesh, matrix: numpy.ndarray) -> Mesh:
+    """The mesh moved and turned by a frame, points and normals."""
+    points = (mesh.points @ matrix[:3, :3].T + matrix[:3, 3]).astype("f4")
+    normals = None if mesh.normals is None else (mesh.normals @ matrix[:3, :3].T).astype("f4")
+    return dataclasses.replace(mesh, points=points, normals=normals)
 
 
 def lathed(name: str, profile: numpy.ndarray, centre: Vector, surface: Surface, segments: int = 96) -> Mesh:
