@@ -20,6 +20,7 @@ mod measured;
 mod microfacet;
 pub mod normals;
 pub mod parameter;
+mod portal;
 mod reflect;
 mod resolve;
 pub mod subsurface;
@@ -27,11 +28,13 @@ mod surface;
 mod switches;
 #[cfg(test)]
 mod tests;
+mod toon;
 mod transmission;
 mod turn;
 
 pub use lobes::{BsdfSample, Lobes, MAXIMUM, SpecularRay, Way};
 pub use measured::MeasuredBsdf;
+pub use portal::Portal;
 pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};
 pub use switches::{

@@ -21,6 +21,8 @@ pub struct LobeSet {
     pub film: bool,
     /// Nothing but a colour straight through.
     pub straight: bool,
+    /// A portal.
+    pub portal: bool,
     /// Metal.
     pub metal: bool,
     /// Dielectric reflection over the opaque base.
@@ -127,6 +129,7 @@ impl Reach<'_> {
             anisotropic,
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
             straight: false,
+            portal: false,
         }
     }
     /// What a single lobe can show, with the places that it reads.
@@ -150,6 +153,7 @@ impl Reach<'_> {
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
             film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
             straight: closure == Closure::Transparent,
+            portal: closure == Closure::Portal,
             ..LobeSet::default()
         }
     }

@@ -103,6 +103,26 @@ def _waves(made, node, place, often) -> None:
     made.link(bent.outputs[0], end)
 
 
+def portal(made, node) -> None:
+    """Rays go on high above the hit, along its normal."""
+    _moved(made, node, (0.0, 0.0, 50.0), "hit.NewGeometry.Normal")
+
+
+def portal_beside(made, node) -> None:
+    """Rays look at the ball on the left from above."""
+    down = made.new("ShaderNodeCombineXYZ")
+    down.inputs["Z"].default_value = -1.0
+    _moved(made, node, (-2.0, 0.0, 2.0), down.outputs[0])
+
+
+def _moved(made, node, way, direction) -> None:
+    place = made.new("ShaderNodeVectorMath")
+    made.link(made.source("hit.NewGeometry.Position"), place.inputs[0])
+    place.inputs[1].default_value = way
+    made.link(place.outputs[0], node.inputs["Position"])
+    made.link(made.source(direction) if isinstance(direction, str) else direction, node.inputs["Direction"])
+
+
 def other_object(made, node) -> None:
     """An empty somewhere else, turned and stretched."""
     found = bpy.data.objects.get("Other")

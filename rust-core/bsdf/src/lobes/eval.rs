@@ -1,6 +1,6 @@
 //! Evaluation of all lobes.
 
-use super::{Lobes, Shape, Side};
+use super::{Lobes, Side};
 use gonio_simd::{F, Lanes, Spectrum, Vec3};
 
 /// What an evaluation is for.
@@ -31,7 +31,7 @@ impl<L: Lanes> Lobes<'_, L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
-            if asked == Asked::Diffuse && matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)) {
+            if asked == Asked::Diffuse && slot.is_specular() {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);

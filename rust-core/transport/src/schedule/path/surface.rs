@@ -5,6 +5,7 @@ use crate::stage::integrator::Integrator;
 use crate::stage::light_queue::sample_queued;
 use crate::stage::measure::{self, MeasureContext};
 use crate::stage::nee::{queue_shadow_ray, sample_light};
+use crate::stage::portal::pass_on;
 use crate::stage::scatter::{pass_straight, scatter};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
@@ -53,6 +54,10 @@ impl Integrator for PathIntegrator {
             point.alive
         };
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        if let Some(portal) = lobes.portal() {
+            pass_on(chunk, point, portal, point.pdf, present, &mut queues.next);
+            return;
+        }
         let [non_specular, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if (non_specular & going_on).any() && !tables.lights.is_empty() {
