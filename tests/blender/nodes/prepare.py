@@ -46,7 +46,7 @@ def opaque_picture(made, node) -> None:
 def distribution(made, node) -> None:
     """A luminaire's file that is brighter on one side."""
     file = bpy.data.texts.get("distribution.ies") or bpy.data.texts.new("distribution.ies")
-    candela = "\n".join(" ".join(str(100 + 7 * v + 3 * h) for v in range(0, 10)) for h in range(0, 5))
+    candela = "\n".join(" ".join(str(100 + 7 * v * v % 60 + 3 * h % 12) for v in range(0, 10)) for h in range(0, 5))
     angles = " ".join(str(20 * v) for v in range(10)) + "\n" + " ".join(str(90 * h) for h in range(5))
     file.from_string(f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 10 5 1 2 0 0 0\n1 1 10\n{angles}\n{candela}\n")
     node.ies = file
