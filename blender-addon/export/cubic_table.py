@@ -15,7 +15,9 @@ CLOSED = 1e-4
 def cubic_table(t, key, name, table, at):
     """The value at two angles in degrees of a table of planes, angles and values (planes, angles); zero beyond its ends."""
     planes, angles, values = table
-    texels = _columns(_quads(values, angles))
+    # Before Blender 5.0 what lies beyond an end counts as dark.
+    beyond = 1.0 if t.version >= (5, 0, 0) else 0.0
+    texels = _columns(_quads(values, angles, beyond), beyond)
     number = t.images.changing(key, name, np.ascontiguousarray(texels.transpose(1, 0, 2)[::-1]))
     width, height = texels.shape[:2]
     (column, across), (row, along) = (_place(t, knots, angle) for knots, angle in zip((planes, angles), at, strict=True))
@@ -29,16 +31,16 @@ def cubic_table(t, key, name, table, at):
     return total.maximum(0.0) * _within(t, planes, at[0]) * _within(t, angles, at[1])
 
 
-def _quads(values, angles):
+def _quads(values, angles, beyond):
     """Of each angle the values at those before, at and two after it, in four channels; light is alike on both sides of the nadir."""
-    before = values[:, 1] if angles[0] < CLOSED else values[:, 0]
-    wide = np.concatenate([before[:, None], values, values[:, -1:]], axis=1)
-    return np.stack([wide[:, i : i + values.shape[1] - 1] for i in range(4)], axis=-1).astype(np.float32)
+    before = values[:, 1] if angles[0] < CLOSED else beyond * values[:, 0]
+    wide = np.concatenate([before[:, None], values, beyond * values[:, -1:]], axis=1)
+    return np.stack([wide[:, i : i + values.shape[1] - 1] for i in range(4)], axis=-1)
 
 
-def _columns(quads):
+def _columns(quads, beyond):
     """The same with a plane more at each end; not those of the next turn, for Cycles takes a whole turn to fall short of one by rounding."""
-    return np.concatenate([quads[:1], quads, quads[-2:-1]])
+    return np.concatenate([beyond * quads[:1], quads, beyond * quads[-2:-1]]).astype(np.float32)
 
 
 def _place(t, knots, angle):
