@@ -2,6 +2,7 @@
 
 mod multiple;
 mod single;
+mod table;
 
 use super::{SkyImage, colour, within};
 use crate::{Error, Result};

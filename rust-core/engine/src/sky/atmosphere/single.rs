@@ -23,8 +23,27 @@ const STEPS: usize = 32;
 const WAVELENGTHS: [f64; 2] = [380.0, 20.0];
 /// Absorption by ozone at its densest, 1/m, at the wavelengths.
 const OZONE_ABSORPTION: [f64; 21] = [
-    3.2513e-9, 5.8540e-9, 1.9772e-8, 7.3096e-8, 2.0085e-7, 4.0384e-7, 6.3551e-7, 9.6707e-7, 1.5480e-6, 2.0904e-6, 2.4613e-6, 2.7355e-6,
-    2.1513e-6, 1.5905e-6, 1.1236e-6, 7.3528e-7, 4.6450e-7, 3.3096e-7, 2.2513e-7, 1.4879e-7, 1.6829e-7,
+    3.251_268e-9,
+    5.853_954e-9,
+    1.977_191e-8,
+    7.309_569e-8,
+    2.008_456e-7,
+    4.038_396e-7,
+    6.355_134e-7,
+    9.670_704e-7,
+    1.547_974e-6,
+    2.090_386e-6,
+    2.461_281e-6,
+    2.735_513e-6,
+    2.151_259e-6,
+    1.590_518e-6,
+    1.123_562e-6,
+    7.352_755e-7,
+    4.645_013e-7,
+    3.309_608e-7,
+    2.251_261e-7,
+    1.487_913e-7,
+    1.682_862e-7,
 ];
 /// Gauss and Laguerre's rule of eight points over a way to the top: places over its length, and weights with the exponential taken out.
 const RULE: [[f64; 2]; 8] = [
