@@ -91,9 +91,7 @@ WORLDS = {
     "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
     "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
-    "sky elsewhere": Limit(
-        "Sky Texture on surfaces in Blender 4: the sun's disc; on lamps: the sky", "no disc; an even sky of its usual brightness"
-    ),
+    "sky elsewhere": Limit("Sky Texture on lamps", "an even sky of its usual brightness"),
     "limb": _untold("Sky Texture: darkening towards the disc's limb, reddening from its top to its foot", "an even disc as bright"),
     "skies": _untold("Sky Texture in worlds: pictures of 512 rows; atmospheres drawn anew", "within 1 % of Cycles in the median of the picture"),
     "twilight": _untold("Twilight in the *Daylight* panel", "no light while the sun is down"),
@@ -107,8 +105,7 @@ MATERIALS = {
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "closure": Limit("Hair and other shaders that are named in the report", "a diffuse surface of its colour"),
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
-    "occlusion": Limit("Ambient Occlusion", "nothing is near"),
-    "bevel": Limit("Bevel", "edges stay sharp"),
+    "blurred bevel": _untold("Bevel in blurred reflections of glossy surfaces", "edges are rounded there too"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(

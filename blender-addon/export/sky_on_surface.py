@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's Sky Texture on surfaces: the models' formulas, or the table of an atmosphere, for any vector."""
 
-from math import cos, pi, radians, sin, tau
+from math import asin, cos, pi, radians, sin, tau
 
 import gonio
 import numpy as np
@@ -61,17 +61,26 @@ def table(t, key, towards, model, elevation, azimuth, disc, **amounts):
     pixels = np.array(image)
     x, y, z = (towards.component(axis) for axis in range(3))
     height = 0.5 * pi - z.clamp(-1.0, 1.0).apply("ArcCosine")
+    is_old = model == "nishita"
     across = ((-y.apply("ArcTangent2", x) - (0.5 * pi + azimuth)) * (1.0 / tau)).fraction()
-    along = (abs(height) * (2.0 / pi)).sqrt() * height.sign() * 0.5 + 0.5
+    shown = height.maximum(0.0) if is_old else height
+    along = (abs(shown) * (2.0 / pi)).sqrt() * shown.sign() * 0.5 + 0.5
     number = t.images.changing(key, f"Sky {model}", pixels)
     xyz = _between_texels(t, number, pixels.shape[1::-1], across, along)
     values = [xyz.component(i) for i in range(3)]
+    if is_old:
+        fade = (z.minimum(0.0) * 2.5 + 1.0).maximum(0.0)
+        values = [value * (fade * fade * fade) for value in values]
     if strength > 0.0:
-        seen = _disc(t, towards, height, elevation, azimuth, diameter, amounts["altitude"])
-        solid_angle = tau * (1.0 - cos(radians(0.5 * diameter)))
-        for i, (foot, top) in enumerate(zip(*limbs, strict=True)):
-            bright = t.graph.scalar(foot).mix(t.graph.scalar(top), (height - radians(elevation)) * (1.0 / radians(diameter)) + 0.5)
-            values[i] = values[i] + bright * seen * (strength / solid_angle)
+        horizon = 0.0 if is_old else -(0.5 * pi - asin(EARTH_RADIUS / (EARTH_RADIUS + amounts["altitude"])))
+        seen, limb = _disc(t, towards, height, elevation, azimuth, diameter, horizon)
+        foot = 0.0 if is_old and elevation <= 0.5 * diameter else radians(elevation - 0.5 * diameter)
+        rise = (height - foot) * (1.0 / (radians(elevation + 0.5 * diameter) - foot))
+        scale = strength / (tau * (1.0 - cos(radians(0.5 * diameter))))
+        for i, (low, high) in enumerate(zip(*limbs, strict=True)):
+            # Blender 4 shows the disc in the place of the sky.
+            sky = values[i] * (1.0 - seen) if is_old else values[i]
+            values[i] = sky + t.graph.scalar(low).mix(t.graph.scalar(high), rise) * seen * limb * scale
     return _rgb(t, values)
 
 
@@ -89,15 +98,14 @@ def _between_texels(t, number, size, across, along):
     return low.mix(high, v)
 
 
-def _disc(t, towards, height, elevation, azimuth, diameter, altitude):
-    """What the limb leaves of the disc, 0 beside it and below the horizon as it is seen from above the sea."""
+def _disc(t, towards, height, elevation, azimuth, diameter, horizon):
+    """Whether the disc is seen, not beside it and not below the horizon, and what its limb leaves of it."""
     up, flat, half = sin(radians(elevation)), cos(radians(elevation)), radians(0.5 * diameter)
     sun = t.graph.vector((flat * sin(azimuth), flat * cos(azimuth), up))
     angle = (towards - sun).length().apply("ArcTangent2", (towards + sun).length()) * 2.0
     share = angle * (1.0 / half)
     limb = (1.0 - share * share).maximum(0.0).sqrt() * LIMB + (1.0 - LIMB)
-    horizon = -(0.5 * pi - np.arcsin(EARTH_RADIUS / (EARTH_RADIUS + altitude)))
-    return limb * angle.less(half) * (1.0 - height.less(float(horizon)))
+    return angle.less(half) * (1.0 - height.less(horizon)), limb
 
 
 def _rgb(t, xyz):

@@ -9,7 +9,7 @@ import numpy as np
 from mathutils import Matrix
 
 from .material.inputs import GENERATED, direction
-from .material.textures import coordinates, equirectangular, look_up
+from .material.textures import coordinates, equirectangular
 from .material.translator import value_node
 from .material.vectors import transform3d
 from .sky_on_surface import formula, table
@@ -51,15 +51,11 @@ def sky_texture(t, node, context, output):
     if not t.is_world and t.kind != "Material":
         return None
     towards = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
-    if not t.is_world and node.sky_type != "NISHITA":
+    if not t.is_world:
         return _on_surface(t, node, context, towards)
     picture, azimuth = _drawn(node)
     turned = transform3d(t, towards, Matrix.Rotation(azimuth, 4, "Z"))
-    if t.is_world:
-        return t.sky(picture, turned, equirectangular(t, turned))
-    if any(picture.sun):
-        t.tell("sky elsewhere", node, context)
-    return _from_picture(t, node, context, picture, turned)
+    return t.sky(picture, turned, equirectangular(t, turned))
 
 
 def _on_surface(t, node, context, towards):
@@ -70,21 +66,10 @@ def _on_surface(t, node, context, towards):
         return formula(t, towards, model, elevation, azimuth, scale, **_haze(node))
     elevation, azimuth = _sun_of(node)
     diameter = max(node.sun_size, LEAST_DISC)
-    key = (*_owner(t, node, context), "table")
+    key = ("sky on surfaces", t.owner.original.session_uid, t.path(node, context))
     disc = (node.sun_intensity if node.sun_disc else 0.0, degrees(diameter))
-    return table(t, key, towards, MODELS[kind], elevation, azimuth, disc, **_air(node))
-
-
-def _owner(t, node, context):
-    return ("sky on surfaces", t.owner.original.session_uid, t.path(node, context))
-
-
-def _from_picture(t, node, context, picture, towards):
-    """The picture where a vector points, whose height counts as it is, whatever its length."""
-    number = t.images.changing(_owner(t, node, context), picture.name, picture.pixels)
-    height = towards.component(2).apply("ArcSine") * (1.0 / pi) + 0.5
-    place = t.graph.combine(equirectangular(t, towards).component(0), height, t.graph.scalar(0.0))
-    return look_up(t, number, place, ("Repeat", "Clamp"))
+    model = "nishita" if kind == "NISHITA" else MODELS[kind]
+    return table(t, key, towards, model, elevation, azimuth, disc, **_air(node))
 
 
 def _drawn(node):

@@ -49,7 +49,7 @@ pub(crate) fn artist_sky(
     Ok((pass(&image, &["R", "G", "B", "A"]), sun))
 }
 
-/// The sky of "single-scattering" or "multiple-scattering" as the table that Blender 5 keeps of it: X, Y and Z in W/(m² sr) weighed by the eye,
+/// The sky of "single-scattering", "multiple-scattering", or "nishita", Blender 4's, as the table that Blender keeps of it: X, Y and Z in W/(m² sr) weighed by the eye,
 /// 512 columns around, the sun in the middle, and 256 rows, the zenith on top, of which the one at a share y of the height shows the elevation
 /// ±(2 y − 1)² of a right angle. And the irradiance of a sun as bright as its disc's foot and as its top.
 #[pyfunction]
@@ -67,8 +67,9 @@ pub(crate) fn sky_table(
 ) -> PyResult<(Pass, [[f64; 3]; 2])> {
     let scattering = match model {
         "single-scattering" => Scattering::Single,
+        "nishita" => Scattering::SingleInPieces,
         "multiple-scattering" => Scattering::Multiple,
-        other => return Err(unknown(other, "single-scattering or multiple-scattering")),
+        other => return Err(unknown(other, "nishita, single-scattering or multiple-scattering")),
     };
     let atmosphere = Atmosphere { scattering, altitude_m: altitude, air, dust, ozone };
     let made = py.detach(|| Ok((atmosphere.table(elevation)?, atmosphere.sun_limbs(elevation, diameter)?)));

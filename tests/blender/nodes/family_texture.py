@@ -46,19 +46,19 @@ def _skies() -> tuple[Case, ...]:
     """Sky Texture: each sky by generated coordinates and along the normals of a ball; the sun's disc where there is one."""
     since = {"SINGLE_SCATTERING": (5, 0), "MULTIPLE_SCATTERING": (5, 0)}
     kinds = ("NISHITA", *since, "PREETHAM", "HOSEK_WILKIE")
-    along = {0: "hit.NewGeometry.Normal"}
+    atmospheres, along = kinds[:3], {0: "hit.NewGeometry.Normal"}
 
     def case(kind: str, name: str, inputs: dict, **disc) -> Case:
         version = {"since": since.get(kind, (4, 5)), "until": (4, 5) if kind == "NISHITA" else (9, 9)}
-        return Case(f"{kind}{name}", {"sky_type": kind, **disc}, inputs, on_sphere=True, rounded=kind in since, **version)
+        return Case(f"{kind}{name}", {"sky_type": kind, **disc}, inputs, on_sphere=True, rounded=kind in atmospheres, **version)
 
     def no_disc(kind: str) -> dict:
-        return {} if kind in ("PREETHAM", "HOSEK_WILKIE") else {"sun_disc": False}
+        return {"sun_disc": False} if kind in atmospheres else {}
 
     return (
         *(case(kind, "", {}, **no_disc(kind)) for kind in kinds),
         *(case(kind, ", along normals", along, **no_disc(kind)) for kind in kinds),
-        *(case(kind, ", with the sun", along, sun_size=0.6, sun_elevation=0.9, sun_rotation=0.7, altitude=900.0) for kind in since),
+        *(case(kind, ", with the sun", along, sun_size=0.6, sun_elevation=0.9, sun_rotation=0.7, altitude=900.0) for kind in atmospheres),
     )
 
 
@@ -117,7 +117,6 @@ NODES = {
         "Sky Texture",
         FAMILY,
         cases=_skies(),
-        reason="the atmosphere of Blender 4 is drawn anew",
         remark="atmospheres, which Cycles reckons in single precision from the middle of the Earth, are held by middles of blocks",
     ),
     "ShaderNodeTexIES": Node(

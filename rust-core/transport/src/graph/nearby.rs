@@ -101,7 +101,14 @@ fn starts<L: Lanes>(l: L, points: &Points<'_>, at: usize) -> [F<L>; 2] {
 
 /// The share of the rays about the normal, the first three inputs, that meet nothing within the distance, the fourth.
 #[inline(always)]
-pub(super) fn occlusion<L: Lanes>(l: L, step: &Occlusion, points: &Points<'_>, around: &Around<'_>, near: &mut NearbyRays, io: &mut Io<'_>) {
+pub(super) fn occlusion<L: Lanes>(
+    l: L,
+    step: &Occlusion,
+    points: &Points<'_>,
+    around: &Around<'_>,
+    near: &mut NearbyRays,
+    io: &mut Io<'_>,
+) {
     let count = io.count;
     io.output(0)[..count].fill(0.0);
     load_instances(points, near, count);
@@ -169,7 +176,14 @@ fn fraction<L: Lanes>(x: F<L>) -> F<L> {
 /// The mean of the normals around a hit, weighed by a bell of the radius, the first input: edges are rounded. After Christensen's and others'
 /// sampling of subsurface scattering by discs (SIGGRAPH 2013), as in Cycles. After diffuse scattering the shading normal stays as it is.
 #[inline(always)]
-pub(super) fn rounded_normal<L: Lanes>(l: L, samples: u32, points: &Points<'_>, around: &Around<'_>, near: &mut NearbyRays, io: &mut Io<'_>) {
+pub(super) fn rounded_normal<L: Lanes>(
+    l: L,
+    samples: u32,
+    points: &Points<'_>,
+    around: &Around<'_>,
+    near: &mut NearbyRays,
+    io: &mut Io<'_>,
+) {
     let count = io.count;
     load_instances(points, near, count);
     near.sum.iter_mut().for_each(|column| column[..count].fill(0.0));
@@ -198,7 +212,8 @@ pub(super) fn rounded_normal<L: Lanes>(l: L, samples: u32, points: &Points<'_>, 
                 let smooth = load3(l, &points.columns.shading_normal, at);
                 let sum = Vec3::load(l, [&near.sum[0], &near.sum[1], &near.sum[2]], here) * l.load(&points.columns.side, at);
                 let flags = l.load_integers(&points.columns.ray_flags, at);
-                let blurred = (flags & (flag::CAMERA | flag::DELTA | flag::SHADOW)).eq(0) & ((flags >> flag::LAST_SHIFT) & 3).eq(event::DIFFUSE);
+                let blurred =
+                    (flags & (flag::CAMERA | flag::DELTA | flag::SHADOW)).eq(0) & ((flags >> flag::LAST_SHIFT) & 3).eq(event::DIFFUSE);
                 let looks = io.input(l, 0, here).gt(0.0).and_not(blurred);
                 let rounded = looks.select(sum.normalize_or(smooth), smooth);
                 io.store(here, [rounded.x, rounded.y, rounded.z]);

@@ -59,6 +59,22 @@ const RULE: [[f64; 2]; 8] = [
 /// The rule's length that the way to the top takes, so that its last point lies within.
 const RULE_LENGTH: f64 = 25.0;
 
+/// Even pieces of the way to the top, where the rule is not in use.
+const PIECES: usize = 16;
+
+/// Places on the way to the top and their weights, over its length.
+type Rule = Vec<[f64; 2]>;
+
+/// The rule over the way's length.
+pub(super) fn gauss_laguerre() -> Rule {
+    RULE.map(|pair| pair.map(|x| x / RULE_LENGTH)).to_vec()
+}
+
+/// The middles of even pieces.
+pub(super) fn even_pieces() -> Rule {
+    (0..PIECES).map(|piece| [(piece as f64 + 0.5) / PIECES as f64, 1.0 / PIECES as f64]).collect()
+}
+
 /// Lengths in the densest air, dust and ozone, m.
 type Depths = [f64; 3];
 
@@ -75,10 +91,11 @@ pub(super) struct Single {
     radius: f64,
     amounts: [f64; 3],
     lines: Vec<Line>,
+    rule: Rule,
 }
 
 impl Single {
-    pub(super) fn new(of: &Atmosphere) -> Self {
+    pub(super) fn new(of: &Atmosphere, rule: Rule) -> Self {
         let line = |(index, ozone): (usize, &f64)| {
             let nanometres = WAVELENGTHS[0] + WAVELENGTHS[1] * index as f64;
             Line {
@@ -89,7 +106,7 @@ impl Single {
             }
         };
         let lines = OZONE_ABSORPTION.iter().enumerate().map(line).collect();
-        Self { radius: GROUND + of.altitude_m.clamp(1.0, TOP - GROUND - 1.0), amounts: [of.air, of.dust, of.ozone], lines }
+        Self { radius: GROUND + of.altitude_m.clamp(1.0, TOP - GROUND - 1.0), amounts: [of.air, of.dust, of.ozone], lines, rule }
     }
 
     /// The sum over the wavelengths of the sun's light behind depths, times a factor for each.
@@ -113,10 +130,10 @@ impl Single {
     fn depths_to_top(&self, radius: f64, up: f64) -> Depths {
         let length = distance_to(radius, up, TOP).unwrap_or(0.0);
         let mut sum = [0.0; 3];
-        for [place, weight] in RULE {
-            let way = length * place / RULE_LENGTH;
+        for [place, weight] in &self.rule {
+            let way = length * place;
             let densities = self.densities((radius * radius + way * way + 2.0 * radius * way * up).sqrt());
-            sum = std::array::from_fn(|i| sum[i] + densities[i] * weight * length / RULE_LENGTH);
+            sum = std::array::from_fn(|i| sum[i] + densities[i] * weight * length);
         }
         sum
     }

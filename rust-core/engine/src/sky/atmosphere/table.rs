@@ -24,6 +24,7 @@ impl Atmosphere {
         let (model, sun) = (self.model()?, [flat, 0.0, up]);
         let line = |row: usize| match self.scattering {
             Scattering::Single => once(&*model, sun, row),
+            Scattering::SingleInPieces => once_in_pieces(&*model, sun, row),
             Scattering::Multiple => often(&*model, sun, row),
         };
         let lines: Vec<Vec<f32>> = (0..SIZE[1]).into_par_iter().rev().map(line).collect();
@@ -53,6 +54,14 @@ fn once(model: &dyn Model, sun: [f64; 3], row: usize) -> Vec<f32> {
         let longitude = TAU * column as f64 / SIZE[0] as f64 - PI;
         model.radiance(direction(latitude, longitude), sun).map(|value| value * fade)
     })
+}
+
+/// The same of the way in pieces: rows lie a little higher, and those below the horizon are like the one at it, for hosts fade them.
+fn once_in_pieces(model: &dyn Model, sun: [f64; 3], row: usize) -> Vec<f32> {
+    let rows = SIZE[1] / 2;
+    let place = row.saturating_sub(rows) as f64 / rows as f64;
+    let latitude = (FRAC_PI_2 * (1.0 + 0.5 / rows as f64) * place * place).min(FRAC_PI_2);
+    mirrored(|column| model.radiance(direction(latitude, TAU * column as f64 / SIZE[0] as f64 - PI), sun))
 }
 
 /// The same of light that was scattered often, at the middles of texels.
