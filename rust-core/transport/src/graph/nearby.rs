@@ -1,6 +1,6 @@
 //! Steps that look around hits with rays of their own, one for each hit of a piece at a time, so that they are traced in batches like all rays.
 //!
-//! The rays of a hit start from a random place of a sequence that depends on the hit's position to the last bit, which no two samples share.
+//! The numbers of a hit's rays are those of Sobol's sequence, scrambled by the hit's position to the last bit, which no two samples share.
 //!
 //! # Cost
 //! As many rays a hit as the step has samples: short ones that end at any hit for [`occlusion`], and for [`rounded_normal`] as many nearest hits on
@@ -17,8 +17,6 @@ use gonio_nodes::hash::{hash3, hash4, to_unit};
 use gonio_nodes::{CHUNK, Io};
 use gonio_simd::{Column, Execution, F, Frame, Lanes, M, PADDING, Vec3};
 
-/// Steps of the sequence whose places are spread most evenly: the golden ratio's.
-const GOLDEN: f32 = 0.618_034;
 /// Surfaces that a ray of [`rounded_normal`] looks for at most.
 const MOST_SURFACES: usize = 8;
 /// Newton's steps towards the radius of a disc.
@@ -89,14 +87,44 @@ pub struct Occlusion {
     pub only_local: bool,
 }
 
-/// Two numbers a hit from which its sequences start.
+/// Two numbers of a ray: any power of two of rays has one in each of as many parts, along both and in squares.
 #[inline(always)]
-fn starts<L: Lanes>(l: L, points: &Points<'_>, at: usize) -> [F<L>; 2] {
-    let [x, y, z] = [0, 1, 2].map(
-        #[inline(always)]
-        |axis: usize| l.load(&points.columns.position[axis], at).to_bits(),
-    );
-    [to_unit(hash3(l, x, y, z)), to_unit(hash4(l, x, y, z, l.u(1)))]
+fn numbers<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, at: usize) -> [F<L>; 2] {
+    let position = &points.columns.position;
+    let [x, y, z] = [l.load(&position[0], at).to_bits(), l.load(&position[1], at).to_bits(), l.load(&position[2], at).to_bits()];
+    let parts = ray.of.next_power_of_two();
+    let scrambled = [hash3(l, x, y, z), hash4(l, x, y, z, l.u(0))];
+    let within = [hash4(l, x, y, z, l.u(2 * ray.number + 1)), hash4(l, x, y, z, l.u(2 * ray.number + 2))];
+    let mut out = [l.f(0.0); 2];
+    for (axis, value) in out.iter_mut().enumerate() {
+        let part = (scrambled[axis] & (parts - 1)) ^ ray.part(parts)[axis];
+        *value = (part.to_float() + to_unit(within[axis])) * (1.0 / parts as f32);
+    }
+    out
+}
+
+/// One of the rays of a hit.
+#[derive(Clone, Copy, Debug)]
+struct Ray {
+    number: u32,
+    of: u32,
+}
+
+impl Ray {
+    /// Its parts along both dimensions, of a power of two: the first two of Sobol's sequence.
+    fn part(self, parts: u32) -> [u32; 2] {
+        let (mut first, mut second, mut bit) = (0, 0, parts >> 1);
+        let mut direction = bit;
+        let mut rest = self.number;
+        while bit > 0 {
+            if rest & 1 == 1 {
+                first ^= bit;
+                second ^= direction;
+            }
+            (rest, bit, direction) = (rest >> 1, bit >> 1, direction ^ (direction >> 1));
+        }
+        [first, second]
+    }
 }
 
 /// The share of the rays about the normal, the first three inputs, that meet nothing within the distance, the fourth.
@@ -115,7 +143,7 @@ pub(super) fn occlusion<L: Lanes>(
     for sample in 0..step.samples {
         l.vectorize(
             #[inline(always)]
-            || send(l, step, sample, points, near, io),
+            || send(l, step, Ray { number: sample, of: step.samples }, points, near, io),
         );
         let (rays, blocked) = (near.rays.batch(0..count), &mut near.blocked[..count]);
         if step.only_local {
@@ -149,16 +177,15 @@ fn load_instances(points: &Points<'_>, near: &mut NearbyRays, count: usize) {
 
 /// One ray a hit, more likely the nearer to the normal.
 #[inline(always)]
-fn send<L: Lanes>(l: L, step: &Occlusion, sample: u32, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+fn send<L: Lanes>(l: L, step: &Occlusion, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
     let columns = points.columns;
     for here in (0..io.count).step_by(L::COUNT) {
         let at = points.first + here;
         let [x, y, z, distance] = io.load(l, here);
         let axis = Vec3::new(x, y, z).normalize_or(load3(l, &columns.shading_normal, at));
         let axis = if step.inside { -axis } else { axis };
-        let start = starts(l, points, at);
-        let height = (start[0] + sample as f32) * (1.0 / step.samples as f32);
-        let (sin, cos) = fraction(start[1] + GOLDEN * sample as f32).sin_cos_turns();
+        let [height, turn] = numbers(l, ray, points, at);
+        let (sin, cos) = turn.sin_cos_turns();
         let radius = height.sqrt();
         let direction = Frame::from_normal(axis).to_world(Vec3::new(radius * cos, radius * sin, (1.0 - height).safe_sqrt()));
         let (position, normal) = (load3(l, &columns.position, at), load3(l, &columns.geometric_normal, at));
@@ -188,10 +215,10 @@ pub(super) fn rounded_normal<L: Lanes>(
     load_instances(points, near, count);
     near.sum.iter_mut().for_each(|column| column[..count].fill(0.0));
     for sample in 0..samples {
-        let step = Disc { sample, samples };
+        let step = Ray { number: sample, of: samples };
         l.vectorize(
             #[inline(always)]
-            || send_through(l, &step, points, near, io),
+            || send_through(l, step, points, near, io),
         );
         for _ in 0..MOST_SURFACES {
             near.trace_within(around, count);
@@ -200,7 +227,7 @@ pub(super) fn rounded_normal<L: Lanes>(
             }
             l.vectorize(
                 #[inline(always)]
-                || add_normals(l, &step, points, near, io),
+                || add_normals(l, step, points, near, io),
             );
         }
     }
@@ -222,13 +249,6 @@ pub(super) fn rounded_normal<L: Lanes>(
     );
 }
 
-/// One of the discs of a hit.
-#[derive(Clone, Copy, Debug)]
-struct Disc {
-    sample: u32,
-    samples: u32,
-}
-
 /// A disc's frame, its axis last, and how likely each of its axes is taken for one: half of the discs lie in the surface.
 #[inline(always)]
 fn disc<L: Lanes>(normal: Vec3<L>, choice: F<L>) -> ([Vec3<L>; 3], [F<L>; 3]) {
@@ -241,24 +261,18 @@ fn disc<L: Lanes>(normal: Vec3<L>, choice: F<L>) -> ([Vec3<L>; 3], [F<L>; 3]) {
     ([along, across, axis], [likely(first.and_not(flat)), likely(!first), likely(flat)])
 }
 
-#[inline(always)]
-fn choice<L: Lanes>(step: &Disc, start: F<L>) -> F<L> {
-    (start + step.sample as f32) * (1.0 / step.samples as f32)
-}
-
 /// One ray a hit through a point of its disc.
 #[inline(always)]
-fn send_through<L: Lanes>(l: L, step: &Disc, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+fn send_through<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
     let columns = points.columns;
     for here in (0..io.count).step_by(L::COUNT) {
         let at = points.first + here;
         let reach = io.input(l, 0, here).max(0.0);
-        let start = starts(l, points, at);
-        let chosen = choice(step, start[0]);
+        let [chosen, share] = numbers(l, ray, points, at);
         let ([along, across, axis], _) = disc(load3(l, &columns.geometric_normal, at), chosen);
         // What the choice left of its number turns about the axis.
         let turn = chosen.lt(0.5).select(chosen * 2.0, fraction(chosen * 4.0));
-        let radius = bell_radius(fraction(start[1] + GOLDEN * step.sample as f32)) * reach;
+        let radius = bell_radius(share) * reach;
         let height = (reach * reach - radius * radius).safe_sqrt();
         let (sin, cos) = turn.sin_cos_turns();
         let place = load3(l, &columns.position, at) + axis * height + along * (radius * cos) + across * (radius * sin);
@@ -269,7 +283,7 @@ fn send_through<L: Lanes>(l: L, step: &Disc, points: &Points<'_>, near: &mut Nea
 
 /// Adds the normals that were met, and sends the rays on behind them.
 #[inline(always)]
-fn add_normals<L: Lanes>(l: L, step: &Disc, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+fn add_normals<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
     let columns = points.columns;
     for here in (0..io.count).step_by(L::COUNT) {
         let at = points.first + here;
@@ -277,7 +291,7 @@ fn add_normals<L: Lanes>(l: L, step: &Disc, points: &Points<'_>, near: &mut Near
         let own = l.load_integers(&columns.instance, at);
         let hit = points.geometry.hit_lanes(l, own, primitive, u, v);
         let found = points.geometry.surface_point(l, &hit);
-        let ([along, across, axis], likely) = disc(load3(l, &columns.geometric_normal, at), choice(step, starts(l, points, at)[0]));
+        let ([along, across, axis], likely) = disc(load3(l, &columns.geometric_normal, at), numbers(l, ray, points, at)[0]);
         let mut squares = l.f(0.0);
         let mut densities = [l.f(0.0); 3];
         for (i, direction) in [along, across, axis].into_iter().enumerate() {
@@ -290,9 +304,9 @@ fn add_normals<L: Lanes>(l: L, step: &Disc, points: &Points<'_>, near: &mut Near
         let weight = (densities[2] / squares.max(1e-20) * share).keep_if(met);
         let sum = Vec3::load(l, [&near.sum[0], &near.sum[1], &near.sum[2]], here) + found.shading_normal * weight;
         store3(sum, &mut near.sum, here);
-        let mut ray = near.rays.load(l, here);
-        ray.t_min = met.select(t * (1.0 + 1e-6) + 1e-7, ray.t_max);
-        near.store(&ray, here);
+        let mut onwards = near.rays.load(l, here);
+        onwards.t_min = met.select(t * (1.0 + 1e-6) + 1e-7, onwards.t_max);
+        near.store(&onwards, here);
     }
 }
 
