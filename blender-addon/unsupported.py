@@ -82,7 +82,6 @@ LIGHTS = {
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
     "ies elsewhere": Limit("IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"),
-    "ies between angles": _untold("IES textures on surfaces between the angles of their file", "linear, where Cycles has cubic curves"),
     "shining meshes": _untold("Photometric units of meshes that shine", "emission in W/m², times 177.83 lm/W"),
     "catcher's groups": _untold("Light groups of shadow catchers", "without what the catcher leaves out"),
 }
@@ -92,12 +91,9 @@ WORLDS = {
     "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
     "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
-    "sky elsewhere": Limit("Sky Texture on surfaces: the sun's disc; on lamps: the sky", "no disc; an even sky of its usual brightness"),
+    "sky elsewhere": Limit("Sky Texture on lamps", "an even sky of its usual brightness"),
     "limb": _untold("Sky Texture: darkening towards the disc's limb, reddening from its top to its foot", "an even disc as bright"),
-    "skies": _untold(
-        "Sky Texture: Hošek and Wilkie's data for Rec.709 in the place of Cycles' for XYZ; atmospheres drawn anew",
-        "within 1 % of Cycles in the median of the picture",
-    ),
+    "skies": _untold("Sky Texture in worlds: pictures of 512 rows; atmospheres drawn anew", "within 1 % of Cycles in the median of the picture"),
     "twilight": _untold("Twilight in the *Daylight* panel", "no light while the sun is down"),
 }
 
@@ -107,11 +103,9 @@ MATERIALS = {
     "displacement": Limit("Displacement that moves the surface", "its normals bend, and its shape stays"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
-    "closure": Limit("Toon, hair and other shaders that are named in the report", "a diffuse surface of its colour"),
-    "ray portal": Limit("Ray Portal BSDF", "rays go straight on"),
+    "closure": Limit("Hair and other shaders that are named in the report", "a diffuse surface of its colour"),
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
-    "occlusion": Limit("Ambient Occlusion", "nothing is near"),
-    "bevel": Limit("Bevel", "edges stay sharp"),
+    "blurred bevel": _untold("Bevel in blurred reflections of glossy surfaces", "edges are rounded there too"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),
     "varying thin wall": Limit("Thin Wall that varies", "the surface is solid"),
     "thin walls": _untold(

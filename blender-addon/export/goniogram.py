@@ -9,12 +9,13 @@ import gonio
 import numpy as np
 
 from ..units import LUMENS_PER_WATT
-from .material.inputs import hit
-from .material.textures import look_up
+from .cubic_table import cubic_table
+from .material.inputs import carried, hit
 from .material.translator import value_node
 
 # What makes a lamp of 1 W have the file's candela.
 WATTS_OF_CANDELA = 4.0 * pi / LUMENS_PER_WATT
+DEGREES = 180.0 / pi
 
 
 @value_node("ShaderNodeTexIES")
@@ -37,32 +38,30 @@ def _ies(translator, node, context, _output):
         return strength
     if description["photometric_type"] != "C":
         return None
-    return strength * _towards(t, node, context, _as_cycles(description))
+    return strength * _towards(t, node, context, description)
 
 
 def _towards(t, node, context, goniogram):
-    """The goniogram's factor in a direction, from a picture of it: planes from left to right, angles from the nadir upwards."""
-    towards = (t.input(node, "Vector", context) if t.linked(node, "Vector", context) else hit(t, "Incoming")).normalized()
+    """The goniogram's factor in a direction as a picture shows it: planes count from -y, backwards."""
+    has_vector = t.linked(node, "Vector", context)
+    towards = t.input(node, "Vector", context) if has_vector else carried(t, hit(t, "Incoming"), "World", "Object", "Normal")
+    towards = towards.normalized()
     x, y, z = (towards.component(axis) for axis in range(3))
-    pixels = _picture(goniogram)
-    number = t.images.changing(("ies", t.owner.original.session_uid, t.path(node, context)), f"intensities of {node.name}", pixels)
-    height, width = pixels.shape[:2]
-    # Texels stand for the angles themselves, so that the outer ones lie on the edges.
-    plane = y.apply("ArcTangent2", x) * (0.5 / pi) + 0.5 / width
-    angle = ((-z).apply("ArcCosine") * (1.0 / pi) * (height - 1) + 0.5) * (1.0 / height)
-    return look_up(t, number, t.graph.combine(plane, angle, t.graph.scalar(0.0)), ("Repeat", "Clamp")).component(0)
+    plane = x.apply("ArcTangent2", y) * DEGREES + 180.0
+    angle = (-z).apply("ArcCosine") * DEGREES
+    key = ("ies", t.owner.original.session_uid, t.path(node, context))
+    return cubic_table(t, key, f"intensities of {node.name}", _table(goniogram), (plane, angle))
 
 
-def _picture(goniogram):
-    """Factors (angles, planes, 4) at whole degrees, the nadir in the last row; zero beyond the file's angles."""
-    planes, angles = goniogram["horizontal_deg"], goniogram["vertical_deg"]
-    factors = np.reshape(goniogram["factors"], (len(planes), len(angles)))
-    down = np.arange(181.0)
-    columns = np.stack([np.interp(down, angles, row, left=0.0, right=0.0) for row in factors])
-    across = np.stack([np.interp(np.arange(360.0), planes, column) for column in columns.T])
-    pixels = np.ones((181, 360, 4), dtype=np.float32)
-    pixels[..., :3] = across[::-1, :, None]
-    return pixels
+def _table(goniogram):
+    """Planes and angles in degrees, and the factors by planes, over the whole turn."""
+    planes, angles = (np.array(goniogram[f"{name}_deg"], dtype=float) for name in ("horizontal", "vertical"))
+    factors = np.reshape(goniogram["factors"], (len(planes), len(angles))) * WATTS_OF_CANDELA
+    if len(planes) == 1:
+        return np.array([0.0, 360.0]), angles, np.concatenate([factors, factors])
+    if planes[-1] < 360.0:
+        planes, factors = np.append(planes, 360.0), np.concatenate([factors, factors[:1]])
+    return planes, angles, factors
 
 
 def _file(node, owner):

@@ -9,13 +9,19 @@ import numpy as np
 from mathutils import Matrix
 
 from .material.inputs import GENERATED, direction
-from .material.textures import coordinates, equirectangular, look_up
+from .material.textures import coordinates, equirectangular
 from .material.translator import value_node
 from .material.vectors import transform3d
+from .sky_on_surface import formula, table
 
-# Cycles' value for a cd/m² of the older models.
+# Cycles' value for a cd/m² of Preetham's model, for Hošek and Wilkie's W/(m² sr), of which one has so many lumens.
 PREETHAM_SCALE = 0.06 / 1000.0
-HOSEK_WILKIE_SCALE = 2.0 * pi / 683.0 / 683.0
+HOSEK_WILKIE_SCALE = 2.0 * pi / 683.0
+LUMENS = 1.0 / 683.0
+# The models of atmospheres, how high one may stand in them, m, and the least diameter of the disc, radians.
+MODELS = {"NISHITA": "single-scattering", "SINGLE_SCATTERING": "single-scattering", "MULTIPLE_SCATTERING": "multiple-scattering"}
+HIGHEST = 59_999.0
+LEAST_DISC = 0.0005
 # Mean over the disc of Cycles' darkening towards its limb.
 MEAN_LIMB = 0.8
 # Cycles takes angles for the older models from directions that hardly leave the horizon.
@@ -45,45 +51,39 @@ def sky_texture(t, node, context, output):
     if not t.is_world and t.kind != "Material":
         return None
     towards = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
+    if not t.is_world:
+        return _on_surface(t, node, context, towards)
     picture, azimuth = _drawn(node)
     turned = transform3d(t, towards, Matrix.Rotation(azimuth, 4, "Z"))
-    if t.is_world:
-        return t.sky(picture, turned, equirectangular(t, turned))
-    if any(picture.sun):
-        t.tell("sky elsewhere", node, context)
-    return _on_surface(t, node, context, picture, turned)
+    return t.sky(picture, turned, equirectangular(t, turned))
 
 
-def _on_surface(t, node, context, picture, towards):
-    """The picture where a vector points, whose height counts as it is, whatever its length."""
-    owner = ("sky on surfaces", t.owner.original.session_uid, t.path(node, context))
-    number = t.images.changing(owner, picture.name, picture.pixels)
-    height = towards.component(2).apply("ArcSine") * (1.0 / pi) + 0.5
-    place = t.graph.combine(equirectangular(t, towards).component(0), height, t.graph.scalar(0.0))
-    return look_up(t, number, place, ("Repeat", "Clamp"))
+def _on_surface(t, node, context, towards):
+    """The sky by its formula or its table."""
+    kind = node.sky_type
+    if kind in ("PREETHAM", "HOSEK_WILKIE"):
+        model, scale, elevation, azimuth = _old(node, kind)
+        return formula(t, towards, model, elevation, azimuth, scale, **_haze(node))
+    elevation, azimuth = _sun_of(node)
+    diameter = max(node.sun_size, LEAST_DISC)
+    key = ("sky on surfaces", t.owner.original.session_uid, t.path(node, context))
+    disc = (node.sun_intensity if node.sun_disc else 0.0, degrees(diameter))
+    model = "nishita" if kind == "NISHITA" else MODELS[kind]
+    return table(t, key, towards, model, elevation, azimuth, disc, **_air(node))
 
 
 def _drawn(node):
     """The picture, and the sun's angle from +Y, clockwise seen from above, in radians."""
     kind = node.sky_type
     if kind in ("PREETHAM", "HOSEK_WILKIE"):
-        return _old(node, kind)
+        model, scale, elevation, azimuth = _old(node, kind)
+        image, _ = gonio.artist_sky(model, elevation, rows=ROWS, **_haze(node))
+        pixels = np.array(image)
+        pixels[..., :3] *= scale if kind == "PREETHAM" else LUMENS * scale
+        return Picture(f"Sky {kind}", pixels, (0.0, 0.0, 0.0), 0.0, elevation), azimuth
     elevation, azimuth = _sun_of(node)
-    dust = getattr(node, "aerosol_density", None)
-    dust = node.dust_density if dust is None else dust
-    model = "multiple-scattering" if kind == "MULTIPLE_SCATTERING" else "single-scattering"
     diameter = degrees(node.sun_size)
-    highest = 59_999.0
-    image, sun = gonio.artist_sky(
-        model,
-        elevation,
-        altitude=min(max(node.altitude, 0.0), highest),
-        air=node.air_density,
-        dust=dust,
-        ozone=node.ozone_density,
-        diameter=diameter,
-        rows=ROWS,
-    )
+    image, sun = gonio.artist_sky(MODELS[kind], elevation, diameter=diameter, rows=ROWS, **_air(node))
     pixels = np.array(image)
     if kind == "NISHITA":
         _fade_below(pixels)
@@ -101,14 +101,24 @@ def _sun_of(node):
     return degrees(elevation), azimuth
 
 
+def _air(node):
+    """What the atmosphere is made of, and from how high it is seen."""
+    dust = getattr(node, "aerosol_density", None)
+    dust = node.dust_density if dust is None else dust
+    return {"altitude": min(max(node.altitude, 0.0), HIGHEST), "air": node.air_density, "dust": dust, "ozone": node.ozone_density}
+
+
+def _haze(node):
+    """What the older models take the air for."""
+    return {"turbidity": node.turbidity, "ground": node.ground_albedo}
+
+
 def _old(node, kind):
+    """An older model, the scale of its values, and where its sun stands."""
     x, y, z = node.sun_direction.normalized()
     elevation, azimuth = max(degrees(asin(max(-1.0, min(1.0, z)))), 0.0), atan2(x, y)
     model, scale = ("preetham", PREETHAM_SCALE) if kind == "PREETHAM" else ("hosek-wilkie", HOSEK_WILKIE_SCALE)
-    image, _ = gonio.artist_sky(model, elevation, turbidity=node.turbidity, ground=node.ground_albedo, rows=ROWS)
-    pixels = np.array(image)
-    pixels[..., :3] *= scale
-    return Picture(f"Sky {kind}", pixels, (0.0, 0.0, 0.0), 0.0, elevation), azimuth
+    return model, scale, elevation, azimuth
 
 
 def _fade_below(pixels):

@@ -126,8 +126,9 @@ def test_unsupported_nodes_are_reported_once_with_their_place(tmp_path):
     empty()
     group = bpy.data.node_groups.new("Rust", "ShaderNodeTree")
     group.interface.new_socket("Fac", in_out="OUTPUT", socket_type="NodeSocketFloat")
-    near, stop = group.nodes.new("ShaderNodeAmbientOcclusion"), group.nodes.new("NodeGroupOutput")
-    group.links.new(near.outputs["AO"], stop.inputs[0])
+    # Without a file it is as good as unknown.
+    lost, stop = group.nodes.new("ShaderNodeTexIES"), group.nodes.new("NodeGroupOutput")
+    group.links.new(lost.outputs[0], stop.inputs[0])
     made, tree, end = material("木")
     holder, shader = tree.nodes.new("ShaderNodeGroup"), tree.nodes.new("ShaderNodeBsdfPrincipled")
     holder.node_tree = group
@@ -135,7 +136,7 @@ def test_unsupported_nodes_are_reported_once_with_their_place(tmp_path):
         tree.links.new(holder.outputs[0], shader.inputs[socket])
     tree.links.new(shader.outputs[0], end.inputs["Surface"])
     description, lines = translated(made)
-    assert len(lines) == 1 and lines[0].startswith("木 > Group/Ambient Occlusion: "), lines
+    assert len(lines) == 1 and lines[0].startswith("木 > Group/IES Texture: "), lines
     assert constant(description["closures"][0], "specular_roughness")[0] == 1.0
 
 

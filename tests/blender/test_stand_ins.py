@@ -102,22 +102,26 @@ def test_rays_pass_what_is_a_volume_alone(tmp_path):
 
 
 @pytest.mark.blender
-def test_rays_go_straight_on_through_portals(tmp_path):
+def test_portals_keep_where_rays_go_on(tmp_path):
     from recorder import constant, empty, material, translated
 
     empty()
     made, tree, end = material()
     portal = tree.nodes.new("ShaderNodeBsdfRayPortal")
     portal.inputs["Color"].default_value = (0.5, 0.6, 0.7, 1.0)
+    portal.inputs["Direction"].default_value = (1.0, 0.0, 0.5)
     tree.links.new(portal.outputs[0], end.inputs["Surface"])
     description, lines = translated(made)
     [closure] = description["closures"]
-    assert closure["model"] == "Transparent" and constant(closure, "base_color")[:3] == pytest.approx([0.5, 0.6, 0.7])
-    assert lines == ["Material > Ray Portal BSDF: not supported; rays go straight on"]
+    assert closure["model"] == "Portal" and constant(closure, "base_color")[:3] == pytest.approx([0.5, 0.6, 0.7])
+    assert constant(closure, "portal_direction")[:3] == pytest.approx([1.0, 0.0, 0.5])
+    # Without a link rays go on from the hit itself.
+    number, _ = dict(closure["parameters"])["portal_position"]["Node"]
+    assert description["graph"]["nodes"][number]["operation"] == "Position" and not lines
 
 
 @pytest.mark.blender
-def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
+def test_nodes_that_look_around_are_steps_and_those_that_fail_have_a_value(tmp_path):
     import bpy
     from recorder import constant, empty, material, translated
 
@@ -133,13 +137,11 @@ def test_nodes_have_one_line_and_a_value_that_is_seen(tmp_path):
     tree.links.new(bump.outputs[0], shader.inputs["Normal"])
     tree.links.new(shader.outputs[0], end.inputs["Surface"])
     description, lines = translated(made)
-    assert constant(description["closures"][0], "base_color")[:3] == [0.5] * 3
-    # A bevel that is left out leaves the normal as it is.
-    assert description["closures"][0]["normal"] is None
-    assert sorted(lines) == [
-        "Material > Ambient Occlusion: not supported; nothing is near",
-        "Material > Bevel: not supported; edges stay sharp",
-    ]
+    # Both outputs share one step.
+    steps = [next(iter(each["operation"])) for each in description["graph"]["nodes"] if isinstance(each["operation"], dict)]
+    assert steps.count("Occlusion") == 1 and steps.count("RoundedNormal") == 1 and not lines
+    number = description["closures"][0]["normal"]
+    assert "RoundedNormal" in description["graph"]["nodes"][number]["operation"]
     failing = tree.nodes.new("ShaderNodeGamma")
     tree.links.new(failing.outputs[0], shader.inputs["Coat Tint"])
     values = __import__("gonio_extension.export.material.translator", fromlist=["VALUES"]).VALUES

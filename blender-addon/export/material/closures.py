@@ -2,6 +2,7 @@
 """Shader nodes that are one closure each."""
 
 from ...units import LUMENS_PER_WATT
+from .inputs import hit
 from .sockets import input_socket
 from .tangent_nodes import radial_tangent
 from .translator import closure_node
@@ -151,8 +152,10 @@ def transparent(t, node, context):
 
 @closure_node("ShaderNodeBsdfRayPortal")
 def ray_portal(t, node, context):
-    t.tell("ray portal", node, context)
-    return transparent(t, node, context)
+    position = t.input(node, "Position", context) if t.linked(node, "Position", context) else hit(t, "Position")
+    direction = t.input(node, "Direction", context)
+    colour = t.input(node, "Color", context)
+    return [closure(t.graph, "Portal", base_color=colour, portal_position=position, portal_direction=direction)]
 
 
 @closure_node("ShaderNodeBsdfTranslucent")
@@ -165,6 +168,13 @@ def sheen(t, node, context):
     model = "Sheen" if node.distribution == "MICROFIBER" else "Velvet"
     colour, roughness = t.input(node, "Color", context), t.input(node, "Roughness", context, 0.5)
     return [closure(t.graph, model, base_color=colour, fuzz_roughness=roughness, normal=normal_node(t, node, context))]
+
+
+@closure_node("ShaderNodeBsdfToon")
+def toon(t, node, context):
+    model = "DiffuseToon" if node.component == "DIFFUSE" else "GlossyToon"
+    colour, size, smooth = t.input(node, "Color", context), t.input(node, "Size", context, 0.5), t.input(node, "Smooth", context)
+    return [closure(t.graph, model, base_color=colour, toon_size=size, toon_smooth=smooth, normal=normal_node(t, node, context))]
 
 
 @closure_node("ShaderNodeSubsurfaceScattering")

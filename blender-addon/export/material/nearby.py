@@ -1,18 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes for which Cycles looks around the hit with rays of their own; here nothing is near."""
+"""Nodes that look around the hit with rays of their own."""
 
-from .inputs import normal_of
+from .inputs import hit, normal_of
 from .translator import value_node
 
 
 @value_node("ShaderNodeAmbientOcclusion")
 def ambient_occlusion(t, node, context, output):
-    """Unoccluded: the colour as it is."""
-    t.tell("occlusion", node, context)
-    return t.input(node, "Color", context) if output.identifier == "Color" else t.graph.scalar(1.0)
+    fields = {"samples": node.samples, "inside": node.inside, "only_local": node.only_local}
+    normal, distance = normal_of(t, node, context), t.input(node, "Distance", context, 1.0)
+    if t.kind != "Material":
+        share = t.graph.scalar(1.0)
+    else:
+        share = t.graph.add({"Occlusion": fields}, normal, distance, kind="VALUE")
+    return t.input(node, "Color", context) * share if output.identifier == "Color" else share
 
 
 @value_node("ShaderNodeBevel")
 def bevel(t, node, context, output):
-    t.tell("bevel", node, context)
-    return normal_of(t, node, context)
+    smooth = hit(t, "Normal")
+    if t.kind != "Material":
+        return normal_of(t, node, context)
+    rounded = t.graph.add({"RoundedNormal": {"samples": node.samples}}, t.input(node, "Radius", context, 0.05), kind="VECTOR")
+    if not t.linked(node, "Normal", context):
+        return rounded
+    return (t.input(node, "Normal", context) + (rounded - smooth)).normalized()

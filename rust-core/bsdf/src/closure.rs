@@ -10,6 +10,7 @@ use super::parameter as p;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Closure, Fuzz};
+use super::toon::ToonLobe;
 use super::turn::turned;
 use gonio_simd::{Lanes, Spectrum};
 
@@ -28,6 +29,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
                 self.metal_lobe(curve, self.weight);
             }
             Closure::Sheen => self.single_fuzz(colour),
+            Closure::DiffuseToon | Closure::GlossyToon => self.single_toon(colour),
             Closure::Subsurface => {
                 if self.surface.lobes.walk {
                     let left = self.walk(colour.saturate(), self.l.f(1.0), self.get(p::SUBSURFACE_IOR));
@@ -37,6 +39,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
                 }
             }
             Closure::Transparent => self.push(Shape::Straight, colour, colour, None, Side::Mirrored, Normal::Base),
+            Closure::Portal => self.single_portal(colour),
             Closure::Measured => self.measured(colour),
             Closure::Emission | Closure::Layered => {}
         }
@@ -79,6 +82,14 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let weight = self.weight * colour * self.get(p::SPECULAR_SCALE).max(0.0);
         let lobe = MeasuredLobe::new(bsdf, front);
         self.push(Shape::Measured(lobe), weight, weight * lobe.albedo(self.specular_wo), turn, Side::Both, Normal::Specular);
+    }
+
+    /// A toon lobe.
+    #[inline(always)]
+    fn single_toon(&mut self, colour: Spectrum<L>) {
+        let glossy = self.surface.switches.closure == Closure::GlossyToon;
+        let lobe = ToonLobe::new(self.get(p::TOON_SIZE), self.get(p::TOON_SMOOTH), glossy);
+        self.push(Shape::Toon(lobe), colour, colour * lobe.albedo(), None, Side::Reflected, Normal::Specular);
     }
 
     /// Fuzz alone.

@@ -21,6 +21,7 @@ mod measured;
 mod microfacet;
 pub mod normals;
 pub mod parameter;
+mod portal;
 mod reflect;
 mod resolve;
 pub mod subsurface;
@@ -28,12 +29,14 @@ mod surface;
 mod switches;
 #[cfg(test)]
 mod tests;
+mod toon;
 mod transmission;
 mod turn;
 
 pub use adjoint::LightHits;
 pub use lobes::{BsdfSample, Lobes, MAXIMUM, SpecularRay, Way};
 pub use measured::MeasuredBsdf;
+pub use portal::Portal;
 pub use resolve::Hits;
 pub use surface::{LobeSet, ParameterValues, Surface};
 pub use switches::{

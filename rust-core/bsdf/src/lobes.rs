@@ -18,6 +18,7 @@ pub use specular_rays::{SpecularRay, Way};
 use super::diffuse::DiffuseLobe;
 pub(crate) use super::normals::Normal;
 use super::normals::Tilts;
+use super::portal::Portal;
 use super::subsurface::Medium;
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
@@ -38,6 +39,7 @@ pub struct Lobes<'s, L: Lanes> {
     pub(crate) opacity: F<L>,
     pub(crate) tilts: Tilts<L>,
     pub(crate) medium: Option<Medium<L>>,
+    pub(crate) portal: Option<Portal<L>>,
 }
 
 impl<'s, L: Lanes> Lobes<'s, L> {
@@ -56,6 +58,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
             opacity: l.f(1.0),
             tilts: Tilts::NONE,
             medium: None,
+            portal: None,
         }
     }
     /// Makes it [`Self::empty`] again; what stands in the slots is not looked at.
@@ -65,6 +68,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
         (self.coat, self.emission, self.opacity) = (None, Spectrum::zero(l), l.f(1.0));
         self.tilts.clear();
         self.medium = None;
+        self.portal = None;
     }
     /// A Lambert lobe alone.
     #[inline(always)]
@@ -82,6 +86,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
         self.albedo += albedo;
         match slot.shape {
             Shape::Reflect(_) => self.kinds[1] += albedo,
+            Shape::Toon(lobe) => self.kinds[usize::from(lobe.is_glossy())] += albedo,
             // Glass does both; its parts are told apart by direction alone.
             Shape::Glass(_) => {
                 self.kinds[1] += albedo;
@@ -142,6 +147,11 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     #[inline(always)]
     pub fn medium(&self) -> Option<&Medium<L>> {
         self.medium.as_ref()
+    }
+    /// Where light goes on instead of scattering.
+    #[inline(always)]
+    pub fn portal(&self) -> Option<&Portal<L>> {
+        self.portal.as_ref()
     }
     /// Share of the surface that is there; lobes and emission are those of that share, not multiplied by it.
     #[inline(always)]

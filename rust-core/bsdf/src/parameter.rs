@@ -113,6 +113,14 @@ block! {
     THIN_FILM_THICKNESS "thin_film_thickness" [500.0];
     /// Index of refraction of the film.
     THIN_FILM_IOR "thin_film_ior" [1.4];
+    /// Cone of full brightness of a toon lobe, in right angles.
+    TOON_SIZE "toon_size" [0.5];
+    /// Angle over which a toon lobe fades, in right angles.
+    TOON_SMOOTH "toon_smooth" [0.0];
+    /// Where a portal's light goes on, in the world, metres.
+    PORTAL_POSITION "portal_position" [0.0, 0.0, 0.0];
+    /// In which direction, in the world; zero for straight on.
+    PORTAL_DIRECTION "portal_direction" [0.0, 0.0, 0.0];
     /// Emitted radiance: linear Rec.709 whose luminance is in cd/m².
     EMISSION_COLOR "emission_color" [0.0, 0.0, 0.0];
     /// Share of the surface that is there at all, 0 to 1.

@@ -21,6 +21,8 @@ pub struct LobeSet {
     pub film: bool,
     /// Nothing but a colour straight through.
     pub straight: bool,
+    /// A portal.
+    pub portal: bool,
     /// Metal.
     pub metal: bool,
     /// Dielectric reflection over the opaque base.
@@ -137,6 +139,7 @@ impl Reach<'_> {
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
             smooth: (metal || transmission) && self.smooth(),
             straight: false,
+            portal: false,
         }
     }
     /// What a single lobe can show, with the places that it reads.
@@ -161,6 +164,7 @@ impl Reach<'_> {
             film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
             straight: closure == Closure::Transparent,
             smooth: (reflects || matches!(closure, Closure::Glass | Closure::Refraction)) && self.smooth(),
+            portal: closure == Closure::Portal,
             ..LobeSet::default()
         }
     }

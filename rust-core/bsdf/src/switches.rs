@@ -188,12 +188,18 @@ pub enum Closure {
     Metallic,
     /// Fuzz without anything under it: base colour, fuzz roughness.
     Sheen,
+    /// A cone about the normal: base colour, toon size and smoothness.
+    DiffuseToon,
+    /// The same about the mirror direction.
+    GlossyToon,
     /// Diffuse transmission: base colour.
     Translucent,
     /// Subsurface scattering without a specular layer: base colour, radius, anisotropy, roughness, index.
     Subsurface,
     /// Nothing but a colour that light takes straight through: base colour.
     Transparent,
+    /// Light goes on from elsewhere: base colour, portal position and direction.
+    Portal,
     /// What was measured, times the base colour: specular scale, rotation.
     Measured,
     /// Emission alone; the other closures emit too if the emission colour says so.

@@ -380,6 +380,21 @@ operations! {
             /// The primvar.
             uv: String,
         }() -> 3, Zero;
+        /// The share of rays over the hemisphere about a normal, denser about it, that meet nothing opaque within a distance in metres; 1 for no distance.
+        Occlusion {
+            /// Rays a hit.
+            samples: u32,
+            /// Whether they go into the hemisphere under the surface.
+            inside: bool,
+            /// Whether only the object that was hit counts.
+            only_local: bool,
+        }(normal: 3, distance: 1) -> 1, Splat;
+        /// The mean of the shading normals around the hit on its object, as if edges were rounded by a radius in metres; unit, world space, on the side
+        /// the surface is seen from. After diffuse scattering the hit's own.
+        RoundedNormal {
+            /// Rays a hit.
+            samples: u32,
+        }(radius: 1) -> 3, Zero;
     }
 }
 

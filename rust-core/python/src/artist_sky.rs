@@ -33,7 +33,7 @@ pub(crate) fn artist_sky(
         "single-scattering" => scattered(Scattering::Single),
         "multiple-scattering" => scattered(Scattering::Multiple),
         "hosek-wilkie" => {
-            let model = HosekWilkie::new(elevation, turbidity, ground)?;
+            let model = HosekWilkie::tristimulus(elevation, turbidity, ground)?;
             Ok((sky::draw_by_angle(elevation, rows, |up, angle| model.radiance(up, angle))?, [0.0; 3]))
         }
         "preetham" => {
@@ -46,5 +46,59 @@ pub(crate) fn artist_sky(
         }
     });
     let (image, sun) = drawn.map_err(exception)?;
-    Ok((Pass::new([image.width as usize, image.height as usize], 4, &["R", "G", "B", "A"], image.rgba.to_vec()), sun))
+    Ok((pass(&image, &["R", "G", "B", "A"]), sun))
+}
+
+/// The sky of "single-scattering", "multiple-scattering", or "nishita", Blender 4's, as the table that Blender keeps of it: X, Y and Z in W/(m² sr) weighed by the eye,
+/// 512 columns around, the sun in the middle, and 256 rows, the zenith on top, of which the one at a share y of the height shows the elevation
+/// ±(2 y − 1)² of a right angle. And the irradiance of a sun as bright as its disc's foot and as its top.
+#[pyfunction]
+#[pyo3(signature = (model, elevation, *, altitude = 0.0, air = 1.0, dust = 1.0, ozone = 1.0, diameter = 0.545))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn sky_table(
+    py: Python<'_>,
+    model: &str,
+    elevation: f64,
+    altitude: f64,
+    air: f64,
+    dust: f64,
+    ozone: f64,
+    diameter: f64,
+) -> PyResult<(Pass, [[f64; 3]; 2])> {
+    let scattering = match model {
+        "single-scattering" => Scattering::Single,
+        "nishita" => Scattering::SingleInPieces,
+        "multiple-scattering" => Scattering::Multiple,
+        other => return Err(unknown(other, "nishita, single-scattering or multiple-scattering")),
+    };
+    let atmosphere = Atmosphere { scattering, altitude_m: altitude, air, dust, ozone };
+    let made = py.detach(|| Ok((atmosphere.table(elevation)?, atmosphere.sun_limbs(elevation, diameter)?)));
+    let (image, limbs) = made.map_err(exception)?;
+    Ok((pass(&image, &["X", "Y", "Z", "A"]), limbs))
+}
+
+/// Parameters and scale of each of the three values of "preetham" (Y, x and y; Y in cd/m²) or "hosek-wilkie" (X, Y and Z in W/(m² sr) weighed by
+/// the eye).
+#[pyfunction]
+#[pyo3(signature = (model, elevation, *, turbidity = 2.2, ground = 0.0))]
+pub(crate) fn sky_formula(model: &str, elevation: f64, turbidity: f64, ground: f64) -> PyResult<Vec<(Vec<f64>, f64)>> {
+    match model {
+        "hosek-wilkie" => {
+            let model = HosekWilkie::tristimulus(elevation, turbidity, ground).map_err(exception)?;
+            Ok(model.channels().iter().map(|channel| (channel.parameters.to_vec(), channel.radiance)).collect())
+        }
+        "preetham" => {
+            let model = Preetham::new((90.0 - elevation).to_radians(), turbidity);
+            Ok(model.shapes().iter().zip(model.scales()).map(|(shape, scale)| (shape.to_vec(), scale)).collect())
+        }
+        other => Err(unknown(other, "preetham or hosek-wilkie")),
+    }
+}
+
+fn unknown(model: &str, expected: &str) -> PyErr {
+    exception(gonio::Error::setting("model", format!("'{model}' was found, expected {expected}")))
+}
+
+fn pass(image: &SkyImage, channels: &[&'static str]) -> Pass {
+    Pass::new([image.width as usize, image.height as usize], 4, channels, image.rgba.to_vec())
 }

@@ -35,7 +35,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::array::Array;
     #[pymodule_export]
-    use crate::artist_sky::artist_sky;
+    use crate::artist_sky::{artist_sky, sky_formula, sky_table};
     #[pymodule_export]
     use crate::daylight::{Daylight, daylight, read_weather};
     #[pymodule_export]

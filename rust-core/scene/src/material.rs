@@ -34,12 +34,19 @@ pub enum Model {
     Sheen,
     /// Velvet of Ashikhmin's model alone.
     Velvet,
+    /// A cone of even brightness about the normal.
+    DiffuseToon,
+    /// A cone of even brightness about the mirror direction.
+    GlossyToon,
     /// Diffuse transmission alone.
     Translucent,
     /// Subsurface scattering alone.
     Subsurface,
     /// Light goes straight through, tinted by the base colour.
     Transparent,
+    /// Light goes on from `portal_position` along `portal_direction`, both in the world, tinted by the base colour; a direction of zero is straight
+    /// on.
+    Portal,
     /// Emission alone.
     Emission,
     /// Nothing, and no coverage either.

@@ -6,7 +6,7 @@
 //! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
 //! Points that many branches read are passed by reference. By value they would be stored once more before the branches.
 
-use crate::graph::{self, GraphScratch, OutputColumns, Program, SurfaceColumns};
+use crate::graph::{self, Around, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
 use crate::tables::Tables;
@@ -196,7 +196,10 @@ pub(crate) fn evaluate<L: Lanes>(
 ) {
     l.vectorize(
         #[inline(always)]
-        || graph::evaluate(l, program, &tables.geometry, &tables.textures, points, count, scratch, outputs),
+        || {
+            let around = Around { bvh: &tables.bvh, any_transparent: tables.any_transparent };
+            graph::evaluate(l, program, (&tables.geometry, &tables.textures, &around), points, count, scratch, outputs);
+        },
     );
 }
 

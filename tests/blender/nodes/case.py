@@ -34,6 +34,8 @@ class Case:
     tolerance: float = USUAL
     # The share of texels that may fall to the other side of a step.
     steps: float = 0.0
+    # Whether values hang on steps so small that single precision rounds them: middles of blocks of pixels are compared.
+    rounded: bool = False
     # What is looked at: the output, the normal of a surface that it displaces, or what it is: a shader, a volume, a colour.
     seen: str = "output"
     # A function of `prepare.py` that makes the node what fields alone cannot.

@@ -6,6 +6,9 @@ from .case import Case
 OUTPUT, PLACE, EMITTED = "node", "place", "emitted"
 # Pixels of a ball at its rim and at edges of its faces, where samples that lie apart meet other faces.
 EDGES = 0.01
+# Pixels along a side of the blocks whose middles are compared where values are rounded, the share of them that is there at least, and how
+# many times the tolerance 95 of 100 pixels alone may differ.
+BLOCK, FULL, ROUNDED = 8, 0.75, 20.0
 
 
 def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
@@ -68,8 +71,26 @@ def ball(mine: dict, theirs: dict, case: Case, pixels) -> dict:
     leeway = sum(bend * numpy.abs(offset[..., axis, None]) for axis, bend in enumerate(bends))
     difference = numpy.maximum(numpy.abs(value[inner] - expected[inner] - moved) - leeway, 0.0)
     found = summary(difference, expected[inner], case, known, EDGES)
+    if case.rounded:
+        single = found["percentile95"]
+        found = summary(*_middles(value[inner] - expected[inner] - moved, expected[inner], known), case)
+        found["single"] = single
+        found["exact"] = found["exact"] and single <= ROUNDED * case.tolerance
     found["apart"] = _short(numpy.abs(offset[known]).max()) if known.any() else 0.0
     return found
+
+
+def _middles(difference: numpy.ndarray, expected: numpy.ndarray, known: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Medians of signed differences over blocks of pixels, in which rounding that goes both ways falls out, and of the values."""
+    found = []
+    for row in range(0, known.shape[0], BLOCK):
+        for column in range(0, known.shape[1], BLOCK):
+            part = numpy.s_[row : row + BLOCK, column : column + BLOCK]
+            there = known[part]
+            if there.sum() > FULL * BLOCK * BLOCK:
+                found.append([numpy.median(values[part][there], axis=0) for values in (difference, expected)])
+    middles = numpy.array(found)
+    return numpy.abs(middles[:, 0]), middles[:, 1]
 
 
 def lit(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:

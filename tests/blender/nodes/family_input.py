@@ -91,8 +91,12 @@ NODES = {
         "Ambient Occlusion",
         FAMILY,
         cases=tuple(
-            Case(name, fields, {"Distance": 0.6, "Color": (0.9, 0.6, 0.3)}, stage="floor", tolerance=0.04, steps=0.07)
-            for name, fields in (("outside", {}), ("inside", {"inside": True}), ("only local", {"only_local": True}))
+            Case(name, fields, {"Distance": far, "Color": (0.9, 0.6, 0.3)}, stage="floor", tolerance=0.04, steps=0.07)
+            for name, far, fields in (
+                ("outside", 0.6, {}),
+                ("inside", 0.1, {"inside": True}),
+                ("only local", 0.6, {"only_local": True}),
+            )
         ),
     ),
     "ShaderNodeParticleInfo": Node(

@@ -52,13 +52,22 @@ NODES = {
     "ShaderNodeBsdfSheen": _lit("Sheen BSDF", *_distributions(["ASHIKHMIN", "MICROFIBER"], {"Color": COLOUR, "Roughness": 0.4})),
     "ShaderNodeBsdfTranslucent": _lit("Translucent BSDF"),
     "ShaderNodeBsdfTransparent": _lit("Transparent BSDF"),
-    "ShaderNodeBsdfToon": _lit("Toon BSDF", *_distributions(["DIFFUSE", "GLOSSY"], {"Color": COLOUR}, "component")),
+    "ShaderNodeBsdfToon": _lit(
+        "Toon BSDF",
+        *_distributions(["DIFFUSE", "GLOSSY"], {"Color": COLOUR}, "component"),
+        _case("DIFFUSE, smooth", {"Color": COLOUR, "Size": 0.3, "Smooth": 0.4}, fields={"component": "DIFFUSE"}),
+        _case("GLOSSY, smooth", {"Color": COLOUR, "Size": 0.2, "Smooth": 0.5}, fields={"component": "GLOSSY"}),
+    ),
     "ShaderNodeBsdfHair": _lit("Hair BSDF", *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component")),
     "ShaderNodeBsdfHairPrincipled": _lit(
         "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model"), remark="strands are left out"
     ),
     "ShaderNodeBsdfRayPortal": _lit(
-        "Ray Portal BSDF", _case("to a place", {"Color": COLOUR, "Position": (0.0, 0.0, 50.0), "Direction": (1.0, 0.0, 0.2)})
+        "Ray Portal BSDF",
+        _case("straight on", {"Color": COLOUR}),
+        _case("another way", {"Color": COLOUR, "Direction": (1.0, 0.0, 0.2)}),
+        _case("to a place", {"Color": COLOUR}, prepare="portal"),
+        _case("into the neighbour", {"Color": COLOUR}, prepare="portal_beside"),
     ),
     "ShaderNodeSubsurfaceScattering": _lit(
         "Subsurface Scattering", *_distributions(["RANDOM_WALK", "RANDOM_WALK_SKIN", "BURLEY"], {"Color": COLOUR, "Scale": 0.1}, "falloff")

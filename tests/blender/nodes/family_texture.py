@@ -43,18 +43,22 @@ def _environments() -> tuple[Case, ...]:
 
 
 def _skies() -> tuple[Case, ...]:
-    """Sky Texture: each sky, on a ball as directions, with its usual values."""
+    """Sky Texture: each sky by generated coordinates and along the normals of a ball; the sun's disc where there is one."""
     since = {"SINGLE_SCATTERING": (5, 0), "MULTIPLE_SCATTERING": (5, 0)}
     kinds = ("NISHITA", *since, "PREETHAM", "HOSEK_WILKIE")
-    return tuple(
-        Case(
-            kind,
-            {"sky_type": kind, **({} if kind in ("PREETHAM", "HOSEK_WILKIE") else {"sun_disc": False})},
-            on_sphere=True,
-            since=since.get(kind, (4, 5)),
-            until=(4, 5) if kind == "NISHITA" else (9, 9),
-        )
-        for kind in kinds
+    atmospheres, along = kinds[:3], {0: "hit.NewGeometry.Normal"}
+
+    def case(kind: str, name: str, inputs: dict, **disc) -> Case:
+        version = {"since": since.get(kind, (4, 5)), "until": (4, 5) if kind == "NISHITA" else (9, 9)}
+        return Case(f"{kind}{name}", {"sky_type": kind, **disc}, inputs, on_sphere=True, rounded=kind in atmospheres, **version)
+
+    def no_disc(kind: str) -> dict:
+        return {"sun_disc": False} if kind in atmospheres else {}
+
+    return (
+        *(case(kind, "", {}, **no_disc(kind)) for kind in kinds),
+        *(case(kind, ", along normals", along, **no_disc(kind)) for kind in kinds),
+        *(case(kind, ", with the sun", along, sun_size=0.6, sun_elevation=0.9, sun_rotation=0.7, altitude=900.0) for kind in atmospheres),
     )
 
 
@@ -113,7 +117,7 @@ NODES = {
         "Sky Texture",
         FAMILY,
         cases=_skies(),
-        reason="atmospheres drawn anew; Hošek and Wilkie's data are those for Rec.709, in Cycles for XYZ",
+        remark="atmospheres, which Cycles reckons in single precision from the middle of the Earth, are held by middles of blocks",
     ),
     "ShaderNodeTexIES": Node(
         "IES Texture",

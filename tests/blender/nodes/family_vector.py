@@ -3,12 +3,13 @@
 from .case import Case, Node
 
 FAMILY = "Vector"
-WIDTH = "heights are taken as far apart as the ray is wide, which away from the picture's middle is some 1 % less than in Cycles"
+STEPS = "heights that lie a tenth of a pixel apart, rounded in both engines: held by middles of blocks"
 MAPPINGS = ["POINT", "TEXTURE", "VECTOR", "NORMAL"]
 TURNS = ["AXIS_ANGLE", "X_AXIS", "Y_AXIS", "Z_AXIS", "EULER_XYZ"]
 SPACES = ["WORLD", "OBJECT", "CAMERA"]
 HELD = {"Location": (0.3, -0.7, 1.1), "Rotation": (0.4, -0.9, 2.3), "Scale": (1.3, -0.6, 2.2)}
-DISPLACED = {"on_sphere": True, "seen": "displacement"}
+DISPLACED = {"on_sphere": True, "seen": "displacement", "rounded": True}
+BUMPED = {"on_sphere": True, "prepare": "waves"}
 DRIVEN = {"Location": "place 1", "Rotation": "place 2", "Scale": "positive 0"}
 
 
@@ -79,20 +80,23 @@ NODES = {
     "ShaderNodeBump": Node(
         "Bump",
         FAMILY,
-        reason=WIDTH,
+        remark=STEPS,
         cases=(
-            Case("smooth", {}, {"Distance": 0.2}, on_sphere=True, prepare="waves"),
-            Case("inverted", {"invert": True}, {"Distance": 0.2}, on_sphere=True, prepare="waves"),
-            Case("strength 0.4", {}, {"Distance": 0.2, "Strength": 0.4}, on_sphere=True, prepare="waves"),
-            Case("filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, on_sphere=True, prepare="waves"),
+            Case("smooth", {}, {"Distance": 0.2}, rounded=True, **BUMPED),
+            Case("inverted", {"invert": True}, {"Distance": 0.2}, rounded=True, **BUMPED),
+            Case("strength 0.4", {}, {"Distance": 0.2, "Strength": 0.4}, rounded=True, **BUMPED),
+            Case("filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, **BUMPED),
+            Case("inverted, filter width 1", {"invert": True}, {"Distance": 0.2, "Filter Width": 1.0}, **BUMPED),
+            Case("strength 0.4, filter width 1", {}, {"Distance": 0.2, "Strength": 0.4, "Filter Width": 1.0}, **BUMPED),
             Case("flat", {}, {"Height": 0.5}, on_sphere=True),
-            Case("on a map", {}, {"Distance": 0.2}, on_sphere=True, prepare="waves_on_map"),
+            Case("on a map", {}, {"Distance": 0.2}, on_sphere=True, rounded=True, prepare="waves_on_map"),
+            Case("on a map, filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, on_sphere=True, prepare="waves_on_map"),
         ),
     ),
     "ShaderNodeDisplacement": Node(
         "Displacement",
         FAMILY,
-        reason=WIDTH,
+        remark=STEPS,
         cases=tuple(
             Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.4}, prepare="waves", **DISPLACED)
             for space in ("OBJECT", "WORLD")
@@ -101,7 +105,7 @@ NODES = {
     "ShaderNodeVectorDisplacement": Node(
         "Vector Displacement",
         FAMILY,
-        reason=WIDTH,
+        remark=STEPS,
         cases=tuple(
             Case(f"{space}, as bump", {"space": space}, {"Scale": 0.2, "Midlevel": 0.1}, prepare="waves", **DISPLACED)
             for space in ("TANGENT", "OBJECT", "WORLD")

@@ -46,7 +46,7 @@ def opaque_picture(made, node) -> None:
 def distribution(made, node) -> None:
     """A luminaire's file that is brighter on one side."""
     file = bpy.data.texts.get("distribution.ies") or bpy.data.texts.new("distribution.ies")
-    candela = "\n".join(" ".join(str(100 + 7 * v + 3 * h) for v in range(0, 10)) for h in range(0, 5))
+    candela = "\n".join(" ".join(str(100 + 7 * v * v % 60 + 3 * h % 12) for v in range(0, 10)) for h in range(0, 5))
     angles = " ".join(str(20 * v) for v in range(10)) + "\n" + " ".join(str(90 * h) for h in range(5))
     file.from_string(f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 10 5 1 2 0 0 0\n1 1 10\n{angles}\n{candela}\n")
     node.ies = file
@@ -101,6 +101,26 @@ def _waves(made, node, place, often) -> None:
     made.link(scaled.outputs[0], bent.inputs[0])
     end = next(each for each in node.inputs if each.name in ("Height", "Vector"))
     made.link(bent.outputs[0], end)
+
+
+def portal(made, node) -> None:
+    """Rays go on high above the hit, along its normal."""
+    _moved(made, node, (0.0, 0.0, 50.0), "hit.NewGeometry.Normal")
+
+
+def portal_beside(made, node) -> None:
+    """Rays look at the ball on the left from above."""
+    down = made.new("ShaderNodeCombineXYZ")
+    down.inputs["Z"].default_value = -1.0
+    _moved(made, node, (-2.0, 0.0, 2.0), down.outputs[0])
+
+
+def _moved(made, node, way, direction) -> None:
+    place = made.new("ShaderNodeVectorMath")
+    made.link(made.source("hit.NewGeometry.Position"), place.inputs[0])
+    place.inputs[1].default_value = way
+    made.link(place.outputs[0], node.inputs["Position"])
+    made.link(made.source(direction) if isinstance(direction, str) else direction, node.inputs["Direction"])
 
 
 def other_object(made, node) -> None:

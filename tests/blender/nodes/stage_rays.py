@@ -50,7 +50,7 @@ def _corner() -> bpy.types.Mesh:
     """A cube whose upper half is sunk into a larger slab: edges outwards and inwards."""
     mesh = bpy.data.meshes.new("Corner")
     corners, faces = [], []
-    for half, low, high in ((0.35, -0.5, 0.1), (0.6, -0.6, -0.5)):
+    for half, low, high in ((0.35, -0.55, 0.1), (0.6, -0.6, -0.5)):
         first = len(corners)
         corners += [(x * half, y * half, z) for z in (low, high) for y in (-1, 1) for x in (-1, 1)]
         sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))

@@ -44,6 +44,7 @@ fn surfaces() -> Vec<(&'static str, Surface)> {
         ("Beckmann", surface(glossy(Distribution::Beckmann), &[rough])),
         ("glass", surface(Switches { distribution: Distribution::Ggx, ..Switches::single(Closure::Glass) }, &[rough])),
         ("fuzz", surface(Switches::single(Closure::Sheen), &[])),
+        ("toon", surface(Switches::single(Closure::DiffuseToon), &[])),
         ("plastic", surface(Switches::default(), &[rough])),
         (
             "coated metal and plastic",

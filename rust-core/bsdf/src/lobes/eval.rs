@@ -1,6 +1,6 @@
 //! Evaluation of all lobes.
 
-use super::{Lobes, Shape, Side};
+use super::{Lobes, Shape, Side, Slot};
 use gonio_simd::{F, Lanes, Spectrum, Vec3};
 
 /// What an evaluation is for.
@@ -19,13 +19,13 @@ pub(crate) enum Asked {
 }
 
 impl Asked {
-    /// Whether a lobe's shape counts at all.
+    /// Whether a lobe counts at all.
     #[inline(always)]
-    fn counts<L: Lanes>(self, shape: &Shape<'_, L>) -> bool {
+    fn counts<L: Lanes>(self, slot: &Slot<'_, L>) -> bool {
         match self {
             Self::All | Self::Sampled | Self::Swapped => true,
-            Self::Diffuse => !matches!(shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_)),
-            Self::Refracted => matches!(shape, Shape::Glass(_)),
+            Self::Diffuse => !slot.is_specular(),
+            Self::Refracted => matches!(slot.shape, Shape::Glass(_)),
         }
     }
 }
@@ -47,7 +47,7 @@ impl<L: Lanes> Lobes<'_, L> {
             None => None,
         };
         for slot in self.slots[..self.count].iter().flatten() {
-            if !asked.counts(&slot.shape) {
+            if !asked.counts(slot) {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);

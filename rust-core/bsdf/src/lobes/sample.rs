@@ -76,7 +76,7 @@ impl<L: Lanes> Lobes<'_, L> {
         sample.wi = here.select(wi, sample.wi);
         sample.transmitted |= here & through;
         sample.roughness = here.select(slot.roughness(l), sample.roughness);
-        if !matches!(slot.shape, Shape::Reflect(_) | Shape::Glass(_) | Shape::Straight | Shape::Measured(_)) {
+        if !slot.is_specular() && !matches!(slot.shape, Shape::Straight) {
             sample.diffuse |= here;
         }
         let enters = matches!(slot.shape, Shape::Subsurface(_));

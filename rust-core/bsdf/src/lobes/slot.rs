@@ -7,6 +7,7 @@ use super::super::measured::MeasuredLobe;
 use super::super::normals::{Normal, Tilts};
 use super::super::reflect::ReflectLobe;
 use super::super::subsurface::EntryLobe;
+use super::super::toon::ToonLobe;
 use crate::turn::turned;
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
@@ -21,6 +22,8 @@ pub(crate) enum Shape<'s, L: Lanes> {
     Glass(GlassLobe<L>),
     /// Fuzz.
     Fuzz(FuzzLobe<L>),
+    /// Toon.
+    Toon(ToonLobe<L>),
     /// Straight through.
     Straight,
     /// Into a medium.
@@ -97,6 +100,10 @@ impl<L: Lanes> Slot<'_, L> {
                 let (value, pdf) = lobe.eval(wo, wi);
                 (Spectrum::constant(value), pdf)
             }
+            Shape::Toon(lobe) => {
+                let (value, pdf) = lobe.eval(wo, wi);
+                (Spectrum::constant(value), pdf)
+            }
             Shape::Measured(lobe) => lobe.eval(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => return (Spectrum::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
         };
@@ -112,6 +119,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Reflect(lobe) => above(lobe.sample(wo, [u[1], u[2]])),
             Shape::Glass(lobe) => lobe.sample(wo, u),
             Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
+            Shape::Toon(lobe) => lobe.sample(wo, [u[1], u[2]]),
             Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), wo.x.lanes().m(true)),
             Shape::Subsurface(lobe) => lobe.sample(wo, u),
             Shape::Measured(lobe) => lobe.sample(wo, u),
@@ -130,7 +138,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Reflect(lobe) => lobe.delta,
             Shape::Glass(lobe) => lobe.delta,
             Shape::Straight => l.m(true),
-            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
         }
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
@@ -141,7 +149,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Reflect(lobe) => (lobe.mirror(wo), l.f(1.0)),
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => (Spectrum::one(l), l.f(1.0)),
-            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Measured(_) => (Spectrum::zero(l), l.f(0.0)),
+            Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Measured(_) => (Spectrum::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
     }
@@ -151,14 +159,28 @@ impl<L: Lanes> Slot<'_, L> {
         match &self.shape {
             Shape::Reflect(lobe) => lobe.roughness(),
             Shape::Glass(lobe) => lobe.roughness(),
+            Shape::Toon(lobe) => lobe.roughness(),
             Shape::Straight => l.f(0.0),
             Shape::Measured(lobe) => l.f(lobe.roughness()),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
         }
     }
+    /// Whether it is of facets, interfaces or a measurement: what passes call glossy or transmitted.
+    #[inline(always)]
+    pub(super) fn is_specular(&self) -> bool {
+        match &self.shape {
+            Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_) => true,
+            Shape::Toon(lobe) => lobe.is_glossy(),
+            _ => false,
+        }
+    }
     /// Whether the bump rules count the lobe as diffuse.
     #[inline(always)]
     pub(super) fn is_diffuse(&self) -> bool {
-        matches!(self.shape, Shape::Diffuse(_) | Shape::Fuzz(_))
+        match &self.shape {
+            Shape::Diffuse(_) | Shape::Fuzz(_) => true,
+            Shape::Toon(lobe) => !lobe.is_glossy(),
+            _ => false,
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Energy: white surfaces give back what they get, estimates are near the truth, and equal lobes are reciprocal.
 
 use super::harness::{View, direction, spread};
-use super::rows::{self, glossy, principled, surface};
+use super::rows::{self, glossy, principled, single, surface};
 use crate::Distribution::{Ggx, MultiGgx};
 use crate::parameter as p;
-use crate::{Surface, Switches};
+use crate::{Closure, Surface, Switches};
 use gonio_simd::Execution;
 
 const SAMPLES: usize = 1 << 15;
@@ -30,6 +30,7 @@ fn white() -> Vec<(&'static str, Surface, f64)> {
         ("smooth glass", rows::glass(0.0, MultiGgx), 1e-3),
         ("coated", principled(&[base, (p::COAT_WEIGHT, one), (p::COAT_ROUGHNESS, &[0.4])]), 1e-2),
         ("fuzzy", surface(native, &[base, (p::SPECULAR_WEIGHT, &[0.0]), (p::FUZZ_WEIGHT, one)]), 5e-3),
+        ("toon", single(Closure::DiffuseToon, &[base, (p::TOON_SIZE, &[0.7])]), 1e-3),
         ("smooth thin wall", surface(thin, &[(p::TRANSMISSION_WEIGHT, one), (p::ROUGHNESS, &[0.0])]), 2e-3),
         ("thin wall", surface(thin, &[(p::TRANSMISSION_WEIGHT, one), (p::ROUGHNESS, &[0.5])]), 1e-2),
     ]

@@ -96,6 +96,11 @@ pub(super) fn all() -> Vec<(&'static str, Surface)> {
         ("beckmann refraction", coloured_glass(Closure::Refraction, 1.0, 1.45, 0.5, Beckmann)),
         ("translucent", single(Closure::Translucent, &[])),
         ("velvet", surface(Switches { fuzz: Fuzz::Velvet, ..Switches::single(Closure::Sheen) }, &[])),
+        // Edges at the borders of the bins that the statistical tests count in.
+        ("toon", single(Closure::DiffuseToon, &[(p::TOON_SIZE, &[0.375]), (p::TOON_SMOOTH, &[0.25])])),
+        ("toon, wide", single(Closure::DiffuseToon, &[(p::TOON_SIZE, &[0.8]), (p::TOON_SMOOTH, &[0.5])])),
+        ("toon, sharp", single(Closure::GlossyToon, &[(p::TOON_SIZE, &[0.5])])),
+        ("toon, glossy", single(Closure::GlossyToon, &[(p::TOON_SIZE, &[0.25]), (p::TOON_SMOOTH, &[0.375])])),
         ("transparent", single(Closure::Transparent, &[(p::BASE_COLOR, &[0.9, 0.5, 0.2])])),
         ("film on plastic", filmed(&[(p::ROUGHNESS, &[0.5])])),
         ("film on metal", filmed(&[(p::ROUGHNESS, &[0.5]), (p::METALNESS, &[1.0])])),

@@ -182,9 +182,12 @@ fn switches_of(closure: &Closure) -> Switches {
         Model::Conductor => Switches { metal: Metal::Conductor, ..single(Single::Metallic) },
         Model::Sheen => single(Single::Sheen),
         Model::Velvet => Switches { fuzz: Fuzz::Velvet, ..single(Single::Sheen) },
+        Model::DiffuseToon => single(Single::DiffuseToon),
+        Model::GlossyToon => single(Single::GlossyToon),
         Model::Translucent => single(Single::Translucent),
         Model::Subsurface => single(Single::Subsurface),
         Model::Transparent => single(Single::Transparent),
+        Model::Portal => single(Single::Portal),
         Model::Measured => single(Single::Measured),
         Model::Emission | Model::Holdout => single(Single::Emission),
     };

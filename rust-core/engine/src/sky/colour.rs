@@ -11,7 +11,7 @@ use gonio_formats::bsdf::cie_1931;
 /// Temperature of the sun's surface, K.
 const SUN_KELVIN: f64 = 5778.0;
 /// Of the sun's disc, sr.
-const SUN_SOLID_ANGLE: f64 = 6.79e-5;
+const SUN_SOLID_ANGLE: f64 = 6.790_167e-5;
 
 /// The triple without negative parts, scaled to a luminance of 1; white where there is nothing.
 fn normalized(rgb: [f64; 3]) -> [f64; 3] {

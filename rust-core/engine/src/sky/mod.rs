@@ -27,7 +27,7 @@ pub use clear_sky::{Irradiance, clear_sky_irradiance, extraterrestrial_irradianc
 pub use daylight::{Daylight, SUN_ANGLE_DEG, Sky};
 pub use efficacy::{diffuse_efficacy, direct_efficacy};
 pub use frame::{Frame, UpAxis};
-pub use hosek_wilkie::HosekWilkie;
+pub use hosek_wilkie::{HosekWilkie, HosekWilkieChannel};
 pub use image::{DEFAULT_ROWS, SkyImage, draw_by_angle};
 pub use model::SkyModel;
 pub use moment::Moment;

@@ -36,6 +36,16 @@ impl Preetham {
         Self { shapes, scales: std::array::from_fn(|i| values[i] / perez(&shapes[i], 1.0, zenith_angle)) }
     }
 
+    /// Perez's parameters of Y, x and y.
+    pub fn shapes(&self) -> [[f64; 5]; 3] {
+        self.shapes
+    }
+
+    /// Y in cd/m², x and y of the zenith over the shapes' values there.
+    pub fn scales(&self) -> [f64; 3] {
+        self.scales
+    }
+
     /// Radiance, linear Rec.709 in cd/m², towards a direction whose height above the horizon has a sine of `up` (above 0) and that is `angle` radians
     /// from the sun.
     pub fn radiance(&self, up: f64, angle: f64) -> [f64; 3] {

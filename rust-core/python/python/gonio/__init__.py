@@ -36,6 +36,8 @@ from ._gonio import (
     read_goniogram,
     read_weather,
     simd_level,
+    sky_formula,
+    sky_table,
     ugr_table,
 )
 from .oidn import denoise
@@ -79,5 +81,7 @@ __all__ = [
     "read_goniogram",
     "read_weather",
     "simd_level",
+    "sky_formula",
+    "sky_table",
     "ugr_table",
 ]

@@ -14,6 +14,8 @@ __all__ = [
     "artist_sky",
     "daylight",
     "read_weather",
+    "sky_formula",
+    "sky_table",
     "Cancelled",
     "Error",
     "FormatError",
@@ -582,6 +584,17 @@ def artist_sky(
     diameter: float = 0.545,
     rows: int = 512,
 ) -> tuple[Pass, list[float]]: ...
+def sky_table(
+    model: str,
+    elevation: float,
+    *,
+    altitude: float = 0.0,
+    air: float = 1.0,
+    dust: float = 1.0,
+    ozone: float = 1.0,
+    diameter: float = 0.545,
+) -> tuple[Pass, list[list[float]]]: ...
+def sky_formula(model: str, elevation: float, *, turbidity: float = 2.2, ground: float = 0.0) -> list[tuple[list[float], float]]: ...
 def read_weather(data: bytes, name: str) -> dict[str, Any]: ...
 def blackbody_rgb(kelvin: float) -> list[float]: ...
 def goniogram_figures(data: bytes, name: str, *, lamp_set: int | None = None, tilt: float = 0.0) -> dict[str, Any]: ...

@@ -1,6 +1,6 @@
 //! What a program reads and writes: surface points, registers and computed parameters, in columns.
 
-use super::CHUNK;
+use super::{CHUNK, nearby::NearbyRays};
 use gonio_nodes::Registers;
 use gonio_simd::{Column, Lanes, Vec3};
 
@@ -95,7 +95,9 @@ impl OutputColumns {
 }
 
 /// Columns of the steps.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct GraphScratch {
     pub(super) registers: Registers,
+    /// Rays of steps that look around hits, once there were any.
+    pub(super) nearby: Option<Box<NearbyRays>>,
 }

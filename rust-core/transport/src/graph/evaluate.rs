@@ -1,7 +1,7 @@
 //! Running a program over a chunk of hits.
 
 use super::{
-    CHUNK, GraphScratch, OutputColumns, Program, SurfaceColumns,
+    Around, CHUNK, GraphScratch, OutputColumns, Program, SurfaceColumns,
     columns::load3,
     hit_step::{Points, run_hit_step},
     normals::bend_normals,
@@ -13,13 +13,11 @@ use gonio_nodes::Registers;
 use gonio_simd::{Lanes, Vec3};
 
 /// Runs a program over the first `count` hits of a chunk: fills `outputs`, and bends the shading normals if it says so.
-#[expect(clippy::too_many_arguments, reason = "tables, hits, scratch and results")]
 #[inline(always)]
 pub fn evaluate<L: Lanes>(
     l: L,
     program: &Program,
-    geometry: &GeometryTable,
-    textures: &TextureTable,
+    (geometry, textures, around): (&GeometryTable, &TextureTable, &Around<'_>),
     points: &mut SurfaceColumns,
     count: usize,
     scratch: &mut GraphScratch,
@@ -36,7 +34,7 @@ pub fn evaluate<L: Lanes>(
             len,
             &mut scratch.registers,
             #[inline(always)]
-            |step, io| run_hit_step(l, step, &tables, io),
+            |step, io| run_hit_step(l, step, &tables, (around, &mut scratch.nearby), io),
         );
         let sources = program.outputs.iter().flat_map(|output| &output.sources);
         for (place, source) in sources.enumerate() {

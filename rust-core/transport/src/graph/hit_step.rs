@@ -2,6 +2,7 @@
 
 use super::{
     SurfaceColumns,
+    nearby::{Around, NearbyRays, Occlusion, occlusion, rounded_normal},
     normals::normal_map,
     shading::{Place, instance_transform, point_value},
 };
@@ -61,6 +62,13 @@ pub enum HitStep {
         /// What it stands for.
         quantity: Quantity,
     },
+    /// The share of rays that meet nothing nearby.
+    Occlusion(Occlusion),
+    /// The mean normal nearby.
+    RoundedNormal {
+        /// Rays a hit.
+        samples: u32,
+    },
     /// What is known of the surface point and the ray, by its row of the table.
     Point(Operation),
 }
@@ -68,7 +76,7 @@ pub enum HitStep {
 impl HitStep {
     /// Whether it asks what is known of the ray.
     pub fn asks_for_ray(&self) -> bool {
-        matches!(self, Self::Point(Operation::LightPath(_)))
+        matches!(self, Self::Point(Operation::LightPath(_)) | Self::RoundedNormal { .. })
     }
 }
 
@@ -94,13 +102,21 @@ impl<'a> Points<'a> {
 
 /// Runs a step for the entries of `io`; kinds of steps are compiled apart.
 #[inline(always)]
-pub(super) fn run_hit_step<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, io: &mut Io<'_>) {
+pub(super) fn run_hit_step<L: Lanes>(
+    l: L,
+    step: &HitStep,
+    points: &Points<'_>,
+    (around, near): (&Around<'_>, &mut Option<Box<NearbyRays>>),
+    io: &mut Io<'_>,
+) {
     match step {
         HitStep::Image { .. } => image(l, step, points, io),
         HitStep::Primvar { column, fallback } => primvar(l, *column, fallback, points, io),
         HitStep::PrimvarStep { .. } | HitStep::UvTangent { .. } | HitStep::NormalMap { .. } | HitStep::Transform { .. } => {
             on_surface(l, step, points, io);
         }
+        HitStep::Occlusion(step) => occlusion(l, step, points, around, near.get_or_insert_default(), io),
+        HitStep::RoundedNormal { samples } => rounded_normal(l, *samples, points, around, near.get_or_insert_default(), io),
         HitStep::Point(operation) => point(l, operation, points, io),
     }
 }

@@ -227,7 +227,12 @@ impl Picture<'_> {
         };
         let [min, max] = self.window;
         // The camera looks from a pixel's middle at middle + offset, so what lies at a place is seen by the pixel about place − offset.
-        let place = [(raster[0] - offset[0]).floor(), (raster[1] - offset[1]).floor()];
+        let mut place = [(raster[0] - offset[0]).floor(), (raster[1] - offset[1]).floor()];
+        if let Some(turn) = self.camera.turn() {
+            // All around, both edges of the picture see the same.
+            let (turn, left) = (turn.round(), min[0] as f32);
+            place[0] -= ((place[0] - left) / turn).floor() * turn;
+        }
         let inside = |axis: usize| place[axis].ge(min[axis] as f32) & place[axis].lt(max[axis] as f32);
         let inside = inside(0) & inside(1);
         let column = (place[0] - min[0] as f32).keep_if(inside).to_i32();

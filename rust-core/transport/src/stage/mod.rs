@@ -7,7 +7,7 @@
 //! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
 //! - [`surface`] computes the surface points of a chunk.
 //! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`])
-//!   and BSDF sampling ([`scatter`]).
+//!   and BSDF sampling ([`scatter`]), or sends paths on through portals ([`portal`]).
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
 //! - [`merge`] takes up photons behind mirrors and smooth glass.
@@ -28,6 +28,7 @@ pub(crate) mod light_queue;
 pub(crate) mod measure;
 pub(crate) mod merge;
 pub(crate) mod nee;
+pub(crate) mod portal;
 pub(crate) mod scatter;
 pub(crate) mod sensors;
 pub(crate) mod shade;

@@ -72,7 +72,7 @@ fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diff
 #[inline(always)]
 fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
     let l = chunk.l;
-    let first = point.bounces.eq(0);
+    let first = point.bounces.eq(0) & (point.flags & flag::ROUGH).eq(0);
     let here = (point.flags & flag::WALKED).eq(0);
     let rough = l.u(flag::LIGHT_BROUGHT).keep_if((first | l.m(chunk.transport.photons.is_some())) & here);
     // Light paths that scatter so are on their way to what the camera sees.

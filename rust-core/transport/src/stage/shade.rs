@@ -179,7 +179,8 @@ pub(crate) fn add_seen<L: Lanes>(
         add_emission(chunk, point, lobes.emission(), present, at, deposits);
     }
     // What is seen through a transparent closure comes first.
-    if !material.surface.lobes.straight && chunk.transport.path_filter != PathFilter::SpecularOnly {
+    let seen_through = material.surface.lobes.straight || material.surface.lobes.portal;
+    if !seen_through && chunk.transport.path_filter != PathFilter::SpecularOnly {
         add_first_surface(chunk, material, point, lobes, present, at, deposits);
         if !geometry.set_catcher.is_empty() {
             catcher::add_behind(chunk, point, present, &mut deposits.sums);

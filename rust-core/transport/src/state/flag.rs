@@ -20,7 +20,7 @@ pub(crate) const LIGHT_BROUGHT: u32 = 512;
 pub(crate) const WALKED: u32 = 1024;
 /// The camera sees the path's first surface directly, which did not scatter specularly: light paths can end there.
 pub(crate) const SEEN_DIRECTLY: u32 = 2048;
-/// The path has scattered by other than mirrors and smooth glass.
+/// The path has scattered by other than mirrors and smooth glass, or went through a portal.
 pub(crate) const ROUGH: u32 = 4096;
 /// Above this bit: the number of scatterings.
 pub(crate) const BOUNCE_SHIFT: u32 = 13;

@@ -6,7 +6,7 @@ use crate::{
         textures::CompiledTextures,
     },
     error::{Error, Result},
-    graph::HitStep,
+    graph::{HitStep, Occlusion},
     scene::{Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
@@ -15,6 +15,8 @@ use std::sync::Arc;
 
 /// Most rows of a curve's table.
 const MOST_ROWS: usize = 1 << 16;
+/// Most rays of a step that looks around a hit.
+const MOST_RAYS: u32 = 1024;
 
 /// A graph laid out, and the primvar column that tangents and footprints follow.
 pub(super) struct CompiledGraph {
@@ -108,6 +110,11 @@ fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, nam
         Operation::NormalMap { scale, uv } => {
             Hit::Step(HitStep::NormalMap { scale: *scale, uv: uv.as_ref().and_then(|name| column(names, name)) })
         }
+        Operation::Occlusion { samples, inside, only_local } => {
+            let samples = (*samples).clamp(1, MOST_RAYS);
+            Hit::Step(HitStep::Occlusion(Occlusion { samples, inside: *inside, only_local: *only_local }))
+        }
+        Operation::RoundedNormal { samples } => Hit::Step(HitStep::RoundedNormal { samples: (*samples).clamp(1, MOST_RAYS) }),
         _ => Hit::Step(HitStep::Point(operation.clone())),
     }
 }

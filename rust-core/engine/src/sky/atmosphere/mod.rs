@@ -2,6 +2,7 @@
 
 mod multiple;
 mod single;
+mod table;
 
 use super::{SkyImage, colour, within};
 use crate::{Error, Result};
@@ -16,6 +17,8 @@ const STEPS: [usize; 2] = [192, 128];
 pub enum Scattering {
     /// Once (Nishita and others, SIGGRAPH 1993), by 21 wavelengths; the ground is black.
     Single,
+    /// The same with the way to the sun in sixteen even pieces, as Blender had it up to version 4.
+    SingleInPieces,
     /// Often, by a fit for Earth and four wavelengths (García Liñán 2022, after Hillaire 2020), over ground of an albedo of 0.3.
     Multiple,
 }
@@ -76,7 +79,8 @@ impl Atmosphere {
             }
         }
         Ok(match self.scattering {
-            Scattering::Single => Box::new(single::Single::new(self)),
+            Scattering::Single => Box::new(single::Single::new(self, single::gauss_laguerre())),
+            Scattering::SingleInPieces => Box::new(single::Single::new(self, single::even_pieces())),
             Scattering::Multiple => Box::new(multiple::Multiple::new(self)),
         })
     }

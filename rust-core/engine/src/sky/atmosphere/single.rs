@@ -23,8 +23,27 @@ const STEPS: usize = 32;
 const WAVELENGTHS: [f64; 2] = [380.0, 20.0];
 /// Absorption by ozone at its densest, 1/m, at the wavelengths.
 const OZONE_ABSORPTION: [f64; 21] = [
-    3.2513e-9, 5.8540e-9, 1.9772e-8, 7.3096e-8, 2.0085e-7, 4.0384e-7, 6.3551e-7, 9.6707e-7, 1.5480e-6, 2.0904e-6, 2.4613e-6, 2.7355e-6,
-    2.1513e-6, 1.5905e-6, 1.1236e-6, 7.3528e-7, 4.6450e-7, 3.3096e-7, 2.2513e-7, 1.4879e-7, 1.6829e-7,
+    3.251_268e-9,
+    5.853_954e-9,
+    1.977_191e-8,
+    7.309_569e-8,
+    2.008_456e-7,
+    4.038_396e-7,
+    6.355_134e-7,
+    9.670_704e-7,
+    1.547_974e-6,
+    2.090_386e-6,
+    2.461_281e-6,
+    2.735_513e-6,
+    2.151_259e-6,
+    1.590_518e-6,
+    1.123_562e-6,
+    7.352_755e-7,
+    4.645_013e-7,
+    3.309_608e-7,
+    2.251_261e-7,
+    1.487_913e-7,
+    1.682_862e-7,
 ];
 /// Gauss and Laguerre's rule of eight points over a way to the top: places over its length, and weights with the exponential taken out.
 const RULE: [[f64; 2]; 8] = [
@@ -39,6 +58,22 @@ const RULE: [[f64; 2]; 8] = [
 ];
 /// The rule's length that the way to the top takes, so that its last point lies within.
 const RULE_LENGTH: f64 = 25.0;
+
+/// Even pieces of the way to the top, where the rule is not in use.
+const PIECES: usize = 16;
+
+/// Places on the way to the top and their weights, over its length.
+type Rule = Vec<[f64; 2]>;
+
+/// The rule over the way's length.
+pub(super) fn gauss_laguerre() -> Rule {
+    RULE.map(|pair| pair.map(|x| x / RULE_LENGTH)).to_vec()
+}
+
+/// The middles of even pieces.
+pub(super) fn even_pieces() -> Rule {
+    (0..PIECES).map(|piece| [(piece as f64 + 0.5) / PIECES as f64, 1.0 / PIECES as f64]).collect()
+}
 
 /// Lengths in the densest air, dust and ozone, m.
 type Depths = [f64; 3];
@@ -56,10 +91,11 @@ pub(super) struct Single {
     radius: f64,
     amounts: [f64; 3],
     lines: Vec<Line>,
+    rule: Rule,
 }
 
 impl Single {
-    pub(super) fn new(of: &Atmosphere) -> Self {
+    pub(super) fn new(of: &Atmosphere, rule: Rule) -> Self {
         let line = |(index, ozone): (usize, &f64)| {
             let nanometres = WAVELENGTHS[0] + WAVELENGTHS[1] * index as f64;
             Line {
@@ -70,7 +106,7 @@ impl Single {
             }
         };
         let lines = OZONE_ABSORPTION.iter().enumerate().map(line).collect();
-        Self { radius: GROUND + of.altitude_m.clamp(1.0, TOP - GROUND - 1.0), amounts: [of.air, of.dust, of.ozone], lines }
+        Self { radius: GROUND + of.altitude_m.clamp(1.0, TOP - GROUND - 1.0), amounts: [of.air, of.dust, of.ozone], lines, rule }
     }
 
     /// The sum over the wavelengths of the sun's light behind depths, times a factor for each.
@@ -94,10 +130,10 @@ impl Single {
     fn depths_to_top(&self, radius: f64, up: f64) -> Depths {
         let length = distance_to(radius, up, TOP).unwrap_or(0.0);
         let mut sum = [0.0; 3];
-        for [place, weight] in RULE {
-            let way = length * place / RULE_LENGTH;
+        for [place, weight] in &self.rule {
+            let way = length * place;
             let densities = self.densities((radius * radius + way * way + 2.0 * radius * way * up).sqrt());
-            sum = std::array::from_fn(|i| sum[i] + densities[i] * weight * length / RULE_LENGTH);
+            sum = std::array::from_fn(|i| sum[i] + densities[i] * weight * length);
         }
         sum
     }

@@ -49,6 +49,24 @@ fn the_sun_under_the_horizon_leaves_little() {
 }
 
 #[test]
+fn tables_agree_with_pictures_and_are_mirrored() {
+    for scattering in [Scattering::Single, Scattering::SingleInPieces, Scattering::Multiple] {
+        let atmosphere = Atmosphere { scattering, ..CLEAR };
+        let table = atmosphere.table(40.0).expect("a table");
+        assert_eq!((table.width, table.height), (512, 256));
+        let [left, right] = [pixel(&table, 100, 60), pixel(&table, 411, 60)];
+        assert_eq!(left, right);
+        // The zenith's luminance, in the picture's upper row and the table's.
+        let [_, y, _] = pixel(&table, 256, 0);
+        let [r, g, b] = pixel(&atmosphere.image(40.0, 512).expect("a picture"), 0, 0);
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        assert!((y / luminance - 1.0).abs() < 0.02, "{scattering:?}: {y} {luminance}");
+        let [foot, top] = atmosphere.sun_limbs(40.0, 0.5).expect("a sun");
+        assert!(foot[1] < top[1] && foot[1] > 0.99 * top[1]);
+    }
+}
+
+#[test]
 fn preetham_s_zenith_is_the_paper_s() {
     // Formula A.2 for a turbidity of 3 and a sun 30° from the zenith.
     let (turbidity, zenith_angle) = (3.0f64, 30f64.to_radians());

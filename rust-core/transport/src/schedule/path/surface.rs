@@ -6,6 +6,7 @@ use crate::stage::light_queue::sample_queued;
 use crate::stage::measure::{self, MeasureContext};
 use crate::stage::merge::merge;
 use crate::stage::nee::{queue_shadow_ray, sample_light};
+use crate::stage::portal::pass_on;
 use crate::stage::scatter::{pass_straight, scatter};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
@@ -55,11 +56,15 @@ impl Integrator for PathIntegrator {
             point.alive
         };
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        if let Some(portal) = lobes.portal() {
+            pass_on(chunk, point, portal, point.pdf, present, &mut queues.next);
+            return;
+        }
         let [non_specular, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
         if let Some(photons) = &transport.photons {
             // At what the camera sees directly, light paths left their light in the picture.
-            let unseen = going_on & non_specular & point.bounces.ne(0);
             let rough = (point.flags & flag::ROUGH).ne(0);
+            let unseen = going_on & non_specular & (point.bounces.ne(0) | rough);
             for (map, chosen) in [(&photons.fine, unseen.and_not(rough)), (&photons.coarse, unseen & rough)] {
                 if chosen.any() {
                     merge(chunk, map, point, lobes, chosen, &mut queues.photons, deposits);

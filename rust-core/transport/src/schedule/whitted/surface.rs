@@ -5,6 +5,7 @@ use crate::kernels;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::{self, MeasureContext};
 use crate::stage::nee::queue_shadow_ray;
+use crate::stage::portal::pass_on;
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
@@ -65,6 +66,10 @@ impl Integrator for WhittedIntegrator<'_> {
             present &= part_from_open(material, point, lobes, &mut straight);
         }
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        if let Some(portal) = lobes.portal() {
+            pass_on(chunk, point, portal, point.share, present, &mut branches.ways[Way::Straight as usize]);
+            return;
+        }
         let [non_specular, lit] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
         if (non_specular & lit).any() {
             light_by_fixed_samples(chunk, point, lobes, self.samples, lit & non_specular, &mut queues.shadows, deposits);

@@ -3,7 +3,7 @@
 use crate::{
     compile::{CompiledScene, compile},
     geometry::GeometryTable,
-    graph::{CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, evaluate},
+    graph::{Around, CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, evaluate},
     scene::{
         Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, ShaderOutput, Texture,
         TextureSource, Transform, Visibility,
@@ -172,8 +172,10 @@ impl Bench {
     /// The columns that a program leaves, and its outputs.
     pub(super) fn run_program(&self, program: &Program, execution: Execution) -> (SurfaceColumns, OutputColumns) {
         let (mut points, mut scratch, mut values) = (self.points.clone(), GraphScratch::default(), OutputColumns::default());
-        let (geometry, textures) = (&self.compiled.tables.geometry, &self.compiled.tables.textures);
-        dispatch!(execution, l => evaluate(l, program, geometry, textures, &mut points, CHUNK, &mut scratch, &mut values));
+        let tables = &self.compiled.tables;
+        let around = Around { bvh: &tables.bvh, any_transparent: tables.any_transparent };
+        let asked = (&tables.geometry, &tables.textures, &around);
+        dispatch!(execution, l => evaluate(l, program, asked, &mut points, CHUNK, &mut scratch, &mut values));
         (points, values)
     }
 

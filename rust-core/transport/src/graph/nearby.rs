@@ -1,0 +1,355 @@
+//! Steps that look around hits with rays of their own, one for each hit of a piece at a time, so that they are traced in batches like all rays.
+//!
+//! The numbers of a hit's rays are those of Sobol's sequence, scrambled by the hit's position to the last bit, which no two samples share.
+//!
+//! # Cost
+//! As many rays a hit as the step has samples: short ones that end at any hit for [`occlusion`], and for [`rounded_normal`] as many nearest hits on
+//! the same instance as the ray meets surfaces.
+
+use super::columns::load3;
+use super::hit_step::Points;
+use crate::geometry::offset_ray_origin;
+use crate::state::flag::{self, event};
+use crate::state::rays::{RayLanes, Rays};
+use crate::tables::ray_mask;
+use gonio_accel::{Hits, NONE, Tlas, TransparentHit};
+use gonio_nodes::hash::{hash3, hash4, to_unit};
+use gonio_nodes::{CHUNK, Io};
+use gonio_simd::{Column, Execution, F, Frame, Lanes, M, PADDING, Vec3};
+
+/// Surfaces that a ray of [`rounded_normal`] looks for at most.
+const MOST_SURFACES: usize = 8;
+/// Newton's steps towards the radius of a disc.
+const NEWTON: usize = 10;
+
+/// The surfaces around.
+#[derive(Clone, Copy, Debug)]
+pub struct Around<'a> {
+    /// All instances.
+    pub bvh: &'a Tlas,
+    /// Whether any material lets straight light pass: what does occludes nothing.
+    pub any_transparent: bool,
+}
+
+/// The rays of one sample of a piece, and what they met.
+#[derive(Debug)]
+pub(super) struct NearbyRays {
+    execution: Execution,
+    rays: Rays,
+    blocked: Vec<u8>,
+    passed: Vec<TransparentHit>,
+    instances: Vec<u32>,
+    hits: Hits,
+    /// Radii of the discs' points.
+    radius: Column,
+    sum: [Column; 3],
+}
+
+impl Default for NearbyRays {
+    fn default() -> Self {
+        let column = || Column::new(CHUNK + PADDING);
+        Self {
+            execution: Execution::detect(),
+            rays: Rays::new(CHUNK + PADDING, ray_mask::SHADOW),
+            blocked: vec![0; CHUNK],
+            passed: Vec::new(),
+            instances: Vec::new(),
+            hits: Hits::default(),
+            radius: column(),
+            sum: [column(), column(), column()],
+        }
+    }
+}
+
+impl NearbyRays {
+    /// Writes a register of rays.
+    #[inline(always)]
+    fn store<L: Lanes>(&mut self, ray: &RayLanes<L>, at: usize) {
+        store3(ray.origin, &mut self.rays.origin, at);
+        store3(ray.direction, &mut self.rays.direction, at);
+        ray.t_min.store(&mut self.rays.t_min, at);
+        ray.t_max.store(&mut self.rays.t_max, at);
+    }
+    /// The nearest hits of the first rays, each on its own instance.
+    fn trace_within(&mut self, around: &Around<'_>, count: usize) {
+        around.bvh.first_hit_within(self.execution, &self.rays.batch(0..count), &self.instances, &mut self.hits);
+    }
+}
+
+/// What rays go into the hemisphere about a normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occlusion {
+    /// Rays a hit.
+    pub samples: u32,
+    /// Whether they go into the other hemisphere, under the surface.
+    pub inside: bool,
+    /// Whether only the instance that was hit is in their way.
+    pub only_local: bool,
+}
+
+/// Two numbers of a ray: any power of two of rays has one in each of as many parts, along both and in squares.
+#[inline(always)]
+fn numbers<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, at: usize) -> [F<L>; 2] {
+    let position = &points.columns.position;
+    let [x, y, z] = [l.load(&position[0], at).to_bits(), l.load(&position[1], at).to_bits(), l.load(&position[2], at).to_bits()];
+    let parts = ray.of.next_power_of_two();
+    let scrambled = [hash3(l, x, y, z), hash4(l, x, y, z, l.u(0))];
+    let within = [hash4(l, x, y, z, l.u(2 * ray.number + 1)), hash4(l, x, y, z, l.u(2 * ray.number + 2))];
+    let mut out = [l.f(0.0); 2];
+    for (axis, value) in out.iter_mut().enumerate() {
+        let part = (scrambled[axis] & (parts - 1)) ^ ray.part(parts)[axis];
+        *value = (part.to_float() + to_unit(within[axis])) * (1.0 / parts as f32);
+    }
+    out
+}
+
+/// One of the rays of a hit.
+#[derive(Clone, Copy, Debug)]
+struct Ray {
+    number: u32,
+    of: u32,
+}
+
+impl Ray {
+    /// Its parts along both dimensions, of a power of two: the first two of Sobol's sequence.
+    fn part(self, parts: u32) -> [u32; 2] {
+        let (mut first, mut second, mut bit) = (0, 0, parts >> 1);
+        let mut direction = bit;
+        let mut rest = self.number;
+        while bit > 0 {
+            if rest & 1 == 1 {
+                first ^= bit;
+                second ^= direction;
+            }
+            (rest, bit, direction) = (rest >> 1, bit >> 1, direction ^ (direction >> 1));
+        }
+        [first, second]
+    }
+}
+
+/// The share of the rays about the normal, the first three inputs, that meet nothing within the distance, the fourth.
+#[inline(always)]
+pub(super) fn occlusion<L: Lanes>(
+    l: L,
+    step: &Occlusion,
+    points: &Points<'_>,
+    around: &Around<'_>,
+    near: &mut NearbyRays,
+    io: &mut Io<'_>,
+) {
+    let count = io.count;
+    io.output(0)[..count].fill(0.0);
+    load_instances(points, near, count);
+    for sample in 0..step.samples {
+        l.vectorize(
+            #[inline(always)]
+            || send(l, step, Ray { number: sample, of: step.samples }, points, near, io),
+        );
+        let (rays, blocked) = (near.rays.batch(0..count), &mut near.blocked[..count]);
+        if step.only_local {
+            near.trace_within(around, count);
+            near.blocked.iter_mut().zip(&near.hits.instance).for_each(|(blocked, hit)| *blocked = u8::from(*hit != NONE));
+        } else if around.any_transparent {
+            near.passed.clear();
+            around.bvh.any_hit_transparent(near.execution, &rays, blocked, &mut near.passed);
+        } else {
+            around.bvh.occluded(near.execution, &rays, false, blocked);
+        }
+        io.output(0).iter_mut().zip(&near.blocked[..count]).for_each(|(open, blocked)| *open += f32::from(1 - *blocked));
+    }
+    let share = 1.0 / step.samples.max(1) as f32;
+    l.vectorize(
+        #[inline(always)]
+        || {
+            for at in (0..count).step_by(L::COUNT) {
+                let looks = io.input(l, 3, at).gt(0.0);
+                let open = l.load(io.output(0), at) * share;
+                io.store(at, [looks.select(open, l.f(1.0))]);
+            }
+        },
+    );
+}
+
+fn load_instances(points: &Points<'_>, near: &mut NearbyRays, count: usize) {
+    near.instances.clear();
+    near.instances.extend_from_slice(&points.columns.instance[points.first..points.first + count]);
+}
+
+/// One ray a hit, more likely the nearer to the normal.
+#[inline(always)]
+fn send<L: Lanes>(l: L, step: &Occlusion, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+    let columns = points.columns;
+    for here in (0..io.count).step_by(L::COUNT) {
+        let at = points.first + here;
+        let [x, y, z, distance] = io.load(l, here);
+        let axis = Vec3::new(x, y, z).normalize_or(load3(l, &columns.shading_normal, at));
+        let axis = if step.inside { -axis } else { axis };
+        let [height, turn] = numbers(l, ray, points, at);
+        let (sin, cos) = turn.sin_cos_turns();
+        let radius = height.sqrt();
+        let direction = Frame::from_normal(axis).to_world(Vec3::new(radius * cos, radius * sin, (1.0 - height).safe_sqrt()));
+        let (position, normal) = (load3(l, &columns.position, at), load3(l, &columns.geometric_normal, at));
+        let origin = offset_ray_origin(position, normal, l.load(&columns.error, at), direction);
+        near.store(&RayLanes { origin, direction, t_min: l.f(0.0), t_max: distance.max(0.0) }, here);
+    }
+}
+
+/// The part behind the point.
+#[inline(always)]
+fn fraction<L: Lanes>(x: F<L>) -> F<L> {
+    x - x.floor()
+}
+
+/// The mean of the normals around a hit, weighed by a bell of the radius, the first input: edges are rounded. After Christensen's and others'
+/// sampling of subsurface scattering by discs (SIGGRAPH 2013), as in Cycles. After diffuse scattering the shading normal stays as it is.
+#[inline(always)]
+pub(super) fn rounded_normal<L: Lanes>(
+    l: L,
+    samples: u32,
+    points: &Points<'_>,
+    around: &Around<'_>,
+    near: &mut NearbyRays,
+    io: &mut Io<'_>,
+) {
+    let count = io.count;
+    load_instances(points, near, count);
+    near.sum.iter_mut().for_each(|column| column[..count].fill(0.0));
+    for sample in 0..samples {
+        let step = Ray { number: sample, of: samples };
+        l.vectorize(
+            #[inline(always)]
+            || send_through(l, step, points, near, io),
+        );
+        for _ in 0..MOST_SURFACES {
+            near.trace_within(around, count);
+            if near.hits.instance.iter().all(|instance| *instance == NONE) {
+                break;
+            }
+            l.vectorize(
+                #[inline(always)]
+                || add_normals(l, step, points, near, io),
+            );
+        }
+    }
+    l.vectorize(
+        #[inline(always)]
+        || {
+            for here in (0..count).step_by(L::COUNT) {
+                let at = points.first + here;
+                let smooth = load3(l, &points.columns.shading_normal, at);
+                let sum = Vec3::load(l, [&near.sum[0], &near.sum[1], &near.sum[2]], here) * l.load(&points.columns.side, at);
+                let flags = l.load_integers(&points.columns.ray_flags, at);
+                let blurred =
+                    (flags & (flag::CAMERA | flag::DELTA | flag::SHADOW)).eq(0) & ((flags >> flag::LAST_SHIFT) & 3).eq(event::DIFFUSE);
+                let looks = io.input(l, 0, here).gt(0.0).and_not(blurred);
+                let rounded = looks.select(sum.normalize_or(smooth), smooth);
+                io.store(here, [rounded.x, rounded.y, rounded.z]);
+            }
+        },
+    );
+}
+
+/// A disc's frame, its axis last, and how likely each of its axes is taken for one: half of the discs lie in the surface.
+#[inline(always)]
+fn disc<L: Lanes>(normal: Vec3<L>, choice: F<L>) -> ([Vec3<L>; 3], [F<L>; 3]) {
+    let (l, frame) = (choice.lanes(), Frame::from_normal(normal));
+    let (flat, first) = (choice.lt(0.5), choice.lt(0.75));
+    let axis = flat.select(frame.z, first.select(frame.x, frame.y));
+    let along = (first.and_not(flat)).select(frame.z, frame.x);
+    let across = first.select(frame.y, frame.z);
+    let likely = |is_normal: M<L>| is_normal.select(l.f(0.5), l.f(0.25));
+    ([along, across, axis], [likely(first.and_not(flat)), likely(!first), likely(flat)])
+}
+
+/// One ray a hit through a point of its disc.
+#[inline(always)]
+fn send_through<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+    let columns = points.columns;
+    for here in (0..io.count).step_by(L::COUNT) {
+        let at = points.first + here;
+        let reach = io.input(l, 0, here).max(0.0);
+        let [chosen, share] = numbers(l, ray, points, at);
+        let ([along, across, axis], _) = disc(load3(l, &columns.geometric_normal, at), chosen);
+        // What the choice left of its number turns about the axis.
+        let turn = chosen.lt(0.5).select(chosen * 2.0, fraction(chosen * 4.0));
+        let radius = bell_radius(share) * reach;
+        let height = (reach * reach - radius * radius).safe_sqrt();
+        let (sin, cos) = turn.sin_cos_turns();
+        let place = load3(l, &columns.position, at) + axis * height + along * (radius * cos) + across * (radius * sin);
+        radius.store(&mut near.radius, here);
+        near.store(&RayLanes { origin: place, direction: -axis, t_min: l.f(0.0), t_max: height * 2.0 }, here);
+    }
+}
+
+/// Adds the normals that were met, and sends the rays on behind them.
+#[inline(always)]
+fn add_normals<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, near: &mut NearbyRays, io: &Io<'_>) {
+    let columns = points.columns;
+    for here in (0..io.count).step_by(L::COUNT) {
+        let at = points.first + here;
+        let (met, [u, v, t], primitive) = met(l, &near.hits, here, io.count);
+        let own = l.load_integers(&columns.instance, at);
+        let hit = points.geometry.hit_lanes(l, own, primitive, u, v);
+        let found = points.geometry.surface_point(l, &hit);
+        let ([along, across, axis], likely) = disc(load3(l, &columns.geometric_normal, at), numbers(l, ray, points, at)[0]);
+        let mut squares = l.f(0.0);
+        let mut densities = [l.f(0.0); 3];
+        for (i, direction) in [along, across, axis].into_iter().enumerate() {
+            densities[i] = likely[i] * direction.dot(found.geometric_normal).abs();
+            squares = densities[i].mul_add(densities[i], squares);
+        }
+        let reach = io.input(l, 0, here).max(0.0);
+        let apart = (found.position - load3(l, &columns.position, at)).length();
+        let share = bell(apart, reach) / bell(l.load(&near.radius, here), reach).max(1e-20);
+        let weight = (densities[2] / squares.max(1e-20) * share).keep_if(met);
+        let sum = Vec3::load(l, [&near.sum[0], &near.sum[1], &near.sum[2]], here) + found.shading_normal * weight;
+        store3(sum, &mut near.sum, here);
+        let mut onwards = near.rays.load(l, here);
+        onwards.t_min = met.select(t * (1.0 + 1e-6) + 1e-7, onwards.t_max);
+        near.store(&onwards, here);
+    }
+}
+
+/// A register of hits: where there are any, barycentric coordinates and distances, and triangles.
+#[inline(always)]
+fn met<L: Lanes>(l: L, hits: &Hits, at: usize, count: usize) -> (M<L>, [F<L>; 3], gonio_simd::U<L>) {
+    let (mut numbers, mut parts, mut bits) = ([0; PADDING], [[0.0; PADDING]; 3], 0u64);
+    for lane in 0..L::COUNT.min(count - at) {
+        let entry = at + lane;
+        if hits.instance[entry] != NONE {
+            bits |= 1 << lane;
+            numbers[lane] = hits.primitive[entry];
+            [parts[0][lane], parts[1][lane], parts[2][lane]] = [hits.u[entry], hits.v[entry], hits.t[entry]];
+        }
+    }
+    let parts = [l.load(&parts[0], 0), l.load(&parts[1], 0), l.load(&parts[2], 0)];
+    (M(l.mask_from_bits(bits)), parts, l.load_integers(&numbers, 0))
+}
+
+/// (1 − r/R)³ within the radius R, up to a factor.
+#[inline(always)]
+fn bell<L: Lanes>(r: F<L>, reach: F<L>) -> F<L> {
+    let rest = (reach - r).max(0.0) / reach.max(1e-20);
+    rest * rest * rest
+}
+
+/// The radius, as a share, within which `share` of the light of the bell over a disc lies.
+#[inline(always)]
+fn bell_radius<L: Lanes>(share: F<L>) -> F<L> {
+    let l = share.lanes();
+    let mut x = l.f(0.25);
+    for _ in 0..NEWTON {
+        let square = x * x;
+        let within = square * (10.0 - x * 20.0 + square * 15.0 - square * x * 4.0);
+        let rest = 1.0 - x;
+        let slope = x * rest * rest * rest * 20.0;
+        x = slope.gt(1e-12).select((x - (within - share) / slope.max(1e-12)).saturate(), x);
+    }
+    x
+}
+
+#[inline(always)]
+fn store3<L: Lanes>(v: Vec3<L>, columns: &mut [Column; 3], at: usize) {
+    let [x, y, z] = columns;
+    v.store([x, y, z], at);
+}
