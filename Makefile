@@ -126,7 +126,7 @@ bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/peers/radiance/bench.py $(RADIANCE)
 
 # Error at equal time on six scenes full of caustics, beside Cycles, LuxCore and Mitsuba, in out/peers/caustics; needs what bench-peers needs.
-# References that are missing are made first, in a quarter of an hour each. CAUSTICS="pool --seconds 20" chooses; GONIO_CAUSTICS="name=value,..." has
+# References that are missing are made first, in minutes each. CAUSTICS="pool --seconds 20" chooses; GONIO_CAUSTICS="name=value,..." has
 # the settings of gonio with light paths.
 bench-caustics: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
 bench-caustics: build $(CURDIR)/.venv-bpy50/ready

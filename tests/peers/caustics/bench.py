@@ -1,4 +1,4 @@
-"""All contestants at equal wall time on the hard scenes: `bench.py [scene ...] [--seconds 5 20 60] [--rounds 3] [--engines gonio luxcore]`.
+"""All contestants at equal wall time on the hard scenes: `bench.py [scene ...] [--seconds 8 24] [--rounds 3] [--engines gonio luxcore]`.
 
 References come first: `references.py`. `GONIO_CAUSTICS` has the settings of gonio with light paths (`lineup.py`), `DRJIT_LIBLLVM_PATH` names the
 LLVM of Mitsuba's vector mode. Prints the table; figures and pictures are kept in out/peers/caustics.
@@ -42,7 +42,7 @@ def main() -> int:
     """1 where a reference is missing."""
     parser = argparse.ArgumentParser(description="Error at equal time on scenes full of caustics.")
     parser.add_argument("scenes", nargs="*", metavar="scene", help=f"which of {', '.join(SCENES)}; all without any")
-    parser.add_argument("--seconds", type=float, nargs="+", default=[5.0, 20.0, 60.0], help="budgets a picture")
+    parser.add_argument("--seconds", type=float, nargs="+", default=[8.0, 24.0], help="budgets a picture")
     parser.add_argument("--rounds", type=int, default=1, help="pictures of each, the contestants taking turns")
     parser.add_argument("--engines", nargs="+", help="only those whose names start so; gonio takes part always")
     parser.add_argument("--threads", type=int, default=2)

@@ -1,4 +1,4 @@
-"""References of the hard scenes by maps of caustics, in Mitsuba's vector mode: `references.py [scene ...] --photons 1e9 --samples 4096`.
+"""References of the hard scenes by maps of caustics, in Mitsuba's vector mode: `references.py [scene ...] --photons 2e8 --samples 2048`.
 
 Run by a Python that has `mitsuba`. Keeps out/peers/caustics/references/<scene>.npz with the picture and its two independent halves. Scenes that
 are not named are made only where none is kept, or the one that is kept is of another form of the scene.
@@ -31,8 +31,8 @@ def main() -> None:
     """Makes what is asked for."""
     parser = argparse.ArgumentParser(description="References of the hard scenes by maps of caustics.")
     parser.add_argument("scenes", nargs="*", metavar="scene", help=f"which of {', '.join(SCENES)}; all without any")
-    parser.add_argument("--photons", type=float, default=1e9)
-    parser.add_argument("--samples", type=int, default=4096)
+    parser.add_argument("--photons", type=float, default=2e8)
+    parser.add_argument("--samples", type=int, default=2048)
     parser.add_argument("--threads", type=int, default=2)
     asked = parser.parse_args()
     import drjit
