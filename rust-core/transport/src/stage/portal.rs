@@ -23,7 +23,6 @@ pub(crate) fn pass_on<L: Lanes>(
     goes: M<L>,
     next: &mut Paths,
 ) {
-    let l = chunk.l;
     let throughput = point.throughput * portal.colour;
     let open = goes & chunk.transport.limits.allow_straight(point.counts) & throughput.is_lit() & throughput.max_component().is_finite();
     if !open.any() {
