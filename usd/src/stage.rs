@@ -1,5 +1,6 @@
 //! Opening stages and reading them into scenes.
 
+mod faces;
 mod grid;
 mod info;
 mod open;

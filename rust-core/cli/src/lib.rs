@@ -18,6 +18,7 @@ mod glare;
 mod goniometer;
 mod info;
 mod light_words;
+mod map;
 mod measure;
 mod merge;
 mod output;
@@ -66,6 +67,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
+        Command::Map(options) => map::map(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),

@@ -9,6 +9,7 @@ pub mod compile;
 pub mod film;
 pub mod goniometer;
 pub mod light_paths;
+pub mod map;
 pub mod measure;
 pub mod output;
 pub mod render;

@@ -11,6 +11,7 @@ mod glare;
 mod goniometer;
 mod light;
 mod luminaire_reading;
+mod map;
 mod measure;
 mod measured;
 #[cfg(unix)]
@@ -50,6 +51,8 @@ mod _gonio {
     use crate::light::blackbody_rgb;
     #[pymodule_export]
     use crate::luminaire_reading::LuminaireReading;
+    #[pymodule_export]
+    use crate::map::{IlluminationMaps, SurfaceMap, illumination_map};
     #[pymodule_export]
     use crate::measure::{GridReading, Measurements, Reading, measure_scene};
     #[pymodule_export]

@@ -9,6 +9,7 @@ mod farm;
 mod glare;
 mod goniometer;
 mod info;
+mod map;
 mod measure;
 mod output;
 mod photometry;
@@ -27,6 +28,7 @@ pub(super) use farm::FarmArguments;
 pub(super) use glare::GlareArguments;
 pub(super) use goniometer::GoniometerOptions;
 pub(super) use info::InfoOptions;
+pub(super) use map::MapArguments;
 pub(super) use measure::{GridArguments, MeasureOptions};
 pub(super) use output::OutputArguments;
 pub(super) use photometry::{PhotometryOptions, SymmetryName};
@@ -40,6 +42,7 @@ use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
 use gonio::scene::Integrator;
 use goniometer::GONIOMETER_EXAMPLES;
+use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 
@@ -84,6 +87,12 @@ pub(super) enum Command {
     /// leaves. Every value has a standard error. What is absorbed or cut off is told in lumens.
     #[command(after_long_help = GONIOMETER_EXAMPLES)]
     Goniometer(Box<GoniometerOptions>),
+    /// Keep the light of a USD stage on its surfaces: illuminance in lux by light paths, as textures, primvars, and views from any camera.
+    ///
+    /// Front and back of a surface have values of their own, and direct light is told from all. Light counts that lamps send through lenses, glass
+    /// and mirrors too.
+    #[command(after_long_help = MAP_EXAMPLES)]
+    Map(Box<MapArguments>),
     /// Draw the luminance or the illuminance of an EXR file or a Radiance picture in fixed steps with a legend, or as isolines over the picture.
     Falsecolor(FalsecolorOptions),
     /// Put a stage's light on one page: luminaires with flux and watts, pictures, calculation grids, polar diagrams.

@@ -1,0 +1,79 @@
+//! What `gonio map` takes.
+
+use super::{DaylightArguments, ScaleArguments, StageArguments, WorkArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The end of `gonio map --help`.
+pub(super) const MAP_EXAMPLES: &str = "Examples:
+  gonio map office.usda --prim /Office/Floor --texel 0.05 -o floor.usda
+  gonio map office.usda --prim /Office/Floor --uv st --texel 0.02 --error 2% -o floor.exr
+  gonio map office.usda --view /Office/Camera -o lux.png --max 1000";
+
+#[derive(Args, Debug)]
+pub(crate) struct MapArguments {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    /// The frame.
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    pub(crate) frame: Option<f64>,
+    /// Keep light on this prim and all below it; may be given several times, without it all surfaces keep theirs.
+    #[arg(long, value_name = "PRIMPATH")]
+    pub(crate) prim: Vec<String>,
+    /// Keep light on the texels of these texture coordinates; without it triangles are divided.
+    #[arg(long, value_name = "PRIMVAR")]
+    pub(crate) uv: Option<String>,
+    /// Metres that texels are wide, or divided triangles at most as square metres; without it there are about 65,000 in all.
+    #[arg(long, value_name = "METRES")]
+    pub(crate) texel: Option<f64>,
+    /// Width and height in texels instead of their size.
+    #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], requires = "uv", conflicts_with = "texel")]
+    pub(crate) resolution: Option<Vec<u32>>,
+    /// Stop where the standard error, averaged over the lit area, is this share of the illuminance; divided triangles are joined where theirs
+    /// would be more. 0% never stops and joins nothing.
+    #[arg(long, value_name = "SHARE", default_value = "5%")]
+    pub(crate) error: String,
+    /// Stop after so many light paths.
+    #[arg(long, value_name = "COUNT", default_value_t = 1 << 26)]
+    pub(crate) paths: u64,
+    /// Stop after so many seconds.
+    #[arg(long = "time-limit", value_name = "SECONDS", default_value_t = 0.0)]
+    pub(crate) time_limit: f64,
+    /// Keep red, green and blue too.
+    #[arg(long)]
+    pub(crate) colours: bool,
+    /// Most mebibytes for maps.
+    #[arg(long, value_name = "MIB", default_value_t = 1024)]
+    pub(crate) memory: u64,
+    /// Limit of the bounces; without one all count that matter.
+    #[arg(long = "max-bounces", value_name = "COUNT")]
+    pub(crate) max_bounces: Option<u32>,
+    /// What to write: .exr (textures, with --uv), .usda (a layer over the stage with primvars, or the textures' names), .png (a view in false
+    /// colour); may be given several times. With several textures the prims' names are put before the ending.
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Put the divided triangles themselves into the .usda, as meshes of purpose guide.
+    #[arg(long, conflicts_with = "uv")]
+    pub(crate) divided: bool,
+    /// The camera of the .png; without it the stage's own.
+    #[arg(long, value_name = "CAMERA")]
+    pub(crate) view: Option<String>,
+    /// Width of the .png.
+    #[arg(long = "image-width", short = 'w', value_name = "PIXELS")]
+    pub(crate) image_width: Option<u32>,
+    /// What the .png shows: illuminance, direct, indirect, or error (the standard error), all in lx.
+    #[arg(long, value_name = "QUANTITY", default_value = "illuminance")]
+    pub(crate) quantity: String,
+    /// For machines.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) scale: ScaleArguments,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
+    /// Write nothing but answers and errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) daylight: DaylightArguments,
+}

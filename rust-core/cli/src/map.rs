@@ -1,0 +1,291 @@
+//! `gonio map`.
+
+use super::{
+    arguments::MapArguments,
+    daylight, falsecolor,
+    file::{check_ending, ending},
+    list, print,
+    progress::Reporter,
+    render::{MOST_WARNINGS, stage_options},
+    say,
+};
+use gonio::{
+    Error, Result,
+    compile::compile,
+    light_paths::Watch,
+    map::{
+        IlluminationMaps, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, view, write_map_exr,
+    },
+    measure::MOST_BOUNCES,
+    output::{FalseColour, write_atomically},
+    scene::Scene,
+    transport::LIGHT_BATCH,
+};
+use gonio_simd::Execution;
+use gonio_usd::{
+    Loaded, SampleTime, Stage, camera,
+    view::{Resolution, ViewOptions, complete},
+};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::{
+    collections::HashMap,
+    io::Write,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
+    time::Instant,
+};
+
+/// Rays along the side of a pixel of a view.
+const VIEW_SIDE: u32 = 3;
+
+/// Traces maps and writes what was asked for.
+pub(super) fn map(py: Python<'_>, options: &MapArguments, interrupted: &'static AtomicBool) -> Result<i32> {
+    options.output.iter().try_for_each(|path| check_ending("output", path, &["exr", "usda", "png"]))?;
+    let quantity = quantity(&options.quantity)?;
+    let wanted = wanted(options)?;
+    if options.uv.is_none() && options.output.iter().any(|path| ending(path) == "exr") {
+        return Err(Error::setting("output", "a texture wants texture coordinates: --uv st"));
+    }
+    let mut stage_options = stage_options(&options.stage)?;
+    stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let loaded = stage.load(py, &stage_options, interrupted)?;
+    py.detach(|| run(options, &wanted, quantity, loaded, &stage, interrupted))
+}
+
+fn run(
+    options: &MapArguments,
+    wanted: &MapOptions,
+    quantity: Quantity,
+    mut loaded: Loaded,
+    stage: &Stage,
+    interrupted: &'static AtomicBool,
+) -> Result<i32> {
+    let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
+    daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
+    let camera = ViewOptions {
+        camera: options.view.clone(),
+        resolution: options.image_width.map_or(Resolution::Stage, Resolution::Width),
+        camera_light: false,
+        ..ViewOptions::default()
+    };
+    complete(&mut loaded, &Python::attach(camera::primary_camera_name), &camera)?;
+    options.work.apply(&mut loaded.scene.settings);
+    if !options.quiet {
+        list(&loaded.diagnostics, most);
+    }
+    let scene = &loaded.scene;
+    let compiled = compile(scene, None, interrupted)?;
+    let start = Instant::now();
+    let maps = traced(options, wanted, scene, &compiled, interrupted)?;
+    let seconds = start.elapsed().as_secs_f64();
+    if !options.quiet {
+        list(&compiled.diagnostics, most);
+        list(&maps.diagnostics, most);
+    }
+    let written = write(options, scene, &maps, stage)?;
+    for path in options.output.iter().filter(|path| ending(path) == "png") {
+        let (values, size) = view(&maps, &compiled, &scene.settings, quantity, VIEW_SIDE, Execution::detect())?;
+        let scale = falsecolor::scale(&options.scale, &values)?;
+        let style = FalseColour { scale, unit: "lx".into(), contours: false, smoothing: 0, legend: true };
+        falsecolor::write(path, &style.draw(&values, size))?;
+    }
+    if options.json {
+        print(&as_json(&maps, seconds).to_string());
+    } else {
+        as_text(&maps, seconds).iter().for_each(|line| print(line));
+        written
+            .iter()
+            .chain(options.output.iter().filter(|path| ending(path) == "png"))
+            .for_each(|path| print(&path.display().to_string()));
+    }
+    Ok(0)
+}
+
+fn traced(
+    options: &MapArguments,
+    wanted: &MapOptions,
+    scene: &Scene,
+    compiled: &gonio::compile::CompiledScene,
+    interrupted: &AtomicBool,
+) -> Result<IlluminationMaps> {
+    let mut reporter = Reporter::new(options.quiet);
+    let batches = wanted.paths.div_ceil(LIGHT_BATCH as u64) as f64;
+    let start = Instant::now();
+    let mut progress = |done: u64| {
+        let paths = (done * LIGHT_BATCH as u64) as f64;
+        let speed = paths * 1e-6 / start.elapsed().as_secs_f64().max(1e-3);
+        let fraction = done as f64 / batches;
+        let left = (done > 0).then(|| start.elapsed().mul_f64((1.0 - fraction).max(0.0) / fraction));
+        reporter.tell(fraction, &format!("{:.1} million paths at most", paths * 1e-6), left, &format!("{speed:.2} million a second"));
+        let heard = Python::attach(|py| py.check_signals()).is_ok();
+        heard && !interrupted.load(Ordering::Relaxed)
+    };
+    let found =
+        illumination_maps(scene, compiled, wanted, Execution::detect(), &mut Watch { cancel: interrupted, progress: &mut progress });
+    reporter.clear();
+    found
+}
+
+/// What the options ask for.
+fn wanted(options: &MapArguments) -> Result<MapOptions> {
+    let texel = match (options.texel, options.resolution.as_deref()) {
+        (Some(metres), _) => TexelSize::Metres(metres),
+        (None, Some([width, height])) => TexelSize::Resolution([*width, *height]),
+        _ => TexelSize::Automatic,
+    };
+    Ok(MapOptions {
+        prims: options.prim.clone(),
+        uv: options.uv.clone(),
+        texel,
+        error: share("error", &options.error)?,
+        paths: options.paths,
+        time_limit_s: options.time_limit,
+        colours: options.colours,
+        memory: options.memory.saturating_mul(1 << 20),
+        max_bounces: options.max_bounces.unwrap_or(MOST_BOUNCES),
+    })
+}
+
+/// A share as a number or in per cent.
+fn share(name: &str, text: &str) -> Result<f64> {
+    let (digits, scale) = text.trim().strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
+    Ok(daylight::number(name, digits.trim())? * scale)
+}
+
+fn quantity(name: &str) -> Result<Quantity> {
+    match name {
+        "illuminance" => Ok(Quantity::Illuminance),
+        "direct" => Ok(Quantity::Direct),
+        "indirect" => Ok(Quantity::Indirect),
+        "error" => Ok(Quantity::StandardError),
+        _ => Err(Error::setting("quantity", format!("'{name}' was found, expected illuminance, direct, indirect or error"))),
+    }
+}
+
+/// Writes textures and layers; gives their paths.
+fn write(options: &MapArguments, scene: &Scene, maps: &IlluminationMaps, stage: &Stage) -> Result<Vec<PathBuf>> {
+    let asked = |kind: &'static str| options.output.iter().filter(move |path| ending(path) == kind);
+    let mut written = Vec::new();
+    // A layer that names textures wants them beside it.
+    let beside = |path: &PathBuf| path.with_extension("exr");
+    let textures: Vec<PathBuf> = match options.uv {
+        Some(_) if asked("exr").next().is_none() => asked("usda").take(1).map(beside).collect(),
+        _ => asked("exr").cloned().collect(),
+    };
+    let mut names = HashMap::new();
+    for path in &textures {
+        for (number, map) in maps.surfaces.iter().enumerate() {
+            let path = if maps.surfaces.len() == 1 { path.clone() } else { named(path, map, number) };
+            write_map_exr(&path, map)?;
+            names.insert(number, path.clone());
+            written.push(path);
+        }
+    }
+    for path in asked("usda") {
+        let asset = |texture: &PathBuf| asset(path, texture);
+        let names = names.iter().map(|(number, texture)| (*number, asset(texture))).collect();
+        let faces = |prim: &str| Python::attach(|py| stage.faces(py, prim, options.frame));
+        let (mut text, count) = map_layer(scene, maps, &faces, &names);
+        if count < maps.surfaces.len() {
+            let rest = maps.surfaces.len() - count;
+            say(&format!(
+                "{}: {rest} of {} surfaces are no meshes of their own, or are placed several times; left out",
+                path.display(),
+                maps.surfaces.len()
+            ));
+        }
+        if options.divided {
+            text.push_str(&divided_meshes(scene, maps, stage.info().metres_per_unit)?);
+        }
+        write_atomically(path, true, |file| file.write_all(text.as_bytes()))?;
+        written.push(path.clone());
+    }
+    Ok(written)
+}
+
+/// A texture as a layer names it: by its file's name where it lies beside it.
+fn asset(layer: &Path, texture: &Path) -> String {
+    match (layer.parent() == texture.parent(), texture.file_name()) {
+        (true, Some(name)) => format!("./{}", name.to_string_lossy()),
+        _ => texture.to_string_lossy().into_owned(),
+    }
+}
+
+fn named(path: &Path, map: &SurfaceMap, number: usize) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let prim = map.surface.origin.name.rsplit('/').next().unwrap_or_default();
+    path.with_file_name(format!("{stem}.{number}-{prim}.exr"))
+}
+
+/// The sides that get light: their surface, front or back, and their numbers.
+fn lit(maps: &IlluminationMaps) -> impl Iterator<Item = (&SurfaceMap, usize)> {
+    maps.surfaces.iter().flat_map(|map| [0, 1].map(|side| (map, side))).filter(|(map, side)| map.sides[*side].is_some())
+}
+
+const SIDES: [&str; 2] = ["front", "back"];
+
+/// Surfaces of which a line is written.
+const MOST_LINES: usize = 40;
+
+fn as_text(maps: &IlluminationMaps, seconds: f64) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{:.1} million light paths of {:.1} lm in {seconds:.1} s; error {:.2} %, averaged over the lit area; {} MiB",
+        maps.paths as f64 * 1e-6,
+        maps.emitted,
+        100.0 * maps.error,
+        maps.memory.div_ceil(1 << 20)
+    )];
+    if maps.cut_off > 0.0 {
+        lines.push(format!("{:.3} lm were cut off by the most bounces", maps.cut_off));
+    }
+    let line = |(map, side): (&SurfaceMap, usize)| {
+        let summary = &map.summaries[side];
+        let [least, most] = summary.extremes;
+        format!(
+            "{} {}: {:.2} lx (direct {:.2}), {least:.2} to {most:.2}, {:.3} m², {:.2} lm ± {:.2}",
+            map.surface.origin,
+            SIDES[side],
+            summary.mean(),
+            summary.direct / summary.area,
+            summary.area,
+            summary.flux,
+            summary.standard_error
+        )
+    };
+    lines.extend(lit(maps).take(MOST_LINES).map(line));
+    let rest = lit(maps).count().saturating_sub(MOST_LINES);
+    if rest > 0 {
+        lines.push(format!("and {rest} more; --json lists them all"));
+    }
+    lines
+}
+
+fn as_json(maps: &IlluminationMaps, seconds: f64) -> Value {
+    let side = |(map, side): (&SurfaceMap, usize)| {
+        let summary = &map.summaries[side];
+        json!({
+            "name": &*map.surface.origin.name,
+            "placement": map.surface.placement[0],
+            "side": SIDES[side],
+            "area_m2": summary.area,
+            "flux_lm": summary.flux,
+            "direct_lm": summary.direct,
+            "standard_error_lm": summary.standard_error,
+            "mean_lx": summary.mean(),
+            "least_lx": summary.extremes[0],
+            "greatest_lx": summary.extremes[1],
+            "parts": map.chart.len(),
+        })
+    };
+    json!({
+        "paths": maps.paths,
+        "seconds": seconds,
+        "error": maps.error,
+        "emitted_lm": maps.emitted,
+        "cut_off_lm": maps.cut_off,
+        "memory_bytes": maps.memory,
+        "surfaces": lit(maps).map(side).collect::<Vec<_>>(),
+    })
+}

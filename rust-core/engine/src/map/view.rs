@@ -1,0 +1,185 @@
+//! A finished map as a camera sees it: one set of first hits, and values looked up where they are.
+
+use super::gather::{Chart, IlluminationMaps, SurfaceMap};
+use crate::{
+    accel::NONE,
+    camera::{CameraTable, Lens, sampler::BATCH},
+    compile::{CompiledScene, View},
+    error::Result,
+    geometry::GeometryTable,
+    scene::{Antialiasing, Settings},
+    transport::{Start, Tracer, Workspace},
+};
+use gonio_simd::Execution;
+use rayon::prelude::*;
+
+/// What is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantity {
+    /// All light.
+    #[default]
+    Illuminance,
+    /// What came straight from lights.
+    Direct,
+    /// What surfaces have scattered.
+    Indirect,
+    /// The standard error of all light.
+    StandardError,
+}
+
+/// Lux by pixel of the settings' window, rows from the top; not a number where no map is seen. Each pixel looks `side` × `side` times.
+///
+/// # Errors
+/// Settings and cameras that make no view.
+pub fn view(
+    maps: &IlluminationMaps,
+    scene: &CompiledScene,
+    settings: &Settings,
+    quantity: Quantity,
+    side: u32,
+    execution: Execution,
+) -> Result<(Vec<f32>, [usize; 2])> {
+    let settings = Settings { antialiasing: Antialiasing::Sampled, aovs: Vec::new(), shader_passes: Vec::new(), ..settings.clone() };
+    let View { camera, placement, transport, window, .. } = View::new(scene, &settings, execution)?;
+    let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &placement), transport };
+    let size = [0, 1].map(|axis| (window.max[axis] - window.min[axis]) as usize);
+    let looking =
+        Looking { maps, tracer: &tracer, camera: &camera, min: window.min, width: size[0], quantity, side: side.clamp(1, MOST_SIDE) };
+    let mut values = vec![f32::NAN; size[0] * size[1]];
+    let pixels = BATCH / (looking.side * looking.side) as usize;
+    let chunks = values.par_chunks_mut(pixels).enumerate();
+    chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, values)| looking.look(number * pixels, values, workspace));
+    Ok((values, size))
+}
+
+/// Looks along a pixel's side, at most: those of a pixel fit into a batch.
+const MOST_SIDE: u32 = 16;
+
+struct Looking<'a> {
+    maps: &'a IlluminationMaps,
+    tracer: &'a Tracer<'a>,
+    camera: &'a CameraTable,
+    min: [u32; 2],
+    width: usize,
+    quantity: Quantity,
+    side: u32,
+}
+
+impl Looking<'_> {
+    /// Fills some pixels in a row.
+    fn look(&self, first: usize, values: &mut [f32], workspace: &mut Workspace) {
+        let rays = (self.side * self.side) as usize;
+        let (mut places, mut slots) = ([Vec::new(), Vec::new()], Vec::new());
+        for pixel in 0..values.len() {
+            let corner = [(first + pixel) % self.width, (first + pixel) / self.width];
+            for ray in 0..rays as u32 {
+                let part = [ray % self.side, ray / self.side];
+                for (axis, places) in places.iter_mut().enumerate() {
+                    places.push((self.min[axis] + corner[axis] as u32) as f32 + (part[axis] as f32 + 0.5) / self.side as f32);
+                }
+                slots.push((pixel * rays) as u32 + ray);
+            }
+        }
+        self.tracer.first_hits_at([&places[0], &places[1]], &slots, workspace);
+        let mut sums = vec![(0.0, 0u32); values.len()];
+        let (slots, hits) = workspace.hits_by_slot();
+        for (ray, slot) in slots.enumerate() {
+            let instance = hits.instance[ray];
+            if instance == NONE {
+                continue;
+            }
+            let Some(map) = self.maps.of_instance.get(instance as usize).and_then(|number| self.maps.surfaces.get(*number as usize)) else {
+                continue;
+            };
+            let place = [hits.u[ray], hits.v[ray]];
+            let back = self.is_back(instance, hits.primitive[ray], place);
+            let value = map.at(usize::from(back), hits.primitive[ray], place, self.quantity);
+            if value.is_finite() {
+                let sum = &mut sums[slot as usize / rays];
+                *sum = (sum.0 + value, sum.1 + 1);
+            }
+        }
+        for (value, (sum, count)) in values.iter_mut().zip(sums) {
+            *value = if count > 0 { sum / count as f32 } else { f32::NAN };
+        }
+    }
+
+    /// Whether the camera sees a triangle's back at a place.
+    fn is_back(&self, instance: u32, primitive: u32, place: [f32; 2]) -> bool {
+        let (position, normal) = point(&self.tracer.tables.geometry, instance, primitive, place);
+        let direction = match self.camera.lens {
+            Lens::Orthographic => self.camera.axes[2].map(|x| -x),
+            _ => [0, 1, 2].map(|k| position[k] - self.camera.position[k]),
+        };
+        (0..3).map(|k| normal[k] * direction[k]).sum::<f32>() > 0.0
+    }
+}
+
+/// Position and normal (not unit) at a place of a triangle, rebased world space.
+fn point(geometry: &GeometryTable, instance: u32, primitive: u32, [u, v]: [f32; 2]) -> ([f32; 3], [f32; 3]) {
+    let row = &geometry.instances[instance as usize];
+    let map = &geometry.instance_transform[instance as usize * 12..instance as usize * 12 + 12];
+    let vector = |p: [f32; 3]| [0, 1, 2].map(|k| map[k] * p[0] + map[3 + k] * p[1] + map[6 + k] * p[2]);
+    let corner = |number: usize| {
+        let point = geometry.corners[(row.first_triangle + primitive) as usize * 3 + number] as usize * 3;
+        vector([geometry.points[point], geometry.points[point + 1], geometry.points[point + 2]])
+    };
+    let [a, b, c] = [corner(0), corner(1), corner(2)];
+    let cross = |u: [f32; 3], v: [f32; 3]| [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+    let edge = |end: [f32; 3]| [0, 1, 2].map(|k| end[k] - a[k]);
+    let column = |number: usize| [map[3 * number], map[3 * number + 1], map[3 * number + 2]];
+    let turned = cross(column(0), column(1));
+    // A mirroring map turns the winding round.
+    let sign = (0..3).map(|k| turned[k] * column(2)[k]).sum::<f32>().signum();
+    let position = [0, 1, 2].map(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v + map[9 + k]);
+    (position, cross(edge(b), edge(c)).map(|x| x * sign))
+}
+
+impl SurfaceMap {
+    /// The value at barycentric coordinates of corners 1 and 2, between texels by their distances; 0 where nothing arrived.
+    pub fn at(&self, side: usize, triangle: u32, place: [f32; 2], quantity: Quantity) -> f32 {
+        let Some(map) = self.sides.get(side).and_then(Option::as_ref) else { return 0.0 };
+        let value = |cell: usize| match quantity {
+            Quantity::Illuminance => map.illuminance[cell],
+            Quantity::Direct => map.direct[cell],
+            Quantity::Indirect => map.illuminance[cell] - map.direct[cell],
+            Quantity::StandardError => map.standard_error[cell],
+        };
+        match &self.chart {
+            Chart::Cells(chart) => value(chart.cell(triangle, place)),
+            Chart::Texels(chart) => between(chart.coordinates(triangle, place), chart.size(), value),
+        }
+    }
+}
+
+/// A value between the middles of texels, by those of the four that have one.
+fn between([u, v]: [f32; 2], [width, height]: [u32; 2], value: impl Fn(usize) -> f32) -> f32 {
+    let place = [u * width as f32 - 0.5, (1.0 - v) * height as f32 - 0.5];
+    let part = place.map(|x| x - x.floor());
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (y, across) in [(0, 1.0 - part[1]), (1, part[1])] {
+        for (x, along) in [(0, 1.0 - part[0]), (1, part[0])] {
+            let wrapped = |at: f32, step: i64, side: u32| (at.floor() as i64 + step).rem_euclid(i64::from(side)) as usize;
+            let found = value(wrapped(place[1], y, height) * width as usize + wrapped(place[0], x, width));
+            if found.is_finite() {
+                sum += found * along * across;
+                weights += along * across;
+            }
+        }
+    }
+    if weights > 0.0 { sum / weights } else { f32::NAN }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_between_texels_leave_out_what_has_none() {
+        let values = [1.0, 3.0, f32::NAN, 7.0];
+        let at = |u, v| between([u, v], [2, 2], |texel| values[texel]);
+        assert_eq!(at(0.25, 0.75), 1.0);
+        assert_eq!(at(0.5, 0.75), 2.0);
+        assert!((at(0.5, 0.5) - 11.0 / 3.0).abs() < 1e-6);
+    }
+}
