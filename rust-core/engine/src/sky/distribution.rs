@@ -9,6 +9,7 @@ const STEPS: [usize; 2] = [360, 180];
 
 /// How luminance is spread over the sky.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one of them a sky")]
 pub(super) enum Distribution {
     /// No light.
     Dark,
