@@ -273,6 +273,8 @@ def goniometer(
     threads: int = 0,
     progress: Callable[[int, int, float | None, float], bool | None] | None = None,
 ) -> LuminaireReading: ...
+
+@final
 class SurfaceMap:
     @property
     def name(self) -> str: ...
