@@ -258,8 +258,13 @@ fn disc<L: Lanes>(normal: Vec3<L>, choice: F<L>) -> ([Vec3<L>; 3], [F<L>; 3]) {
     let axis = flat.select(frame.z, first.select(frame.x, frame.y));
     let along = (first.and_not(flat)).select(frame.z, frame.x);
     let across = first.select(frame.y, frame.z);
-    let likely = |is_normal: M<L>| is_normal.select(l.f(0.5), l.f(0.25));
-    ([along, across, axis], [likely(first.and_not(flat)), likely(!first), likely(flat)])
+    ([along, across, axis], [likelihood(l, first.and_not(flat)), likelihood(l, !first), likelihood(l, flat)])
+}
+
+/// How likely an axis is taken for the disc's: the normal in half of the cases.
+#[inline(always)]
+fn likelihood<L: Lanes>(l: L, is_normal: M<L>) -> F<L> {
+    is_normal.select(l.f(0.5), l.f(0.25))
 }
 
 /// One ray a hit through a point of its disc.
