@@ -35,8 +35,8 @@ How it is tested:
 - **ball**: a turned ball seen in perspective. Both engines sample within a hundredth of a pixel of its middle, and values are carried
   along their slopes to the same place. Up to 1 % of the pixels may differ, where samples meet other faces. Bumps are slopes between heights
   a tenth of a pixel apart, which single precision rounds by some 1e-4 in either engine, more the farther a pixel is from the origin; that
-  noise goes both ways. So middles of blocks of 8 by 8 pixels are held to the tolerance, and pixels alone only where heights lie a whole pixel
-  apart. Skies of atmospheres are held so too.
+  noise goes both ways. So middles of blocks of 8 by 8 pixels are held to the tolerance, and pixels alone only where heights lie a whole
+  pixel apart. Skies of atmospheres are held so too.
 - **particles**: the same with balls that particles instance.
 - **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 % but for one.
 - **rays**: the same for outputs that rays find out, or that depend on the kind of ray: blocks beside a floor, or a mirror.
