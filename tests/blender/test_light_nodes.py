@@ -42,7 +42,7 @@ CASES = {
     "stroke": shown("UVAlongStroke", 0),
     **{f"occlusion {output}": shown("AmbientOcclusion", output, tinted) for output in ("Color", "AO")},
 }
-LINES = ("Shader to RGB", "Squeeze", "UV along", "UV Along", "Ambient Occlusion")
+LINES = ("Shader to RGB", "Squeeze", "UV along", "UV Along")
 
 
 @pytest.mark.blender

@@ -29,7 +29,8 @@ class Case:
     outputs: tuple | None = None
     # On a sphere, at places as both engines see it, in the stead of a plane of texels.
     on_sphere: bool = False
-    # Which of the scenes of `stage.py` shows it; "" is "balls" for what is on a sphere, else "tiles".
+    # Which of the scenes of `stage.py` shows it; "" is "balls" for what is on a sphere, else "tiles"; "near" are balls of fewer
+    # cases, which lie nearer to the origin.
     stage: str = ""
     tolerance: float = USUAL
     # The share of texels that may fall to the other side of a step.

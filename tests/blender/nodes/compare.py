@@ -9,6 +9,8 @@ EDGES = 0.01
 # Pixels along a side of the blocks whose middles are compared where values are rounded, the share of them that is there at least, and how
 # many times the tolerance 95 of 100 pixels alone may differ.
 BLOCK, FULL, ROUNDED = 8, 0.75, 20.0
+# The share of blocks at the rim that may differ: one of a ball's.
+RIM = 0.015
 
 
 def tile(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
@@ -73,7 +75,7 @@ def ball(mine: dict, theirs: dict, case: Case, pixels) -> dict:
     found = summary(difference, expected[inner], case, known, EDGES)
     if case.rounded:
         single = found["percentile95"]
-        found = summary(*_middles(value[inner] - expected[inner] - moved, expected[inner], known), case)
+        found = summary(*_middles(value[inner] - expected[inner] - moved, expected[inner], known), case, steps=RIM)
         found["single"] = single
         found["exact"] = found["exact"] and single <= ROUNDED * case.tolerance
     found["apart"] = _short(numpy.abs(offset[known]).max()) if known.any() else 0.0
@@ -111,7 +113,7 @@ def averaged(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
 
 
 # By the scene that shows it.
-WAYS = {"tiles": tile, "balls": ball, "particles": ball, "lit": lit, "filled": lit, "floor": averaged, "mirror": lit}
+WAYS = {"tiles": tile, "balls": ball, "near": ball, "particles": ball, "lit": lit, "filled": lit, "floor": averaged, "mirror": lit}
 
 
 def _slopes(values: numpy.ndarray) -> tuple[list, list]:

@@ -8,8 +8,9 @@ MAPPINGS = ["POINT", "TEXTURE", "VECTOR", "NORMAL"]
 TURNS = ["AXIS_ANGLE", "X_AXIS", "Y_AXIS", "Z_AXIS", "EULER_XYZ"]
 SPACES = ["WORLD", "OBJECT", "CAMERA"]
 HELD = {"Location": (0.3, -0.7, 1.1), "Rotation": (0.4, -0.9, 2.3), "Scale": (1.3, -0.6, 2.2)}
-DISPLACED = {"on_sphere": True, "seen": "displacement", "rounded": True}
-BUMPED = {"on_sphere": True, "prepare": "waves"}
+NEAR = {"on_sphere": True, "stage": "near"}
+DISPLACED = {"seen": "displacement", "rounded": True, **NEAR}
+BUMPED = {"prepare": "waves", **NEAR}
 DRIVEN = {"Location": "place 1", "Rotation": "place 2", "Scale": "positive 0"}
 
 
@@ -88,9 +89,9 @@ NODES = {
             Case("filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, **BUMPED),
             Case("inverted, filter width 1", {"invert": True}, {"Distance": 0.2, "Filter Width": 1.0}, **BUMPED),
             Case("strength 0.4, filter width 1", {}, {"Distance": 0.2, "Strength": 0.4, "Filter Width": 1.0}, **BUMPED),
-            Case("flat", {}, {"Height": 0.5}, on_sphere=True),
-            Case("on a map", {}, {"Distance": 0.2}, on_sphere=True, rounded=True, prepare="waves_on_map"),
-            Case("on a map, filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, on_sphere=True, prepare="waves_on_map"),
+            Case("flat", {}, {"Height": 0.5}, **NEAR),
+            Case("on a map", {}, {"Distance": 0.2}, rounded=True, prepare="waves_on_map", **NEAR),
+            Case("on a map, filter width 1", {}, {"Distance": 0.2, "Filter Width": 1.0}, prepare="waves_on_map", **NEAR),
         ),
     ),
     "ShaderNodeDisplacement": Node(

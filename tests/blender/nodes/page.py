@@ -35,8 +35,8 @@ How it is tested:
 - **ball**: a turned ball seen in perspective. Both engines sample within a hundredth of a pixel of its middle, and values are carried
   along their slopes to the same place. Up to 1 % of the pixels may differ, where samples meet other faces. Bumps are slopes between heights
   a tenth of a pixel apart, which single precision rounds by some 1e-4 in either engine, more the farther a pixel is from the origin; that
-  noise goes both ways. So middles of blocks of 8 by 8 pixels are held to the tolerance, and pixels alone only where heights lie a whole pixel
-  apart.
+  noise goes both ways. So middles of blocks of 8 by 8 pixels are held to the tolerance, and pixels alone only where heights lie a whole
+  pixel apart. Skies of atmospheres are held so too.
 - **particles**: the same with balls that particles instance.
 - **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 % but for one.
 - **rays**: the same for outputs that rays find out, or that depend on the kind of ray: blocks beside a floor, or a mirror.
@@ -46,7 +46,7 @@ A node is *exact* where every output of every mode is within 1e-4 of Cycles' (1e
 the value or to the usual value of the case. Steps such as the borders of cells may fall to the other side in a few texels of a thousand;
 *at steps* counts them. *Approximated* says that some outputs differ, *not* that something stands in for the node.
 """
-WAYS = {"balls": "ball", "particles": "particles", "lit": "light", "filled": "light", "floor": "rays", "mirror": "rays"}
+WAYS = {"balls": "ball", "near": "ball", "particles": "particles", "lit": "light", "filled": "light", "floor": "rays", "mirror": "rays"}
 
 
 def how(node: Node) -> str:

@@ -128,7 +128,7 @@ def material(name: str, bl_idname: str, case: Case, output: str | int) -> bpy.ty
         _colour(made, node)
     else:
         made.finish(end or socket(node.outputs, output), case.seen)
-    if case.shown_on in ("balls", "particles"):
+    if case.shown_on in ("balls", "near", "particles"):
         made.see_place()
     return made.material
 
