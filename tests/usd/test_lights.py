@@ -73,6 +73,22 @@ def test_normalize_measures_in_stage_units(tmp_path):
     assert light(tmp_path, "DomeLight", "bool inputs:normalize = 1")["emission"]["normalized"] is False
 
 
+@pytest.mark.parametrize(
+    ("body", "candela"),
+    [
+        # A sphere of 1 cd/m² shows π r² of itself; normalized, a quarter of 1 over the square of the stage's unit.
+        ("bool treatAsPoint = 1\nfloat inputs:radius = 20", 0.04 * 3.14159265),
+        ("bool treatAsPoint = 1\nbool inputs:normalize = 1\nfloat inputs:radius = 20", 0.25e-4),
+        ("bool inputs:normalize = 1\nfloat inputs:radius = 0", 0.25e-4),
+    ],
+)
+def test_spheres_that_are_points_keep_their_intensity(tmp_path, body, candela):
+    found = light(tmp_path, "SphereLight", body, metres=0.01)
+    assert found["shape"] == "Point"
+    assert found["emission"]["radiance"] == pytest.approx([candela] * 3, rel=1e-6)
+    assert found["emission"]["normalized"] is False
+
+
 def test_transforms_are_in_metres(tmp_path):
     body = 'double3 xformOp:translate = (100, 200, 300)\nuniform token[] xformOpOrder = ["xformOp:translate"]'
     columns = light(tmp_path, "SphereLight", body, metres=0.01)["transform"]["columns"]

@@ -9,7 +9,7 @@ use crate::pxr::Module;
 use crate::vt::{AssetPath, FromValue};
 use gonio::scene::{DomeFormat, Emission, Goniogram, Light, LightShape, Shaping, TextureId, Transform, Visibility};
 use pyo3::{intern, prelude::*};
-use std::sync::Arc;
+use std::{f64::consts::PI, sync::Arc};
 
 /// Half angle from which on a cone takes nothing away, degrees.
 const FULL_CONE: f32 = 180.0;
@@ -36,14 +36,17 @@ pub fn is_light(type_name: &str) -> bool {
 /// The light at a prim; `transform` takes its local space to metres. `None`, with a report, for types that are not supported.
 pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &Transform) -> Option<Light> {
     let type_name = prim.type_name();
-    let shape = shape(context, prim, &type_name)?;
+    let stated = shape(context, prim, &type_name)?;
+    let is_normalized = input(context, prim, "normalize").unwrap_or(false);
+    let intensity = intensity_as_point(context, prim, stated, transform, is_normalized);
+    let shape = if intensity.is_some() { LightShape::Point } else { stated };
     let is_dome = matches!(shape, LightShape::Dome { .. });
     let photometry = photometry::photometry(context, prim, shape, transform);
     // A quantity takes the place of the intensity, whatever that is.
     let has_quantity = photometry.as_ref().is_some_and(|photometry| photometry.quantity.is_some());
     let emission = Emission {
-        radiance: if has_quantity { tint(context, prim) } else { radiance(context, prim)? },
-        normalized: !is_dome && input(context, prim, "normalize").unwrap_or(false),
+        radiance: if has_quantity { tint(context, prim) } else { radiance(context, prim)?.map(|x| x * intensity.unwrap_or(1.0) as f32) },
+        normalized: !is_dome && is_normalized && intensity.is_none(),
         metres_per_unit: context.metres_per_unit,
     };
     let has_texture = is_dome || matches!(shape, LightShape::Rectangle { .. });
@@ -73,6 +76,22 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
             ..light
         },
     })
+}
+
+/// Candela of a sphere of 1 cd/m² that is to be a point, as `treatAsPoint` asks, or as it has no extent; `None` for all others.
+fn intensity_as_point<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    shape: LightShape,
+    transform: &Transform,
+    is_normalized: bool,
+) -> Option<f64> {
+    let LightShape::Sphere { radius } = shape else { return None };
+    let is_point = context.get(prim, "treatAsPoint").unwrap_or(false) || (radius == 0.0 && is_normalized);
+    // Normalized light is over the area 4πr² in the stage's units; π r² of it is seen from everywhere.
+    let scale = transform.columns[..3].iter().map(|axis| axis.iter().map(|x| x * x).sum::<f64>()).sum::<f64>() / 3.0;
+    let seen = || if is_normalized { 0.25 * context.metres_per_unit.powi(2) } else { PI * radius * radius * scale };
+    is_point.then(seen)
 }
 
 /// The light group that a prim names.
