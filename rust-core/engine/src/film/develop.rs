@@ -1,8 +1,10 @@
 //! From sums to an image.
 
+use super::splats::SplatFilm;
 use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
     camera::sampler::{BATCH, TILE, tile_code, tile_place},
+    colour::luminance,
     scene::{Aov, Crop},
     threads::available_threads,
 };
@@ -131,12 +133,32 @@ impl Film {
                         catcher::show(*aov, &developing, first, self.exposure, &mut part);
                     }
                     if let Some(splats) = &splats {
-                        splats.show(*aov, &developing, &self.layout, self.exposure, corner, &mut part);
+                        self.show_splats(*aov, splats, &developing, corner, &mut part);
                     }
                 }
             });
         }
         (least, total)
+    }
+
+    /// Adds to the pixels of a tile what light paths brought there; `corner` is the tile's first pixel in the window.
+    fn show_splats(&self, aov: Aov, splats: &SplatFilm, tile: &Developing<'_>, corner: [usize; 2], out: &mut Part<'_>) {
+        let Some(shown) = splats.shown(aov) else { return };
+        let factor = if matches!(aov, Aov::Color | Aov::LightGroup(_)) { f64::from(self.exposure) } else { 1.0 };
+        let divisor = divisor(aov).and_then(|aov| self.layout.offset(aov));
+        out.for_each_at(|code, [x, y], values| {
+            let light = shown.at([corner[0] + x, corner[1] + y]).map(|x| x * factor);
+            if aov == Aov::Luminance {
+                values[0] += luminance(light) as f32;
+                return;
+            }
+            for (channel, (value, light)) in values.iter_mut().zip(light).enumerate() {
+                *value += match divisor {
+                    Some(offset) => share(light, tile.sums[(offset + channel) * BATCH + code] * tile.scale(code)) as f32,
+                    None => light as f32,
+                };
+            }
+        });
     }
 
     fn develop_tile(&self, aov: Aov, tile: &Developing<'_>, part: &mut Part<'_>) {

@@ -1,10 +1,8 @@
 //! Light that light paths bring to any pixel of the picture (pbrt's `AddSplat`), in fixed point: whole numbers add up to the same bits in any order.
 
-use super::ChannelLayout;
-use super::develop::{Developing, Part};
+use super::channels::ChannelLayout;
 use super::raw::array;
 use crate::{
-    camera::sampler::BATCH,
     scene::{Aov, Crop, LightPart, ScatteringKind},
     transport::{GroupPasses, Splat},
 };
@@ -44,6 +42,22 @@ pub(crate) struct SplatFilm {
     paths: u64,
     /// By part, channel and pixel.
     sums: Vec<i64>,
+}
+
+/// What a pass shows of splats.
+pub(super) struct Shown<'a> {
+    /// By channel and pixel.
+    sums: &'a [i64],
+    width: usize,
+    unit: f64,
+}
+
+impl Shown<'_> {
+    /// Radiance of a pixel of the window.
+    pub(super) fn at(&self, [x, y]: [usize; 2]) -> [f64; 3] {
+        let pixels = self.sums.len() / 3;
+        [0, 1, 2].map(|channel| self.sums[channel * pixels + y * self.width + x] as f64 * self.unit)
+    }
 }
 
 /// The splats of a block.
@@ -124,39 +138,18 @@ impl SplatFilm {
         self.sums.iter_mut().zip(&other.sums).for_each(|(sum, more)| *sum = sum.saturating_add(*more));
     }
 
-    /// Adds to the pixels of a tile what light paths brought there; `corner` is the tile's first pixel in the window.
-    pub(super) fn show(
-        &self,
-        aov: Aov,
-        tile: &Developing<'_>,
-        layout: &ChannelLayout,
-        exposure: f32,
-        corner: [usize; 2],
-        out: &mut Part<'_>,
-    ) {
-        let (part, factor) = match aov {
-            Aov::Color => (Share::Radiance, f64::from(exposure)),
-            Aov::Luminance => (Share::Radiance, 1.0),
-            Aov::Light(kind, LightPart::Indirect) => (Share::Kind(kind), 1.0),
-            Aov::LightGroup(number) => (Share::Group(number), f64::from(exposure)),
-            _ => return,
+    /// The light that a pass shows, if it shows any of it.
+    pub(super) fn shown(&self, aov: Aov) -> Option<Shown<'_>> {
+        let share = match aov {
+            Aov::Color | Aov::Luminance => Share::Radiance,
+            Aov::Light(kind, LightPart::Indirect) => Share::Kind(kind),
+            Aov::LightGroup(number) => Share::Group(number),
+            _ => return None,
         };
-        let Some(first) = self.layout.parts.iter().position(|known| *known == part).map(|part| part * 3) else { return };
-        let scale = factor / (self.layout.scale * self.paths.max(1) as f64);
+        let first = self.layout.parts.iter().position(|known| *known == share)? * 3;
         let pixels = self.layout.size[0] * self.layout.size[1];
-        let divisor = super::divisor(aov).and_then(|aov| layout.offset(aov));
-        out.for_each_at(|code, [x, y], values| {
-            let pixel = (corner[1] + y) * self.layout.size[0] + corner[0] + x;
-            let light = [0, 1, 2].map(|channel| self.sums[(first + channel) * pixels + pixel] as f64 * scale);
-            if aov == Aov::Luminance {
-                values[0] += crate::colour::luminance(light) as f32;
-                return;
-            }
-            for (channel, (value, light)) in values.iter_mut().zip(light).enumerate() {
-                let colour = divisor.map_or(1.0, |offset| tile.sums[(offset + channel) * BATCH + code] * tile.scale(code));
-                *value += if colour > 0.0 { (light / colour) as f32 } else { 0.0 };
-            }
-        });
+        let unit = 1.0 / (self.layout.scale * self.paths.max(1) as f64);
+        Some(Shown { sums: &self.sums[first * pixels..(first + 3) * pixels], width: self.layout.size[0], unit })
     }
 
     /// Reciprocal of a unit's value: a power of two.
