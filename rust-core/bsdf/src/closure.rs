@@ -7,12 +7,13 @@ use super::lobes::{Normal, Shape, Side};
 use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
 use super::parameter as p;
+use super::portal::Portal;
 use super::reflect::ReflectLobe;
 use super::resolve::Layers;
 use super::switches::{Closure, Fuzz};
 use super::toon::ToonLobe;
 use super::turn::turned;
-use gonio_simd::{Lanes, Spectrum};
+use gonio_simd::{Lanes, Spectrum, Vec3};
 
 impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The lobe that the switches name.
@@ -90,6 +91,19 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let glossy = self.surface.switches.closure == Closure::GlossyToon;
         let lobe = ToonLobe::new(self.get(p::TOON_SIZE), self.get(p::TOON_SMOOTH), glossy);
         self.push(Shape::Toon(lobe), colour, colour * lobe.albedo(), None, Side::Reflected, Normal::Specular);
+    }
+
+    /// Puts the portal in place.
+    #[inline(always)]
+    fn single_portal(&mut self, colour: Spectrum<L>) {
+        let [position, direction] = [p::PORTAL_POSITION, p::PORTAL_DIRECTION];
+        self.lobes.portal = Some(Portal { position: self.vector(position), direction: self.vector(direction), colour });
+    }
+
+    /// A parameter of three places that is no light.
+    #[inline(always)]
+    fn vector(&self, offset: usize) -> Vec3<L> {
+        Vec3::new(self.get(offset), self.get(offset + 1), self.get(offset + 2))
     }
 
     /// Fuzz alone.
