@@ -24,9 +24,13 @@ impl Bounds {
         let meshes: Vec<Self> = scene.meshes.iter().map(of_mesh).collect();
         of_instances(scene, &meshes)
     }
-    /// World bounds of a scene's lights that have a place.
-    pub(crate) fn of_lights(scene: &Scene) -> Self {
+    /// Bounds of a scene's surfaces and of its lights that have a place, after a map of the world.
+    pub(crate) fn of_all(scene: &Scene, map: &Transform) -> Self {
         let mut bounds = Self::default();
+        for instances in &scene.instances {
+            let mesh = scene.meshes.get(instances.mesh.index()).map(of_mesh).unwrap_or_default();
+            instances.transforms.iter().for_each(|transform| bounds.join(&mesh.transformed(&map.after(transform))));
+        }
         for light in scene.lights.iter().filter(|light| !light.shape.is_at_infinity()) {
             // Sizes are in the map's axes.
             let half = match &light.shape {
@@ -35,13 +39,16 @@ impl Bounds {
                 LightShape::Rectangle { .. } | LightShape::Disk { .. } | LightShape::Ellipse { .. } => [1.0, 1.0, 0.0],
                 _ => [1.0; 3],
             };
-            let placed = Self { min: half.map(|x| -x), max: half }.transformed(&sized(light));
-            if !placed.is_empty() {
-                bounds.extend(placed.min);
-                bounds.extend(placed.max);
-            }
+            bounds.join(&Self { min: half.map(|x| -x), max: half }.transformed(&map.after(&sized(light))));
         }
         bounds
+    }
+    /// Takes another box in.
+    fn join(&mut self, other: &Self) {
+        if !other.is_empty() {
+            self.extend(other.min);
+            self.extend(other.max);
+        }
     }
     /// Whether nothing is inside.
     pub fn is_empty(&self) -> bool {
@@ -101,11 +108,7 @@ pub(super) fn of_instances(scene: &Scene, meshes: &[Bounds]) -> Bounds {
     for instances in &scene.instances {
         let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };
         for transform in &instances.transforms {
-            let placed = mesh.transformed(transform);
-            if !placed.is_empty() {
-                bounds.extend(placed.min);
-                bounds.extend(placed.max);
-            }
+            bounds.join(&mesh.transformed(transform));
         }
     }
     bounds

@@ -46,18 +46,16 @@ pub(super) struct ExtentAxes {
 }
 
 impl ExtentAxes {
-    /// For points within the bounds, which are world space.
+    /// For points within the bounds, which are the frame's.
     pub(super) fn new(frame: &Frame, bounds: &Bounds) -> Self {
         let axes = AXES.map(|axis| frame.world_vector(axis));
         let range = |axis: [f64; 3]| {
-            let corners = (0..8).map(|corner: usize| {
-                let corner = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { bounds.min[k] } else { bounds.max[k] });
-                dot(axis, [0, 1, 2].map(|k| corner[k] - frame.origin[k]))
-            });
+            let corners =
+                (0..8).map(|corner: usize| dot(axis, [0, 1, 2].map(|k| if corner >> k & 1 == 0 { bounds.min[k] } else { bounds.max[k] })));
             let [least, greatest] = corners.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
             [least, greatest - least]
         };
-        Self { axes, ranges: axes.map(range) }
+        Self { axes, ranges: AXES.map(range) }
     }
 
     pub(super) fn len() -> usize {

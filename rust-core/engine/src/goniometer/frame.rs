@@ -35,6 +35,13 @@ impl Frame {
         Ok(Self { origin: transform.columns[3], axes: [x, y, z] })
     }
 
+    /// The map from the world to the frame.
+    pub fn from_world(&self) -> Transform {
+        let column = |k: usize| self.axes.map(|axis| axis[k]);
+        let moved = self.point([0.0; 3]);
+        Transform { columns: [column(0), column(1), column(2), moved] }
+    }
+
     /// A world vector in the frame's axes.
     #[inline]
     pub fn direction(&self, v: [f64; 3]) -> [f64; 3] {
@@ -96,6 +103,7 @@ mod tests {
         assert_eq!(turned.direction([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]);
         assert_eq!(turned.point([1.0, 2.0, 2.0]), [0.0, 0.0, -1.0]);
         assert_eq!(turned.world_point([1.0, 0.0, 0.0]), [1.0, 3.0, 3.0]);
+        assert_eq!(turned.from_world().point([1.0, 2.0, 2.0]), [0.0, 0.0, -1.0]);
         // What hangs along −y.
         let hung = frame(&Transform::IDENTITY, [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]).expect("axes");
         assert_eq!(hung.axes, [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]);

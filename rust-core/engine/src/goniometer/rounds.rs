@@ -123,7 +123,7 @@ impl<'a> Run<'a> {
         closed || self.peak().relative_error() <= error && escaped.relative_error() <= error
     }
 
-    pub(super) fn reading(&self, bounds: &Bounds) -> Reading {
+    pub(super) fn reading(&self, body: &Bounds) -> Reading {
         let estimates: Vec<Estimate> = self.intensities().collect();
         let value = |estimate: Estimate| Value { value: estimate.luminance(), error: estimate.error() };
         let flux = |flux: Flux| value(self.flux(flux));
@@ -147,7 +147,7 @@ impl<'a> Run<'a> {
             },
             escaped_rgb: self.flux(Flux::Escaped).mean,
             opening: self.instrument.extent.opening(extent),
-            body: body(bounds, self.options),
+            body: if body.is_empty() { [[0.0; 3]; 2] } else { [body.min, body.max] },
             screen: self.screen(),
             paths: self.batches * self.parts.len() as u64 * LIGHT_BATCH as u64,
             elapsed: self.start.elapsed(),
@@ -163,14 +163,4 @@ impl<'a> Run<'a> {
         let (illuminance, errors) = cells.map(|cell| (cell.luminance(), cell.error())).unzip();
         Some(ScreenReading { screen, illuminance, errors })
     }
-}
-
-/// The box about all that belongs to the luminaire, in its frame.
-fn body(bounds: &Bounds, options: &Options) -> [[f64; 3]; 2] {
-    let mut body = Bounds::default();
-    for corner in 0..8 {
-        let corner = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { bounds.min[k] } else { bounds.max[k] });
-        body.extend(options.frame.point(corner));
-    }
-    if body.is_empty() { [[0.0; 3]; 2] } else { [body.min, body.max] }
 }

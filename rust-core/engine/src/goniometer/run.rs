@@ -14,7 +14,7 @@ use super::{
 use crate::{
     compile::{CompiledScene, compile, transport},
     error::{Diagnostic, Result},
-    scene::{Origin, Scene, Settings},
+    scene::{Origin, Scene, Settings, Transform},
     transport::Transport,
 };
 use gonio_simd::Execution;
@@ -48,19 +48,20 @@ pub fn measure(
     let compiled = compile(&scene, None, cancel)?;
     diagnostics.extend(compiled.diagnostics.iter().cloned());
     sources::report_uneven(&scene, &compiled, &mut diagnostics);
-    let bounds = sources::bounds(&scene, &compiled, &options.rays);
+    let bounds = sources::bounds(&scene, &options.rays, &Transform::IDENTITY);
+    let body = sources::bounds(&scene, &options.rays, &options.frame.from_world());
     let sources = Sources::new(&compiled, &bounds, &options, &mut diagnostics)?;
     let instrument = Instrument {
         frame: options.frame,
         origin: [0, 1, 2].map(|k| options.frame.origin[k] - compiled.tables.origin[k]),
         cells: Cells::new(&options.angles),
-        extent: ExtentAxes::new(&options.frame, &bounds),
+        extent: ExtentAxes::new(&options.frame, &body),
         screen: options.screen.as_ref().map(|screen| ScreenPlane::new(screen, &options.frame)),
         rebased: compiled.tables.origin,
     };
     let mut run = Run::new(&options, &instrument, &sources, start);
     run.trace(&compiled, &unlimited(&compiled, &options, execution), cancel, progress)?;
-    let mut reading = run.reading(&bounds);
+    let mut reading = run.reading(&body);
     reading.diagnostics = diagnostics;
     report_losses(&mut reading);
     Ok(reading)

@@ -3,7 +3,7 @@
 use crate::{
     compile::{Bounds, CompiledScene},
     error::{Diagnostic, Error, Result},
-    scene::{Light, Origin, Scene},
+    scene::{Light, Origin, Scene, Transform},
     transport::RayTable,
 };
 
@@ -84,12 +84,10 @@ pub(super) fn luminaire(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Sce
     }
 }
 
-/// World bounds of surfaces, lights and rays' starts.
-pub(super) fn bounds(scene: &Scene, compiled: &CompiledScene, rays: &[Rays]) -> Bounds {
-    let mut bounds = compiled.bounds;
-    let lights = Bounds::of_lights(scene);
-    [lights.min, lights.max].into_iter().for_each(|corner| bounds.extend(corner));
-    rays.iter().flat_map(|rays| &rays.origins).for_each(|origin| bounds.extend(*origin));
+/// Bounds of surfaces, lights and rays' starts after a map of the world.
+pub(super) fn bounds(scene: &Scene, rays: &[Rays], map: &Transform) -> Bounds {
+    let mut bounds = Bounds::of_all(scene, map);
+    rays.iter().flat_map(|rays| &rays.origins).for_each(|origin| bounds.extend(map.point(*origin)));
     bounds
 }
 
