@@ -20,9 +20,6 @@ pub struct Rays {
     pub flux: Vec<[f64; 3]>,
 }
 
-/// The same numbers for the same rays.
-const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
-
 impl Rays {
     /// The table of those that make sense, in an order of chance: files are often sorted, and any number of rays is to stand for all.
     ///
@@ -45,8 +42,7 @@ impl Rays {
             );
             diagnostics.push(Diagnostic::warning(&of_file, problem));
         }
-        let hashed = |ray: &usize| (*ray as u64 + 1).wrapping_mul(MULTIPLIER).rotate_left(31).wrapping_mul(MULTIPLIER);
-        order.sort_by_key(hashed);
+        order.sort_by_key(|ray| mixed(*ray as u64));
         let mut table = RayTable::default();
         let share = order.len() as f64;
         for ray in order {
@@ -67,6 +63,14 @@ impl Rays {
         let length = direction.iter().map(|x| x * x).sum::<f64>();
         finite(place) && finite(flux) && length > 0.0 && length.is_finite() && flux.iter().all(|x| *x >= 0.0) && *flux != [0.0; 3]
     }
+}
+
+/// A number of chance for each number: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+fn mixed(number: u64) -> u64 {
+    let z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 /// The luminaire's scene: without lights at infinity, portals, and what a picture needs.

@@ -106,8 +106,8 @@ fn a_point_shines_the_same_everywhere() {
     near(emitted.value, 400.0 * PI, 1e-5);
     for (place, intensity) in reading.intensities.iter().enumerate() {
         near(*intensity, 100.0, 0.01);
-        // A cell at γ = 15° gets 1100 rays.
-        assert!(reading.errors[place] < 4.0, "{:?}", reading.direction(place));
+        // A cell at γ = 15° gets 1100 rays: 3 cd, which 64 batches tell within a few tenths.
+        assert!(reading.errors[place] < 4.5, "{:?}", reading.direction(place));
     }
     assert_eq!(reading.opening.size(), [0.0; 3]);
     assert!(reading.diagnostics.is_empty(), "{:?}", reading.diagnostics);
