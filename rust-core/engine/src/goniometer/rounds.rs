@@ -93,7 +93,19 @@ impl<'a> Run<'a> {
     }
 
     fn sum(&self, of: impl Fn(&Tally<'a>) -> Estimate) -> Estimate {
-        self.parts.iter().fold(Estimate::default(), |sum, (_, tally)| sum.plus(&of(tally)))
+        let part = |(emission, tally): &(Emission<'a>, Tally<'a>)| {
+            let estimate = of(tally);
+            Estimate { variance: estimate.variance * self.passes(*emission), ..estimate }
+        };
+        self.parts.iter().map(part).fold(Estimate::default(), |sum, part| sum.plus(&part))
+    }
+
+    /// How often rays of a table were taken: rays that come again tell nothing new of what they were drawn from.
+    fn passes(&self, emission: Emission<'a>) -> f64 {
+        match emission {
+            Emission::Lights(_) => 1.0,
+            Emission::Rays(table) => ((self.batches * LIGHT_BATCH as u64) as f64 / table.len() as f64).max(1.0),
+        }
     }
 
     fn flux(&self, flux: Flux) -> Estimate {
