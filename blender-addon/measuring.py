@@ -23,10 +23,11 @@ class Readings:
     grids: dict = field(default_factory=dict)
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
+    luminaire: tuple = ()
 
     def clear(self) -> None:
         """Forgets everything."""
-        self.grids, self.point = {}, ()
+        self.grids, self.point, self.luminaire = {}, (), ()
 
 
 latest = Readings()

@@ -23,10 +23,10 @@ __all__ = ["Changes", "Exporter"]
 
 
 class Exporter:
-    """One session's scene and what is known of it; holds no Blender data between calls."""
+    """One session's scene and what is known of it; holds no Blender data between calls. A part is exported without the world and the camera."""
 
-    def __init__(self, report):
-        self.report = report
+    def __init__(self, report, part=None):
+        self.report, self._part = report, part
         self.scene = gonio.Scene()
         self._textures = Slots()
         self._images = Images(self.scene, self._textures)
@@ -101,6 +101,9 @@ class Exporter:
     def _everything(self, depsgraph):
         self._materials.forget_all()
         self._placements(depsgraph, Changes(), keep_known=False)
+        if self._part is not None:
+            self._lights.write()
+            return
         self._world(depsgraph)
         self._lights.write()
         self._scene_camera(depsgraph)
@@ -130,7 +133,7 @@ class Exporter:
         self._materials.begin(self._surroundings(depsgraph))
         # All objects are looked at anew.
         self.report.forget_all("Object")
-        walk = Walk(depsgraph, self.report)
+        walk = Walk(depsgraph, self.report, self._part)
         override = depsgraph.view_layer_eval.material_override
         entries = []
         for group in walk.groups:
@@ -175,4 +178,4 @@ class Exporter:
         return True
 
     def _surroundings(self, depsgraph):
-        return Surroundings(self._camera, depsgraph)
+        return Surroundings(self._camera, depsgraph, self._part)

@@ -42,16 +42,16 @@ class Group:
 
 
 class Walk:
-    """What a depsgraph shows: the groups, with their matrices (N, 4, 4), and the materials of their slots by session_uid."""
+    """What a depsgraph shows, or a part of it: the groups, with their matrices (N, 4, 4), and the materials of their slots by session_uid."""
 
-    def __init__(self, depsgraph, report):
+    def __init__(self, depsgraph, report, part=None):
         self.groups, self.materials = [], {}
         self._depsgraph, self._visibility = depsgraph, Visibility(depsgraph.view_layer)
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
             count = row + 1
             # Instancers may be hidden themselves.
-            if not item.show_self:
+            if not item.show_self or (part is not None and not part.shows(item)):
                 continue
             thing = item.object
             original, data = thing.original, thing.data
@@ -68,7 +68,7 @@ class Walk:
             elif group is not None:
                 group.rows.append(row)
         self.groups = _once([group for group in groups.values() if group is not None])
-        _fill(depsgraph, self.groups, count)
+        _fill(depsgraph, self.groups, count, part)
 
     def _group(self, item, thing, original, data, parent, row):
         kind = thing.type
@@ -117,11 +117,13 @@ def _special_parents(depsgraph, visibility):
     return special
 
 
-def _fill(depsgraph, groups, count):
+def _fill(depsgraph, groups, count, part):
     flat = np.empty(count * 16, dtype=np.float32)
     depsgraph.object_instances.foreach_get("matrix_world", flat)
     # Blender gives columns; the scene wants rows.
     matrices = np.ascontiguousarray(flat.reshape(-1, 4, 4).transpose(0, 2, 1))
+    if part is not None:
+        matrices = part.placed(matrices)
     kept = usable(matrices)
     all_kept = kept.all()
     for group in groups:

@@ -30,8 +30,8 @@ class Eye:
 class Surroundings:
     """The scene as of now; holds Blender data, so it is not kept."""
 
-    def __init__(self, camera=None, depsgraph=None):
-        self._camera, self._depsgraph, self._objects = camera, depsgraph, None
+    def __init__(self, camera=None, depsgraph=None, part=None):
+        self._camera, self._depsgraph, self._part, self._objects = camera, depsgraph, part, None
 
     def ask(self, key):
         """The camera, a property of the view layer, the scene or the world, or the matrix to an object's space; None if there is none."""
@@ -48,7 +48,10 @@ class Surroundings:
         if self._objects is None:
             self._objects = {thing.original.session_uid: thing for thing in self._depsgraph.objects}
         thing = self._objects.get(uid)
-        return None if thing is None else _rows(*thing.matrix_world.inverted_safe()[:3])
+        if thing is None:
+            return None
+        to_object = np.array(thing.matrix_world.inverted_safe())
+        return _rows(*(to_object if self._part is None else to_object @ self._part.frame)[:3])
 
     def answers(self, asked):
         """Whether the answers of earlier are still right."""

@@ -7,6 +7,7 @@ from .. import measuring
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
+from .measure_luminaire import GONIO_OT_measure_luminaire
 from .point_meter import GONIO_OT_point_meter
 from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
 from .standard_view import GONIO_OT_use_standard_view
@@ -16,6 +17,7 @@ CLASSES = (
     GONIO_OT_use_standard_view,
     GONIO_OT_expose_for_daylight,
     GONIO_OT_measure_grids,
+    GONIO_OT_measure_luminaire,
     GONIO_OT_point_meter,
     GONIO_OT_report_jump,
     GONIO_OT_report_copy,

@@ -25,6 +25,8 @@ class GONIO_VIEW3D_PT_measure(Panel):
         for name, reading in measuring.latest.grids.items():
             layout.label(text=name, icon="OBJECT_DATA")
             _lines(layout, measuring.grid_lines(reading))
+        layout.operator("gonio.measure_luminaire", icon="OUTLINER_OB_LIGHT")
+        _lines(layout, measuring.latest.luminaire)
         column = layout.column(heading="False Color")
         column.prop(settings, "display", text="")
         scale = column.column()
