@@ -1,6 +1,6 @@
 //! What a program reads and writes: surface points, registers and computed parameters, in columns.
 
-use super::{CHUNK, nearby::NearbyRays};
+use super::{CHUNK, nearby_rays::NearbyRays};
 use gonio_nodes::Registers;
 use gonio_simd::{Column, Lanes, Vec3};
 

@@ -2,7 +2,8 @@
 
 use super::{
     SurfaceColumns,
-    nearby::{Around, NearbyRays, Occlusion, occlusion, rounded_normal},
+    nearby::{Occlusion, occlusion, rounded_normal},
+    nearby_rays::{Around, NearbyRays},
     normals::normal_map,
     shading::{Place, instance_transform, point_value},
 };

@@ -9,73 +9,19 @@
 
 use super::columns::load3;
 use super::hit_step::Points;
+use super::nearby_rays::{Around, NearbyRays, store3};
 use crate::geometry::offset_ray_origin;
 use crate::state::flag::{self, event};
-use crate::state::rays::{RayLanes, Rays};
-use crate::tables::ray_mask;
-use gonio_accel::{Hits, NONE, Tlas, TransparentHit};
+use crate::state::rays::RayLanes;
+use gonio_accel::{Hits, NONE};
+use gonio_nodes::Io;
 use gonio_nodes::hash::{hash3, hash4, to_unit};
-use gonio_nodes::{CHUNK, Io};
-use gonio_simd::{Column, Execution, F, Frame, Lanes, M, PADDING, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, PADDING, Vec3};
 
 /// Surfaces that a ray of [`rounded_normal`] looks for at most.
 const MOST_SURFACES: usize = 8;
 /// Newton's steps towards the radius of a disc.
 const NEWTON: usize = 10;
-
-/// The surfaces around.
-#[derive(Clone, Copy, Debug)]
-pub struct Around<'a> {
-    /// All instances.
-    pub bvh: &'a Tlas,
-    /// Whether any material lets straight light pass: what does occludes nothing.
-    pub any_transparent: bool,
-}
-
-/// The rays of one sample of a piece, and what they met.
-#[derive(Debug)]
-pub(super) struct NearbyRays {
-    execution: Execution,
-    rays: Rays,
-    blocked: Vec<u8>,
-    passed: Vec<TransparentHit>,
-    instances: Vec<u32>,
-    hits: Hits,
-    /// Radii of the discs' points.
-    radius: Column,
-    sum: [Column; 3],
-}
-
-impl Default for NearbyRays {
-    fn default() -> Self {
-        let column = || Column::new(CHUNK + PADDING);
-        Self {
-            execution: Execution::detect(),
-            rays: Rays::new(CHUNK + PADDING, ray_mask::SHADOW),
-            blocked: vec![0; CHUNK],
-            passed: Vec::new(),
-            instances: Vec::new(),
-            hits: Hits::default(),
-            radius: column(),
-            sum: [column(), column(), column()],
-        }
-    }
-}
-
-impl NearbyRays {
-    /// Writes a register of rays.
-    #[inline(always)]
-    fn store<L: Lanes>(&mut self, ray: &RayLanes<L>, at: usize) {
-        store3(ray.origin, &mut self.rays.origin, at);
-        store3(ray.direction, &mut self.rays.direction, at);
-        ray.t_min.store(&mut self.rays.t_min, at);
-        ray.t_max.store(&mut self.rays.t_max, at);
-    }
-    /// The nearest hits of the first rays, each on its own instance.
-    fn trace_within(&mut self, around: &Around<'_>, count: usize) {
-        around.bvh.first_hit_within(self.execution, &self.rays.batch(0..count), &self.instances, &mut self.hits);
-    }
-}
 
 /// What rays go into the hemisphere about a normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -352,10 +298,4 @@ fn bell_radius<L: Lanes>(share: F<L>) -> F<L> {
         x = slope.gt(1e-12).select((x - (within - share) / slope.max(1e-12)).saturate(), x);
     }
     x
-}
-
-#[inline(always)]
-fn store3<L: Lanes>(v: Vec3<L>, columns: &mut [Column; 3], at: usize) {
-    let [x, y, z] = columns;
-    v.store([x, y, z], at);
 }
