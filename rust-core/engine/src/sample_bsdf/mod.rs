@@ -4,6 +4,7 @@
 //! The frame is that of measured materials: x and y lie in the sample, z looks to its front, and directions point away from it.
 
 mod incident;
+mod measure;
 mod place;
 mod reading;
 mod repeat;
@@ -14,10 +15,11 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
+pub use measure::measure;
 pub use place::{Orientation, Window};
 pub use reading::{FromPatch, SampleReading, Side};
 pub use repeat::MOST_REPEATS;
-pub use run::{Progress, measure};
+pub use run::Progress;
 pub use stop::{MOST_RAYS, Stop};
 
 use gonio_formats::bsdf::Basis;

@@ -6,8 +6,8 @@ use crate::{
 };
 use std::time::Duration;
 
-/// Batches of a patch before the rule is first asked.
-const FIRST: u64 = 4;
+/// Batches of a patch before the rule is first asked: of fewer ones their spread says little.
+const FIRST: u64 = 16;
 /// Most rays from a patch that can be asked for.
 pub const MOST_RAYS: u64 = 1 << 34;
 /// A sample that sends on less than this share counts as one that sends on so much.
@@ -79,7 +79,7 @@ mod tests {
         while asked.last() < Some(&stop.batches()) {
             asked.push(stop.next(asked[asked.len() - 1]));
         }
-        assert_eq!(asked, [0, 4, 6, 8, 12, 16, 24, 32, 40]);
+        assert_eq!(asked, [0, 16, 24, 32, 40]);
     }
 
     #[test]
