@@ -64,7 +64,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Compare(options) => compare::compare(&options),
         Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
-        Command::Bsdf(options) => py.detach(|| bsdf::bsdf(&options)),
+        Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),

@@ -20,7 +20,7 @@ mod stage;
 mod work;
 
 pub(super) use bench::BenchOptions;
-pub(super) use bsdf::BsdfOptions;
+pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
 pub(super) use daylight::DaylightArguments;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
@@ -68,13 +68,15 @@ pub(super) enum Command {
     Relight(RelightOptions),
     /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
-    /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it.
+    /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it. Measure a sample.
     ///
     /// Takes MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML of Radiance and WINDOW, Zemax .bsdf and gonio's own .gbsdf; content
     /// decides, not the name. Front is the side of the normal; 'reflected' and 'transmitted' are shares of the light that arrives from the
     /// angle named.
+    ///
+    /// --sample measures what a USD stage holds, as Radiance's genBSDF does, and goes on with that as with a file.
     #[command(after_long_help = BSDF_EXAMPLES)]
-    Bsdf(BsdfOptions),
+    Bsdf(Box<BsdfOptions>),
     /// Measure light at points and on calculation grids of a USD stage, in lux, cd/m² or per cent of the daylight outside.
     ///
     /// Measures what the stage's gonio:grid and gonio:meter attributes ask for and the prims that --grid names; with --at its points and those prims

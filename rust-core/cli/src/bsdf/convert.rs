@@ -1,10 +1,11 @@
-//! Measured materials as `.gbsdf`.
+//! Measured materials as `.gbsdf`, matrices and tensor trees as XML.
 
-use super::BsdfOptions;
+use super::{BsdfOptions, ending};
 use gonio::{Error, Result};
 use gonio_formats::bsdf::{
     Direction, Grid, Measured,
     gbsdf::{self, Encoding},
+    xml,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -14,6 +15,15 @@ const PAIRS: u32 = 2000;
 
 /// Writes the file; tables as they are unless a grid was asked for, everything else evaluated on one. Says how.
 pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, path: &Path) -> Result<Value> {
+    if ending(path) == "xml" {
+        let text = match measured {
+            Measured::Patches(patches) => xml::write_patches(patches, title),
+            Measured::Tree(tree) => xml::write_tree(tree, title),
+            _ => return Err(Error::setting("output", "only matrices and tensor trees are written as XML, expected .gbsdf")),
+        };
+        super::write(path, text.as_bytes())?;
+        return Ok(json!({ "format": "xml" }));
+    }
     let encoding = if options.text { Encoding::Text } else { Encoding::Binary };
     let (tables, report) = match (measured, &options.grid) {
         (Measured::Tables(tables), None) => (tables.clone(), json!({ "resampled": false })),
