@@ -22,6 +22,7 @@ mod pass;
 mod photometry;
 mod picture;
 mod render;
+mod sample;
 mod scene;
 mod settings;
 mod table;
@@ -67,6 +68,8 @@ mod _gonio {
     use crate::picture::{Picture, false_colour};
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile, merge};
+    #[pymodule_export]
+    use crate::sample::{SampleReading, sample_bsdf};
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]

@@ -175,7 +175,8 @@ impl MeasuredBsdf {
 }
 
 impl MeasuredBsdf {
-    fn of(measured: Measured) -> Self {
+    /// A measured material.
+    pub(crate) fn of(measured: Measured) -> Self {
         Self { measured: Arc::new(measured), table: OnceLock::new() }
     }
 

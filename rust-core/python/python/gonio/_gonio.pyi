@@ -54,6 +54,8 @@ __all__ = [
     "goniogram_figures",
     "goniometer",
     "LuminaireReading",
+    "sample_bsdf",
+    "SampleReading",
     "read_goniogram",
     "ugr_table",
     "__version__",
@@ -336,6 +338,47 @@ def illumination_map(
     previous: Render | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> IlluminationMaps: ...
+
+@final
+class SampleReading:
+    def shares(self, side: str) -> Array: ...
+    def standard_errors(self, side: str) -> Array: ...
+    def totals(self, side: str) -> Array: ...
+    def lost(self, side: str) -> Array: ...
+    def bsdf(self) -> MeasuredBsdf: ...
+    def write(self, path: str | PathLike[str], *, name: str = "sample") -> None: ...
+    @property
+    def window(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def rays(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def error(self) -> float: ...
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def diagnostics(self) -> list[tuple[str, str]]: ...
+
+def sample_bsdf(
+    source: Scene | str | PathLike[str],
+    *,
+    prim: str | None = None,
+    frame: float | None = None,
+    front: Sequence[float] = ...,
+    up: Sequence[float] = ...,
+    window: tuple[Sequence[float], Sequence[float]] | None = None,
+    repeat: int = 0,
+    basis: str = "full",
+    sides: str = "both",
+    colour: bool = False,
+    error: float = 0.03,
+    rays: int = 1 << 20,
+    time_limit: float | None = None,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Callable[[int, int, float | None, float], bool | None] | None = None,
+) -> SampleReading: ...
 
 @final
 class Picture:
