@@ -95,4 +95,6 @@ def test_what_cannot_be_measured_is_told(run, stage, options, words):
 
 def test_nothing_to_read(run, stage):
     assert run("bsdf").returncode == 2
-    assert run("bsdf", stage, "--sample", stage).returncode == 2
+    assert run("bsdf", stage, "--window", "0,0", "1,1").returncode == 2
+    both = run("bsdf", stage, "--sample", stage)
+    assert both.returncode == 1 and "both were named" in both.stderr

@@ -63,7 +63,7 @@ pub(crate) struct BsdfOptions {
 #[command(next_help_heading = "Samples")]
 pub(crate) struct SampleArguments {
     /// Measure a made-up sample in the place of a file: a USD stage with a prismatic sheet, a blind, a textile.
-    #[arg(long, value_name = "STAGE", conflicts_with = "file")]
+    #[arg(long, value_name = "STAGE")]
     pub(crate) sample: Option<PathBuf>,
     /// The sample is this prim and all below it.
     #[arg(long, value_name = "PRIMPATH", requires = "sample")]

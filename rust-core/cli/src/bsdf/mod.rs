@@ -38,7 +38,9 @@ pub(super) fn bsdf(py: Python<'_>, options: &BsdfOptions, interrupted: &'static 
         path.as_deref().map_or(Ok(()), |path| check_ending(option, path, expected))?;
     }
     match (&options.file, &options.sample.sample) {
-        (Some(file), _) => py.detach(|| told(options, file, file, &load(file)?, Value::Null)),
+        // Were they in conflict for the parser, what wants a sample would pass with a file.
+        (Some(_), Some(_)) => Err(Error::setting("sample", "it is measured in the place of a file; both were named")),
+        (Some(file), None) => py.detach(|| told(options, file, file, &load(file)?, Value::Null)),
         (None, Some(stage)) => {
             if options.material.is_some() && options.output.is_none() {
                 return Err(Error::setting("material", "it names the measurement's file, expected -o too"));
