@@ -229,7 +229,7 @@ impl SurfaceMap {
     }
 }
 
-/// Keeps the light of a scene on its surfaces, by light paths: on those of the objects `prims` names and what is below them, or on all.
+/// Keeps the light of a scene on its surfaces, by light paths: on those of the objects that `prims` names and what is below them, or on all.
 ///
 /// With `uv`, the name of texture coordinates, on their texels, of `texel` metres or `resolution` (width, height) in number; without, on triangles
 /// divided until their parts are no larger than `texel` metres squared. It ends where the standard error, averaged over the lit area, is `error` of
@@ -238,14 +238,14 @@ impl SurfaceMap {
 /// `cancelled`, a function that says whether to stop, is asked every 50 ms.
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, prims = Vec::new(), uv = None, texel = None, resolution = None, error = 0.05, paths = 1 << 24, time_limit = 0.0, colours = false,
-    memory = 1 << 30, max_bounces = None, previous = None, cancelled = None
+    scene, *, prims = None, uv = None, texel = None, resolution = None, error = 0.05, paths = 16777216, time_limit = 0.0, colours = false,
+    memory = 1073741824, max_bounces = None, previous = None, cancelled = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn illumination_map(
     py: Python<'_>,
     scene: &Scene,
-    prims: Vec<String>,
+    prims: Option<Vec<String>>,
     uv: Option<String>,
     texel: Option<f64>,
     resolution: Option<(u32, u32)>,
@@ -265,7 +265,8 @@ pub(crate) fn illumination_map(
         (None, None) => TexelSize::Automatic,
     };
     let max_bounces = max_bounces.unwrap_or(MOST_BOUNCES);
-    let options = MapOptions { prims, uv, texel, error, paths, time_limit_s: time_limit, colours, memory, max_bounces };
+    let options =
+        MapOptions { prims: prims.unwrap_or_default(), uv, texel, error, paths, time_limit_s: time_limit, colours, memory, max_bounces };
     let description = Arc::new(scene.scene.clone());
     let before = previous.and_then(Render::compiled);
     let stop = AtomicBool::new(false);

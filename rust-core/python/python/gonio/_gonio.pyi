@@ -325,7 +325,7 @@ class IlluminationMaps:
 def illumination_map(
     scene: Scene,
     *,
-    prims: Sequence[str] = (),
+    prims: Sequence[str] | None = None,
     uv: str | None = None,
     texel: float | None = None,
     resolution: tuple[int, int] | None = None,
