@@ -26,8 +26,7 @@ class Part:
 
 
 def frame_of(matrix):
-    """The place and the axes of a matrix without scale and shear: z as it is, x across it; mirrored ones stay so. Raises ValueError where an
-    axis has no length."""
+    """A matrix without scale and shear: z as it is, x across it; mirrored ones stay so. Raises ValueError where an axis has no length."""
     frame = np.array(matrix, dtype=float)
     if not usable(frame[None])[0]:
         raise ValueError("its axes have no length, or are not numbers; C planes cannot be laid about them")

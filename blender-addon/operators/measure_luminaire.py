@@ -37,7 +37,7 @@ SYMMETRIES = (
 
 
 class GONIO_OT_measure_luminaire(bpy.types.Operator):
-    """Measure how light leaves a luminaire of lamps, glowing surfaces, reflectors and covers, and write its file. Nadir is its own -Z, C0 its +X"""
+    """Measure how light leaves lamps, glowing surfaces, reflectors and covers, and write a luminaire's file. Its -Z is nadir, its +X C0"""
 
     bl_idname = "gonio.measure_luminaire"
     bl_label = "Measure Luminaire"
@@ -75,10 +75,18 @@ class GONIO_OT_measure_luminaire(bpy.types.Operator):
         subtype="PERCENTAGE",
     )
     rays: FloatProperty(
-        name="Most Rays (Millions)", description="Millions of rays after which the measurement ends in any case", default=200.0, min=0.01, max=1e6
+        name="Most Rays (Millions)",
+        description="Millions of rays after which the measurement ends in any case",
+        default=200.0,
+        min=0.01,
+        max=1e6,
     )
     watts: FloatProperty(
-        name="Power", description="Electrical power of the luminaire that the file states; 0 states none", default=0.0, min=0.0, unit="POWER"
+        name="Power",
+        description="Electrical power of the luminaire that the file states; 0 states none",
+        default=0.0,
+        min=0.0,
+        unit="POWER",
     )
     use_lamp: BoolProperty(
         name="Add Lamp", description="Add a point lamp beside the luminaire that takes its photometry from the file", default=False
@@ -94,8 +102,9 @@ class GONIO_OT_measure_luminaire(bpy.types.Operator):
         name="Check Existing", description="Warn where a file would be written over", default=True, options={"HIDDEN"}
     )
 
-    # Whether the user was asked for the file; then Blender goes on while light is traced.
+    # Whether the user was asked for the file; then light is traced beside Blender.
     _asked = False
+    _worker = None
 
     @classmethod
     def poll(cls, context):
@@ -154,13 +163,21 @@ class GONIO_OT_measure_luminaire(bpy.types.Operator):
 
     def cancel(self, context):
         """Ends the measurement and waits for its thread; Blender calls it when it ends the operator itself, and when no file is chosen."""
-        if not hasattr(self, "_worker"):
+        if self._worker is None:
             return
         self._stop.set()
         self._worker.shutdown()
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
+
+    def check(self, context):
+        """Files that were named without an ending become EULUMDAT ones."""
+        path = Path(self.filepath)
+        if not path.name or path.suffix:
+            return False
+        self.filepath = str(path.with_suffix(".ldt"))
+        return True
 
     def draw(self, context):
         layout = self.layout

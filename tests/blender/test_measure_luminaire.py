@@ -278,8 +278,9 @@ def test_it_is_measured_beside_blender_until_escape(tmp_path: Path):
     names = ("_start", "modal", "cancel", "_publish", "_fail", "_options", "_luminaire", "_check", "execute")
     said, timers, texts = [], [], []
     fields = {name: vars(operator)[name] for name in names} | {"report": lambda self, kind, text: said.append(text)}
-    usual = {"kind": "SELECTION", "c_step": 0.2617994, "g_step": 0.0872665, "symmetry": "AUTO", "error": 0.0, "watts": 0.0, "use_lamp": False}
-    running = type("Running", (), {**fields, **usual, "_asked": True, "filepath": str(tmp_path / "disk.ldt")})()
+    usual = {"kind": "SELECTION", "c_step": 0.2617994, "g_step": 0.0872665, "symmetry": "AUTO", "error": 0.0, "watts": 0.0}
+    asked = {"_asked": True, "_worker": None, "use_lamp": False, "filepath": str(tmp_path / "disk.ldt")}
+    running = type("Running", (), {**fields, **usual, **asked})()
     context = SimpleNamespace(
         scene=scene,
         view_layer=bpy.context.view_layer,
@@ -313,3 +314,41 @@ def test_it_is_measured_beside_blender_until_escape(tmp_path: Path):
     while (state := running.modal(context, tick)) == {"RUNNING_MODAL"}:
         time.sleep(0.01)
     assert state == {"CANCELLED"} and said[-1].startswith("Disk: "), said
+
+
+@pytest.mark.blender
+def test_options_have_words_and_units():
+    import bpy
+
+    properties = bpy.ops.gonio.measure_luminaire.get_rna_type().properties
+    for name, described in properties.items():
+        if name != "rna_type":
+            assert described.name and len(described.description) > 10 and not described.description.endswith("."), name
+    units = {name: properties[name].unit for name in ("c_step", "g_step", "watts")}
+    assert units == {"c_step": "ROTATION", "g_step": "ROTATION", "watts": "POWER"} and properties["error"].subtype == "PERCENTAGE"
+
+
+@pytest.mark.blender
+def test_frames_are_rigid_and_places_within_them_are_known():
+    import importlib
+
+    import bpy
+    import numpy
+    import scenes
+
+    part = importlib.import_module("gonio_extension.export.part")
+    around = importlib.import_module("gonio_extension.export.surroundings")
+    slanted = numpy.array([[0.0, -2.0, 0.5, 1.0], [3.0, 0.1, 0.0, 2.0], [0.0, 0.3, 4.0, 3.0], [0.0, 0.0, 0.0, 1.0]])
+    for mirror in (1.0, -1.0):
+        frame = part.frame_of(slanted @ numpy.diag([mirror, 1.0, 1.0, 1.0]))
+        axes = frame[:3, :3]
+        assert numpy.allclose(axes.T @ axes, numpy.eye(3)) and numpy.isclose(numpy.linalg.det(axes), mirror)
+        assert numpy.allclose(axes[:, 2] * numpy.linalg.norm(slanted[:3, 2]), slanted[:3, 2]) and (frame[:3, 3] == [1.0, 2.0, 3.0]).all()
+        assert axes[:, 0] @ slanted[:3, 0] * mirror > 2.5
+    scenes.empty()
+    bpy.ops.object.empty_add(location=(4, 5, 6), rotation=(0.1, 0.2, 0.3))
+    thing, own = bpy.context.object, part.Part(frozenset(), frame)
+    seen = around.Surroundings(None, bpy.context.evaluated_depsgraph_get(), own).ask(f"object {thing.session_uid}")
+    point = numpy.array([0.3, -0.2, 0.7, 1.0])
+    assert numpy.allclose(numpy.array(seen) @ point, (numpy.array(thing.matrix_world.inverted()) @ frame @ point)[:3], atol=1e-5)
+    assert numpy.allclose(own.placed(slanted[None]), numpy.linalg.inv(frame) @ slanted[None], atol=1e-6)
