@@ -102,7 +102,7 @@ impl<'a> Run<'a> {
         watch: &mut Watch<'_>,
     ) -> Result<usize> {
         let table = self.table(order, batch);
-        let wanted = Wanted { arrivals: Arriving::No, specular_first: false, picture: None };
+        let wanted = Wanted { arrivals: Arriving::No, specular_only: false, picture: None };
         let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Rays(&table), wanted };
         let job = Job { scene, tracer: &tracer, threads: self.options.threads, deadline };
         // Numbers tell which rays of the table a batch takes: the first one is a multiple of the table's batches.
