@@ -157,3 +157,10 @@ fn pictures_are_the_same_bits_for_any_threads_and_parts() {
     std::fs::remove_dir_all(&folder).expect("gone");
     assert_eq!(merged, whole);
 }
+
+#[test]
+fn what_the_camera_does_not_see_shows_no_caustics() {
+    let mut scene = shell();
+    scene.instances[0].visibility.camera = false;
+    assert_eq!(mean(&picture(&scene, &settings(32, 8, Caustics::Auto, &[Aov::Color])), Aov::Color, 0), 0.0);
+}

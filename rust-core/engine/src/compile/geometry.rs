@@ -9,7 +9,7 @@ use crate::{
     accel::Instance,
     error::{Diagnostic, Error, Result},
     geometry::{GeometryTable, InstanceRow, NONE, PrimvarKind, PrimvarRef},
-    scene::{Mesh, Primvar, Scene},
+    scene::{Instances, Mesh, Primvar, Scene},
     transport::MaterialTable,
 };
 
@@ -46,6 +46,10 @@ pub(super) fn tables(
     table.set_pass_index = scene.instances.iter().map(|group| group.pass_index).chain([0]).collect();
     if scene.instances.iter().any(|group| group.holdout) {
         table.set_holdout = scene.instances.iter().map(|group| u32::from(group.holdout)).chain([0]).collect();
+    }
+    let hidden = |group: &Instances| group.holdout || !group.visibility.camera;
+    if scene.instances.iter().any(hidden) {
+        table.set_hidden = scene.instances.iter().map(|group| u32::from(hidden(group))).chain([0]).collect();
     }
     if scene.instances.iter().any(|group| group.shadow_catcher) {
         table.set_catcher = scene.instances.iter().map(|group| u32::from(group.shadow_catcher)).chain([0]).collect();

@@ -29,6 +29,10 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
     if !wanted || settings.integrator != Integrator::Path || view.rule.is_some() || scene.casters.targets.is_empty() {
         return None;
     }
+    // What shadow catchers hide is compared path by path, from the camera.
+    if !scene.tables.geometry.set_catcher.is_empty() {
+        return None;
+    }
     let lights = &scene.tables.lights;
     // Rays that look for a wide sky find it better than its paths find the picture.
     let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(!lights.is_dome(light))).collect();

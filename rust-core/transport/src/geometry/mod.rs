@@ -45,6 +45,8 @@ pub struct GeometryTable {
     pub set_pass_index: Vec<u32>,
     /// 1 for sets that cut holes into the coverage, else 0; empty where there is none.
     pub set_holdout: Vec<u32>,
+    /// 1 for sets of which the camera sees nothing, holdouts too, else 0; empty where there is none.
+    pub set_hidden: Vec<u32>,
     /// 1 for sets that catch shadows, else 0; empty where there is none.
     pub set_catcher: Vec<u32>,
     /// Material numbers by slot.

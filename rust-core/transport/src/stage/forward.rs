@@ -111,7 +111,7 @@ impl Integrator for LightIntegrator<'_> {
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
         if let Some(picture) = &self.wanted.picture {
-            let caustic = going_on & non_specular & point.bounces.ne(0);
+            let caustic = (going_on & non_specular & point.bounces.ne(0)).and_not(hidden(chunk, point));
             if caustic.any() && !material.holdout {
                 connect(chunk, material, point, (&light, lobes), caustic, picture, &mut room, queues);
             }
@@ -131,6 +131,16 @@ impl Integrator for LightIntegrator<'_> {
 
     #[inline(always)]
     fn measure<L: Lanes>(&self, _: &MeasureContext<'_, L>, _: &mut ShadowRays, _: &mut Paths, _: &mut Deposits) {}
+}
+
+/// Where the camera sees nothing of what the path has met.
+#[inline(always)]
+fn hidden<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> M<L> {
+    let (l, geometry) = (chunk.l, &chunk.tables.geometry);
+    if geometry.set_hidden.is_empty() {
+        return l.m(false);
+    }
+    l.gather_integers(&geometry.set_hidden, geometry.set_lanes(l, point.instance)).ne(0)
 }
 
 /// Which light paths of a picture go on where they scatter otherwise than specularly: where much light arrives, camera paths seldom look.
