@@ -2,13 +2,14 @@
 //!
 //! Layers take from each other by the *view's* angle, and measured tables need not be reciprocal, so a light path's scattering is evaluated the
 //! way a camera path would see it: with the direction towards the camera as the view. Only interfaces that light passes are evaluated the way
-//! the path runs: radiance behind them is kept without the squared index (`glass.rs`), which makes what they do to flux the same both ways.
+//! the path runs: radiance behind them is kept without the squared index (`glass.rs`), which makes what they do to flux the same both ways. So are
+//! toon lobes, which no light has: what the camera sees of them is not where light from the other end would be sent.
 //! Shading normals bring the factor of Veach (Robust Monte Carlo Methods, 1997, section 5.3).
 
 use super::lobes::{Asked, evaluate};
 use super::normals::Normals;
 use super::resolve::Hits;
-use super::{BsdfSample, Lobes, Surface};
+use super::{BsdfSample, Closure, Lobes, Surface};
 use gonio_simd::{F, Lanes, M, Select, Spectrum, Vec3};
 
 /// Cosines below this are those of directions in the plane, of which nothing can be said.
@@ -37,21 +38,20 @@ impl Surface {
     ) -> Spectrum<L> {
         let from = light.hits.wo;
         let behind = to.z.lt(0.0);
-        let turned = |v: Vec3<L>| behind.select(about_x(v), v);
-        let normals = light.hits.normals.map(|normals| Normals {
-            geometric: other_side(behind, normals.geometric),
-            smooth: other_side(behind, normals.smooth),
-            coat: normals.coat.map(|coat| other_side(behind, coat)),
-        });
-        let view = turned(to);
+        let normals = match light.hits.normals {
+            Some(normals) => Some(on_side(behind, normals)),
+            None => None,
+        };
+        let view = turned(behind, to);
         let entering = light.hits.entering.and_not(behind) | behind.and_not(light.hits.entering);
         self.resolve(l, &Hits { wo: view, entering, normals: normals.as_ref(), ..light.hits }, room);
-        let seen = evaluate(l, room, view, turned(from), Asked::Swapped).0;
+        let seen = evaluate(l, room, view, turned(behind, from), Asked::Swapped).0;
         let [arriving, leaving] = [light.geometric.dot(from).abs(), light.geometric.dot(to).abs()];
         let mut sum = seen * ratio(leaving, arriving);
-        if self.lobes.transmission && behind.any() {
-            let passed = evaluate(l, lobes, from, to, Asked::Refracted).0;
-            sum += passed * bend(light, to);
+        let is_toon = matches!(self.switches.closure, Closure::DiffuseToon | Closure::GlossyToon);
+        if is_toon || (self.lobes.transmission && behind.any()) {
+            let along = evaluate(l, lobes, from, to, Asked::Along).0;
+            sum += along * bend(light, to);
         }
         sum
     }
@@ -89,6 +89,22 @@ fn bend<L: Lanes>(light: &LightHits<'_, L>, to: Vec3<L>) -> F<L> {
 #[inline(always)]
 fn ratio<L: Lanes>(a: F<L>, b: F<L>) -> F<L> {
     (a / b.max(GRAZING)).keep_if(b.gt(GRAZING))
+}
+
+/// A vector as the side has it that is looked at.
+#[inline(always)]
+fn turned<L: Lanes>(behind: M<L>, v: Vec3<L>) -> Vec3<L> {
+    behind.select(about_x(v), v)
+}
+
+/// The normals beside the shading normal, on the side that is looked at.
+#[inline(always)]
+fn on_side<L: Lanes>(behind: M<L>, normals: &Normals<L>) -> Normals<L> {
+    let coat = match normals.coat {
+        Some(coat) => Some(other_side(behind, coat)),
+        None => None,
+    };
+    Normals { geometric: other_side(behind, normals.geometric), smooth: other_side(behind, normals.smooth), coat }
 }
 
 /// A vector in the shading frame as the surface's other side has it: turned about the tangent.

@@ -12,10 +12,10 @@ pub(crate) enum Asked {
     Sampled,
     /// The part of a light's direction that is not of facets and interfaces.
     Diffuse,
-    /// A light path's direction towards the light, seen from where the path goes: all but what interfaces let pass.
+    /// A light path's direction towards the light, seen from where the path goes: all but what interfaces let pass, and toon lobes.
     Swapped,
-    /// What interfaces let pass, alone.
-    Refracted,
+    /// Those alone, for they are evaluated the way that the path runs.
+    Along,
 }
 
 impl Asked {
@@ -23,9 +23,10 @@ impl Asked {
     #[inline(always)]
     fn counts<L: Lanes>(self, slot: &Slot<'_, L>) -> bool {
         match self {
-            Self::All | Self::Sampled | Self::Swapped => true,
+            Self::All | Self::Sampled => true,
+            Self::Swapped => !matches!(slot.shape, Shape::Toon(_)),
             Self::Diffuse => !slot.is_specular(),
-            Self::Refracted => matches!(slot.shape, Shape::Glass(_)),
+            Self::Along => matches!(slot.shape, Shape::Glass(_) | Shape::Toon(_)),
         }
     }
 }
@@ -51,9 +52,9 @@ impl<L: Lanes> Lobes<'_, L> {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
-            if matches!(asked, Asked::Swapped | Asked::Refracted) && matches!(slot.shape, Shape::Glass(_)) {
+            if matches!(asked, Asked::Swapped | Asked::Along) && matches!(slot.shape, Shape::Glass(_)) {
                 let passed = (wo.z * wi.z).lt(0.0);
-                value = value.keep_if(if asked == Asked::Refracted { passed } else { !passed });
+                value = value.keep_if(if asked == Asked::Along { passed } else { !passed });
             }
             let given = matches!(asked, Asked::All | Asked::Diffuse);
             let open = !given && (!slot.is_diffuse() || slot.side != Side::Reflected);
