@@ -38,6 +38,7 @@ impl Surface {
     ) -> Spectrum<L> {
         let from = light.hits.wo;
         let behind = to.z.lt(0.0);
+        #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         let normals = match light.hits.normals {
             Some(normals) => Some(on_side(behind, normals)),
             None => None,
@@ -100,6 +101,7 @@ fn turned<L: Lanes>(behind: M<L>, v: Vec3<L>) -> Vec3<L> {
 /// The normals beside the shading normal, on the side that is looked at.
 #[inline(always)]
 fn on_side<L: Lanes>(behind: M<L>, normals: &Normals<L>) -> Normals<L> {
+    #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
     let coat = match normals.coat {
         Some(coat) => Some(other_side(behind, coat)),
         None => None,
