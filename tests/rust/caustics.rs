@@ -164,3 +164,21 @@ fn what_the_camera_does_not_see_shows_no_caustics() {
     scene.instances[0].visibility.camera = false;
     assert_eq!(mean(&picture(&scene, &settings(32, 8, Caustics::Auto, &[Aov::Color])), Aov::Color, 0), 0.0);
 }
+
+#[test]
+fn a_floor_under_glass_is_as_bright_as_camera_paths_find_it() {
+    // Photons within glass: radiance there is kept without the squared index.
+    let mut scene = floor(0.5);
+    scene.lights.push(light(LightShape::Sphere { radius: 0.4 }, Transform::translation([0.0, 2.0, 0.0]), [100.0; 3]));
+    let corners = |y: f32| [[-1.0, y, 1.0], [1.0, y, 1.0], [1.0, y, -1.0], [-1.0, y, -1.0]];
+    let points: Vec<[f32; 3]> = corners(0.3).into_iter().chain(corners(-0.1)).collect();
+    let mut sides = vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]];
+    for (a, b) in [(0, 1), (1, 2), (2, 3), (3, 0)] {
+        sides.extend([[a, a + 4, b + 4], [a, b + 4, b]]);
+    }
+    add_triangles(&mut scene, &points, &sides, glass());
+    scene.cameras = vec![camera_from_above([0.0, 1.0, 0.0], 0.5)];
+    let [on, off] = [(Caustics::On, 64), (Caustics::Off, 4096)]
+        .map(|(caustics, samples)| mean(&picture(&scene, &settings(32, samples, caustics, &[Aov::Color])), Aov::Color, 0));
+    assert!((on / off - 1.0).abs() < 0.02, "{on} with light paths, {off} without");
+}

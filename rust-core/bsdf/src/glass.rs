@@ -81,6 +81,11 @@ pub(crate) struct GlassLobe<L: Lanes> {
 }
 
 impl<L: Lanes> GlassLobe<L> {
+    /// Far over near index.
+    #[inline(always)]
+    pub(crate) fn eta(&self) -> F<L> {
+        self.interface.eta
+    }
     /// The lobe seen from `wo`.
     #[inline(always)]
     pub(crate) fn new(wo: Vec3<L>, widths: Widths<L>, interface: Interface<L>, distribution: Distribution) -> Self {

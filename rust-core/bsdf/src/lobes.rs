@@ -153,6 +153,16 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     pub fn portal(&self) -> Option<&Portal<L>> {
         self.portal.as_ref()
     }
+    /// Far over near index of the interface that light passes, where the surface has one.
+    #[inline(always)]
+    pub fn eta(&self) -> Option<F<L>> {
+        for slot in self.slots[..self.count].iter().flatten() {
+            if let Shape::Glass(lobe) = &slot.shape {
+                return Some(lobe.eta());
+            }
+        }
+        None
+    }
     /// Share of the surface that is there; lobes and emission are those of that share, not multiplied by it.
     #[inline(always)]
     pub fn opacity(&self) -> F<L> {

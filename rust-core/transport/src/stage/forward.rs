@@ -122,7 +122,12 @@ impl Integrator for LightIntegrator<'_> {
         if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
             goes |= goes_on(chunk, point, (&photons.coarse, &sample), going_on.and_not(goes), base, &mut queues.photons);
         }
-        let factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
+        let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
+        // Camera paths keep radiance behind an interface without the squared index, so what they take up there is less by it than the flux.
+        if let (true, Some(eta)) = (self.wanted.specular_only, lobes.eta()) {
+            let passed = sample.transmitted.and_not(sample.straight | sample.diffuse);
+            factor = factor * passed.select((eta * eta).recip(), l.f(1.0));
+        }
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
         let masks = [going_on & goes, ending];
@@ -162,7 +167,7 @@ fn goes_on<L: Lanes>(
     if !first.any() {
         return chosen & under_way;
     }
-    let share = carried_on(l, photons, point.at.position, first, found);
+    let share = carried_on(l, photons, [point.at.position, point.at.geometric], first, found);
     let [_, u] = chunk.sample.sampler.pair(l, chunk.sample.index(l, point.slot), base + dimension::CLOSURE);
     (chosen & under_way) | (first & u.lt(share))
 }

@@ -27,7 +27,7 @@ pub(crate) fn merge<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, transport, .. } = *chunk;
-    let most = find(l, map, point.at.position, chosen, found);
+    let most = find(l, map, [point.at.position, point.at.geometric], chosen, found);
     if most == 0 {
         return;
     }
@@ -59,14 +59,14 @@ pub(crate) fn irradiance<L: Lanes>(
     chosen: M<L>,
     found: &mut Found,
 ) -> Spectrum<L> {
-    let most = find(l, map, position, chosen, found);
+    let most = find(l, map, [position, normal], chosen, found);
     irradiance_of(l, map, found, most, Some(normal))
 }
 
 /// Share of the flux at each chosen point that light paths carry on, see [`PhotonMap::carried_on`].
 #[inline(always)]
-pub(crate) fn carried_on<L: Lanes>(l: L, map: &PhotonMap, position: Vec3<L>, chosen: M<L>, found: &mut Found) -> F<L> {
-    let most = find(l, map, position, chosen, found);
+pub(crate) fn carried_on<L: Lanes>(l: L, map: &PhotonMap, plane: [Vec3<L>; 2], chosen: M<L>, found: &mut Found) -> F<L> {
+    let most = find(l, map, plane, chosen, found);
     map.carried_on(irradiance_of(l, map, found, most, None).mean())
 }
 
@@ -88,13 +88,13 @@ fn irradiance_of<L: Lanes>(l: L, map: &PhotonMap, found: &Found, most: usize, no
 
 /// Lists the photons about each chosen point; gives the length of the longest list.
 #[inline(always)]
-fn find<L: Lanes>(l: L, map: &PhotonMap, position: Vec3<L>, chosen: M<L>, found: &mut Found) -> usize {
-    let [x, y, z] = [position.x, position.y, position.z].map(|x| x.to_array());
+fn find<L: Lanes>(l: L, map: &PhotonMap, [position, normal]: [Vec3<L>; 2], chosen: M<L>, found: &mut Found) -> usize {
+    let [x, y, z, nx, ny, nz] = [position.x, position.y, position.z, normal.x, normal.y, normal.z].map(|x| x.to_array());
     let mut most = 0;
     for (lane, found) in found.iter_mut().enumerate().take(L::COUNT) {
         found.clear();
         if chosen.bits() >> lane & 1 == 1 {
-            map.about(l, [x[lane], y[lane], z[lane]], found);
+            map.about(l, [x[lane], y[lane], z[lane]], [nx[lane], ny[lane], nz[lane]], found);
             most = most.max(found.len());
         }
     }

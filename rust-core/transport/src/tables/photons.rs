@@ -52,6 +52,10 @@ pub(crate) struct PhotonLanes<L: Lanes> {
     pub(crate) flux: Spectrum<L>,
 }
 
+/// Part of the radius that photons may lie off the plane.
+const OFF_PLANE: f32 = 0.1;
+/// Cells that the scene's radius is cut into to see how much of its surfaces photons lie on.
+const CELLS: f64 = 64.0;
 /// Most photons of a coarse map.
 const MOST_COARSE: usize = 1 << 16;
 /// Photons that a place of mean irradiance finds in it.
@@ -63,12 +67,22 @@ impl Photons {
     pub fn new(photons: &[Photon], radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
         let step = photons.len().div_ceil(MOST_COARSE).max(1);
         let some: Vec<Photon> = photons.iter().step_by(step).copied().collect();
-        let wide = (FOUND_COARSE * area / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
+        let wide = (FOUND_COARSE * lit_area(&some, area) / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
         Self {
             fine: PhotonMap::new(photons, radius as f32, share, area),
             coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64, area),
         }
     }
+}
+
+/// About the area that photons lie on: that of the cells of a grid which hold any.
+fn lit_area(photons: &[Photon], area: f64) -> f64 {
+    let width = (area / (4.0 * std::f64::consts::PI)).sqrt() / CELLS;
+    let cell = |photon: &Photon| photon.position.map(|x| (f64::from(x) / width).floor() as i32);
+    let mut cells: Vec<[i32; 3]> = photons.iter().map(cell).collect();
+    cells.sort_unstable();
+    cells.dedup();
+    cells.len() as f64 * width * width
 }
 
 impl PhotonMap {
@@ -134,9 +148,9 @@ impl PhotonMap {
         ((mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32) as usize & (self.starts.len() - 2)
     }
 
-    /// Lists the photons within the radius of a point.
+    /// Lists the photons within the radius of a point, near the plane through it: those of other surfaces do not count.
     #[inline(always)]
-    pub(crate) fn about<L: Lanes>(&self, l: L, point: [f32; 3], found: &mut Vec<u32>) {
+    pub(crate) fn about<L: Lanes>(&self, l: L, point: [f32; 3], normal: [f32; 3], found: &mut Vec<u32>) {
         found.clear();
         if self.is_empty() || !point.iter().all(|x| x.is_finite()) {
             return;
@@ -148,21 +162,22 @@ impl PhotonMap {
         }
         // Cells may share a bucket.
         buckets.sort_unstable();
-        let p = Vec3::splat(l, point);
+        let plane = [Vec3::splat(l, point), Vec3::splat(l, normal)];
         for (place, bucket) in buckets.iter().enumerate() {
             if place == 0 || buckets[place - 1] != *bucket {
-                self.in_bucket(l, p, *bucket, found);
+                self.in_bucket(l, plane, *bucket, found);
             }
         }
     }
 
     #[inline(always)]
-    fn in_bucket<L: Lanes>(&self, l: L, p: Vec3<L>, bucket: usize, found: &mut Vec<u32>) {
+    fn in_bucket<L: Lanes>(&self, l: L, [p, normal]: [Vec3<L>; 2], bucket: usize, found: &mut Vec<u32>) {
         let [first, end] = [self.starts[bucket] as usize, self.starts[bucket + 1] as usize];
         let [x, y, z] = &self.position;
         for at in (first..end).step_by(L::COUNT) {
             let way = Vec3::new(l.load(x, at), l.load(y, at), l.load(z, at)) - p;
-            let near = way.length_squared().lt(self.radius * self.radius) & l.first(end - at);
+            let flat = normal.dot(way).abs().lt(self.radius * OFF_PLANE);
+            let near = way.length_squared().lt(self.radius * self.radius) & flat & l.first(end - at);
             if near.any() {
                 let count = found.len();
                 found.resize(count + PADDING, 0);
