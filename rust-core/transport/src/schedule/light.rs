@@ -77,11 +77,13 @@ impl LightTracer<'_> {
         let mut flux = BatchFlux { emitted: self.under_way(ws), ..BatchFlux::default() };
         ws.statistics.spent(Stage::Generate, time);
         ws.statistics.camera_rays += ws.paths.count as u64;
+        // Stages ask the tracer for tables and settings alone; no path of it starts.
+        let tracer = Tracer { tables: self.tables, start: Start::Lights, transport: self.transport.clone() };
         for depth in 0..MOST_DEPTH {
             if ws.paths.count == 0 || cancelled() {
                 return flux;
             }
-            self.follow_bounce(&SampleContext { depth, ..first }, receiver, splats, ws, cancelled);
+            self.follow_bounce(&tracer, &SampleContext { depth, ..first }, receiver, splats, ws, cancelled);
             std::mem::swap(&mut ws.paths, &mut ws.queues.next);
             ws.paths.set_masks();
         }
@@ -91,13 +93,14 @@ impl LightTracer<'_> {
 
     fn follow_bounce(
         &self,
+        tracer: &Tracer<'_>,
         sample: &SampleContext<'_>,
         receiver: &mut dyn Receiver,
         splats: &mut Vec<Splat>,
         ws: &mut Workspace,
         cancelled: &dyn Fn() -> bool,
     ) {
-        let Self { tables, transport, .. } = *self;
+        let Tracer { tables, transport, .. } = tracer;
         let time = Instant::now();
         ws.statistics.rays += ws.paths.count as u64;
         find_surfaces(tables, transport, &mut ws.paths, &mut ws.nearest);
@@ -111,9 +114,7 @@ impl LightTracer<'_> {
         sort_by_material(tables, transport, &mut ws.materials);
         ws.statistics.spent(Stage::Intersect, time);
         ws.queues.next.count = 0;
-        // Stages ask the tracer for tables and settings alone; no path of it starts.
-        let tracer = Tracer { tables, start: Start::Lights, transport: transport.clone() };
-        steps::shade(&tracer, &LightIntegrator { wanted: self.wanted }, sample, ws);
+        steps::shade(tracer, &LightIntegrator { wanted: self.wanted }, sample, ws);
         let time = Instant::now();
         let context = WalkContext { tables, transport, sample, paths: &ws.paths, lit: false };
         ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);

@@ -5,7 +5,7 @@ use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
 use crate::stage::merge::{Found, carried_on};
 use crate::stage::nee::shares;
-use crate::stage::scatter::{pass_straight, send_on};
+use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
@@ -15,7 +15,7 @@ use crate::state::queue::Queues;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
-use crate::tables::material::{SurfaceMaterial, parameter_values, threshold};
+use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::photons::PhotonMap;
 use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
@@ -86,13 +86,7 @@ impl Integrator for LightIntegrator<'_> {
         let index = context.index(l, point.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
-        let present = if material.surface.lobes.cut_out {
-            let passed = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
-            pass_straight(chunk, point, passed & transport.limits.allow_straight(point.counts), &mut queues.next);
-            point.alive.and_not(passed)
-        } else {
-            point.alive
-        };
+        let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
         let [non_specular, all_delta] = lobes.specularity(l);
         point.all_delta = all_delta;
         let noted = match self.wanted.arrivals {

@@ -7,6 +7,7 @@ use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
+use crate::tables::material::{SurfaceMaterial, threshold};
 use gonio_bsdf::{BsdfSample, Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -15,9 +16,27 @@ const ROULETTE_FROM: [u32; 2] = [1, 5];
 /// A path survives with this times the root of its throughput: measured on the scenes of `tests/peers/render`, the least variance times seconds.
 const ROULETTE_SHARE: f32 = 1.25;
 
+/// The lanes that meet the surface: by its opacity the others pass straight through, at random.
+#[inline(always)]
+pub(crate) fn without_cut_outs<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    material: &SurfaceMaterial,
+    point: &Vertex<L>,
+    lobes: &Lobes<'_, L>,
+    u: F<L>,
+    next: &mut Paths,
+) -> M<L> {
+    if !material.surface.lobes.cut_out {
+        return point.alive;
+    }
+    let passed = point.alive & u.ge(threshold(lobes.opacity(), material.opacity_threshold));
+    pass_straight(chunk, point, passed & chunk.transport.limits.allow_straight(point.counts), next);
+    point.alive.and_not(passed)
+}
+
 /// Sends paths straight on through a cut-out: only the ray's origin and the count of ways straight through change.
 #[inline(always)]
-pub(crate) fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chosen: M<L>, next: &mut Paths) {
+fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chosen: M<L>, next: &mut Paths) {
     if !chosen.any() {
         return;
     }

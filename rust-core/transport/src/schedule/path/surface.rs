@@ -7,7 +7,7 @@ use crate::stage::measure::{self, MeasureContext};
 use crate::stage::merge::merge;
 use crate::stage::nee::{queue_shadow_ray, sample_light};
 use crate::stage::portal::pass_on;
-use crate::stage::scatter::{pass_straight, scatter};
+use crate::stage::scatter::{scatter, without_cut_outs};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::flag;
@@ -16,7 +16,7 @@ use crate::state::queue::Queues;
 use crate::state::queue::light_samples::LightSampleQueue;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::vertex::Vertex;
-use crate::tables::material::{SurfaceMaterial, threshold};
+use crate::tables::material::SurfaceMaterial;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::dimension;
 use gonio_light::SampleWeight;
@@ -48,13 +48,7 @@ impl Integrator for PathIntegrator {
         let index = context.index(l, point.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
-        let present = if material.surface.lobes.cut_out {
-            let seen_through = point.alive & u_opacity.ge(threshold(lobes.opacity(), material.opacity_threshold));
-            pass_straight(chunk, point, seen_through & transport.limits.allow_straight(point.counts), &mut queues.next);
-            point.alive.and_not(seen_through)
-        } else {
-            point.alive
-        };
+        let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
         if let Some(portal) = lobes.portal() {
             pass_on(chunk, point, portal, point.pdf, present, &mut queues.next);
