@@ -77,6 +77,11 @@ impl Bounds {
     pub fn centre(&self) -> [f64; 3] {
         std::array::from_fn(|i| 0.5 * (self.min[i] + self.max[i]))
     }
+    /// The sphere around it, its centre as single precision has it about `origin`.
+    pub(crate) fn sphere(&self, origin: [f64; 3]) -> ([f32; 3], f64) {
+        let centre = self.centre();
+        (std::array::from_fn(|i| (centre[i] - origin[i]) as f32), self.radius())
+    }
     /// Half the diagonal.
     pub fn radius(&self) -> f64 {
         0.5 * (0..3).map(|i| (self.max[i] - self.min[i]).powi(2)).sum::<f64>().sqrt()

@@ -92,6 +92,6 @@ fn union(a: Bounds, b: Bounds) -> Bounds {
 }
 
 fn sphere(bounds: &Bounds, origin: [f64; 3]) -> ([f32; 3], f32) {
-    let centre = bounds.centre();
-    (std::array::from_fn(|i| (centre[i] - origin[i]) as f32), (bounds.radius() * (1.0 + 1e-6)) as f32)
+    let (centre, radius) = bounds.sphere(origin);
+    (centre, (radius * (1.0 + 1e-6)) as f32)
 }

@@ -22,12 +22,12 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
+pub use crate::light_paths::Progress;
 pub use angles::{Angles, MOST_DIRECTIONS, direction_of};
 pub use extent::Opening;
 pub use frame::Frame;
 pub use options::Options;
 pub use reading::{Fluxes, Reading, ScreenReading, Value};
-pub use rounds::Progress;
 pub use run::measure;
 pub use screen::Screen;
 pub use sources::Rays;

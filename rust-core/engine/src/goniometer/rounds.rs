@@ -9,26 +9,10 @@ use super::{
 use crate::{
     compile::{Bounds, CompiledScene},
     error::Result,
-    light_paths::{Channels, Estimate, Job, Watch, trace_batches},
+    light_paths::{Channels, Estimate, Job, Progress, Watch, trace_batches},
     transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, Statistics, Transport, Wanted},
 };
-use std::{
-    sync::atomic::AtomicBool,
-    time::{Duration, Instant},
-};
-
-/// How far a measurement is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Paths traced.
-    pub paths: u64,
-    /// The most there may be.
-    pub most: u64,
-    /// Relative standard error of the peak, once it is known.
-    pub error: Option<f64>,
-    /// Time since the start.
-    pub elapsed: Duration,
-}
+use std::{sync::atomic::AtomicBool, time::Instant};
 
 /// A measurement under way.
 pub(super) struct Run<'a> {

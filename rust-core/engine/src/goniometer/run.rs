@@ -1,15 +1,8 @@
 //! A measurement from the scene to its reading.
 
 use super::{
-    Options, Reading,
-    angles::Cells,
-    extent::ExtentAxes,
-    reading::Fluxes,
-    rounds::{Progress, Run},
-    screen::ScreenPlane,
-    shining::Sources,
-    sources,
-    tally::Instrument,
+    Options, Progress, Reading, angles::Cells, extent::ExtentAxes, reading::Fluxes, rounds::Run, screen::ScreenPlane, shining::Sources,
+    sources, tally::Instrument,
 };
 use crate::{
     compile::{CompiledScene, compile, transport},

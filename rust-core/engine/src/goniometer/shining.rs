@@ -18,9 +18,8 @@ pub(super) struct Sources {
 impl Sources {
     pub(super) fn new(compiled: &CompiledScene, bounds: &Bounds, options: &Options, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
         let origin = compiled.tables.origin;
-        let (centre, radius) = if bounds.is_empty() { (origin, 1.0) } else { (bounds.centre(), bounds.radius()) };
-        let sphere = ([0, 1, 2].map(|k| (centre[k] - origin[k]) as f32), radius as f32);
-        let lights = EmissionSampler::new(&compiled.tables.lights, None, sphere, &[]);
+        let (centre, radius) = if bounds.is_empty() { ([0.0; 3], 1.0) } else { bounds.sphere(origin) };
+        let lights = EmissionSampler::new(&compiled.tables.lights, None, (centre, radius as f32), &[]);
         let tables = options.rays.iter().map(|rays| rays.table(origin, diagnostics)).collect::<Result<Vec<_>>>()?;
         if lights.is_empty() && tables.is_empty() {
             let problem = "the luminaire has no light that shines: no light prim, no emissive surface, no ray file";

@@ -1,8 +1,8 @@
 //! When it is enough: the stopping rule, asked at the same numbers of batches whatever the threads.
 
 use crate::{
-    error::{Error, Result},
-    transport::LIGHT_BATCH,
+    error::Result,
+    light_paths::{batches, check_rule, next_round},
 };
 use std::time::Duration;
 
@@ -32,35 +32,24 @@ impl Stop {
     /// # Errors
     /// An error that is no share, and no rays or more than [`MOST_RAYS`].
     pub(super) fn checked(&self) -> Result<()> {
-        if !(0.0..1.0).contains(&self.error) {
-            return Err(Error::setting("error", format!("{} was found, expected a share from 0 to below 1", self.error)));
-        }
-        if !(1..=MOST_RAYS).contains(&self.rays) {
-            return Err(Error::setting("rays", format!("{} was found, expected 1 to {MOST_RAYS}", self.rays)));
-        }
-        Ok(())
+        check_rule(self.error, self.rays, MOST_RAYS)
     }
 
     /// All batches.
     pub(super) fn batches(&self) -> u64 {
-        self.rays.div_ceil(LIGHT_BATCH as u64).max(2)
+        batches(self.rays)
     }
 
     /// The number of batches at which the rule is asked next: powers of two, and half way between.
     pub(super) fn next(&self, done: u64) -> u64 {
-        let next = if done < FIRST {
-            FIRST
-        } else {
-            let power = 1 << done.ilog2();
-            if done < power + power / 2 { power + power / 2 } else { 2 * power }
-        };
-        next.min(self.batches())
+        next_round(done, FIRST, self.batches())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transport::LIGHT_BATCH;
 
     #[test]
     fn the_rule_is_asked_at_fixed_numbers() {

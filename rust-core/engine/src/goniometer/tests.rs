@@ -1,15 +1,13 @@
 //! Whole measurements of luminaires whose light is known in closed form; their sources are rays.
 
 use super::{Angles, Frame, Options, Progress, Rays, Reading, Screen, Stop, direction_of, measure};
+use crate::light_paths::test_scenes::add;
 use crate::{
     error::{Error, Result},
-    scene::{Closure, Instances, Material, Mesh, Origin, Scene, Transform, Visibility},
+    scene::{Closure, Material, Origin, Scene},
 };
 use gonio_simd::Execution;
-use std::{
-    f64::consts::PI,
-    sync::{Arc, atomic::AtomicBool},
-};
+use std::{f64::consts::PI, sync::atomic::AtomicBool};
 
 /// Rays of a source; the same number of them is traced, so that none counts twice.
 const COUNT: usize = 1 << 18;
@@ -64,23 +62,6 @@ fn sphere(scene: &mut Scene, radius: f64, inwards: bool, material: Material) {
         }
     }
     add(scene, &points, &triangles, material);
-}
-
-fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]], material: Material) {
-    let mesh = scene.add_mesh(Mesh { points: Arc::from(points), triangles: Arc::from(triangles), ..Mesh::default() });
-    let material = scene.add_material(material);
-    scene.instances.push(Instances {
-        origin: Origin::new("part"),
-        mesh,
-        materials: vec![material],
-        transforms: vec![Transform::IDENTITY],
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-    });
 }
 
 fn material(parameters: &[(&str, f32)]) -> Material {

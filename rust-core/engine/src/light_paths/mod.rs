@@ -3,9 +3,14 @@
 mod batch_sums;
 mod driver;
 mod estimates;
+mod rounds;
 mod sums;
+#[cfg(test)]
+pub(crate) mod test_scenes;
 
 pub use batch_sums::BatchSums;
 pub use driver::{Batch, Collector, Job, Watch, trace_batches};
 pub use estimates::{BatchEstimates, Estimate};
+pub use rounds::Progress;
+pub(crate) use rounds::{batches, check_rule, next_round};
 pub use sums::{Channels, FixedSums};

@@ -112,9 +112,8 @@ pub fn illumination_maps(
     let start = Instant::now();
     let surfaces = chosen(scene, compiled, options)?;
     let (charts, memory) = charts(scene, &surfaces, options)?;
-    let centre = compiled.bounds.centre();
-    let sphere = ([0, 1, 2].map(|k| (centre[k] - compiled.tables.origin[k]) as f32), compiled.bounds.radius() as f32);
-    let sampler = EmissionSampler::new(&compiled.tables.lights, None, sphere, &[]);
+    let (centre, radius) = compiled.bounds.sphere(compiled.tables.origin);
+    let sampler = EmissionSampler::new(&compiled.tables.lights, None, (centre, radius as f32), &[]);
     let power = crate::colour::luminance(sampler.total_power());
     if sampler.is_empty() || !(power > 0.0 && power.is_finite()) {
         return Err(Error::setting("light", "nothing in the scene sends light"));

@@ -37,9 +37,8 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
     // Rays that look for a wide sky find it better than its paths find the picture.
     let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(!lights.is_dome(light))).collect();
     let numbers: Vec<u32> = (0..lights.len() as u32).filter(|light| started[*light as usize] != 0).collect();
-    let origin = scene.tables.origin;
-    let centre = scene.bounds.centre();
-    let sphere = (std::array::from_fn(|i| (centre[i] - origin[i]) as f32), (scene.bounds.radius() * (1.0 + 1e-5)) as f32);
+    let (centre, radius) = scene.bounds.sphere(scene.tables.origin);
+    let sphere = (centre, (radius * (1.0 + 1e-5)) as f32);
     let sampler = EmissionSampler::new(lights, Some(&numbers), sphere, &scene.casters.targets);
     (!sampler.is_empty()).then_some((LightPaths { sampler }, started))
 }

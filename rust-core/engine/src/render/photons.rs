@@ -46,7 +46,7 @@ impl PhotonMaps {
         Self { radius: radius.clamp(room * 1e-4, room * 1e-2), maps: Mutex::default() }
     }
 
-    /// The map of a block with so many samples.
+    /// The photons of a block with so many samples; none where making them was cancelled.
     pub(super) fn of_block(
         &self,
         (block, samples): (u32, u32),
@@ -80,9 +80,7 @@ impl PhotonMaps {
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
             // Of surfaces about the casters' room as large as its sphere.
             let area = 4.0 * std::f64::consts::PI * scene.bounds.radius().powi(2);
-            let map = Photons::new(&photons.0, self.radius * shrinks, shrinks, share, area);
-            // Without any, camera paths look for the light as they did.
-            Some(Arc::new(map))
+            Some(Arc::new(Photons::new(&photons.0, self.radius * shrinks, shrinks, share, area)))
         };
         slot.get_or_init(make).clone()
     }

@@ -6,6 +6,7 @@ use crate::{
     camera::sampler::Runs,
     film::{Block, SplatBlock},
     scene::{Antialiasing, Aov, Crop, Integrator},
+    threads::panic_message,
     transport::{PathFilter, Photons, Tracer, Transport, Workspace},
 };
 use crossbeam_channel::Sender;
@@ -36,8 +37,7 @@ pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
         }
     }));
     if let Err(panic) = result {
-        let message = panic.downcast_ref::<&str>().map(ToString::to_string).or_else(|| panic.downcast_ref::<String>().cloned());
-        *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(message.unwrap_or_else(|| "unknown panic".into()));
+        *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic_message(&*panic));
         shared.cancel.store(true, Ordering::Relaxed);
     }
 }

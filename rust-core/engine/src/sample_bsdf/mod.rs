@@ -15,11 +15,11 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
+pub use crate::light_paths::Progress;
 pub use measure::measure;
 pub use place::{Orientation, Window};
 pub use reading::{FromPatch, SampleReading, Side};
 pub use repeat::MOST_REPEATS;
-pub use run::Progress;
 pub use stop::{MOST_RAYS, Stop};
 
 use gonio_formats::bsdf::Basis;

@@ -11,27 +11,11 @@ use crate::{
     compile::CompiledScene,
     error::Result,
     goniometer::{Frame, Value},
-    light_paths::{Channels, Estimate, Job, Watch, trace_batches},
+    light_paths::{Channels, Estimate, Job, Progress, Watch, trace_batches},
     transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, RayTable, Statistics, Transport, Wanted},
 };
 use rayon::prelude::*;
-use std::{
-    sync::atomic::AtomicBool,
-    time::{Duration, Instant},
-};
-
-/// How far a measurement is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Rays traced.
-    pub paths: u64,
-    /// The most there may be.
-    pub most: u64,
-    /// The greatest error of an incident patch, once it is known.
-    pub error: Option<f64>,
-    /// Time since the start.
-    pub elapsed: Duration,
-}
+use std::{sync::atomic::AtomicBool, time::Instant};
 
 /// A measurement under way.
 pub(super) struct Run<'a> {

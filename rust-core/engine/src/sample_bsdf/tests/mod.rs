@@ -3,16 +3,14 @@
 mod closed_forms;
 
 use super::{Options, Orientation, Progress, SampleReading, Stop, Window, measure};
+use crate::light_paths::test_scenes::add;
 use crate::{
     error::{Error, Result},
-    scene::{Closure, Instances, Light, LightShape, Material, Mesh, Model, Origin, Scene, Transform, Visibility},
+    scene::{Closure, Light, LightShape, Material, Model, Origin, Scene, Transform},
 };
 use gonio_formats::bsdf::{Basis, Hemispheres, Measured, read, xml};
 use gonio_simd::Execution;
-use std::{
-    f64::consts::PI,
-    sync::{Arc, atomic::AtomicBool},
-};
+use std::{f64::consts::PI, sync::atomic::AtomicBool};
 
 fn options(rays: u64) -> Options {
     Options {
@@ -30,23 +28,6 @@ fn options(rays: u64) -> Options {
 
 fn measured(scene: &Scene, options: &Options) -> Result<SampleReading> {
     measure(scene, options, Execution::best(), &AtomicBool::new(false), &mut |_: &Progress| true)
-}
-
-fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]], material: Material) {
-    let mesh = scene.add_mesh(Mesh { points: Arc::from(points), triangles: Arc::from(triangles), ..Mesh::default() });
-    let material = scene.add_material(material);
-    scene.instances.push(Instances {
-        origin: Origin::new("part"),
-        mesh,
-        materials: vec![material],
-        transforms: vec![Transform::IDENTITY],
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-    });
 }
 
 /// A square in the plane z, whose normal looks up or down.
