@@ -29,6 +29,7 @@ mod radiance;
 mod relight;
 mod render;
 mod report;
+mod share;
 
 pub use farm::farm_scene;
 

@@ -8,6 +8,7 @@ use super::{
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
     say,
+    share::share,
 };
 use gonio::{
     Error, Result,
@@ -146,12 +147,6 @@ fn wanted(options: &MapArguments) -> Result<MapOptions> {
         memory: options.memory.saturating_mul(1 << 20),
         max_bounces: options.max_bounces.unwrap_or(MOST_BOUNCES),
     })
-}
-
-/// A share as a number or in per cent.
-fn share(name: &str, text: &str) -> Result<f64> {
-    let (digits, scale) = text.trim().strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
-    Ok(daylight::number(name, digits.trim())? * scale)
 }
 
 fn quantity(name: &str) -> Result<Quantity> {

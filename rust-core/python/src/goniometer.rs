@@ -5,6 +5,7 @@ use crate::{
     error::{exception, setting},
     luminaire_reading::LuminaireReading,
     scene::Scene,
+    watched::{tell_rays, watched},
 };
 use gonio::{
     Diagnostic, Error,
@@ -14,11 +15,7 @@ use gonio::{
 use gonio_simd::Execution;
 use gonio_usd::{SampleTime, Stage, StageOptions};
 use pyo3::prelude::*;
-use std::{
-    path::PathBuf,
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use std::{path::PathBuf, sync::atomic::AtomicBool, time::Duration};
 
 /// Points of a screen each way that nothing is said of.
 const SCREEN_POINTS: usize = 32;
@@ -119,26 +116,6 @@ fn screen_of(numbers: &[f64]) -> PyResult<Screen> {
 }
 
 fn run(py: Python<'_>, scene: &Description, options: &Options, told: Option<&Py<PyAny>>) -> PyResult<gonio::goniometer::Reading> {
-    let stop = AtomicBool::new(false);
-    let mut raised: Option<PyErr> = None;
-    let mut progress = |now: &Progress| {
-        let goes_on = Python::attach(|py| -> PyResult<bool> {
-            py.check_signals()?;
-            let Some(told) = told else { return Ok(true) };
-            let answer = told.bind(py).call1((now.paths, now.most, now.error, now.elapsed.as_secs_f64()))?;
-            // A function that says nothing goes on.
-            Ok(answer.is_none() || answer.is_truthy()?)
-        });
-        let goes_on = goes_on.unwrap_or_else(|error| {
-            raised = Some(error);
-            false
-        });
-        stop.store(!goes_on, Ordering::Relaxed);
-        goes_on
-    };
-    let found = py.detach(|| measure(scene, options, Execution::detect(), &stop, &mut progress));
-    match (found, raised) {
-        (_, Some(error)) => Err(error),
-        (found, None) => found.map_err(exception),
-    }
+    let ask = |py: Python<'_>, now: &Progress| tell_rays(py, told, now);
+    watched(py, ask, |stop, progress| measure(scene, options, Execution::detect(), stop, progress))
 }

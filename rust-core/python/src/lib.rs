@@ -28,6 +28,7 @@ mod settings;
 mod table;
 mod usd;
 mod view;
+mod watched;
 
 use pyo3::prelude::*;
 

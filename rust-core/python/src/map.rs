@@ -5,6 +5,7 @@ use crate::{
     error::{exception, setting},
     render::Render,
     scene::Scene,
+    watched::{unless, watched},
 };
 use gonio::{
     Error,
@@ -17,10 +18,7 @@ use gonio_simd::Execution;
 use pyo3::prelude::*;
 use std::{
     path::PathBuf,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, atomic::AtomicBool},
 };
 
 /// Maps of a scene's surfaces.
@@ -269,29 +267,13 @@ pub(crate) fn illumination_map(
         MapOptions { prims: prims.unwrap_or_default(), uv, texel, error, paths, time_limit_s: time_limit, colours, memory, max_bounces };
     let description = Arc::new(scene.scene.clone());
     let before = previous.and_then(Render::compiled);
-    let stop = AtomicBool::new(false);
-    let mut raised: Option<PyErr> = None;
-    let mut progress = |_| {
-        let goes_on = Python::attach(|py| -> PyResult<bool> {
-            py.check_signals()?;
-            cancelled.as_ref().map_or(Ok(true), |cancelled| Ok(!cancelled.bind(py).call0()?.is_truthy()?))
-        });
-        let goes_on = goes_on.unwrap_or_else(|error| {
-            raised = Some(error);
-            false
-        });
-        stop.store(!goes_on, Ordering::Relaxed);
-        goes_on
-    };
-    let found = py.detach(|| {
-        let compiled = Arc::new(compile(&description, before.as_deref(), &stop)?);
-        let mut watch = Watch { cancel: &stop, progress: &mut progress };
+    let ask = |py: Python<'_>, _: &u64| unless(py, cancelled.as_ref());
+    let (maps, compiled) = watched(py, ask, |stop, progress| {
+        let compiled = Arc::new(compile(&description, before.as_deref(), stop)?);
+        let mut tell = |paths| progress(&paths);
+        let mut watch = Watch { cancel: stop, progress: &mut tell };
         let maps = map::illumination_maps(&description, &compiled, &options, Execution::detect(), &mut watch)?;
         Ok((Arc::new(maps), compiled))
-    });
-    match (found, raised) {
-        (_, Some(error)) => Err(error),
-        (Ok((maps, compiled)), None) => Ok(IlluminationMaps { maps, scene: description, compiled }),
-        (Err(error), None) => Err(exception(error)),
-    }
+    })?;
+    Ok(IlluminationMaps { maps, scene: description, compiled })
 }

@@ -2,11 +2,11 @@
 
 use crate::{
     array::Array,
-    error::exception,
     glare::Coverage,
     picture::{self, Picture},
     render::Render,
     scene::Scene,
+    watched::{unless, watched},
 };
 use gonio::{
     measure::{self, Summary, Watch},
@@ -14,7 +14,6 @@ use gonio::{
 };
 use gonio_simd::Execution;
 use pyo3::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A value with its standard error, in the quantity's unit.
 #[pyclass(frozen, module = "gonio")]
@@ -204,27 +203,10 @@ pub(crate) fn measure_scene(
     let mut description: Description = scene.scene.clone();
     (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(measure::MOST_BOUNCES));
     let before = previous.and_then(Render::compiled);
-    let stop = AtomicBool::new(false);
-    let mut raised: Option<PyErr> = None;
-    let mut progress = |_: &gonio::render::Progress| {
-        let goes_on = Python::attach(|py| -> PyResult<bool> {
-            py.check_signals()?;
-            cancelled.as_ref().map_or(Ok(true), |cancelled| Ok(!cancelled.bind(py).call0()?.is_truthy()?))
-        });
-        let goes_on = goes_on.unwrap_or_else(|error| {
-            raised = Some(error);
-            false
-        });
-        stop.store(!goes_on, Ordering::Relaxed);
-        goes_on
-    };
-    let found = py.detach(|| {
-        let mut watch = Watch { previous: before.as_deref(), cancel: &stop, progress: &mut progress };
+    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let found = watched(py, ask, |stop, progress| {
+        let mut watch = Watch { previous: before.as_deref(), cancel: stop, progress };
         measure::measure(&description, Execution::detect(), &mut watch)
-    });
-    match (found, raised) {
-        (_, Some(error)) => Err(error),
-        (Ok(found), None) => Ok(Measurements { found }),
-        (Err(error), None) => Err(exception(error)),
-    }
+    })?;
+    Ok(Measurements { found })
 }

@@ -6,6 +6,7 @@ use crate::{
     measured::MeasuredBsdf,
     scene::Scene,
     table,
+    watched::{tell_rays, watched},
 };
 use gonio::{
     Diagnostic, Error,
@@ -17,12 +18,7 @@ use gonio_formats::bsdf::{Basis, Hemispheres, Measured, xml};
 use gonio_simd::Execution;
 use gonio_usd::{SampleTime, Stage, StageOptions};
 use pyo3::prelude::*;
-use std::{
-    io::Write,
-    path::PathBuf,
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use std::{io::Write, path::PathBuf, sync::atomic::AtomicBool, time::Duration};
 
 /// A made-up sample's scattering between patches of directions. Sides are named as for `MeasuredBsdf`: the word is the side light comes from.
 #[pyclass(frozen, module = "gonio")]
@@ -198,26 +194,6 @@ fn read(py: Python<'_>, source: &Bound<'_, PyAny>, prim: Option<String>, frame: 
 }
 
 fn run(py: Python<'_>, scene: &Description, options: &Options, told: Option<&Py<PyAny>>) -> PyResult<gonio::sample_bsdf::SampleReading> {
-    let stop = AtomicBool::new(false);
-    let mut raised: Option<PyErr> = None;
-    let mut progress = |now: &Progress| {
-        let goes_on = Python::attach(|py| -> PyResult<bool> {
-            py.check_signals()?;
-            let Some(told) = told else { return Ok(true) };
-            let answer = told.bind(py).call1((now.paths, now.most, now.error, now.elapsed.as_secs_f64()))?;
-            // A function that says nothing goes on.
-            Ok(answer.is_none() || answer.is_truthy()?)
-        });
-        let goes_on = goes_on.unwrap_or_else(|error| {
-            raised = Some(error);
-            false
-        });
-        stop.store(!goes_on, Ordering::Relaxed);
-        goes_on
-    };
-    let found = py.detach(|| measure(scene, options, Execution::detect(), &stop, &mut progress));
-    match (found, raised) {
-        (_, Some(error)) => Err(error),
-        (found, None) => found.map_err(exception),
-    }
+    let ask = |py: Python<'_>, now: &Progress| tell_rays(py, told, now);
+    watched(py, ask, |stop, progress| measure(scene, options, Execution::detect(), stop, progress))
 }

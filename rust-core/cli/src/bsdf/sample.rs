@@ -7,6 +7,7 @@ use crate::{
     list,
     progress::{Reporter, clock},
     render::MOST_WARNINGS,
+    share::share,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -60,7 +61,7 @@ fn options(asked: &SampleArguments) -> Result<Options> {
         basis,
         sides: asked.sides.wanted(),
         colour: asked.colour,
-        stop: Stop { error: share(&asked.error)?, rays: asked.rays, time: time.transpose()? },
+        stop: Stop { error: share("error", &asked.error)?, rays: asked.rays, time: time.transpose()? },
         seed: asked.work.seed,
         threads: asked.work.threads,
     })
@@ -75,14 +76,6 @@ fn window(corners: &[String]) -> Result<Window> {
     match corners {
         [min, max] => Ok(Window { min: corner(min)?, max: corner(max)? }),
         _ => Err(Error::setting("window", "two corners are expected")),
-    }
-}
-
-/// A share: `1%`, `0.01`.
-fn share(text: &str) -> Result<f64> {
-    match text.trim().strip_suffix('%') {
-        Some(percents) => number("error", percents).map(|x| x / 100.0),
-        None => number("error", text),
     }
 }
 

@@ -12,6 +12,7 @@ use super::{
     list, print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    share::share,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -75,11 +76,7 @@ fn asked(options: &GoniometerOptions, frame: Frame) -> Result<Options> {
     Ok(Options {
         frame,
         angles,
-        stop: Stop {
-            error: numbers::share("error", &options.error)?,
-            rays: numbers::count("rays", &options.rays)?,
-            time: time.transpose()?,
-        },
+        stop: Stop { error: share("error", &options.error)?, rays: numbers::count("rays", &options.rays)?, time: time.transpose()? },
         rays: Vec::new(),
         screen: options.screen.as_deref().map(numbers::screen).transpose()?,
         seed: options.work.seed,

@@ -9,14 +9,6 @@ use gonio::{
 /// Points of a screen each way that nothing is said of.
 const SCREEN_POINTS: usize = 32;
 
-/// A share: `1%`, `0.01`.
-pub(super) fn share(name: &str, text: &str) -> Result<f64> {
-    match text.trim().strip_suffix('%') {
-        Some(percents) => number(name, percents).map(|x| x / 100.0),
-        None => number(name, text),
-    }
-}
-
 /// A count: `500000`, `2e9`, `200M`, `5G`, `20k`.
 pub(super) fn count(name: &str, text: &str) -> Result<u64> {
     let text = text.trim();
@@ -63,6 +55,7 @@ pub(super) fn screen(text: &str) -> Result<Screen> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::share::share;
 
     #[test]
     fn numbers_are_written_in_several_ways() {
