@@ -96,6 +96,29 @@ def SphereLight "Lamp"
 BROKEN = 'def Mesh "Broken"\n{\n    int[] faceVertexCounts = [3]\n    int[] faceVertexIndices = [0, 1, 9]\n    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}\n'
 
 
+# A ball of clear glass on the floor, between lamp and camera.
+GLASS = """
+def Sphere "Lens" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    double radius = 0.5
+    rel material:binding = </Glass>
+    double3 xformOp:translate = (0.2, 0.8, 1.4)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Material "Glass"
+{
+    token outputs:surface.connect = </Glass/S.outputs:surface>
+    def Shader "S"
+    {
+        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+        float inputs:transmission_weight = 1
+        float inputs:specular_roughness = 0
+        token outputs:surface
+    }
+}
+"""
+
+
 def camera(name="Cam", x=0):
     """A camera in front of the room."""
     return CAMERA.format(name=name, x=x)
@@ -110,6 +133,11 @@ def stage(path, *parts, metres=1, up="Y"):
 def room(path, **options):
     """Writes the room with its lamp and one camera; gives its path."""
     return stage(path, ROOM, LAMP, camera(), **options)
+
+
+def room_with_glass(path, **options):
+    """The same with a ball of glass, which throws a caustic."""
+    return stage(path, ROOM, GLASS, LAMP, camera(), **options)
 
 
 @dataclasses.dataclass

@@ -83,12 +83,12 @@ def test_noise_threshold_spends_samples_where_the_noise_is(run, room, tmp_path):
     assert means[1] == pytest.approx(means[0], rel=5e-3)
 
 
-def render_with_kills(command, room, path, kills, chance, *options):
+def render_with_kills(command, room, path, kills, chance, *options, size=192, spp=512):
     """Kills a render of a second or two again and again, resuming each time; gives the picture."""
     checkpoint = path.with_suffix(".checkpoint")
     arguments = [
         *command,
-        *line(room, "-o", path, "--checkpoint", checkpoint, "--checkpoint-every", "0", "--resume", *options, size=192, spp=512),
+        *line(room, "-o", path, "--checkpoint", checkpoint, "--checkpoint-every", "0", "--resume", *options, size=size, spp=spp),
     ]
     for _ in range(kills):
         with subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
@@ -112,6 +112,16 @@ def kill_often(run, command, room, tmp_path, renders, kills):
 
 def test_kills_do_not_change_a_bit(run, command, room, tmp_path):
     kill_often(run, command, room, tmp_path, 1, 3)
+
+
+def test_kills_do_not_change_a_bit_of_caustics(run, command, tmp_path):
+    glass = pictures.room_with_glass(tmp_path / "glass.usda")
+    options = ("--caustics", "on")
+    for name, switch in (("whole", options), ("without", ("--caustics", "off"))):
+        assert run(*line(glass, "-o", tmp_path / f"{name}.exr", *switch, size=96, spp=256)).returncode == 0
+    whole = pictures.read(tmp_path / "whole.exr")
+    assert not pictures.same(whole, pictures.read(tmp_path / "without.exr"))
+    assert pictures.same(whole, render_with_kills(command, glass, tmp_path / "killed.exr", 3, random.Random(5), *options, size=96, spp=256))
 
 
 @pytest.mark.validate

@@ -158,6 +158,14 @@ def test_frames_and_scenes_that_are_sent(farm, render, room, tmp_path):
     assert not same(tmp_path / "one.1.exr", tmp_path / "one.3.exr")
 
 
+def test_caustics_on_a_cluster(farm, render, tmp_path):
+    glass = pictures.room_with_glass(tmp_path / "glass.usda")
+    options = ("-q", "--caustics", "on")
+    ended(render(glass, "-o", tmp_path / "one.exr", *options, spp=64))
+    ended(render(glass, "-o", tmp_path / "farm.exr", "--dask", farm.address, "--dask-parts", PARTS, *options, spp=64))
+    assert same(tmp_path / "one.exr", tmp_path / "farm.exr")
+
+
 def test_ctrl_c_leaves_nothing(farm, render, room, temporary, tmp_path):
     process = render(room, "-o", tmp_path / "farm.exr", "--dask", farm.address, "--dask-parts", 512, spp=1 << 13)
     while not list(temporary.glob("gonio-farm-*/*.part")):

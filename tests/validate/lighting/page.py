@@ -18,6 +18,7 @@ SECTIONS = {
     "Diffuse reflection": "Sunlit matt plates onto planes in the shade (CIE 171, 5.6), and past an obstruction (5.7).",
     "Interreflection": "Closed rooms with walls of one reflectance, mean illuminance of all faces (CIE 171, 5.8).",
     "Illumination maps": "Mean illuminance of whole faces by light paths; beside path tracing the interval is that of the difference.",
+    "Caustics": "A matt floor behind clear glass and before mirrors, by light paths, as its picture shows it; four parts of it.",
     "Mirrors": "A floor with a perfect mirror beside it, against the source's image.",
     "Sky through openings": "Points of the floor of a black room of 4 m × 4 m × 3 m (CIE 171, 5.9 to 5.14); the sun itself does not shine.",
     "Photometric files": "IES and EULUMDAT files against a second, independent reader.",
