@@ -158,3 +158,68 @@ def test_scenes_are_luminaires(tmp_path):
     assert (np.asarray(again.intensities) == np.asarray(found.intensities)).all()
     with pytest.raises(gonio.SettingError, match="no light"):
         gonio.goniometer(gonio.Scene())
+
+
+def rays_text(count=2000, bad=""):
+    """A Zemax text file of rays downwards, in millimetres; each has one lumen."""
+    lines = [f"{count} 4", *(f"{i % 7} {i % 5} 0 0 0 -1 1" for i in range(count))]
+    return "\n".join([*lines[:9], *filter(None, [bad]), *lines[9:]]) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "rays.dat"),
+        ("not rays at all\n", "rays.dat"),
+        (rays_text()[:900], "rays.dat:"),
+        (rays_text(count=3).replace("3 4", "4000000000 4", 1), "4000000000"),
+        (rays_text(count=2).replace(" -1 1", " -1 nan"), "rays.dat"),
+    ],
+    ids=["empty", "other", "truncated", "absurd count", "not a number"],
+)
+def test_broken_ray_files_are_told(run, lamp, tmp_path, text, words):
+    file = tmp_path / "rays.dat"
+    file.write_text(text)
+    done = run("goniometer", lamp(), "-l", "/World/Lamp", *QUICK, "--rays-file", file)
+    assert done.returncode == 1 and words in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_a_ray_that_is_no_ray_is_lost_alone(run, lamp, tmp_path):
+    file = tmp_path / "rays.dat"
+    file.write_text(rays_text(bad="0 0 nan 0 0 -1 1").replace("2000 4", "2001 4", 1))
+    done = run("goniometer", lamp(), "-l", "/World/Lamp", *QUICK, "--rays-file", file, "--rays-flux", "1000", "--json")
+    assert done.returncode == 0, done.stderr
+    assert "1 ray" in done.stderr and json.loads(done.stdout)["flux_lm"]["value"] > 0, done.stderr
+
+
+GLASS = """
+        def {kind} "Glass" (prepend apiSchemas = ["MaterialBindingAPI"])
+        {{
+            {shape}
+            rel material:binding = </World/Lamp/Clear>
+        }}
+        def Material "Clear"
+        {{
+            token outputs:surface.connect = </World/Lamp/Clear/S.outputs:surface>
+            def Shader "S"
+            {{
+                uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+                float inputs:transmission_weight = 1
+                float inputs:specular_roughness = 0
+                token outputs:surface
+            }}
+        }}"""
+OPEN = """int[] faceVertexCounts = [4]
+            int[] faceVertexIndices = [0, 1, 2, 3]
+            point3f[] points = [(-20, -20, -10), (20, -20, -10), (20, 20, -10), (-20, 20, -10)]
+            uniform bool doubleSided = true"""
+
+
+@pytest.mark.parametrize(("kind", "shape"), [("Sphere", "double radius = 15"), ("Mesh", OPEN)], ids=["source in a solid", "open glass"])
+def test_all_light_of_odd_geometry_is_accounted_for(run, lamp, kind, shape):
+    done = run("goniometer", lamp(part=GLASS.format(kind=kind, shape=shape)), "-l", "/World/Lamp", *QUICK, "--json")
+    assert done.returncode == 0, done.stderr
+    found = {name: json.loads(done.stdout)[name]["value"] for name in ("emitted_lm", "flux_lm", "absorbed_lm", "cut_off_lm")}
+    assert found["emitted_lm"] == pytest.approx(1000, rel=1e-3)
+    assert found["emitted_lm"] == pytest.approx(found["flux_lm"] + found["absorbed_lm"] + found["cut_off_lm"], rel=1e-9)
+    assert found["flux_lm"] > 100, found
