@@ -3,6 +3,7 @@
 use super::fresnel::Curve;
 use super::fuzz::FuzzLobe;
 use super::glass::Interface;
+use super::hair::{Appearance, FibreLobe, MarschnerLobe};
 use super::lobes::{Normal, Shape, Side};
 use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
@@ -42,6 +43,8 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             Closure::Transparent => self.push(Shape::Straight, colour, colour, None, Side::Mirrored, Normal::Base),
             Closure::Portal => self.single_portal(colour),
             Closure::Measured => self.measured(colour),
+            Closure::Hair => self.fibre(),
+            Closure::HairReflection | Closure::HairTransmission => self.marschner(colour),
             Closure::Emission | Closure::Layered => {}
         }
     }
@@ -91,6 +94,32 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let glossy = self.surface.switches.closure == Closure::GlossyToon;
         let lobe = ToonLobe::new(self.get(p::TOON_SIZE), self.get(p::TOON_SMOOTH), glossy);
         self.push(Shape::Toon(lobe), colour, colour * lobe.albedo(), None, Side::Reflected, Normal::Specular);
+    }
+
+    /// A fibre.
+    #[inline(always)]
+    fn fibre(&mut self) {
+        let [variances, scales] = [self.vector(p::HAIR_VARIANCE), self.vector(p::HAIR_SCALE)];
+        let appearance = Appearance {
+            ior: self.get(p::IOR),
+            absorption: self.spectrum(p::HAIR_ABSORPTION),
+            variances: [variances.x, variances.y, variances.z],
+            scales: [scales.x, scales.y, scales.z],
+            tilt: self.get(p::HAIR_TILT),
+            tints: [self.spectrum(p::HAIR_TINT_R), self.spectrum(p::HAIR_TINT_TT), self.spectrum(p::HAIR_TINT_TRT)],
+        };
+        let lobe = FibreLobe::new(self.wo, &appearance);
+        let albedo = lobe.albedo();
+        self.push(Shape::Fibre(lobe), self.white(), albedo, None, Side::Both, Normal::Base);
+    }
+
+    /// One of the older lobes of fibres.
+    #[inline(always)]
+    fn marschner(&mut self, colour: Spectrum<L>) {
+        let widths = [self.get(p::HAIR_WIDTHS), self.get(p::HAIR_WIDTHS + 1)];
+        let passes = self.surface.switches.closure == Closure::HairTransmission;
+        let lobe = MarschnerLobe::new(self.wo, widths, self.get(p::HAIR_TILT), passes);
+        self.push(Shape::Marschner(lobe), colour, colour, None, Side::Both, Normal::Base);
     }
 
     /// Puts the portal in place.

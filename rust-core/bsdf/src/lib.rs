@@ -16,6 +16,7 @@ mod film;
 mod fresnel;
 mod fuzz;
 mod glass;
+mod hair;
 mod lobes;
 mod measured;
 mod microfacet;

@@ -98,6 +98,12 @@ impl<'s, L: Lanes> Lobes<'s, L> {
                     self.kinds[2] += albedo;
                 }
             }
+            // Fibres send light both ways, as a measurement may.
+            Shape::Fibre(_) => {
+                self.kinds[1] += albedo;
+                self.kinds[2] += albedo;
+            }
+            Shape::Marschner(lobe) => self.kinds[if lobe.passes() { 2 } else { 1 }] += albedo,
             Shape::Straight => self.kinds[2] += albedo,
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => self.kinds[0] += albedo,
         }
@@ -147,6 +153,16 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     #[inline(always)]
     pub fn medium(&self) -> Option<&Medium<L>> {
         self.medium.as_ref()
+    }
+    /// Whether there is a lobe about a fibre's tangent, which scatters to all sides.
+    #[inline(always)]
+    pub fn has_fibre(&self) -> bool {
+        for slot in self.slots[..self.count].iter().flatten() {
+            if slot.is_fibre() {
+                return true;
+            }
+        }
+        false
     }
     /// Where light goes on instead of scattering.
     #[inline(always)]

@@ -117,6 +117,22 @@ block! {
     TOON_SIZE "toon_size" [0.5];
     /// Angle over which a toon lobe fades, in right angles.
     TOON_SMOOTH "toon_smooth" [0.0];
+    /// Absorption coefficient inside a fibre, in units of one over its radius.
+    HAIR_ABSORPTION "hair_absorption" [0.245_531, 0.52, 1.365];
+    /// Variances along a fibre of R, TT and TRT: about the squares of their widths in radians.
+    HAIR_VARIANCE "hair_variance" [0.084_61, 0.021_15, 0.338_4];
+    /// Widths about a fibre of the same, radians; √(π/8) times them are the scales of logistic distributions.
+    HAIR_SCALE "hair_scale" [0.187, 0.187, 0.187];
+    /// Tilt of the cuticle's scales towards the root, radians.
+    HAIR_TILT "hair_tilt" [0.034_906_6];
+    /// Factor on what a fibre reflects.
+    HAIR_TINT_R "hair_tint_r" [1.0, 1.0, 1.0];
+    /// Factor on what passes a fibre.
+    HAIR_TINT_TT "hair_tint_tt" [1.0, 1.0, 1.0];
+    /// Factor on what a fibre reflects inside.
+    HAIR_TINT_TRT "hair_tint_trt" [1.0, 1.0, 1.0];
+    /// Widths of the older hair lobes along and about the fibre, radians.
+    HAIR_WIDTHS "hair_widths" [0.1, 1.0];
     /// Where a portal's light goes on, in the world, metres.
     PORTAL_POSITION "portal_position" [0.0, 0.0, 0.0];
     /// In which direction, in the world; zero for straight on.

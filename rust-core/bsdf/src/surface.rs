@@ -23,6 +23,8 @@ pub struct LobeSet {
     pub straight: bool,
     /// A portal.
     pub portal: bool,
+    /// A fibre, which scatters about its tangent.
+    pub fibre: bool,
     /// Metal.
     pub metal: bool,
     /// Dielectric reflection over the opaque base.
@@ -140,6 +142,7 @@ impl Reach<'_> {
             smooth: (metal || transmission) && self.smooth(),
             straight: false,
             portal: false,
+            fibre: false,
         }
     }
     /// What a single lobe can show, with the places that it reads.
@@ -147,7 +150,8 @@ impl Reach<'_> {
         let closure = switches.closure;
         let colour = self.positive(p::BASE_COLOR, 3);
         let reflects = matches!(closure, Closure::Glossy | Closure::Metallic);
-        let anisotropic = reflects && !self.is(p::ANISOTROPY, 0.0);
+        let fibre = matches!(closure, Closure::Hair | Closure::HairReflection | Closure::HairTransmission);
+        let stretched = reflects && !self.is(p::ANISOTROPY, 0.0);
         let subsurface = closure == Closure::Subsurface && colour;
         LobeSet {
             diffuse: (matches!(closure, Closure::Diffuse | Closure::Translucent) && colour) || subsurface,
@@ -159,8 +163,9 @@ impl Reach<'_> {
             fuzz: closure == Closure::Sheen && colour,
             emission: self.positive(p::EMISSION_COLOR, 3),
             cut_out: !self.is(p::OPACITY, 1.0),
-            anisotropic,
-            turned: anisotropic && !self.is(p::ROTATION, 0.0),
+            anisotropic: stretched || fibre,
+            turned: stretched && !self.is(p::ROTATION, 0.0),
+            fibre,
             film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
             straight: closure == Closure::Transparent,
             smooth: (reflects || matches!(closure, Closure::Glass | Closure::Refraction)) && self.smooth(),

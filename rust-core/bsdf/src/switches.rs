@@ -200,6 +200,12 @@ pub enum Closure {
     Transparent,
     /// Light goes on from elsewhere: base colour, portal position and direction.
     Portal,
+    /// A fibre: the places of the hair, index.
+    Hair,
+    /// The older lobe of what a fibre reflects: base colour, widths and tilt of the hair.
+    HairReflection,
+    /// The older lobe of what passes a fibre.
+    HairTransmission,
     /// What was measured, times the base colour: specular scale, rotation.
     Measured,
     /// Emission alone; the other closures emit too if the emission colour says so.

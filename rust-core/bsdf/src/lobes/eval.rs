@@ -57,7 +57,7 @@ impl<L: Lanes> Lobes<'_, L> {
                 value = value.keep_if(if asked == Asked::Along { passed } else { !passed });
             }
             let given = matches!(asked, Asked::All | Asked::Diffuse);
-            let open = !given && (!slot.is_diffuse() || slot.side != Side::Reflected);
+            let open = slot.is_fibre() || (!given && (!slot.is_diffuse() || slot.side != Side::Reflected));
             if let Some(factor) = self.tilts.shadow(slot.normal, wi, slot.is_diffuse(), open) {
                 value = value * factor;
             }

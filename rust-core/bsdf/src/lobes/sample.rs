@@ -15,7 +15,7 @@ pub struct BsdfSample<L: Lanes> {
     pub pdf: F<L>,
     /// Perfect mirror or smooth refraction: lights cannot be sampled for this direction.
     pub delta: M<L>,
-    /// The direction is on the other side of the normal that the chosen lobe is about.
+    /// The direction is on the other side of the normal that the chosen lobe is about; of fibres, it has been inside.
     pub transmitted: M<L>,
     /// Straight through a thin wall: the ray goes on as if nothing were there but the colour.
     pub straight: M<L>,

@@ -3,6 +3,7 @@
 use super::super::diffuse::DiffuseLobe;
 use super::super::fuzz::FuzzLobe;
 use super::super::glass::GlassLobe;
+use super::super::hair::{FibreLobe, MarschnerLobe};
 use super::super::measured::MeasuredLobe;
 use super::super::normals::{Normal, Tilts};
 use super::super::reflect::ReflectLobe;
@@ -30,6 +31,10 @@ pub(crate) enum Shape<'s, L: Lanes> {
     Subsurface(EntryLobe<L>),
     /// As measured.
     Measured(MeasuredLobe<'s, L>),
+    /// A fibre.
+    Fibre(FibreLobe<L>),
+    /// One of a fibre's lobes.
+    Marschner(MarschnerLobe<L>),
 }
 
 /// Where a lobe sends light.
@@ -105,6 +110,11 @@ impl<L: Lanes> Slot<'_, L> {
                 (Spectrum::constant(value), pdf)
             }
             Shape::Measured(lobe) => lobe.eval(wo, wi),
+            Shape::Fibre(lobe) => lobe.eval(wi),
+            Shape::Marschner(lobe) => {
+                let value = lobe.eval(wi);
+                (Spectrum::constant(value), value)
+            }
             Shape::Straight | Shape::Subsurface(_) => return (Spectrum::zero(wo.x.lanes()), wo.x.lanes().f(0.0)),
         };
         (value * self.weight, pdf)
@@ -114,20 +124,33 @@ impl<L: Lanes> Slot<'_, L> {
     #[inline(always)]
     pub(super) fn sample(&self, tilts: &Tilts<L>, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, [M<L>; 2]) {
         let wo = self.in_shape_frame(tilts, wo);
+        let l = wo.x.lanes();
+        // Fibres tell by themselves what has passed them.
+        let mut passed = None;
         let (wi, usable) = match &self.shape {
             Shape::Diffuse(_) => above(DiffuseLobe::sample([u[1], u[2]])),
             Shape::Reflect(lobe) => above(lobe.sample(wo, [u[1], u[2]])),
             Shape::Glass(lobe) => lobe.sample(wo, u),
             Shape::Fuzz(lobe) => above(lobe.sample([u[1], u[2]])),
             Shape::Toon(lobe) => lobe.sample(wo, [u[1], u[2]]),
-            Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), wo.x.lanes().m(true)),
+            Shape::Straight => (Vec3::new(-wo.x, -wo.y, wo.z), l.m(true)),
             Shape::Subsurface(lobe) => lobe.sample(wo, u),
             Shape::Measured(lobe) => lobe.sample(wo, u),
+            Shape::Fibre(lobe) => {
+                let (wi, through) = lobe.sample(u);
+                passed = Some(through);
+                (wi, l.m(true))
+            }
+            Shape::Marschner(lobe) => {
+                passed = Some(l.m(lobe.passes()));
+                lobe.sample([u[1], u[2]])
+            }
         };
-        let through = match self.side {
-            Side::Reflected => wi.x.lanes().m(false),
-            Side::Mirrored => wi.x.lanes().m(true),
-            Side::Both => wi.z.lt(0.0),
+        let through = match (passed, self.side) {
+            (Some(through), _) => through,
+            (None, Side::Reflected) => l.m(false),
+            (None, Side::Mirrored) => l.m(true),
+            (None, Side::Both) => wi.z.lt(0.0),
         };
         (self.in_shading_frame(tilts, wi), [usable, through])
     }
@@ -139,6 +162,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Glass(lobe) => lobe.delta,
             Shape::Straight => l.m(true),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
+            Shape::Fibre(_) | Shape::Marschner(_) => l.m(false),
         }
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
@@ -150,6 +174,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => (Spectrum::one(l), l.f(1.0)),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Measured(_) => (Spectrum::zero(l), l.f(0.0)),
+            Shape::Fibre(_) | Shape::Marschner(_) => (Spectrum::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
     }
@@ -162,17 +187,24 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Toon(lobe) => lobe.roughness(),
             Shape::Straight => l.f(0.0),
             Shape::Measured(lobe) => l.f(lobe.roughness()),
+            Shape::Fibre(lobe) => lobe.roughness(),
+            Shape::Marschner(lobe) => lobe.roughness(),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
         }
     }
-    /// Whether it is of facets, interfaces or a measurement: what passes call glossy or transmitted.
+    /// Whether it is of facets, interfaces, fibres or a measurement: what passes call glossy or transmitted.
     #[inline(always)]
     pub(super) fn is_specular(&self) -> bool {
         match &self.shape {
-            Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_) => true,
+            Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_) | Shape::Fibre(_) | Shape::Marschner(_) => true,
             Shape::Toon(lobe) => lobe.is_glossy(),
             _ => false,
         }
+    }
+    /// Whether it is about a fibre's tangent, so that no side of its normal is dark.
+    #[inline(always)]
+    pub(crate) fn is_fibre(&self) -> bool {
+        matches!(self.shape, Shape::Fibre(_) | Shape::Marschner(_))
     }
     /// Whether the bump rules count the lobe as diffuse.
     #[inline(always)]

@@ -5,6 +5,7 @@ mod chi_square;
 mod cycles;
 mod film;
 mod furnace;
+mod hair;
 mod harness;
 mod measured;
 mod measurements;
