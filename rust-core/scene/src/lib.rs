@@ -21,6 +21,7 @@ mod mesh;
 mod meter;
 mod origin;
 mod settings;
+mod shutter;
 mod texture;
 mod transform;
 
@@ -46,6 +47,7 @@ pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
+pub use shutter::{Shutter, key_problem};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;
 
