@@ -42,7 +42,7 @@ OBJECTS = {
 }
 
 SCENES = {
-    "motion blur": Limit("Motion blur", "everything stands still at the frame"),
+    "motion blur": _untold("Motion blur of shapes that change, and of what the viewport shows", "objects, cameras and lamps alone are blurred"),
     "stereoscopy": Limit("Stereoscopy", "one picture, through the camera itself"),
     "sample subset": Limit("Sample subsets", "all samples are taken"),
     "freestyle": Limit("Freestyle lines", "left out"),

@@ -64,7 +64,7 @@ class GonioRenderEngine(bpy.types.RenderEngine):
         with self._reporting():
             self.final = self.final or FinalSession()
             self.update_stats("", "Exporting the scene")
-            self.final.sync(depsgraph, preview=self.is_preview)
+            self.final.sync(depsgraph, preview=self.is_preview, engine=self)
 
     def render(self, depsgraph) -> None:
         if self.has_failed:

@@ -3,7 +3,7 @@
 
 import gonio
 
-from . import camera, collecting, limits, settings, view, world
+from . import camera, collecting, limits, motion, settings, view, world
 from .changes import Changes, touched
 from .gather import Walk, fill_random
 from .given import fill_given, is_given
@@ -18,6 +18,7 @@ from .measured import Measurements
 from .meshes import Meshes
 from .slots import Slots
 from .surroundings import Surroundings
+from .transforms import columns, without_scale
 
 __all__ = ["Changes", "Exporter"]
 
@@ -36,6 +37,8 @@ class Exporter:
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
         self._camera, self._follows_view, self._synced = None, False, False
+        # Where the camera is at even times of the shutter, where it moves.
+        self._camera_motion = []
 
     def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
         """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
@@ -48,6 +51,23 @@ class Exporter:
         self._measured.sweep()
         self._synced = True
         return self.scene
+
+    def blur(self, engine, depsgraph):
+        """Exports where things are while the shutter is open; what was exported before stays at the frame."""
+        scene, self._camera_motion = depsgraph.scene, []
+        self.scene.set(**motion.settings_of(scene))
+        shutter = motion.shutter_of(scene)
+        if shutter is None:
+            return
+        source = scene.camera
+        seen = () if source is None else motion.shares_of(source)
+        shares = {*self._instances.shares(), *self._lights.shares(), *seen}
+        places = motion.places_at(engine, depsgraph, shutter, shares, self._part)
+        self._instances.blur(places)
+        self._lights.blur(places)
+        keys = [places[share].camera for share in seen]
+        if keys and all(key is not None for key in keys) and not all((key == keys[0]).all() for key in keys):
+            self._camera_motion = [columns(without_scale(key)) for key in keys]
 
     def update(self, depsgraph):
         """Exports what `depsgraph.updates` says was touched; gives what came out different."""
@@ -135,8 +155,8 @@ class Exporter:
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report, self._part)
         override = depsgraph.view_layer_eval.material_override
-        entries = []
-        for group in walk.groups:
+        entries, keys = [], []
+        for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True):
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
                 if group.kind != "LIGHT":
@@ -144,14 +164,16 @@ class Exporter:
                     mesh = self._meshes.number(group, materials.primvars)
                     if mesh is not None:
                         entries.append((group, mesh, materials.numbers, materials.placed))
+                        keys.append(key)
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
         given = [(group, wanted) for group, _, _, wanted in entries if any(is_given(name) for name in wanted)]
         fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
-        self._instances.write(entries)
+        self._instances.write(entries, keys)
         self._materials.sweep()
-        self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
+        lamps = [(group, key) for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True) if group.kind == "LIGHT"]
+        self._lights.lamps([group for group, _ in lamps], [key for _, key in lamps])
         self._meshes.sweep()
         changes.geometry |= self._meshes.any_written
         changes.shading |= self._materials.any_written
@@ -170,6 +192,7 @@ class Exporter:
         return self._put_camera(camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph), depsgraph)
 
     def _put_camera(self, description, depsgraph):
+        description = {**description, "motion": self._camera_motion}
         if description == self._camera:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)

@@ -8,6 +8,7 @@ import numpy as np
 from .colour_management import to_rec709
 from .gather import SILENT
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
+from .motion import moved, shares_of
 from .object_attribute import object_attribute
 from .transforms import usable
 
@@ -29,6 +30,8 @@ class Entry:
     wanted: frozenset
     transforms: np.ndarray
     values: dict
+    # The transforms at even times of the shutter (K, N, 4, 4), where they move.
+    motion: np.ndarray | None = None
 
     def is_like(self, other):
         """Whether another entry tells the scene the same."""
@@ -40,6 +43,8 @@ class Entry:
             and self.pass_index == other.pass_index
             and self.light_group == other.light_group
             and _same(self.transforms, other.transforms)
+            and (self.motion is None) == (other.motion is None)
+            and (self.motion is None or _same(self.motion, other.motion))
             and self.values.keys() == other.values.keys()
             and all(_same(self.values[name], other.values[name]) for name in self.values)
         )
@@ -55,15 +60,20 @@ class Instances:
     def __init__(self, scene, report):
         self._scene, self._report = scene, report
         self._written, self.any_written = [], False
+        # By the number of an entry, the group it came from: its key and its object.
+        self._sources = []
         # Objects that are placed as themselves and not otherwise: the number of their entry, by session_uid.
         self._single = {}
 
-    def write(self, entries):
-        """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there."""
-        self.any_written, self._single, number = False, {}, 0
-        for entry in entries:
+    def write(self, entries, keys=()):
+        """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there; `keys` name their groups."""
+        self.any_written, self._single, number, self._sources = False, {}, 0, []
+        for entry, key in zip(entries, keys or [None] * len(entries), strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
-                number += self._write(number, *entry)
+                written = self._write(number, *entry)
+                number += written
+                if written:
+                    self._sources.append((key, shares_of(entry[0].source.original) if entry[0].kept is None else ()))
         if number < len(self._written):
             self.any_written = True
             self._scene.truncate("instances", number)
@@ -105,6 +115,18 @@ class Instances:
             self._put(number, replace(entry, transforms=transforms, values=values))
         return True
 
+    def shares(self):
+        """All times of the shutter at which entries want to know where they are."""
+        return {share for _, shares in self._sources for share in shares}
+
+    def blur(self, places):
+        """Writes the entries that move, with where they are at the times of the shutter."""
+        for number, (key, shares) in enumerate(self._sources):
+            entry = self._written[number]
+            motion = moved(key, entry.transforms, shares, places)
+            if motion is not None:
+                self._put(number, replace(entry, motion=motion))
+
     def _leave_out(self, group):
         """Takes the placements away that cannot be shown, with a report line; gives whether any are left."""
         lost = int((~group.kept).sum())
@@ -128,6 +150,7 @@ class Instances:
             entry.mesh,
             entry.materials,
             entry.transforms,
+            motion=entry.motion,
             name=entry.name,
             visibility=entry.visibility,
             primvars=entry.values or None,

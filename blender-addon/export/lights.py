@@ -14,6 +14,7 @@ from . import (
 )
 from .colour_management import to_rec709
 from .lamp_nodes import Part, emission
+from .motion import shares_of
 from .transforms import columns, without_scale
 from .visibility import RAYS
 
@@ -127,25 +128,45 @@ class Lights:
     def __init__(self, scene, images, report):
         self._scene, self._images, self._report = scene, images, report
         self._written, self._lamps, self._domes = [], [], []
+        # By the number of a lamp: the key of its group, its times, its place in the group, and whether its size is in its matrix.
+        self._sources = []
         self.any_written = False
 
-    def lamps(self, groups):
+    def lamps(self, groups, keys=()):
         """Describes the lamps anew."""
         self._report.forget_all("Light")
-        self._lamps = []
-        for group in groups:
+        self._lamps, self._sources = [], []
+        for group, key in zip(groups, keys or [None] * len(groups), strict=True):
             with self._report.guard("Object", group.name, "the lamp is left out"):
-                self._lamps += self._described(group)
+                self._described(group, key)
 
-    def _described(self, group):
-        """The descriptions of a lamp's placements."""
-        found = []
+    def _described(self, group, key):
+        """Adds the descriptions of a lamp's placements."""
+        shares = shares_of(group.source.original)
         for place, matrix in enumerate(group.matrices):
             if np.isfinite(matrix).all():
-                found += describe(group, place, self._images, self._report)
+                found = describe(group, place, self._images, self._report)
+                self._lamps += found
+                self._sources += [(key, shares, place, group.data.type == "AREA")] * len(found)
             else:
                 self._report.add("Object", group.name, "the lamp's place is not a number; it is left out")
-        return found
+
+    def shares(self):
+        """All times of the shutter at which lamps want to know where they are."""
+        return {share for _, shares, _, _ in self._sources for share in shares}
+
+    def blur(self, places):
+        """Gives the lamps that move their places at the times of the shutter, and writes them."""
+        for number, (key, shares, place, keeps_size) in enumerate(self._sources):
+            found = [places[share].groups.get(key) for share in shares]
+            if not found or any(matrices is None or len(matrices) <= place for matrices in found):
+                continue
+            keys = [matrices[place] for matrices in found]
+            if all((one == keys[0]).all() for one in keys):
+                continue
+            motion = [columns(one if keeps_size else without_scale(one)) for one in keys]
+            self._lamps[number] = {**self._lamps[number], "motion": motion}
+        self.write()
 
     def domes(self, descriptions):
         """Takes the world's descriptions."""

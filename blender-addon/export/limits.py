@@ -7,7 +7,6 @@ from .gather import AS_MESH
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
-    ("motion blur", "render.use_motion_blur", (False,), ""),
     ("stereoscopy", "render.use_multiview", (False,), ""),
     ("freestyle", "render.use_freestyle", (False,), ""),
     ("transparent glass", "cycles.film_transparent_glass", (False,), ""),

@@ -37,14 +37,17 @@ class FinalSession:
     def __init__(self) -> None:
         self._layers: dict[str, _Layer] = {}
 
-    def sync(self, depsgraph, *, preview: bool = False) -> None:
-        """Exports what changed since the last call; Blender's data is locked during its `update` callback only."""
+    def sync(self, depsgraph, *, preview: bool = False, engine=None) -> None:
+        """Exports what changed since the last call; Blender's data is locked during its `update` callback only.
+        With the engine, which moves the frame, what moves is blurred."""
         name = depsgraph.view_layer.name
         # An export that fails half way is not gone on with.
         layer = self._layers.pop(name, None) or _Layer()
         layer.report.clear()
         aovs = frozenset() if preview else passes.shader_aov_names(depsgraph.view_layer)
         layer.exporter.sync(depsgraph, preview=preview, shader_aovs=aovs)
+        if engine is not None and not preview:
+            layer.exporter.blur(engine, depsgraph)
         limits.of_passes(depsgraph.view_layer, passes.SWITCHES, layer.report)
         self._layers[name] = layer
 
@@ -52,7 +55,7 @@ class FinalSession:
         """Renders one view layer; returns what is to be told about it."""
         name = depsgraph.view_layer.name
         if name not in self._layers:
-            self.sync(depsgraph, preview=preview)
+            self.sync(depsgraph, preview=preview, engine=engine)
         layer = self._layers[name]
         try:
             self._render(engine, depsgraph, layer, preview)

@@ -29,6 +29,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform::IDENTITY],
+        motion: Vec::new(),
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,

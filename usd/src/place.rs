@@ -187,6 +187,7 @@ impl<'py> Placer<'_, '_, 'py> {
             geometry: key.0.into(),
             materials: key.1.clone(),
             transforms: Vec::new(),
+            motion: Vec::new(),
             primvars: Vec::new(),
             visibility: Visibility::default(),
             holdout: false,

@@ -25,4 +25,5 @@ pub use intersect::shape::Shape;
 pub use ray::{Covered, Hits, NONE, RayBatch, TransparentHit};
 pub use tree::blas::{Blas, BlasMemory, Care};
 pub use tree::instance::{Geometry, Instance};
+pub use tree::moving::MovingInstance;
 pub use tree::tlas::Tlas;

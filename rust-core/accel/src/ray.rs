@@ -21,6 +21,8 @@ pub struct RayBatch<'a> {
     pub t_max: &'a [f32],
     /// An instance is seen when it shares a bit of its visibility mask with this one.
     pub mask: &'a [u8],
+    /// Times of the shutter, from 0 to 1. None at all stand for its middle.
+    pub time: &'a [f32],
 }
 
 impl<'a> RayBatch<'a> {
@@ -46,6 +48,12 @@ impl<'a> RayBatch<'a> {
         [self.direction[0][i], self.direction[1][i], self.direction[2][i], 0.0]
     }
 
+    /// The time of a ray.
+    #[inline(always)]
+    pub(crate) fn time_of(&self, i: usize) -> f32 {
+        if self.time.is_empty() { 0.5 } else { self.time[i] }
+    }
+
     /// Cuts all columns to one length, so that later indexing is checked once.
     #[inline(always)]
     pub(crate) fn same_length(self) -> Self {
@@ -57,6 +65,7 @@ impl<'a> RayBatch<'a> {
             t_min: cut(self.t_min),
             t_max: self.t_max,
             mask: &self.mask[..n],
+            time: if self.time.is_empty() { self.time } else { cut(self.time) },
         }
     }
 }

@@ -42,6 +42,7 @@ impl Rays {
             t_min: &self.t_min[range.clone()],
             t_max: &self.t_max[range.clone()],
             mask: &self.mask[range],
+            time: &[],
         }
     }
 

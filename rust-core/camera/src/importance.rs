@@ -56,9 +56,20 @@ impl CameraTable {
     pub fn importance<L: Lanes>(&self, l: L, point: Vec3<L>, lens: [F<L>; 2]) -> Seen<L> {
         let (inverse, volume) = inverse(self.axes);
         let columns = |m: [[f32; 3]; 3]| [Vec3::splat(l, m[0]), Vec3::splat(l, m[1]), Vec3::splat(l, m[2])];
-        let axes = columns(self.axes);
-        let position = Vec3::splat(l, self.position);
-        let local = (point - position).transform(columns(inverse));
+        self.importance_from(l, point, lens, (columns(self.axes), columns(inverse), l.f(volume)), Vec3::splat(l, self.position))
+    }
+
+    /// The same for a camera with these axes, their inverse and their volume, at this position.
+    #[inline(always)]
+    pub(crate) fn importance_from<L: Lanes>(
+        &self,
+        l: L,
+        point: Vec3<L>,
+        lens: [F<L>; 2],
+        (axes, inverse, volume): ([Vec3<L>; 3], [Vec3<L>; 3], F<L>),
+        position: Vec3<L>,
+    ) -> Seen<L> {
+        let local = (point - position).transform(inverse);
         let found = match self.lens {
             Lens::Perspective => self.perspective(local, self.opening(l, lens)),
             Lens::Orthographic => self.parallel(local, self.opening(l, lens)),
@@ -71,7 +82,7 @@ impl CameraTable {
         // Axes of sheared cameras are not square to each other: areas and lengths differ between the two spaces.
         let stretch = distance / local_length;
         let depth = if flat { -found.path.z * stretch } else { distance };
-        let importance = found.density * stretch * (self.pixel[0] * self.pixel[1] * volume).abs().recip();
+        let importance = found.density * stretch * (volume * (self.pixel[0] * self.pixel[1])).abs().recip();
         let [x, y] = self.raster(found.plane);
         let inside = depth.gt(0.0) & depth.ge(self.clipping[0]) & depth.le(self.clipping[1]);
         let finite = importance.is_finite() & x.is_finite() & y.is_finite() & squared.is_finite();

@@ -4,6 +4,7 @@ mod aperture;
 mod chief;
 mod filter;
 mod importance;
+mod moving;
 mod panorama;
 pub mod sampler;
 #[cfg(test)]
@@ -13,8 +14,10 @@ pub use aperture::{Aperture, concentric_disk, regular_polygon};
 pub use filter::{FilterTable, KNOTS, Placement};
 pub use importance::Seen;
 
+use gonio_simd::motion::Motion;
 use gonio_simd::{F, Lanes, M, Vec3};
 use panorama::{equidistant, equirectangular, equisolid};
+use std::sync::Arc;
 
 /// What a position on the image plane means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +63,8 @@ pub struct CameraTable {
     pub focus_distance: f32,
     /// Limits in metres: along the axis, or around the camera for panoramas.
     pub clipping: [f32; 2],
+    /// How it moves while the shutter is open; `axes` and `position` are where it rests.
+    pub motion: Option<Arc<Motion>>,
 }
 
 /// A ray for each lane.
@@ -95,6 +100,13 @@ impl CameraTable {
     /// The ray through a raster position (pixels from the top left corner), `lens` in the unit square.
     #[inline(always)]
     pub fn ray<L: Lanes>(&self, l: L, raster: [F<L>; 2], lens: [F<L>; 2]) -> CameraRay<L> {
+        let axes = [Vec3::splat(l, self.axes[0]), Vec3::splat(l, self.axes[1]), Vec3::splat(l, self.axes[2])];
+        self.ray_from(l, raster, lens, axes, Vec3::splat(l, self.position))
+    }
+
+    /// The same for a camera with these axes at this position.
+    #[inline(always)]
+    fn ray_from<L: Lanes>(&self, l: L, raster: [F<L>; 2], lens: [F<L>; 2], axes: [Vec3<L>; 3], position: Vec3<L>) -> CameraRay<L> {
         let x = raster[0].mul_add(self.pixel[0], self.corner[0]);
         let y = raster[1].mul_add(-self.pixel[1], self.corner[1]);
         let aimed = self.aim(l, x, y);
@@ -104,8 +116,6 @@ impl CameraTable {
             start = start + aimed.opening[0] * (u * self.lens_radius) + aimed.opening[1] * (v * self.lens_radius);
         }
         let local = (aimed.through - start).normalize();
-        let axes = [Vec3::splat(l, self.axes[0]), Vec3::splat(l, self.axes[1]), Vec3::splat(l, self.axes[2])];
-        let position = Vec3::splat(l, self.position);
         let parallel = self.lens == Lens::Orthographic;
         let flat = parallel || self.lens == Lens::Perspective;
         let along = if flat { -local.z } else { l.f(1.0) };

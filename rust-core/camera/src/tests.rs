@@ -16,6 +16,7 @@ pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f
         aperture: Aperture::default(),
         focus_distance: 5.0,
         clipping: [0.1, 100.0],
+        motion: None,
     }
 }
 

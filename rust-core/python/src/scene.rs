@@ -142,7 +142,8 @@ impl Scene {
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
     /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
-    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
+    /// motion: float buffer (K, N, 4, 4), the same at K evenly spaced times over the shutter.
+    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -151,6 +152,7 @@ impl Scene {
         transforms: &Bound<'_, PyAny>,
         curves: Option<u32>,
         points: Option<u32>,
+        motion: Option<&Bound<'_, PyAny>>,
         name: &str,
         visibility: Option<HashMap<String, bool>>,
         primvars: Option<&Bound<'_, PyDict>>,
@@ -164,6 +166,14 @@ impl Scene {
         }
         let place = |m: [[f64; 4]; 4]| Transform { columns: std::array::from_fn(|column| std::array::from_fn(|row| m[row][column])) };
         let transforms: Vec<Transform> = matrices(transforms, "transforms")?.into_iter().map(place).collect();
+        let keys: Vec<Transform> = match motion {
+            Some(motion) => matrices(motion, "motion")?.into_iter().map(place).collect(),
+            None => Vec::new(),
+        };
+        if !keys.is_empty() && (transforms.is_empty() || !keys.len().is_multiple_of(transforms.len())) {
+            return Err(setting("motion", format!("{} matrices were found, expected {} a key", keys.len(), transforms.len())));
+        }
+        let motion = keys.chunks(transforms.len().max(1)).map(<[Transform]>::to_vec).collect();
         let mut own = Vec::new();
         for (key, value) in primvars.into_iter().flatten() {
             let name: String = key.extract()?;
@@ -177,6 +187,7 @@ impl Scene {
             geometry,
             materials: materials.into_iter().map(MaterialId).collect(),
             transforms,
+            motion,
             primvars: own,
             visibility,
             holdout,

@@ -56,6 +56,17 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             let (start, depth, falloff) = value.extract()?;
             s.mist = Mist { start, depth, falloff };
         }
+        "motion_blur" => s.shutter.blur = value.extract()?,
+        "shutter" => {
+            let (open, close): (f32, f32) = value.extract()?;
+            if !(0.0 <= open && open <= close && close <= 1.0) {
+                return Err(wrong(key, format!("{open} to {close} was found, expected a part of 0 to 1")));
+            }
+            s.shutter.interval = [open, close];
+        }
+        "shutter_curve" => s.shutter.curve = value.extract()?,
+        "row_exposure" => s.shutter.row_exposure = within(key, value, 0.0, 1.0)? as f32,
+        "motion_interpolation" => s.shutter.linear = named(key, value, &[(false, "decomposed"), (true, "linear")])?,
         "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
         "time_limit" => {
             let limit: f64 = value.extract()?;

@@ -74,6 +74,9 @@ pub struct Camera {
     pub clipping: [f64; 2],
     /// Camera to world, metres; the axes' lengths are left out.
     pub transform: Transform,
+    /// The same at evenly spaced times over the shutter, two or more; empty where it stands still.
+    #[serde(default)]
+    pub motion: Vec<Transform>,
     /// Exposure of the colour pass.
     pub exposure: CameraExposure,
 }
@@ -97,6 +100,7 @@ impl Default for Camera {
             lens_ratio: 1.0,
             clipping: [0.0, f64::MAX],
             transform: Transform::IDENTITY,
+            motion: Vec::new(),
             exposure: CameraExposure::default(),
         }
     }

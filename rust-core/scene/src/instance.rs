@@ -90,6 +90,9 @@ pub struct Instances {
     pub materials: Vec<MaterialId>,
     /// Local to world, metres, one an instance.
     pub transforms: Vec<Transform>,
+    /// The same at evenly spaced times over the shutter, two or more; empty where they stand still.
+    #[serde(default)]
+    pub motion: Vec<Vec<Transform>>,
     /// Named values of the placement (`Constant`: one for all; `Uniform`: one an instance) that stand in where the mesh has none of the name.
     pub primvars: Vec<Primvar>,
     /// Which rays see them.

@@ -23,6 +23,7 @@ mod meter;
 mod origin;
 mod points;
 mod settings;
+mod shutter;
 mod texture;
 mod transform;
 
@@ -50,6 +51,7 @@ pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointShape, Points};
 pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
+pub use shutter::{Shutter, key_problem};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;
 

@@ -181,6 +181,9 @@ pub struct Light {
     pub texture: Option<TextureId>,
     /// Local to world, metres.
     pub transform: Transform,
+    /// The same at evenly spaced times over the shutter, two or more; empty where it stands still.
+    #[serde(default)]
+    pub motion: Vec<Transform>,
     /// Which rays see the emitter itself; `shadow` is not used.
     pub visibility: Visibility,
     /// Whether things block it.
@@ -204,6 +207,7 @@ impl Default for Light {
             portal: false,
             texture: None,
             transform: Transform::IDENTITY,
+            motion: Vec::new(),
             visibility: Visibility::default(),
             casts_shadow: true,
         }

@@ -2,6 +2,7 @@
 
 use super::antialiasing::Antialiasing;
 use super::aov::{Aov, LIGHT_GROUP, ShaderValue};
+use super::shutter::Shutter;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -145,6 +146,9 @@ pub struct Settings {
     /// Where in a pixel samples lie; but for [`Antialiasing::Sampled`] it takes the number of samples that it tells and no filter.
     #[serde(default)]
     pub antialiasing: Antialiasing,
+    /// When and how the shutter is open.
+    #[serde(default)]
+    pub shutter: Shutter,
     /// Pixel filter.
     pub filter: Filter,
     /// Width of the filter in pixels.
@@ -202,6 +206,7 @@ impl Default for Settings {
             mist: Mist::default(),
             caustics: Caustics::default(),
             antialiasing: Antialiasing::default(),
+            shutter: Shutter::default(),
             filter: Filter::BlackmanHarris,
             filter_width: 1.5,
             clamp_direct: 0.0,

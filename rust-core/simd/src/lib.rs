@@ -58,6 +58,7 @@ mod gather;
 mod integer;
 mod lanes;
 mod mask;
+pub mod motion;
 mod octets;
 mod one;
 mod prefetch;

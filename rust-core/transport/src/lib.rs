@@ -39,5 +39,6 @@ pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::photons::{Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
+pub use tables::shutter::{Rolling, Shutter};
 pub use tables::transport::{Estimator, Limits, Mist, Passes, PathFilter, Transport};
 pub use tables::{Tables, ray_mask};

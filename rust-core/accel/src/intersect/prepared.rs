@@ -4,6 +4,7 @@
 //! last place of the coordinates in play; the share that depends on the box was added to the box when the tree was built, the share that
 //! depends on the ray is in the offsets here (`node.rs`, `ROUNDING_PAD`). So the test is conservative at the speed of a careless one.
 
+use super::transform::Affine;
 use crate::tree::node::{LARGEST_COORDINATE, ROUNDING_PAD};
 use fearless_simd::{f32x4, prelude::*, u8x16, u32x4};
 
@@ -117,6 +118,13 @@ impl PreparedRay {
         self.shear[2] = along;
         self.t_min = t_min;
         true
+    }
+
+    /// The image of another ray, in the place where it stays; false when it can hit nothing.
+    #[inline(always)]
+    pub(crate) fn move_by<S: Simd>(&mut self, simd: S, ray: &PreparedRay, map: &Affine, t_max: f32) -> bool {
+        let [origin, direction] = map.images(simd, &ray.origin, &ray.direction);
+        self.prepare(simd, origin, direction, ray.t_min, t_max)
     }
 
     /// Another ray moved, in the place where it stays: to the bits of [`PreparedRay::new`], but for the direction, which no test reads, and

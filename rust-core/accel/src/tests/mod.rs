@@ -4,6 +4,7 @@ mod agreement;
 mod building;
 mod degenerate;
 mod loose_lights;
+mod moving;
 mod oracle;
 mod refit;
 mod robust;
@@ -42,6 +43,8 @@ struct OwnedRays {
     t_min: Vec<f32>,
     t_max: Vec<f32>,
     mask: Vec<u8>,
+    /// Empty, or a time each.
+    time: Vec<f32>,
 }
 
 impl OwnedRays {
@@ -64,6 +67,7 @@ impl OwnedRays {
             t_min: &all.t_min[first..end],
             t_max: &all.t_max[first..end],
             mask: &all.mask[first..end],
+            time: if all.time.is_empty() { all.time } else { &all.time[first..end] },
         }
     }
 
@@ -74,6 +78,7 @@ impl OwnedRays {
             t_min: &self.t_min,
             t_max: &self.t_max,
             mask: &self.mask,
+            time: &self.time,
         }
     }
 

@@ -42,6 +42,7 @@ impl PacketStacks {
 struct Loaded<S: Simd> {
     rays: PacketRays<S>,
     masks: [u8; PACKET],
+    times: [f32; PACKET],
     t_max: [f32; PACKET],
     n: usize,
 }
@@ -71,11 +72,12 @@ fn load<S: Simd>(simd: S, rays: &RayBatch, first: usize) -> Loaded<S> {
     ];
     let mut masks = [0; PACKET];
     masks[..n].copy_from_slice(&rays.mask[first..first + n]);
+    let times = if rays.time.is_empty() { [0.5; PACKET] } else { column(rays.time, first, n, 0.5) };
     let t_max = column(rays.t_max, first, n, -f32::INFINITY);
     let t_min: f32x16<S> = f32x16::from_slice(simd, &column(rays.t_min, first, n, 0.0));
     let t_min = t_min.simd_gt(0.0).select(t_min, f32x16::splat(simd, 0.0));
     let lanes = ((1u64 << n) - 1) as u32;
-    Loaded { rays: PacketRays::new(simd, origin, direction, t_min, f32x16::from_slice(simd, &t_max), lanes), masks, t_max, n }
+    Loaded { rays: PacketRays::new(simd, origin, direction, t_min, f32x16::from_slice(simd, &t_max), lanes), masks, times, t_max, n }
 }
 
 #[inline(always)]
@@ -85,7 +87,7 @@ fn first_hit_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &m
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        traverse_scene_packet::<S, false>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
+        traverse_scene_packet::<S, false>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
         let range = first..first + packet.n;
         hits.t[range.clone()].copy_from_slice(&found.t[..packet.n]);
         hits.u[range.clone()].copy_from_slice(&found.u[..packet.n]);
@@ -101,7 +103,7 @@ fn occluded_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &mu
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        traverse_scene_packet::<S, true>(simd, scene, &packet.rays, &packet.masks, stacks, &mut found);
+        traverse_scene_packet::<S, true>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
         for (lane, out) in out[first..first + packet.n].iter_mut().enumerate() {
             // Lanes that were of no use from the start have not been hit either.
             *out = u8::from(packet.rays.lanes & (1 << lane) != 0 && found.t[lane] == -f32::INFINITY);

@@ -9,7 +9,8 @@ use crate::intersect::triangle_block::TriangleBlock;
 use crate::intersect::wide::Wide;
 use crate::ray::{Hit, NONE};
 use crate::tree::blas::Blas;
-use crate::tree::instance::{Geometry, InstanceRecord};
+use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
+use crate::tree::moving::MovingRecord;
 use crate::tree::node::{ChildRef, Kind, WIDTH};
 use crate::tree::tlas::Tlas;
 use fearless_simd::{f32x16, mask32x16, prelude::*, u32x16};
@@ -68,18 +69,19 @@ pub(crate) fn traverse_scene_packet<S: Simd, const ANY: bool>(
     simd: S,
     scene: &Tlas,
     rays: &PacketRays<S>,
-    masks: &[u8; PACKET],
+    (masks, times): (&[u8; PACKET], &[f32; PACKET]),
     stacks: &mut PacketStacks,
     hits: &mut PacketHits,
 ) {
     let PacketStacks { scene: stack, mesh, single_scene, single_mesh } = stacks;
-    let mut visitor = SceneVisitor::<ANY> { scene, masks, mesh_stack: mesh, single_scene, single_mesh, hits };
+    let mut visitor = SceneVisitor::<ANY> { scene, masks, times, mesh_stack: mesh, single_scene, single_mesh, hits };
     traverse_groups(simd, &scene.nodes, rays, stack, &mut visitor);
 }
 
 struct SceneVisitor<'a, const ANY: bool> {
     scene: &'a Tlas,
     masks: &'a [u8; PACKET],
+    times: &'a [f32; PACKET],
     mesh_stack: &'a mut PacketStack,
     single_scene: &'a mut Stack,
     single_mesh: &'a mut Stack,
@@ -124,7 +126,11 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
             return;
         }
         let t_max = f32x16::from_slice(simd, &self.hits.t);
-        let rays = rays.transformed(simd, &record.world_to_object, t_max, lanes);
+        let rays = if record.map == MapKind::Moving {
+            moved(simd, self.scene.moving(record.id), rays, self.times, &self.hits.t, lanes)
+        } else {
+            rays.transformed(simd, &record.world_to_object, t_max, lanes)
+        };
         match record.geometry.get() {
             Geometry::Mesh(index) => {
                 let mesh = &*self.scene.meshes[index as usize];
@@ -160,7 +166,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
     fn single(&mut self, simd: S, rays: &PacketRays<S>, start: ChildRef, lane: usize) {
         let ray = rays.single(lane);
         let mut stacks = SceneStacks { stack: self.single_scene, mesh_stack: self.single_mesh };
-        let (scene, mask) = (self.scene, self.masks[lane]);
+        let (scene, mask) = (self.scene, (self.masks[lane], self.times[lane]));
         // Outlined: the code of single-ray traversal exists once, however often it is called for.
         if ANY {
             let mut any = Any { t_max: self.hits.t[lane] };
@@ -180,6 +186,35 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
             self.hits.set(lane, nearest.0);
         }
     }
+}
+
+/// The packet in the space of an instance that moves, each ray at its own time.
+#[inline(always)]
+fn moved<S: Simd>(
+    simd: S,
+    moving: &MovingRecord,
+    rays: &PacketRays<S>,
+    times: &[f32; PACKET],
+    t_max: &[f32; PACKET],
+    lanes: u32,
+) -> PacketRays<S> {
+    let (mut origin, mut direction, mut meeting, mut left) = ([[0.0; PACKET]; 3], [[0.0; PACKET]; 3], 0, lanes);
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize % PACKET;
+        left &= left - 1;
+        let ray = rays.single(lane);
+        let Some(map) = moving.enter(times[lane], &ray, t_max[lane]) else { continue };
+        let (point, way) = (map.point(ray.origin), map.direction(ray.direction));
+        for axis in 0..3 {
+            (origin[axis][lane], direction[axis][lane]) = (point[axis], way[axis]);
+        }
+        meeting |= 1 << lane;
+    }
+    let [x, y, z] = &origin;
+    let origin = [f32x16::from_slice(simd, x), f32x16::from_slice(simd, y), f32x16::from_slice(simd, z)];
+    let [x, y, z] = &direction;
+    let direction = [f32x16::from_slice(simd, x), f32x16::from_slice(simd, y), f32x16::from_slice(simd, z)];
+    PacketRays::new(simd, origin, direction, rays.t_min, f32x16::from_slice(simd, t_max), meeting)
 }
 
 struct MeshVisitor<'a, const ANY: bool> {

@@ -7,7 +7,7 @@ use crate::intersect::prepared::PreparedRay;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::ray::{Hit, RayBatch};
 use crate::tree::blas::Blas;
-use crate::tree::instance::{Geometry, InstanceRecord, Owner};
+use crate::tree::instance::{Geometry, InstanceRecord, MapKind, Owner};
 use crate::tree::node::{ChildRef, Kind, WIDTH};
 use crate::tree::tlas::Tlas;
 
@@ -28,7 +28,7 @@ pub(crate) fn traverse_scene<K: Lanes8, C: HitCallback>(
     callback: &mut C,
 ) -> bool {
     let Some(ray) = lanes.prepare(rays.origin_of(i), rays.direction_of(i), rays.t_min[i], rays.t_max[i]) else { return false };
-    traverse_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, rays.mask[i], callback)
+    traverse_scene_from(lanes, scene, stacks, ChildRef::ROOT, &ray, (rays.mask[i], rays.time_of(i)), callback)
 }
 
 /// Sends ray `i` of a batch through the mesh of one instance.
@@ -44,13 +44,15 @@ pub(crate) fn traverse_instance<K: Lanes8, C: HitCallback>(
 ) {
     let Some(record) = scene.record_of.get(instance as usize).and_then(|place| scene.records.get(*place as usize)) else { return };
     let Geometry::Mesh(index) = record.geometry.get() else { return };
-    let origin = record.world_to_object.point(rays.origin_of(i));
-    let direction = record.world_to_object.direction(rays.direction_of(i));
+    let moving = record.map == MapKind::Moving;
+    let at_time = if moving { scene.moving(record.id).world_to_object(rays.time_of(i)) } else { Some(record.world_to_object) };
+    let Some(map) = at_time else { return };
+    let (origin, direction) = (map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)));
     let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], callback.t_max()) else { return };
     traverse_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, callback);
 }
 
-/// Sends a ray through the part of the scene's tree below `start`.
+/// Sends a ray of a visibility mask and a time through the part of the scene's tree below `start`.
 #[inline(always)]
 pub(crate) fn traverse_scene_from<K: Lanes8, C: HitCallback>(
     lanes: K,
@@ -58,16 +60,17 @@ pub(crate) fn traverse_scene_from<K: Lanes8, C: HitCallback>(
     stacks: &mut SceneStacks,
     start: ChildRef,
     ray: &PreparedRay,
-    mask: u8,
+    (mask, time): (u8, f32),
     callback: &mut C,
 ) -> bool {
-    let mut visitor = SceneVisitor { scene, mask, stack: stacks.mesh_stack, callback };
+    let mut visitor = SceneVisitor { scene, mask, time, stack: stacks.mesh_stack, callback };
     traverse(lanes, &scene.nodes, start, ray, stacks.stack, &mut visitor)
 }
 
 struct SceneVisitor<'a, C: HitCallback> {
     scene: &'a Tlas,
     mask: u8,
+    time: f32,
     stack: &'a mut Stack,
     callback: &'a mut C,
 }
@@ -95,13 +98,21 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for SceneVisitor<'_, C> {
         if record.mask & self.mask == 0 {
             return false;
         }
-        if let (true, Geometry::Mesh(index)) = (record.identity, record.geometry.get()) {
+        if let (MapKind::Identity, Geometry::Mesh(index)) = (record.map, record.geometry.get()) {
             let mesh = &self.scene.meshes[index as usize];
             return traverse_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.callback);
         }
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let Some(ray) = lanes.image(&record.world_to_object, ray, self.callback.t_max()) else { return false };
+                let moved;
+                let map = if record.map == MapKind::Moving {
+                    let Some(map) = self.scene.moving(record.id).enter(self.time, ray, self.callback.t_max()) else { return false };
+                    moved = map;
+                    &moved
+                } else {
+                    &record.world_to_object
+                };
+                let Some(ray) = lanes.image(map, ray, self.callback.t_max()) else { return false };
                 traverse_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.callback)
             }
             Geometry::Shape(shape) => record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, self.callback),

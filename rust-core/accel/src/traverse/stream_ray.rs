@@ -7,7 +7,7 @@ use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::intersect::wide::{Wide, intersect_boxes};
 use crate::ray::{Hit, NONE, RayBatch};
 use crate::tree::blas::Blas;
-use crate::tree::instance::{Geometry, InstanceRecord};
+use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
 use crate::tree::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
 use crate::tree::tlas::Tlas;
 use fearless_simd::{f32x4, prelude::*, u32x8};
@@ -66,6 +66,7 @@ pub(crate) struct StreamRay<'a, C: HitCallback> {
     /// Whether that one may let shadow rays pass.
     transparent: bool,
     mask: u8,
+    time: f32,
     /// The ray's number in its batch, [`NONE`] without a ray.
     number: u32,
     /// Whether a hit ended the search.
@@ -91,6 +92,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             instance: NONE,
             transparent: false,
             mask: 0,
+            time: 0.5,
             number: NONE,
             ended: false,
         }
@@ -113,6 +115,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             return false;
         }
         self.mask = rays.mask[i];
+        self.time = rays.time_of(i);
         self.shorten();
         stack.near[0] = 0;
         stack.child[0] = ChildRef::new(Kind::End, 0).0;
@@ -228,11 +231,13 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
         let ([ray, image], map, t_max) = (&mut self.rays, &record.world_to_object, self.callback.t_max());
         match record.geometry.get() {
             Geometry::Mesh(index) => {
-                let may_hit = if record.keeps_directions {
-                    image.shift(simd, ray, map.translation(simd), t_max)
-                } else {
-                    let [origin, direction] = map.images(simd, &ray.origin, &ray.direction);
-                    image.prepare(simd, origin, direction, ray.t_min, t_max)
+                let may_hit = match record.map {
+                    MapKind::Translation | MapKind::Identity => image.shift(simd, ray, map.translation(simd), t_max),
+                    MapKind::General => image.move_by(simd, ray, map, t_max),
+                    MapKind::Moving => match scene.moving(record.id).enter(self.time, ray, t_max) {
+                        Some(map) => image.move_by(simd, ray, &map, t_max),
+                        None => false,
+                    },
                 };
                 if may_hit { self.enter(&scene.meshes[index as usize]) } else { Kind::Next as usize }
             }

@@ -66,10 +66,21 @@ pub(crate) struct InstanceRecord {
     pub(crate) id: u32,
     pub(crate) mask: u8,
     pub(crate) transparent: bool,
-    /// The map moves nothing, so that a ray goes on as it is.
-    pub(crate) identity: bool,
-    /// The map moves and does nothing else, so that directions stay what they are.
-    pub(crate) keeps_directions: bool,
+    pub(crate) map: MapKind,
+}
+
+/// What is known of an instance's map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum MapKind {
+    /// Nothing.
+    General,
+    /// It moves and does nothing else, so that directions stay what they are.
+    Translation,
+    /// It moves nothing, so that a ray goes on as it is.
+    Identity,
+    /// It changes over the shutter.
+    Moving,
 }
 
 impl InstanceRecord {

@@ -3,6 +3,7 @@
 pub(crate) mod blas;
 pub(crate) mod instance;
 mod loose_lights;
+pub(crate) mod moving;
 pub(crate) mod node;
 mod refit;
 pub(crate) mod tlas;

@@ -3,6 +3,7 @@
 use super::blas::Blas;
 use super::instance::{Instance, InstanceRecord, Owner};
 use super::loose_lights::{LooseLight, MOST_LOOSE};
+use super::moving::{MovingInstance, MovingRecord};
 use super::node::{ChildRef, Kind, MAX_INDEX, Node};
 use super::tlas_input::TlasInput;
 use crate::build::collapse::LeafMaker;
@@ -27,6 +28,9 @@ pub struct Tlas {
     pub(crate) blocks: Vec<TriangleBlock>,
     pub(crate) owners: Vec<Owner>,
     pub(crate) meshes: Vec<Arc<Blas>>,
+    /// Instances that move, and the place of each instance among them; both empty where all stand still.
+    pub(crate) moving: Vec<MovingRecord>,
+    pub(crate) moving_of: Vec<u32>,
     /// Shapes of lights that are not in the tree.
     pub(crate) loose_lights: Vec<LooseLight>,
     /// Whether the tree is so large that incoherent rays may gain from ray streams.
@@ -40,7 +44,7 @@ impl Tlas {
     ///
     /// Instances of missing or empty meshes, with singular maps or beyond 1e12 metres are left out; no ray hits them.
     pub fn build(meshes: Vec<Arc<Blas>>, instances: &[Instance], cancel: &AtomicBool) -> Result<Tlas, Cancelled> {
-        Tlas::build_with_lights(meshes, instances, instances.len(), cancel)
+        Tlas::build_moving(meshes, instances, &[], instances.len(), cancel)
     }
 
     /// [`Tlas::build`] where the instances from `first_light` on are shapes that no shadow ray sees: queries for what is in a ray's way need
@@ -51,8 +55,19 @@ impl Tlas {
         first_light: usize,
         cancel: &AtomicBool,
     ) -> Result<Tlas, Cancelled> {
+        Tlas::build_moving(meshes, instances, &[], first_light, cancel)
+    }
+
+    /// [`Tlas::build_with_lights`] where instances of meshes may move; `moving` is sorted by their numbers.
+    pub fn build_moving(
+        meshes: Vec<Arc<Blas>>,
+        instances: &[Instance],
+        moving: &[MovingInstance],
+        first_light: usize,
+        cancel: &AtomicBool,
+    ) -> Result<Tlas, Cancelled> {
         let first_loose = if instances.len() - first_light <= MOST_LOOSE { first_light } else { instances.len() };
-        let input = TlasInput::new(&meshes, instances, first_loose, instances.len() <= MOST_OPENED);
+        let input = TlasInput::new(&meshes, instances, moving, first_loose, instances.len() <= MOST_OPENED);
         assert!(input.boxes.len() <= MAX_INDEX, "the top level holds at most {MAX_INDEX} boxes");
         let effort = if input.boxes.len() <= MANY_BOXES { Effort::THOROUGH } else { Effort::QUICK };
         let tree = build(&input.boxes, &Numbers, effort, cancel)?;
@@ -63,11 +78,14 @@ impl Tlas {
             blocks: Vec::with_capacity(input.blocks.len()),
             owners: Vec::with_capacity(input.blocks.len()),
             meshes,
+            moving: Vec::new(),
+            moving_of: Vec::new(),
             loose_lights: Vec::new(),
             is_large: false,
             tuners: StreamTuners::default(),
         };
         scene.fill(&input, &tree.leaves);
+        scene.keep_moving(input.moving, instances.len());
         let in_place = (first_loose..).zip(&instances[first_loose..]).filter(|(number, _)| scene.record_of[*number] != NONE);
         scene.loose_lights = in_place.filter_map(|(number, instance)| LooseLight::new(instance, scene.record_of[number])).collect();
         scene.is_large = scene.meshes.iter().map(|mesh| mesh.memory().bytes()).sum::<usize>() + scene.memory() > SMALL;
@@ -98,6 +116,16 @@ impl Tlas {
         }
     }
 
+    fn keep_moving(&mut self, moving: Vec<(u32, MovingRecord)>, instances: usize) {
+        if !moving.is_empty() {
+            self.moving_of = vec![NONE; instances];
+        }
+        for (instance, moves) in moving {
+            self.moving_of[instance as usize] = self.moving.len() as u32;
+            self.moving.push(moves);
+        }
+    }
+
     fn keep(&mut self, record: InstanceRecord) {
         self.record_of[record.id as usize] = self.records.len() as u32;
         self.records.push(record);
@@ -113,6 +141,17 @@ impl Tlas {
     /// The mesh trees, in the order of the numbers in [`Geometry::Mesh`](crate::Geometry::Mesh).
     pub fn meshes(&self) -> &[Arc<Blas>] {
         &self.meshes
+    }
+
+    /// Whether anything moves while the shutter is open.
+    pub fn moves(&self) -> bool {
+        !self.moving.is_empty()
+    }
+
+    /// How an instance moves whose record says that it does.
+    #[inline(always)]
+    pub(crate) fn moving(&self, instance: u32) -> &MovingRecord {
+        &self.moving[self.moving_of[instance as usize] as usize]
     }
 
     /// Has memory fetch a child of the top level.

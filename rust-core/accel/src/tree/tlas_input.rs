@@ -1,7 +1,8 @@
 //! What the TLAS is built over: instances, and the triangles of small ones, in world space.
 
 use super::blas::Blas;
-use super::instance::{Geometry, Instance, InstanceRecord, Owner, PackedGeometry};
+use super::instance::{Geometry, Instance, InstanceRecord, MapKind, Owner, PackedGeometry};
+use super::moving::{MovingInstance, MovingRecord, motion_of};
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, WIDTH};
 use crate::intersect::transform::{Affine, image_of, inverse, transformed_bounds};
 use crate::intersect::triangle_block::TriangleBlock;
@@ -21,14 +22,26 @@ pub(crate) struct TlasInput {
     pub(crate) records: Vec<InstanceRecord>,
     pub(crate) blocks: Vec<TriangleBlock>,
     pub(crate) owners: Vec<Owner>,
+    /// Those that move, by the instances' numbers.
+    pub(crate) moving: Vec<(u32, MovingRecord)>,
 }
 
 impl TlasInput {
-    /// Places instances; with `opened` those of small meshes are taken apart. Those from `first_loose` on get no boxes.
-    pub(crate) fn new(meshes: &[Arc<Blas>], instances: &[Instance], first_loose: usize, opened: bool) -> Self {
+    /// Places instances; with `opened` those of small meshes are taken apart. Those from `first_loose` on get no boxes. `moving` is sorted by the
+    /// instances' numbers.
+    pub(crate) fn new(meshes: &[Arc<Blas>], instances: &[Instance], moving: &[MovingInstance], first_loose: usize, opened: bool) -> Self {
         let mut input = TlasInput::default();
         for (id, instance) in instances.iter().enumerate() {
-            let Some((bounds, record)) = placed(meshes, instance, id as u32) else { continue };
+            let Some((mut bounds, mut record)) = placed(meshes, instance, id as u32) else { continue };
+            let mut opened = opened;
+            if let (Some(motion), Geometry::Mesh(mesh)) = (motion_of(moving, id as u32), instance.geometry) {
+                let (moves, swept) = MovingRecord::new(motion, &meshes[mesh as usize].outline);
+                if !is_near(&swept) {
+                    continue;
+                }
+                (bounds, record.map, opened) = (swept, MapKind::Moving, false);
+                input.moving.push((id as u32, moves));
+            }
             if id < first_loose && !(opened && input.open(meshes, instance, record.owner())) {
                 input.boxes.push(bounds);
                 input.contents.push(ChildRef::new(Kind::Instance, input.records.len()));
@@ -67,6 +80,11 @@ fn in_world(block: &TriangleBlock, instance: &Instance) -> (TriangleBlock, Bound
     (moved, bounds.padded())
 }
 
+/// Whether all coordinates are usable.
+fn is_near(bounds: &Bounds) -> bool {
+    bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE)
+}
+
 /// The world box and the record of an instance, if rays can hit it.
 fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds, InstanceRecord)> {
     let shape_bounds;
@@ -82,7 +100,6 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
     }
     let placed = outline.iter().map(|bounds| transformed_bounds(&instance.object_to_world, bounds));
     let bounds = placed.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
-    let usable = bounds.min.iter().chain(&bounds.max).all(|x| x.abs() <= LARGEST_COORDINATE);
     let world_to_object = Affine::new(&inverse(&instance.object_to_world)?)?;
     let record = InstanceRecord {
         world_to_object,
@@ -90,8 +107,11 @@ fn placed(meshes: &[Arc<Blas>], instance: &Instance, id: u32) -> Option<(Bounds,
         id,
         mask: instance.mask,
         transparent: instance.transparent,
-        identity: instance.object_to_world == Instance::IDENTITY,
-        keeps_directions: world_to_object.keeps_directions(),
+        map: match world_to_object.keeps_directions() {
+            _ if instance.object_to_world == Instance::IDENTITY => MapKind::Identity,
+            true => MapKind::Translation,
+            false => MapKind::General,
+        },
     };
-    usable.then_some((bounds, record))
+    is_near(&bounds).then_some((bounds, record))
 }

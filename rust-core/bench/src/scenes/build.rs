@@ -15,6 +15,7 @@ pub(crate) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform
         geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![transform],
+        motion: Vec::new(),
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,

@@ -36,7 +36,7 @@ impl Kernel for Generation {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let Self { view, sampler, paths } = self;
         let area = TileArea { min: [0; 2], max: [TILE as u32; 2] };
-        dispatch!(execution, l => generate(l, &view.camera, &view.placement, sampler, area, &Runs::whole(0), paths));
+        dispatch!(execution, l => generate(l, &view.camera, &view.placement, sampler, area, &Runs::whole(0), &[], paths));
         Ok(())
     }
     fn outcome(&self) -> Outcome {

@@ -65,6 +65,12 @@ impl Runs {
         self.each().flat_map(move |[slot, code, sample]| (0..RUN as u32).step_by(lanes).map(move |at| [slot + at, code + at, sample]))
     }
 
+    /// The Morton number of the pixel that a slot of any kind of path belongs to.
+    pub fn code(&self, slot: u32) -> u32 {
+        let place = slot & (BATCH as u32 - 1);
+        (self.zones[(place >> RUN_BITS) as usize] << RUN_BITS) | (place & (RUN as u32 - 1))
+    }
+
     /// The number in the tile's sequence of the sample that a slot of any kind of path belongs to.
     #[inline(always)]
     pub fn index<L: Lanes>(&self, l: L, sampler: &Sampler, slot: U<L>) -> U<L> {

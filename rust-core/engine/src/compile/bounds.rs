@@ -115,6 +115,7 @@ pub(super) fn of_instances(scene: &Scene, meshes: &[Bounds]) -> Bounds {
         for transform in &instances.transforms {
             bounds.join(&mesh.transformed(transform));
         }
+        super::motion::extend(&mut bounds, mesh, instances);
     }
     bounds
 }

@@ -4,10 +4,11 @@ use super::{
     bounds::Bounds,
     instances::{append_instances, report_unplaceable},
     numbers::{geometry_number, named},
+    motion,
     primvars::{Elements, append, problem},
 };
 use crate::{
-    accel::Instance,
+    accel::{Instance, MovingInstance},
     error::{Diagnostic, Error, Result},
     geometry::{GeometryTable, InstanceRow, NONE, PrimvarKind, PrimvarRef},
     scene::{Instances, Mesh, Primvar, Scene},
@@ -19,6 +20,8 @@ use crate::{
 pub(super) struct CompiledGeometry {
     pub(super) table: GeometryTable,
     pub(super) instances: Vec<Instance>,
+    /// Those that move, sorted by their numbers.
+    pub(super) moving: Vec<MovingInstance>,
     pub(super) first_light: u32,
 }
 
@@ -35,6 +38,7 @@ pub(super) fn tables(
     let meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).collect();
     let mut instances = Vec::new();
+    let mut moving = Vec::new();
     for (set, group) in scene.instances.iter().enumerate() {
         let number = geometry_number(scene, group.geometry);
         let (Some(bounds), Some(slots)) = (mesh_bounds.get(number), slots.get(number)) else {
@@ -43,6 +47,9 @@ pub(super) fn tables(
         };
         report_unplaceable(bounds, group, diagnostics);
         let row = InstanceRow { mesh: number as u32, ..meshes[number] };
+        let first = instances.len();
+        let motions = motion::motions(group, &scene.settings, origin, diagnostics);
+        moving.extend(motions.into_iter().map(|(number, motion)| MovingInstance { instance: (first + number) as u32, motion }));
         append_instances(group, set as u32, *slots, row, names, materials, origin, &mut table, &mut instances, diagnostics);
     }
     table.set_pass_index = scene.instances.iter().map(|group| group.pass_index).chain([0]).collect();
@@ -57,8 +64,9 @@ pub(super) fn tables(
         table.set_catcher = scene.instances.iter().map(|group| u32::from(group.shadow_catcher)).chain([0]).collect();
     }
     pad(&mut table);
+    motion::fill(&mut table, &moving, instances.len());
     let first_light = instances.len() as u32;
-    Ok(CompiledGeometry { table, instances, first_light })
+    Ok(CompiledGeometry { table, instances, moving, first_light })
 }
 
 /// Appends a mesh; gives its part of its instances' rows.

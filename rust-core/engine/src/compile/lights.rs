@@ -6,6 +6,7 @@ use super::{
     instances::{rebased, rows},
     light_groups::GroupNames,
     numbers::geometry_number,
+    motion,
     openings::{self, Part},
     quantity::{self, FarFields},
     textures::CompiledTextures,
@@ -73,22 +74,27 @@ pub(super) fn compile(
     let mut groups = GroupNames::default();
     for (number, light) in scene.lights.iter().enumerate() {
         let goniogram = goniograms.number(light, diagnostics);
-        let first = records.len();
         report_unused(light, kind(light.shape), diagnostics);
-        for part in emitters(light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize))) {
-            let plain = record(light, &part, textures.light_numbers[number], diagnostics);
-            if let Some(instance) = shape_instance(light, &part) {
-                instance_light.push(records.len() as u32);
-                instances.push(instance);
-            }
-            records.push(LightRecord { goniogram, ..plain });
-        }
         let group = groups.number(&light.group);
-        groups.of_light.resize(records.len(), group);
-        quantity::apply(light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
+        for (light, share) in motion::lamps(light, &scene.settings, diagnostics) {
+            let first = records.len();
+            for part in emitters(&light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize))) {
+                let plain = record(&light, &part, textures.light_numbers[number], diagnostics);
+                if let Some(instance) = shape_instance(&light, &part) {
+                    instance_light.push(records.len() as u32);
+                    instances.push(instance);
+                }
+                records.push(LightRecord { goniogram, ..plain });
+            }
+            groups.of_light.resize(records.len(), group);
+            quantity::apply(&light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
+            if share < 1.0 {
+                records[first..].iter_mut().for_each(|record| record.radiance = record.radiance.map(|x| x * share));
+            }
+        }
     }
     instance_light.push(0);
-    let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records);
+    let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records, diagnostics);
     let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
     let table = previous.table(&records, &images, &goniograms);
@@ -234,6 +240,7 @@ fn emissive_triangles(
     materials: &MaterialTable,
     origin: [f64; 3],
     records: &mut Vec<LightRecord>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<u32> {
     if !(0..materials.numbers.len()).any(|material| materials.even_emission(materials.number(material)).is_some()) {
         return Vec::new();
@@ -248,9 +255,14 @@ fn emissive_triangles(
         // Placements of a set have the same materials.
         let first = geometry.instances[number as usize].first_material as usize;
         let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());
+        let moves = motion::moves(group, &scene.settings);
+        if emits && moves {
+            let message = "it shines and moves; its light is found by chance, without light sampling";
+            diagnostics.push(Diagnostic::info(&group.origin, message));
+        }
         for transform in &group.transforms {
             let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
-            let fits = records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
+            let fits = !moves && records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
             if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);

@@ -16,6 +16,7 @@ mod luminaires;
 mod materials;
 mod measured;
 mod numbers;
+mod motion;
 mod openings;
 mod oversized;
 mod primvars;
@@ -116,12 +117,13 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     oversized::report(scene, &bounds, &mut diagnostics);
     let origin = bounds.rebase_origin();
     let mut geometry = geometry::tables(scene, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
+    motion::report_cameras(scene, &mut diagnostics);
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
     let first_light = geometry.first_light as usize;
-    let bvh = Tlas::build_with_lights(blases, &geometry.instances, first_light, cancel).map_err(|_| Error::Cancelled)?;
+    let bvh = Tlas::build_moving(blases, &geometry.instances, &geometry.moving, first_light, cancel).map_err(|_| Error::Cancelled)?;
     let statistics = CompileStatistics {
         triangles: scene.meshes.iter().map(|mesh| mesh.triangles.len() as u64).sum(),
         instanced_triangles: instanced_triangles(scene),

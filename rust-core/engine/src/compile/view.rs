@@ -1,6 +1,6 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, light_groups, samples, shader_passes};
+use super::{CompiledScene, light_groups, motion, samples, shader_passes};
 use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
@@ -47,7 +47,9 @@ impl View {
             return Err(Error::scene(&camera.origin, "the camera's transform is not finite"));
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
-        let transport = transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x));
+        let table = CameraTable { motion: motion::of_camera(camera, settings, scene.tables.origin), ..table };
+        let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
+        let transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
         let placement = match settings.antialiasing {
             Antialiasing::Grid(side) => Placement::Grid(side),
             _ => Placement::Filter(tabulate(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
@@ -95,6 +97,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         path_filter: PathFilter::All,
         estimator,
         light_paths: None,
+        shutter: motion::shutter(&scene.tables.bvh, None, settings),
         photons: None,
     }
 }
@@ -202,6 +205,7 @@ fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Resul
         aperture: aperture(camera),
         focus_distance: if camera.focus_distance > 0.0 { camera.focus_distance as f32 } else { 1.0 },
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
+        motion: None,
     })
 }
 

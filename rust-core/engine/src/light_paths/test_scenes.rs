@@ -12,6 +12,7 @@ pub(crate) fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]]
         geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform::IDENTITY],
+        motion: Vec::new(),
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,

@@ -111,6 +111,7 @@ fn distance(scene: &CompiledScene, places: &[Vector], direction: Vector) -> Vec<
         t_min: &vec![0.0; count],
         t_max: &vec![f32::INFINITY; count],
         mask: &vec![ray_mask::SHADOW; count],
+        time: &[],
     };
     let mut hits = Hits::default();
     scene.tables.bvh.first_hit(Execution::Scalar, &rays, false, &mut hits);

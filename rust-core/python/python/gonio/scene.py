@@ -83,13 +83,16 @@ class Scene(_gonio.Scene):
         curves: int | None = None,
         points: int | None = None,
         transform: Matrix | None = None,
+        motion: Sequence[Matrix] = (),
         name: str = "instance",
     ) -> None:
-        """Places a mesh, or curves or points; transform is a 4×4 matrix for column vectors."""
-        x, y, z, origin = columns(transform)["columns"]
-        rows = [*zip(x, y, z, origin, strict=True), (0.0, 0.0, 0.0, 1.0)]
-        flat = array("d", [value for row in rows for value in row])
-        self.put_instances(mesh, [*materials], flat, curves=curves, points=points, name=name)
+        """Places a mesh, or curves or points; transform is a 4×4 matrix for column vectors. `motion` gives it at evenly spaced times over the
+        shutter, and the middle one stands for the transform where that is left out."""
+        if transform is None and motion:
+            transform = motion[len(motion) // 2]
+        keys = array("d", [value for key in motion for value in _numbers(key)]) if motion else None
+        flat = array("d", _numbers(transform))
+        self.put_instances(mesh, [*materials], flat, curves=curves, points=points, motion=keys, name=name)
 
     def add_light(
         self,
@@ -97,6 +100,7 @@ class Scene(_gonio.Scene):
         radiance: Sequence[float] = (1.0, 1.0, 1.0),
         *,
         transform: Matrix | None = None,
+        motion: Sequence[Matrix] = (),
         width: float = 1.0,
         height: float = 1.0,
         radius: float = 0.5,
@@ -111,14 +115,24 @@ class Scene(_gonio.Scene):
         distant light: lux on a facing surface); flat ones shine along local −z.
 
         One of lumens, lamp_lumens, candela, lux (at metres: a pair), nits or watts in place of it lets the radiance tell the colour alone; so
-        does a goniogram of a point or a luminaire, whose factors then are cd. The temperature in K multiplies the colour.
+        does a goniogram of a point or a luminaire, whose factors then are cd. The temperature in K multiplies the colour. `motion` gives its
+        transform at evenly spaced times over the shutter.
         """
         sizes = {"width": width, "height": height, "radius": radius, "length": length, "angle": angle}
-        return self.put_light(light(name, shape, radiance, transform, sizes, visible, photometry))
+        if transform is None and motion:
+            transform = motion[len(motion) // 2]
+        described = light(name, shape, radiance, transform, sizes, visible, photometry)
+        return self.put_light({**described, "motion": [columns(key) for key in motion]})
 
-    def add_camera(self, transform: Matrix | None = None, *, fov: float = 40.0, name: str = "camera") -> None:
-        """Adds a camera looking along −z of its transform, y up, with a vertical field of view in degrees; makes it the one that renders."""
-        self.set(camera=self.put_camera(camera(name, transform, fov, self.resolution), fixed_aperture=False))
+    def add_camera(
+        self, transform: Matrix | None = None, *, motion: Sequence[Matrix] = (), fov: float = 40.0, name: str = "camera"
+    ) -> None:
+        """Adds a camera looking along −z of its transform, y up, with a vertical field of view in degrees; makes it the one that renders.
+        `motion` gives its transform at evenly spaced times over the shutter."""
+        if transform is None and motion:
+            transform = motion[len(motion) // 2]
+        described = {**camera(name, transform, fov, self.resolution), "motion": [columns(key) for key in motion]}
+        self.set(camera=self.put_camera(described, fixed_aperture=False))
 
     def add_meter(
         self,
@@ -165,3 +179,10 @@ class Scene(_gonio.Scene):
         sizes = {"spacing": spacing, "margin": margin, "height": height}
         faced = {"facing": numbers("facing", facing, 3), "measurand": measurand(quantity)}
         return self.put_grid({"origin": name, "area": area, **sizes, **faced})
+
+
+def _numbers(matrix: Matrix | None) -> list[float]:
+    """The numbers of a 4×4 matrix, row by row."""
+    x, y, z, origin = columns(matrix)["columns"]
+    rows = [*zip(x, y, z, origin, strict=True), (0.0, 0.0, 0.0, 1.0)]
+    return [value for row in rows for value in row]

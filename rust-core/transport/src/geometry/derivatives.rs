@@ -13,9 +13,12 @@ pub struct UvDerivatives<L: Lanes> {
 }
 
 impl GeometryTable {
-    /// Images of x, y and z of the instances' spaces in the world, and their origins, rebased.
+    /// Images of x, y and z of the instances' spaces in the world, and their origins, rebased, at the hits' times.
     #[inline(always)]
     pub fn instance_columns<L: Lanes>(&self, l: L, hit: &HitLanes<L>) -> ([Vec3<L>; 3], Vec3<L>) {
+        if !self.motion.is_empty() {
+            return self.moved_columns(l, hit);
+        }
         let (table, at) = (&self.instance_transform, hit.instance * 12);
         ([Vec3::gather(l, table, at), Vec3::gather(l, table, at + 3), Vec3::gather(l, table, at + 6)], Vec3::gather(l, table, at + 9))
     }

@@ -2,6 +2,7 @@
 
 mod derivatives;
 mod instance_row;
+mod moving;
 mod primvar;
 mod surface_point;
 
@@ -9,6 +10,8 @@ pub use derivatives::UvDerivatives;
 pub use instance_row::InstanceRow;
 pub use primvar::{PrimvarKind, PrimvarRef};
 pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, offset_ray_origin, shadow_ray_to};
+
+use gonio_simd::motion::Motion;
 
 /// No entry.
 pub const NONE: u32 = u32::MAX;
@@ -41,6 +44,10 @@ pub struct GeometryTable {
     pub instances: Vec<InstanceRow>,
     /// Object to world, twelve numbers an instance: images of x, y, z and the origin, rebased.
     pub instance_transform: Vec<f32>,
+    /// How instances move, and by instance the place in it or [`NONE`]; both empty where none does.
+    pub motion: Vec<Motion>,
+    /// See `motion`.
+    pub motion_of: Vec<u32>,
     /// Pass index of each set.
     pub set_pass_index: Vec<u32>,
     /// 1 for sets that cut holes into the coverage, else 0; empty where there is none.

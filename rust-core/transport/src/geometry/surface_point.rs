@@ -22,6 +22,16 @@ pub struct HitLanes<L: Lanes> {
     pub first_primvar: U<L>,
     /// Point numbers of the corners over all meshes.
     pub points: [U<L>; 3],
+    /// Time of the shutter, from 0 to 1.
+    pub time: F<L>,
+}
+
+impl<L: Lanes> HitLanes<L> {
+    /// The same hits at other times.
+    #[inline(always)]
+    pub fn at_time(self, time: F<L>) -> Self {
+        Self { time, ..self }
+    }
 }
 
 /// A point on a surface, world space.
@@ -48,12 +58,12 @@ const fn gamma(n: u32) -> f32 {
 }
 
 impl GeometryTable {
-    /// Looks up what the hits refer to.
+    /// Looks up what the hits refer to, in the middle of the shutter.
     #[inline(always)]
     pub fn hit_lanes<L: Lanes>(&self, l: L, instance: U<L>, primitive: U<L>, u: F<L>, v: F<L>) -> HitLanes<L> {
         let MeshLanes { mesh, first_triangle, first_point, first_primvar } = self.mesh_lanes(l, instance);
         let [a, b, c, _] = l.gather_integer_quads(&self.corners, (first_triangle + primitive) * 3);
-        HitLanes { instance, primitive, u, v, mesh, first_point, first_primvar, points: [a, b, c] }
+        HitLanes { instance, primitive, u, v, mesh, first_point, first_primvar, points: [a, b, c], time: l.f(0.5) }
     }
 
     /// The points themselves.

@@ -39,6 +39,10 @@ pub struct SurfaceColumns {
     pub side: Column,
     /// Unit directions to where the ray came from.
     pub wo: [Column; 3],
+    /// Times of the shutter, where anything moves.
+    pub time: Column,
+    /// Whether there are times.
+    pub has_times: bool,
     /// Flags of the paths, their counts of bounces by kind, and the lengths of the rays; only where the program asks for the ray.
     pub ray_flags: Column<u32>,
     /// See `ray_flags`.
@@ -68,6 +72,8 @@ impl Default for SurfaceColumns {
             uv_width: column(),
             side: column(),
             wo: three(),
+            time: column(),
+            has_times: false,
             ray_flags: Column::new(CHUNK),
             ray_counts: Column::new(CHUNK),
             ray_length: column(),

@@ -97,7 +97,9 @@ impl<'a> Points<'a> {
         let (columns, at) = (self.columns, self.first + at);
         let (instance, primitive) = (l.load_integers(&columns.instance, at), l.load_integers(&columns.primitive, at));
         let [u, v] = [l.load(&columns.barycentric[0], at), l.load(&columns.barycentric[1], at)];
-        Place { geometry: self.geometry, hit: self.geometry.hit_lanes(l, instance, primitive, u, v), points: columns, at }
+        let hit = self.geometry.hit_lanes(l, instance, primitive, u, v);
+        let hit = if columns.has_times { hit.at_time(l.load(&columns.time, at)) } else { hit };
+        Place { geometry: self.geometry, hit, points: columns, at }
     }
 }
 

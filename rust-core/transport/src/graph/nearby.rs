@@ -120,6 +120,8 @@ pub(super) fn occlusion<L: Lanes>(
 fn load_instances(points: &Points<'_>, near: &mut NearbyRays, count: usize) {
     near.instances.clear();
     near.instances.extend_from_slice(&points.columns.instance[points.first..points.first + count]);
+    let times = points.columns.has_times.then(|| points.columns.time[points.first..points.first + count].iter().copied());
+    near.rays.set_times(times);
 }
 
 /// One ray a hit, more likely the nearer to the normal.
@@ -242,6 +244,7 @@ fn add_normals<L: Lanes>(l: L, ray: Ray, points: &Points<'_>, near: &mut NearbyR
         let (met, [u, v, t], primitive) = met(l, &near.hits, here, io.count);
         let own = l.load_integers(&columns.instance, at);
         let hit = points.geometry.hit_lanes(l, own, primitive, u, v);
+        let hit = if columns.has_times { hit.at_time(l.load(&columns.time, at)) } else { hit };
         let found = points.geometry.surface_point(l, &hit);
         let ([along, across, axis], likely) = disc(load3(l, &columns.geometric_normal, at), numbers(l, ray, points, at)[0]);
         let mut squares = l.f(0.0);

@@ -71,6 +71,7 @@ impl LightTracer<'_> {
         let sampler = Sampler::new(self.transport.seed ^ OTHER_SEED, [set as u32, (set >> 32) as u32], BATCHES);
         let runs = Runs::whole((batch % u64::from(BATCHES)) as u32);
         let first = SampleContext { sampler, runs: &runs, depth: 0 };
+        ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), &sampler, &runs, 0);
         let starts = &mut ws.queues.light_paths.starts;
         dispatch!(self.transport.execution, l => emit(l, self.tables, self.emission, &first, batch, starts, &mut ws.paths));
         ws.paths.set_masks();
@@ -103,6 +104,7 @@ impl LightTracer<'_> {
         let Tracer { tables, transport, .. } = tracer;
         let time = Instant::now();
         ws.statistics.rays += ws.paths.count as u64;
+        ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &mut ws.paths, &mut ws.nearest);
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);
@@ -116,7 +118,7 @@ impl LightTracer<'_> {
         ws.queues.next.count = 0;
         steps::shade(tracer, &LightIntegrator { wanted: self.wanted }, sample, ws);
         let time = Instant::now();
-        let context = WalkContext { tables, transport, sample, paths: &ws.paths, lit: false };
+        let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: false };
         ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
         self.connect(splats, ws);
         receiver.arrived(&ws.queues.light_paths.arrivals);

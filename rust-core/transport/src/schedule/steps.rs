@@ -28,7 +28,8 @@ const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));
 /// Finds what all paths hit, adds the light of lights among it, forks at shadow catchers, and looks up materials.
 pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
-    let Workspace { paths, nearest, deposits, statistics, .. } = ws;
+    let Workspace { paths, nearest, deposits, statistics, times, .. } = ws;
+    paths.set_times(times);
     statistics.rays += paths.count as u64;
     intersect::intersect(tables, transport, depth, paths, nearest, deposits);
     let escaped = nearest.escaped.len();
@@ -119,8 +120,9 @@ fn make_room<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, coherent: bool,
 
 /// Traces the queued shadow rays and adds the light of those that arrive.
 pub(crate) fn trace_shadows(tracer: &Tracer<'_>, coherent: bool, ws: &mut Workspace) {
-    let Workspace { queues, shadow_trace, chunk, deposits, statistics, .. } = ws;
+    let Workspace { queues, shadow_trace, chunk, deposits, statistics, times, .. } = ws;
     statistics.shadow_rays += queues.shadows.count as u64;
+    queues.shadows.set_times(times);
     shadow::trace_shadows(tracer.tables, &tracer.transport, coherent, &mut queues.shadows, shadow_trace, chunk, deposits);
 }
 

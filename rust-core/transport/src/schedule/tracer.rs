@@ -88,6 +88,9 @@ impl Tracer<'_> {
     }
 
     fn start_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        // Antialiasing compares neighbours, all at one time.
+        ws.times.draw(self.transport.execution, None, &Sampler::new(0, [0; 2], 1), &Runs::whole(0), 0);
+        ws.paths.set_times(&ws.times);
         if let Start::Camera(camera, _) = self.start {
             dispatch!(self.transport.execution, l => generate_at(l, camera, places, slots, &mut ws.paths));
         }
@@ -97,9 +100,11 @@ impl Tracer<'_> {
     fn begin<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
         let Batch { area, ref sampler, runs } = *batch;
         let time = Instant::now();
+        ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), sampler, runs, area.min[1]);
         let first = match self.start {
             Start::Camera(camera, placement) => {
-                dispatch!(self.transport.execution, l => generate(l, camera, placement, sampler, area, runs, &mut ws.paths));
+                let (times, paths) = (ws.times.by_slot(), &mut ws.paths);
+                dispatch!(self.transport.execution, l => generate(l, camera, placement, sampler, area, runs, times, paths));
                 0
             }
             Start::Sensors(sensors) => {

@@ -203,7 +203,8 @@ fn connect<'s, L: Lanes>(
     let base = context.dimension(0);
     let lens = context.sampler.pair(l, index, base + dimension::LIGHT);
     let filter = context.sampler.pair(l, index, base + dimension::MEASURE);
-    let seen = picture.camera.importance(l, point.at.position, lens);
+    let time = chunk.paths.rays.times(l, point.path);
+    let seen = picture.camera.importance_at(l, point.at.position, lens, time);
     let (pixel, inside) = picture.pixel(l, seen.raster, filter);
     let to = -seen.direction;
     let front = point.at.geometric.dot(to).gt(0.0);
@@ -223,6 +224,7 @@ fn connect<'s, L: Lanes>(
     let light = l.gather_integers(&starts.light, point.slot);
     let code = code_of_found(l.u(event::DIFFUSE | (2 << flag::BOUNCE_SHIFT)), 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
+    queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     queues.light_paths.connections.rays.append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares }, lit);
 }
 

@@ -20,6 +20,8 @@ pub struct TileArea {
 }
 
 /// Starts a path through every pixel of a tile that a batch holds; four by four pixels follow one another, so that sixteen rays make a packet.
+///
+/// `times` are those of the slots, empty where nothing moves.
 #[inline(always)]
 pub fn generate<L: Lanes>(
     l: L,
@@ -28,6 +30,7 @@ pub fn generate<L: Lanes>(
     sampler: &Sampler,
     area: TileArea,
     runs: &Runs,
+    times: &[f32],
     paths: &mut Paths,
 ) {
     paths.count = 0;
@@ -51,7 +54,7 @@ pub fn generate<L: Lanes>(
             }
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
-        let ray = camera.ray(l, raster, lens);
+        let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
         paths.append(&started(l, &ray, l.iota() + slot), inside & ray.mapped);
     }
     paths.set_masks();

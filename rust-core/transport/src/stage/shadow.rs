@@ -115,7 +115,7 @@ fn dim_chunk<L: Lanes>(
     for (i, place) in order[..hits.len()].iter_mut().enumerate() {
         *place = i as u32;
     }
-    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Directions(&shadows.rays.direction) };
+    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(&shadows.rays) };
     factors.clear();
     match tables.materials.shading(material) {
         Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, (hits, &source), None, factors, columns),

@@ -15,6 +15,7 @@ use crate::state::paths::Paths;
 use crate::state::queue::Queues;
 use crate::state::queue::walks::{WalkHits, Walks};
 use crate::state::sample::SampleContext;
+use crate::state::times::SlotTimes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction, Vertex};
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
@@ -30,6 +31,7 @@ pub(crate) struct WalkContext<'a> {
     pub(crate) transport: &'a Transport,
     pub(crate) sample: &'a SampleContext<'a>,
     pub(crate) paths: &'a Paths,
+    pub(crate) times: &'a SlotTimes,
     /// Whether what comes out is lit, as camera paths want it.
     pub(crate) lit: bool,
 }
@@ -51,6 +53,7 @@ pub(crate) fn walk(
             break;
         }
         dispatch!(transport.execution, l => sample_flights(l, sample, step, walks));
+        walks.set_times(context.times);
         tables.bvh.first_hit_within(transport.execution, &walks.rays.batch(0..walks.count), &walks.instance, &mut walk_hits.hits);
         rays += walks.count as u64;
         walk_hits.out.clear();
@@ -123,7 +126,7 @@ fn exit_walks(context: &WalkContext<'_>, walk_hits: &WalkHits, columns: &mut Chu
         let mut order = [chunk[0]; CHUNK + PADDING];
         order[..chunk.len()].copy_from_slice(chunk);
         dispatch!(context.transport.execution, l => {
-            let source = ChunkSource { order: &order, count: chunk.len(), rays: ChunkRays::Directions(&queues.walks.rays.direction) };
+            let source = ChunkSource { order: &order, count: chunk.len(), rays: ChunkRays::Rays(&queues.walks.rays) };
             kernels::surface_points(l, context.tables, &nothing, &walk_hits.hits, &source, &mut columns.surface);
             exit_chunk(l, context, &walk_hits.hits, (&order, chunk.len()), columns, queues, deposits);
         });
@@ -140,7 +143,7 @@ fn exit_chunk<L: Lanes>(
     queues: &mut Queues,
     deposits: &mut Deposits,
 ) {
-    let WalkContext { tables, transport, sample, paths, lit } = *context;
+    let WalkContext { tables, transport, sample, paths, lit, .. } = *context;
     let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns };
     let base = sample.dimension(dimension::MEASURE);
     for at in (0..count).step_by(L::COUNT) {

@@ -3,9 +3,10 @@
 //! In go hits and rays (with ray cones), out come [`SurfaceColumns`], gathered from the geometry tables. The shading program runs on them.
 
 use crate::graph::{Program, SurfaceColumns};
-use crate::state::columns::{Columns3, gather3};
+use crate::state::columns::gather3;
 use crate::state::flag;
 use crate::state::paths::{ConeLanes, Paths, TrackLanes};
+use crate::state::rays::Rays;
 use crate::tables::Tables;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
@@ -15,8 +16,19 @@ use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
 pub(crate) enum ChunkRays<'a> {
     /// Those of paths, with cones around them.
     Paths(&'a Paths),
-    /// Directions alone.
-    Directions(&'a Columns3),
+    /// Rays alone.
+    Rays(&'a Rays),
+}
+
+impl ChunkRays<'_> {
+    /// Their times; empty where nothing moves.
+    #[inline(always)]
+    fn times(&self) -> &[f32] {
+        match self {
+            ChunkRays::Paths(paths) => &paths.rays.time,
+            ChunkRays::Rays(rays) => &rays.time,
+        }
+    }
 }
 
 /// What a chunk of hits is looked up from.
@@ -84,6 +96,8 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     out: &mut SurfaceColumns,
 ) {
     out.origin = tables.origin.map(|x| x as f32);
+    let times = source.rays.times();
+    out.has_times = !times.is_empty();
     for at in (0..source.count).step_by(L::COUNT) {
         let hits = hits.load(l, l.load_integers(source.order, at));
         let (direction, width) = match source.rays {
@@ -91,10 +105,13 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
                 let ConeLanes { direction, width } = paths.cone(l, hits.ray);
                 (direction, hits.distance.mul_add(paths.track(l, hits.ray).spread, width))
             }
-            ChunkRays::Directions(columns) => (gather3(l, columns, hits.ray), l.f(0.0)),
+            ChunkRays::Rays(rays) => (gather3(l, &rays.direction, hits.ray), l.f(0.0)),
         };
         if program.light_path {
             store_ray(l, &hits, source.rays, out, at);
+        }
+        if out.has_times {
+            l.gather(times, hits.ray).store(&mut out.time, at);
         }
         surface_lanes(l, tables, program, &hits, direction, width, out, at);
     }
@@ -108,7 +125,7 @@ fn store_ray<L: Lanes>(l: L, hits: &FoundHits<L>, rays: ChunkRays<'_>, out: &mut
             let TrackLanes { flags, counts, .. } = paths.track(l, hits.ray);
             (flags, counts)
         }
-        ChunkRays::Directions(_) => (l.u(flag::SHADOW), l.u(0)),
+        ChunkRays::Rays(_) => (l.u(flag::SHADOW), l.u(0)),
     };
     flags.store(&mut out.ray_flags, at);
     counts.store(&mut out.ray_counts, at);
@@ -134,6 +151,7 @@ fn surface_lanes<L: Lanes>(
     barycentric[1].store(&mut out.barycentric[1], at);
     let geometry = &tables.geometry;
     let hit = geometry.hit_lanes(l, instance, primitive, barycentric[0], barycentric[1]);
+    let hit = if out.has_times { hit.at_time(l.load(&out.time, at)) } else { hit };
     let point = geometry.surface_point(l, &hit);
     let wo = -direction;
     let front = point.geometric_normal.dot(wo).ge(0.0);

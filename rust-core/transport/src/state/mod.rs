@@ -12,6 +12,7 @@ pub(crate) mod paths;
 pub(crate) mod queue;
 pub(crate) mod rays;
 pub(crate) mod sample;
+pub(crate) mod times;
 pub(crate) mod vertex;
 pub(crate) mod workspace;
 pub(crate) mod workspaces;

@@ -4,6 +4,7 @@
 
 use crate::state::flag;
 use crate::state::rays::{RayLanes, Rays};
+use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, SpectrumItems, U, Vec3, padded};
@@ -168,6 +169,12 @@ impl Paths {
         let items = [&mut self.cone, &mut self.vertex, &mut self.normal];
         items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));
         self.track.copy_within(4 * from..4 * from + 4, 4 * to);
+    }
+
+    /// Sets the times of all rays by their slots.
+    pub(crate) fn set_times(&mut self, times: &SlotTimes) {
+        let slots = self.track.chunks_exact(4).take(self.count).map(|track| track[SLOT]);
+        self.rays.set_times(times.of(slots));
     }
 
     /// Sets the visibility bits of all rays by their flags.

@@ -2,7 +2,7 @@
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
 use gonio_accel::RayBatch;
-use gonio_simd::{Column, F, Lanes, M, Vec3};
+use gonio_simd::{Column, F, Lanes, M, U, Vec3};
 use std::ops::Range;
 
 /// One register of rays.
@@ -27,13 +27,15 @@ pub struct Rays {
     pub(crate) t_max: Column,
     /// Visibility bits, see [`crate::tables::ray_mask`].
     pub(crate) mask: Vec<u8>,
+    /// Times of the shutter; empty where nothing moves.
+    pub(crate) time: Vec<f32>,
 }
 
 impl Rays {
     /// Room for some rays; they start at once, and have these visibility bits until they get others.
     pub(crate) fn new(room: usize, mask: u8) -> Self {
         let (t_min, t_max) = (Column::new(room), Column::new(room));
-        Self { origin: columns3(room), direction: columns3(room), t_min, t_max, mask: vec![mask; room] }
+        Self { origin: columns3(room), direction: columns3(room), t_min, t_max, mask: vec![mask; room], time: Vec::new() }
     }
 
     /// A range of them, to be traced.
@@ -44,7 +46,8 @@ impl Rays {
             direction: [&direction[0][range.clone()], &direction[1][range.clone()], &direction[2][range.clone()]],
             t_min: &self.t_min[range.clone()],
             t_max: &self.t_max[range.clone()],
-            mask: &self.mask[range],
+            mask: &self.mask[range.clone()],
+            time: if self.time.is_empty() { &[] } else { &self.time[range] },
         }
     }
 
@@ -64,10 +67,26 @@ impl Rays {
         RayLanes { origin, direction, t_min: l.load(&self.t_min, at), t_max: l.load(&self.t_max, at) }
     }
 
+    /// Gives the first rays times; none at all where nothing moves.
+    pub(crate) fn set_times(&mut self, times: Option<impl Iterator<Item = f32>>) {
+        let Some(times) = times else { return self.time.clear() };
+        self.time.resize(self.t_max.len(), 0.5);
+        self.time.iter_mut().zip(times).for_each(|(place, time)| *place = time);
+    }
+
+    /// The times of some rays, the shutter's middle where nothing moves.
+    #[inline(always)]
+    pub(crate) fn times<L: Lanes>(&self, l: L, ray: U<L>) -> F<L> {
+        if self.time.is_empty() { l.f(0.5) } else { l.gather(&self.time, ray) }
+    }
+
     /// Copies a ray over another; visibility bits stay.
     pub(crate) fn copy(&mut self, from: usize, to: usize) {
         let threes = [&mut self.origin, &mut self.direction];
         threes.into_iter().flatten().chain([&mut self.t_min, &mut self.t_max]).for_each(|column| column[to] = column[from]);
+        if !self.time.is_empty() {
+            self.time[to] = self.time[from];
+        }
     }
 
     /// Takes chosen rays of others, in that order.
@@ -82,5 +101,7 @@ impl Rays {
         fill(&mut self.t_min, &from.t_min, chosen);
         fill(&mut self.t_max, &from.t_max, chosen);
         fill(&mut self.mask, &from.mask, chosen);
+        let time = |ray: &u32| from.time[*ray as usize];
+        self.set_times((!from.time.is_empty()).then(|| chosen.iter().map(time)));
     }
 }

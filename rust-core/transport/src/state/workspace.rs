@@ -12,6 +12,7 @@ use crate::state::paths::Paths;
 use crate::state::queue::Queues;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::queue::walks::WalkHits;
+use crate::state::times::SlotTimes;
 use crate::statistics::Statistics;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
@@ -30,6 +31,8 @@ pub struct Workspace {
     /// What shading sends on.
     pub(crate) queues: Queues,
     pub(crate) walk_hits: WalkHits,
+    /// When the samples of the batch see.
+    pub(crate) times: SlotTimes,
     pub(crate) shadow_trace: ShadowTrace,
     /// Light and AOVs of the block under way.
     pub deposits: Deposits,

@@ -5,6 +5,7 @@ pub(crate) mod material;
 pub(crate) mod photons;
 pub mod ray_mask;
 pub(crate) mod shader_passes;
+pub(crate) mod shutter;
 pub(crate) mod transport;
 
 use crate::geometry::GeometryTable;

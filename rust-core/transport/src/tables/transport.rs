@@ -1,5 +1,6 @@
 //! Settings of a view that stages read: bounce limits, clamps, wanted passes, seed. Nothing changes them during a render.
 
+use super::shutter::Shutter;
 use crate::state::flag;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::photons::Photons;
@@ -37,6 +38,8 @@ pub struct Transport {
     pub estimator: Estimator,
     /// By light, 1 where light paths bring its caustics; `None` where camera paths look for all of them.
     pub light_paths: Option<Arc<[u32]>>,
+    /// The shutter, where anything moves while it is open; else all is seen at the middle of the time.
+    pub shutter: Option<Arc<Shutter>>,
     /// Photons that camera paths take up behind mirrors and smooth glass.
     pub photons: Option<Arc<Photons>>,
 }

@@ -37,6 +37,7 @@ impl OwnedRays {
             t_min: &self.t_min[range.clone()],
             t_max: &self.t_max[range.clone()],
             mask: &self.mask[range],
+            time: &[],
         }
     }
 }

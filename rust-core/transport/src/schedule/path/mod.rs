@@ -40,7 +40,7 @@ fn follow_bounce(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Works
     ws.queues.next.count = 0;
     steps::shade(tracer, &PathIntegrator, sample, ws);
     let time = Instant::now();
-    let context = WalkContext { tables, transport, sample, paths: &ws.paths, lit: true };
+    let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };
     ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
     steps::measure(tracer, &PathIntegrator, sample, ws);
     steps::trace_shadows(tracer, sample.depth == 0, ws);

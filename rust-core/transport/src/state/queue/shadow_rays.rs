@@ -2,9 +2,10 @@
 
 use crate::graph::CHUNK;
 use crate::state::rays::{RayLanes, Rays};
+use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
+use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
 /// Room for shadow rays: one for each path, and one for each subsurface walk that comes out in the same bounce.
 pub(crate) const SHADOW_ROOM: usize = padded(2 * CAPACITY) + PADDING;
@@ -60,6 +61,21 @@ impl ShadowRays {
             light: Column::new(room),
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
         }
+    }
+
+    /// Gives the rays that are appended next these times, where anything moves: for rays whose slots are no samples'.
+    #[inline(always)]
+    pub(crate) fn append_time<L: Lanes>(&mut self, time: F<L>, chosen: M<L>, moves: bool) {
+        if !moves {
+            return self.rays.time.clear();
+        }
+        self.rays.time.resize(self.rays.t_max.len(), 0.5);
+        time.append(chosen, &mut self.rays.time, self.count);
+    }
+
+    /// Sets the times of all rays by their slots.
+    pub(crate) fn set_times(&mut self, times: &SlotTimes) {
+        self.rays.set_times(times.of(self.slot[..self.count].iter().copied()));
     }
 
     /// Whether the shadow rays of some more hits fit into the queue.

@@ -1,6 +1,7 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
 use crate::state::rays::{RayLanes, Rays};
+use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
@@ -71,6 +72,11 @@ pub(crate) struct WalkLanes<L: Lanes> {
 }
 
 impl Walks {
+    /// Sets the times of all flights by their slots.
+    pub(crate) fn set_times(&mut self, times: &SlotTimes) {
+        self.rays.set_times(times.of(self.slot[..self.count].iter().copied()));
+    }
+
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;

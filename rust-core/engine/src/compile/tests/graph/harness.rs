@@ -80,6 +80,7 @@ fn scene(nodes: &Value) -> Scene {
         geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform { columns: [x, y, z, PLACE] }],
+        motion: Vec::new(),
         primvars: Vec::new(),
         visibility: Visibility::default(),
         holdout: false,

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Motion blur: where things are at other times of the shutter. The engine moves the frame, as Cycles has it, and puts it back."""
+
+from dataclasses import dataclass, field
+from math import floor
+
+import numpy as np
+
+from .gather import Walk
+
+# Frames from the shutter's opening to the frame that is rendered, as a share of the time that it is open.
+POSITIONS = {"START": 0.0, "CENTER": 0.5, "END": 1.0}
+# Points of the shutter's curve.
+CURVE_POINTS = 65
+# Keys are 2^steps + 1; more steps would take an hour.
+MOST_STEPS = 7
+
+
+@dataclass(slots=True)
+class Shutter:
+    """When the shutter is open: the frame at which it opens, the frames until it is closed, and the frame at which all else stands."""
+
+    opens: float
+    length: float
+    rests: float
+
+    def frame(self, share):
+        """The frame at a share of the time that it is open."""
+        return self.opens + share * self.length
+
+
+@dataclass(slots=True)
+class Places:
+    """Matrices at one time: those of the camera, and of placements by their key."""
+
+    camera: np.ndarray | None = None
+    groups: dict = field(default_factory=dict)
+
+
+class _Silent:
+    """Takes what was told before, of the frame itself."""
+
+    def add(self, *_, **__):
+        """Nothing is told twice."""
+
+    tell = add
+
+    def guard(self, *_):
+        """What fails at another time stands still."""
+        return _Ignored()
+
+
+class _Ignored:
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        return kind is not None and issubclass(kind, Exception)
+
+
+def shutter_of(scene):
+    """The scene's shutter, None where nothing is blurred."""
+    render = scene.render
+    length = float(render.motion_blur_shutter)
+    if not render.use_motion_blur or length <= 0.0:
+        return None
+    cycles = getattr(scene, "cycles", None)
+    position = getattr(render, "motion_blur_position", None) or getattr(cycles, "motion_blur_position", "CENTER")
+    rests = scene.frame_current + scene.frame_subframe
+    return Shutter(rests - POSITIONS.get(position, 0.5) * length, length, rests)
+
+
+def settings_of(scene):
+    """The shutter's settings for `gonio.Scene.set`."""
+    cycles = getattr(scene, "cycles", None)
+    rolls = getattr(cycles, "rolling_shutter_type", "NONE") != "NONE"
+    return {
+        "motion_blur": bool(scene.render.use_motion_blur),
+        "shutter_curve": _curve(scene.render),
+        "row_exposure": float(cycles.rolling_shutter_duration) if rolls else 1.0,
+    }
+
+
+def _curve(render):
+    """How far the shutter is open, from opening to closing; nothing where it is open all the time."""
+    mapping = render.motion_blur_shutter_curve
+    mapping.initialize()
+    curve = mapping.curves[0]
+    heights = [max(float(mapping.evaluate(curve, place)), 0.0) for place in np.linspace(0.0, 1.0, CURVE_POINTS)]
+    return [] if max(heights) - min(heights) < 1e-6 else heights
+
+
+def shares_of(thing):
+    """The times at which an object's place is asked for, as shares of the shutter's; nothing where it is not to be blurred."""
+    cycles = getattr(thing, "cycles", None)
+    if not getattr(cycles, "use_motion_blur", True):
+        return ()
+    parts = 2 ** min(max(int(getattr(cycles, "motion_steps", 1)), 1), MOST_STEPS)
+    return tuple(part / parts for part in range(parts + 1))
+
+
+def keys_of(groups):
+    """Names of groups that hold from frame to frame, in the order of the groups."""
+    counted, keys = {}, []
+    for group in groups:
+        place = (group.object_uid, group.kind)
+        keys.append((*place, counted.setdefault(place, 0)))
+        counted[place] += 1
+    return keys
+
+
+def places_at(engine, depsgraph, shutter, shares, part):
+    """Matrices of everything at shares of the shutter's time; the frame is put back."""
+    found = {}
+    try:
+        for share in sorted(shares):
+            frame = shutter.frame(share)
+            whole = floor(frame)
+            engine.frame_set(whole, subframe=frame - whole)
+            walk = Walk(depsgraph, _Silent(), part)
+            camera = depsgraph.scene.camera
+            matrix = None if camera is None else np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float)
+            groups = {key: np.array(group.matrices) for key, group in zip(keys_of(walk.groups), walk.groups, strict=True)}
+            found[share] = Places(matrix, groups)
+    finally:
+        whole = floor(shutter.rests)
+        engine.frame_set(whole, subframe=shutter.rests - whole)
+    return found
+
+
+def moved(key, rest, shares, places):
+    """The matrices of a group (K, N, 4, 4) at shares of the shutter's time; None where they stand still, or are others at other times."""
+    keys = [places[share].groups.get(key) for share in shares]
+    if not keys or any(found is None or found.shape != rest.shape or not np.isfinite(found).all() for found in keys):
+        return None
+    stacked = np.stack(keys)
+    return None if (stacked == stacked[0]).all() else np.ascontiguousarray(stacked)

@@ -1,0 +1,91 @@
+//! Instances that move: every walk finds what a scene at rest at the ray's time has.
+
+use super::agreement::random_placement;
+use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
+use crate::{MovingInstance, NONE};
+use gonio_simd::Execution;
+use gonio_simd::motion::{Interpolation, Motion};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+const TIMES: [f32; 4] = [0.0, 0.3, 0.75, 1.0];
+
+/// Instances of which every other moves, by random keys.
+fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<crate::Blas>>, Vec<Instance>, Vec<MovingInstance>) {
+    let meshes: Vec<Arc<crate::Blas>> =
+        [(1, 1.0), (40, 0.5), (800, 0.2)].into_iter().map(|(n, size)| Mesh::soup(random, n, 1.0, size).blas()).collect();
+    let placements: Vec<Vec<[[f64; 4]; 3]>> = (0..90).map(|i| (0..2 + i % 3).map(|_| random_placement(random)).collect()).collect();
+    let place = |(i, keys): (usize, &Vec<[[f64; 4]; 3]>)| {
+        Instance { mask: 1 + (i % 2) as u8, transparent: i % 5 == 0, ..instance(Geometry::Mesh(i as u32 % 3), keys[0]) }
+    };
+    let instances: Vec<Instance> = placements.iter().enumerate().map(place).collect();
+    let moves = |i: usize| MovingInstance { instance: i as u32, motion: Motion::new(&placements[i], interpolation).expect("it moves") };
+    let moving = (0..instances.len()).filter(|i| i % 2 == 0).map(moves).collect();
+    (meshes, instances, moving)
+}
+
+fn built(meshes: &[Arc<crate::Blas>], instances: &[Instance], moving: &[MovingInstance]) -> Tlas {
+    Tlas::build_moving(meshes.to_vec(), instances, moving, instances.len(), &AtomicBool::new(false)).expect("not cancelled")
+}
+
+#[test]
+fn all_walks_find_what_stands_there_at_the_rays_time() {
+    for interpolation in [Interpolation::Decomposed, Interpolation::Linear] {
+        let mut random = Random(31);
+        let (meshes, instances, moving) = moving_scene(&mut random, interpolation);
+        let scene = built(&meshes, &instances, &moving);
+        assert!(scene.moves());
+        let mut rays = OwnedRays::random(&mut random, 4096, 1.0, true);
+        rays.time = (0..4096).map(|i| TIMES[i % 4]).collect();
+        for (i, mask) in rays.mask.iter_mut().enumerate() {
+            *mask = 1 + (i % 3) as u8;
+        }
+        let stands = |time: f32| {
+            let mut stand = instances.clone();
+            moving.iter().for_each(|one| stand[one.instance as usize].object_to_world = one.motion.at(time));
+            built(&meshes, &stand, &[])
+        };
+        let standing: Vec<Hits> = TIMES.map(|time| super::first_hits(&stands(time), levels()[0], &rays)).into();
+        for level in levels() {
+            let single = super::first_hits(&scene, level, &rays);
+            let (mut packets, mut stream, mut scalar) = (Hits::default(), Hits::default(), Hits::default());
+            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
+            scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
+            scene.first_hit(Execution::Scalar, &rays.batch(), false, &mut scalar);
+            assert_eq!(single, packets, "{level:?}");
+            assert_eq!(single, stream, "{level:?}");
+            let (mut any, mut any_packets) = (vec![9; 4096], vec![9; 4096]);
+            scene.occluded(Execution::Vector(level), &rays.batch(), false, &mut any);
+            scene.occluded(Execution::Vector(level), &rays.batch(), true, &mut any_packets);
+            assert_eq!(any, any_packets, "{level:?}");
+            let mut others = 0;
+            for i in 0..4096 {
+                let stand = &standing[i % 4];
+                assert_eq!(any[i] == 1, single.instance[i] != NONE, "ray {i}");
+                // Triangles in world space are rounded otherwise, so that a few rays along edges differ.
+                let near = (stand.t[i] - single.t[i]).abs() <= 1e-4 * stand.t[i].abs().max(1.0);
+                others += usize::from(stand.instance[i] != single.instance[i] || !(near || stand.instance[i] == NONE));
+                others += usize::from(scalar.instance[i] != single.instance[i]);
+            }
+            assert!(others <= 8, "{others} rays differ, {level:?}");
+            assert!(single.instance.iter().filter(|i| **i != NONE).count() > 1000);
+        }
+    }
+}
+
+#[test]
+fn walks_within_an_instance_see_it_at_their_time() {
+    let mut random = Random(5);
+    let (meshes, instances, moving) = moving_scene(&mut random, Interpolation::Decomposed);
+    let scene = built(&meshes, &instances, &moving);
+    let mut rays = OwnedRays::random(&mut random, 512, 1.0, false);
+    rays.time = vec![0.6; 512];
+    let numbers: Vec<u32> = (0..512).map(|i| i % 90).collect();
+    let mut stand = instances.clone();
+    moving.iter().for_each(|one| stand[one.instance as usize].object_to_world = one.motion.at(0.6));
+    let (mut found, mut expected) = (Hits::default(), Hits::default());
+    scene.first_hit_within(Execution::Scalar, &rays.batch(), &numbers, &mut found);
+    built(&meshes, &stand, &[]).first_hit_within(Execution::Scalar, &rays.batch(), &numbers, &mut expected);
+    assert_eq!(found, expected);
+    assert!(found.instance.iter().any(|instance| *instance != NONE));
+}
