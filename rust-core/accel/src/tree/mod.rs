@@ -6,5 +6,6 @@ mod loose_lights;
 pub(crate) mod moving;
 pub(crate) mod node;
 mod refit;
+pub(crate) mod smooth_tree;
 pub(crate) mod tlas;
 mod tlas_input;
