@@ -55,7 +55,7 @@ impl TlasInput {
     fn open(&mut self, meshes: &[Arc<Blas>], instance: &Instance, owner: Owner) -> bool {
         let Geometry::Mesh(mesh) = instance.geometry else { return false };
         let blocks = &meshes[mesh as usize].blocks;
-        if blocks.len() > SMALL_MESH {
+        if blocks.len() > SMALL_MESH || !meshes[mesh as usize].is_still() {
             return false;
         }
         for block in blocks {

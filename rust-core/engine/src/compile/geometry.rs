@@ -34,7 +34,9 @@ pub(super) fn tables(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
+    motion::report_meshes(scene, diagnostics);
     let meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
+    motion::fill_keys(scene, &mut table);
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).collect();
     let mut instances = Vec::new();
     let mut moving = Vec::new();
