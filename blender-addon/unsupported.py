@@ -42,7 +42,9 @@ OBJECTS = {
 }
 
 SCENES = {
-    "motion blur": _untold("Motion blur of shapes that change, and of what the viewport shows", "objects, cameras and lamps alone are blurred"),
+    "motion blur": _untold(
+        "Motion blur of faces that change (velocity attributes), of lenses that zoom, of worlds, and in the viewport", "these stand still at the frame"
+    ),
     "stereoscopy": Limit("Stereoscopy", "one picture, through the camera itself"),
     "sample subset": Limit("Sample subsets", "all samples are taken"),
     "freestyle": Limit("Freestyle lines", "left out"),

@@ -39,6 +39,8 @@ class Exporter:
         self._camera, self._follows_view, self._synced = None, False, False
         # Where the camera is at even times of the shutter, where it moves.
         self._camera_motion = []
+        # Values that materials want of meshes, by the keys of groups.
+        self._primvars = {}
 
     def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
         """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
@@ -63,11 +65,24 @@ class Exporter:
         seen = () if source is None else motion.shares_of(source)
         shares = {*self._instances.shares(), *self._lights.shares(), *seen}
         places = motion.places_at(engine, depsgraph, shutter, shares, self._part)
-        self._instances.blur(places)
+        self._instances.blur(places, self._forms(depsgraph, places))
         self._lights.blur(places)
         keys = [places[share].camera for share in seen]
         if keys and all(key is not None for key in keys) and not all((key == keys[0]).all() for key in keys):
             self._camera_motion = [columns(without_scale(key)) for key in keys]
+
+    def _forms(self, depsgraph, places):
+        """Numbers of the meshes that change their form, by the keys of their groups."""
+        numbers, walk = {}, Walk(depsgraph, self.report, self._part)
+        for key, group in zip(motion.keys_of(walk.groups), walk.groups, strict=True):
+            shares = motion.shares_of(group.source.original)
+            forms = [places[share].forms.get(key) for share in shares if share in places]
+            if key in self._primvars and forms and all(form is not None for form in forms):
+                with self.report.guard("Object", group.name, "its form is not blurred"):
+                    number = self._meshes.blur(group, self._primvars[key], forms, self.report)
+                    if number is not None:
+                        numbers[key] = number
+        return numbers
 
     def update(self, depsgraph):
         """Exports what `depsgraph.updates` says was touched; gives what came out different."""
@@ -155,7 +170,7 @@ class Exporter:
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report, self._part)
         override = depsgraph.view_layer_eval.material_override
-        entries, keys = [], []
+        entries, keys, self._primvars = [], [], {}
         for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True):
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
@@ -165,6 +180,7 @@ class Exporter:
                     if mesh is not None:
                         entries.append((group, mesh, materials.numbers, materials.placed))
                         keys.append(key)
+                        self._primvars[key] = materials.primvars
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)

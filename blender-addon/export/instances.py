@@ -119,13 +119,14 @@ class Instances:
         """All times of the shutter at which entries want to know where they are."""
         return {share for _, shares in self._sources for share in shares}
 
-    def blur(self, places):
-        """Writes the entries that move, with where they are at the times of the shutter."""
+    def blur(self, places, meshes):
+        """Writes the entries that move, with where they are at the times of the shutter, and `meshes` by their keys in place of those before."""
         for number, (key, shares) in enumerate(self._sources):
             entry = self._written[number]
             motion = moved(key, entry.transforms, shares, places)
-            if motion is not None:
-                self._put(number, replace(entry, motion=motion))
+            mesh = meshes.get(key, entry.mesh)
+            if motion is not None or mesh != entry.mesh:
+                self._put(number, replace(entry, motion=motion, mesh=mesh))
 
     def _leave_out(self, group):
         """Takes the placements away that cannot be shown, with a report line; gives whether any are left."""

@@ -6,6 +6,7 @@ from math import floor
 
 import numpy as np
 
+from .deforming import form_of, may_change
 from .gather import Walk
 
 # Frames from the shutter's opening to the frame that is rendered, as a share of the time that it is open.
@@ -35,6 +36,8 @@ class Places:
 
     camera: np.ndarray | None = None
     groups: dict = field(default_factory=dict)
+    # Forms of the meshes that may change.
+    forms: dict = field(default_factory=dict)
 
 
 class _Silent:
@@ -121,11 +124,21 @@ def places_at(engine, depsgraph, shutter, shares, part):
             camera = depsgraph.scene.camera
             matrix = None if camera is None else np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float)
             groups = {key: np.array(group.matrices) for key, group in zip(keys_of(walk.groups), walk.groups, strict=True)}
-            found[share] = Places(matrix, groups)
+            found[share] = Places(matrix, groups, _forms(walk, share))
     finally:
         whole = floor(shutter.rests)
         engine.frame_set(whole, subframe=shutter.rests - whole)
     return found
+
+
+def _forms(walk, share):
+    """What meshes look like that are asked for at this share of the time."""
+    forms = {}
+    for key, group in zip(keys_of(walk.groups), walk.groups, strict=True):
+        if may_change(group) and share in shares_of(group.source.original):
+            with _Ignored():
+                forms[key] = form_of(group)
+    return forms
 
 
 def moved(key, rest, shares, places):

@@ -71,6 +71,7 @@ pub fn build(source: MeshSource, cancel: &AtomicBool) -> Result<BuiltMesh, Build
     let mesh = Mesh {
         origin,
         points: cut.polygons.points.into(),
+        motion: Vec::new(),
         normals: normals.and_then(usable_normals),
         primvars: primvars.into_iter().filter(|primvar| primvar.components <= 4).map(|p| over_triangles(p, &triangulation)).collect(),
         slots,

@@ -34,7 +34,6 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Vec<Placed
         context.warn(&origin, format!("{problem}; the point instancer is left out"));
         return Vec::new();
     }
-    report_blur(context, prim);
     let result = transforms_and_mask(context, prim);
     let Some((matrices, mask)) = context.attempt(&origin, "the instances' transformations cannot be had", result) else {
         return Vec::new();
@@ -139,13 +138,4 @@ fn selected(primvar: &FacePrimvar, members: &[u32], instance_count: usize) -> Op
         values.extend_from_slice(primvar.at(member as usize)?);
     }
     Some(Inherited { name: primvar.name.clone(), components: primvar.components, values: values.into(), is_varying: true })
-}
-
-/// Motion is not blurred.
-fn report_blur(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
-    for name in ["velocities", "accelerations", "angularVelocities"] {
-        if prim.has_authored(name) {
-            context.unsupported(&format!("motion blur ({name})"), &prim.origin());
-        }
-    }
 }

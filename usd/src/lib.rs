@@ -21,6 +21,7 @@ pub mod mesh;
 mod mesh_light;
 pub mod meter;
 pub mod model;
+mod motion;
 mod nesting;
 pub mod options;
 mod photometry;

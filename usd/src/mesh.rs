@@ -3,9 +3,12 @@
 use crate::build::{MeshSource, Surface};
 use crate::context::Context;
 use crate::prim::Prim;
+use crate::pxr::Module;
+use crate::vt::FromValue;
 use crate::{primvar, subset};
 use gonio::mesh::PolygonMesh;
 use gonio::mesh::refine::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
+use pyo3::prelude::*;
 
 /// Most faces that subdivision makes of one mesh; denser meshes are refined less.
 const MAX_REFINED_FACES: usize = 1 << 22;
@@ -22,7 +25,7 @@ pub struct ReadMesh {
 /// Reads a `Mesh` prim; `None` where there is nothing to show or, with a report, nothing that can be used.
 pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<ReadMesh> {
     let origin = prim.origin();
-    let points = context.get_authored::<Vec<[f32; 3]>>(prim, "points");
+    let points = if prim.has_authored("velocities") { moved_points(context, prim) } else { context.get_authored(prim, "points") };
     let face_counts = context.get_authored::<Vec<i32>>(prim, "faceVertexCounts");
     let corners = context.get_authored::<Vec<i32>>(prim, "faceVertexIndices");
     let (Some(points), Some(face_counts), Some(corners)) = (points, face_counts, corners) else {
@@ -48,7 +51,6 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rea
     let subsets = subset::read(context, prim, polygons.face_counts.len());
     let mut slot_prims = vec![prim.path()];
     slot_prims.extend(subsets.prims);
-    report_blur(context, prim);
     Some(ReadMesh { source: MeshSource { origin, polygons, surface, face_slots: subsets.face_slots }, slot_prims })
 }
 
@@ -122,11 +124,17 @@ fn creases<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Creases {
     }
 }
 
-/// Motion is not blurred.
-fn report_blur(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
-    for name in ["velocities", "accelerations"] {
-        if prim.has_authored(name) {
-            context.unsupported(&format!("motion blur ({name})"), &prim.origin());
-        }
-    }
+/// Points taken on by their velocities and accelerations from the sample before the time that is read.
+fn moved_points<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Vec<[f32; 3]>> {
+    let read = || -> PyResult<Option<Vec<[f32; 3]>>> {
+        let mesh = Module::UsdGeom.wrap("PointBased", prim.object())?;
+        let points = mesh.call_method1("ComputePointsAtTime", (&context.time, &context.time))?;
+        Ok(Vec::from_value(&points))
+    };
+    let result = read();
+    context
+        .attempt_at(prim, "the points cannot be had at the time, they stand where they were", result)
+        .flatten()
+        .filter(|points| !points.is_empty())
+        .or_else(|| context.get_authored(prim, "points"))
 }

@@ -129,6 +129,8 @@ pub struct StageOptions {
     pub material_binding_purposes: Option<Vec<String>>,
     /// Path of the RenderSettings prim; `None` takes the one that the stage names.
     pub render_settings: Option<String>,
+    /// Whether what moves while the camera's shutter is open is blurred.
+    pub motion_blur: bool,
     /// Whether warnings end the reading.
     pub strict: bool,
     /// Whether the reading goes on where a light's photometric file cannot be read, with a warning and a stand-in.
@@ -148,6 +150,7 @@ impl Default for StageOptions {
             load_payloads: true,
             material_binding_purposes: None,
             render_settings: None,
+            motion_blur: true,
             strict: false,
             lenient: true,
         }

@@ -118,7 +118,7 @@ fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings
         framing: framing(context, prim, product_prims.first()),
         purposes: purposes(context, prim),
         material_binding_purposes: binding_purposes(context, prim),
-        disable_motion_blur: context.get(prim, "disableMotionBlur").unwrap_or(false),
+        disable_motion_blur: ["disableMotionBlur", "instantaneousShutter"].iter().any(|name| context.get(prim, name).unwrap_or(false)),
         products: product_prims.iter().filter_map(|product| read_product(context, prim, product)).collect(),
         origin: prim.origin(),
     }

@@ -12,10 +12,11 @@ pub use info::{CameraInfo, StageInfo};
 use crate::context::Context;
 use crate::goniogram::LuminaireFile;
 use crate::options::{SampleTime, StageOptions};
+use crate::prim::Prim;
 use crate::pxr::{Module, Trap};
 use crate::settings::{self, RenderSettings};
 use crate::traverse::Walker;
-use crate::{material, place, pxr, skeleton};
+use crate::{material, motion, place, pxr, skeleton};
 use gonio::scene::Scene;
 use gonio::{Diagnostic, Error, Result, Severity};
 use info::read_info;
@@ -109,7 +110,7 @@ impl Stage {
     /// set, and with `strict` any warning.
     pub fn load(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
         let trap = Trap::set(py);
-        let result = self.read(py, options, cancel);
+        let result = self.read(py, options, cancel).and_then(|loaded| self.blurred(py, options, cancel, loaded));
         let messages = trap.release();
         let mut loaded = result?;
         let mut all = self.diagnostics.clone();
@@ -122,6 +123,33 @@ impl Stage {
             return Err(Error::scene(&worst.origin, format!("{} ({count} warnings, and warnings are errors)", worst.message)));
         }
         Ok(Loaded { diagnostics: all, ..loaded })
+    }
+
+    /// What was read, with how it moves while the shutter of its camera is open.
+    fn blurred(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool, mut loaded: Loaded) -> Result<Loaded> {
+        if !options.motion_blur || loaded.settings.as_ref().is_some_and(|settings| settings.disable_motion_blur) {
+            return Ok(loaded);
+        }
+        let shutter = self.shutter(py, options, &loaded.scene).map_err(|error| unreadable(py, &self.path, &error))?;
+        let Some(shutter) = shutter else { return Ok(loaded) };
+        let mut keys = Vec::new();
+        for time in shutter.times() {
+            let at_key = StageOptions { time: SampleTime::Code(time), ..options.clone() };
+            keys.push(self.read(py, &at_key, cancel)?.scene);
+        }
+        loaded.diagnostics.extend(motion::put(&mut loaded.scene, &keys));
+        Ok(loaded)
+    }
+
+    fn shutter(&self, py: Python<'_>, options: &StageOptions, scene: &Scene) -> PyResult<Option<motion::Shutter>> {
+        let Some(camera) = scene.cameras.get(scene.settings.camera as usize) else { return Ok(None) };
+        let time = time_code(py, self.info.time_range, options.time)?;
+        let stage = self.object.bind(py);
+        let prim = Prim::new(stage.call_method1("GetPrimAtPath", (&*camera.origin.name,))?);
+        if !time.call_method0("IsNumeric")?.is_truthy()? || !prim.is_valid() {
+            return Ok(None);
+        }
+        motion::shutter(stage, &prim, time.call_method0("GetValue")?.extract()?)
     }
 
     /// What a reading gives by itself: without what opening the stage told, and what `pxr` says.

@@ -130,6 +130,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,
         session_layer: arguments.session_layer.clone(),
         render_settings: arguments.settings.clone(),
+        motion_blur: !arguments.disable_motion_blur,
         strict: arguments.strict,
         lenient: arguments.lenient,
         ..StageOptions::default()

@@ -1,7 +1,7 @@
 //! Meshes from Python buffers: triangles of points, or triangles of polygon corners as hosts with polygons have them.
 
 use crate::buffer::{floats, floats_of_any_width, indices};
-use gonio::scene::{Mesh, Origin, Primvar, PrimvarInterpolation};
+use gonio::scene::{Mesh, MeshKey, Origin, Primvar, PrimvarInterpolation};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ pub(crate) struct MeshBuffers<'a, 'py> {
     pub(crate) uvs: Option<&'a Bound<'py, PyAny>>,
     pub(crate) primvars: Option<&'a Bound<'py, PyDict>>,
     pub(crate) slots: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) motion: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) motion_normals: Option<&'a Bound<'py, PyAny>>,
 }
 
 /// What values can belong to, and how triangles find them.
@@ -54,16 +56,40 @@ impl MeshBuffers<'_, '_> {
         for (key, value) in self.primvars.into_iter().flatten() {
             primvars.push(topology.primvar(&value, &key.extract::<String>()?, None)?);
         }
+        let motion = keys(self.motion, self.motion_normals, points.len())?;
         Ok(Mesh {
             origin: Origin::new(name),
             normals: self.normals.map(|normals| topology.primvar(normals, "normals", Some(3))).transpose()?,
             slots: self.slots.map(|slots| topology.slots(slots)).transpose()?,
             points: points.into(),
+            motion,
             triangles: Arc::from(&*triangles),
             primvars,
             faces: topology.faces.map(|(_, of_triangle)| of_triangle),
         })
     }
+}
+
+/// Keys of points (K, N, 3), with normals of as many a key where there are any.
+fn keys(points: Option<&Bound<'_, PyAny>>, normals: Option<&Bound<'_, PyAny>>, count: usize) -> PyResult<Vec<MeshKey>> {
+    let Some(points) = points else { return Ok(Vec::new()) };
+    let points = floats(points, "motion", 3)?.values;
+    let points = points.as_chunks::<3>().0;
+    if count == 0 || !points.len().is_multiple_of(count) {
+        return Err(PyValueError::new_err(format!("motion: {} points were found, expected {count} a key", points.len())));
+    }
+    let number = points.len() / count;
+    let normals = normals.map(|normals| floats(normals, "motion_normals", 3)).transpose()?.map(|normals| normals.values);
+    if let Some(normals) = normals.as_ref().filter(|normals| !normals.len().is_multiple_of(3 * number)) {
+        return Err(PyValueError::new_err(format!("motion_normals: {} were found for {number} keys", normals.len() / 3)));
+    }
+    let of_key = |key: usize| {
+        normals.as_ref().map(|normals| {
+            let width = normals.len() / number;
+            normals[key * width..(key + 1) * width].into()
+        })
+    };
+    Ok(points.chunks(count).enumerate().map(|(key, points)| MeshKey { points: points.into(), normals: of_key(key) }).collect())
 }
 
 /// Turns corner numbers of triangles into point numbers; gives the number of corners and the corner numbers.

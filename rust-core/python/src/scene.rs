@@ -72,8 +72,9 @@ impl Scene {
     /// points: float buffer (N, 3); triangles: integer buffer (M, 3) of point numbers, or of corner numbers where `corners` (C,) gives the point
     /// of each polygon corner; faces: integer buffer (M,), the polygon of each triangle; normals: float buffer with a value a point or corner, or
     /// None for flat triangles; uvs: float buffer, two numbers a point or corner; primvars: other values by name, 1 to 4 numbers a point, corner,
-    /// face or mesh; slots: integer buffer of material slots, one a triangle or face.
-    #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, name = "mesh", index = None))]
+    /// face or mesh; slots: integer buffer of material slots, one a triangle or face; motion: float
+    /// buffer (K, N, 3), the points at K evenly spaced times over the shutter; motion_normals: the normals at those.
+    #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, motion = None, motion_normals = None, name = "mesh", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_mesh(
         &mut self,
@@ -85,10 +86,12 @@ impl Scene {
         uvs: Option<&Bound<'_, PyAny>>,
         primvars: Option<&Bound<'_, PyDict>>,
         slots: Option<&Bound<'_, PyAny>>,
+        motion: Option<&Bound<'_, PyAny>>,
+        motion_normals: Option<&Bound<'_, PyAny>>,
         name: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
-        let buffers = MeshBuffers { points, triangles, corners, faces, normals, uvs, primvars, slots };
+        let buffers = MeshBuffers { points, triangles, corners, faces, normals, uvs, primvars, slots, motion, motion_normals };
         let mesh = buffers.mesh(name)?;
         description::put(&mut self.scene.meshes, "mesh", mesh, index)
     }

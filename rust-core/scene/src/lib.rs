@@ -46,7 +46,7 @@ pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use material::{Closure, Distribution, Material, Model, ShaderOutput, SubsurfaceMethod};
 pub use measured::MeasuredBsdf;
-pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
+pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointShape, Points};

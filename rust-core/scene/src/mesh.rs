@@ -48,6 +48,17 @@ impl Primvar {
     }
 }
 
+/// A mesh at one time of the shutter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshKey {
+    /// Points, as many as the mesh has.
+    #[serde(with = "super::blob")]
+    pub points: Arc<[[f32; 3]]>,
+    /// Values of the shading normals, as many as the mesh has; `None` leaves those as they are.
+    #[serde(default, with = "super::blob::optional")]
+    pub normals: Option<Arc<[f32]>>,
+}
+
 /// A triangle mesh in its own space.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Mesh {
@@ -56,6 +67,9 @@ pub struct Mesh {
     /// Points, local units.
     #[serde(with = "super::blob")]
     pub points: Arc<[[f32; 3]]>,
+    /// The mesh at evenly spaced times over the shutter, two or more; empty where it keeps its form.
+    #[serde(default)]
+    pub motion: Vec<MeshKey>,
     /// Point indices, counter-clockwise seen from the front.
     #[serde(with = "super::blob")]
     pub triangles: Arc<[[u32; 3]]>,
@@ -72,6 +86,22 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// What is wrong with the keys; no keys at all are right.
+    pub fn key_problem(&self) -> Option<String> {
+        if self.motion.is_empty() {
+            return None;
+        }
+        let (points, values) = (self.points.len(), self.normals.as_ref().map_or(0, |normals| normals.values.len()));
+        let fits = |key: &&MeshKey| key.points.len() == points && key.normals.as_ref().is_none_or(|normals| normals.len() == values);
+        if self.motion.len() < 2 {
+            return Some("one motion key was found, expected two or more".into());
+        }
+        if !self.motion.iter().all(|key| fits(&key)) {
+            return Some("motion keys have other numbers of points or normals than the mesh".into());
+        }
+        let finite = self.motion.iter().all(|key| key.points.as_flattened().iter().all(|x| x.is_finite()));
+        (!finite).then(|| "a motion key is not finite".into())
+    }
     /// The primvar called `name`.
     pub fn primvar(&self, name: &str) -> Option<&Primvar> {
         self.primvars.iter().find(|primvar| primvar.name == name)
@@ -81,6 +111,7 @@ impl Mesh {
         self.points.len() * 12
             + self.triangles.len() * 12
             + self.normals.iter().chain(&self.primvars).map(Primvar::memory).sum::<usize>()
+            + self.motion.iter().map(|key| key.points.len() * 12 + key.normals.as_ref().map_or(0, |n| n.len() * 4)).sum::<usize>()
             + self.slots.as_ref().map_or(0, |s| s.len() * 2)
             + self.faces.as_ref().map_or(0, |f| f.len() * 4)
     }

@@ -15,8 +15,10 @@ fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<c
     let meshes: Vec<Arc<crate::Blas>> =
         [(1, 1.0), (40, 0.5), (800, 0.2)].into_iter().map(|(n, size)| Mesh::soup(random, n, 1.0, size).blas()).collect();
     let placements: Vec<Vec<[[f64; 4]; 3]>> = (0..90).map(|i| (0..2 + i % 3).map(|_| random_placement(random)).collect()).collect();
-    let place = |(i, keys): (usize, &Vec<[[f64; 4]; 3]>)| {
-        Instance { mask: 1 + (i % 2) as u8, transparent: i % 5 == 0, ..instance(Geometry::Mesh(i as u32 % 3), keys[0]) }
+    let place = |(i, keys): (usize, &Vec<[[f64; 4]; 3]>)| Instance {
+        mask: 1 + (i % 2) as u8,
+        transparent: i % 5 == 0,
+        ..instance(Geometry::Mesh(i as u32 % 3), keys[0])
     };
     let instances: Vec<Instance> = placements.iter().enumerate().map(place).collect();
     let moves = |i: usize| MovingInstance { instance: i as u32, motion: Motion::new(&placements[i], interpolation).expect("it moves") };

@@ -135,6 +135,9 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
         match record.geometry.get() {
             Geometry::Mesh(index) => {
                 let mesh = &*self.scene.meshes[index as usize];
+                if !mesh.is_still() {
+                    return one_by_one::<S, ANY>(simd, (mesh, record), &rays, self.times, self.single_mesh, self.hits);
+                }
                 let mut visitor = MeshVisitor::<ANY> { mesh, record, stack: self.single_mesh, hits: self.hits };
                 traverse_groups(simd, &mesh.nodes, &rays, self.mesh_stack, &mut visitor);
             }
@@ -218,6 +221,41 @@ fn moved<S: Simd>(
     PacketRays::new(simd, origin, direction, rays.t_min, f32x16::from_slice(simd, t_max), meeting)
 }
 
+/// Sends the rays of a packet through a mesh that deforms, each alone: no two see the same triangles.
+#[inline(always)]
+fn one_by_one<S: Simd, const ANY: bool>(
+    simd: S,
+    (mesh, record): (&Blas, &InstanceRecord),
+    rays: &PacketRays<S>,
+    times: &[f32; PACKET],
+    stack: &mut Stack,
+    hits: &mut PacketHits,
+) {
+    let mut left = rays.lanes;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize % PACKET;
+        left &= left - 1;
+        let (ray, at) = (rays.single(lane), (record, times[lane]));
+        if ANY {
+            let mut any = Any { t_max: hits.t[lane] };
+            let blocked = simd.vectorize(
+                #[inline(always)]
+                || traverse_mesh(Wide(simd), mesh, ChildRef::ROOT, &ray, at, stack, &mut any),
+            );
+            if blocked {
+                hits.set_blocked(lane);
+            }
+        } else {
+            let mut nearest = Nearest(hits.get(lane));
+            simd.vectorize(
+                #[inline(always)]
+                || traverse_mesh(Wide(simd), mesh, ChildRef::ROOT, &ray, at, stack, &mut nearest),
+            );
+            hits.set(lane, nearest.0);
+        }
+    }
+}
+
 struct MeshVisitor<'a, const ANY: bool> {
     mesh: &'a Blas,
     record: &'a InstanceRecord,
@@ -283,7 +321,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
             let mut any = Any { t_max: self.hits.t[lane] };
             let blocked = simd.vectorize(
                 #[inline(always)]
-                || traverse_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut any),
+                || traverse_mesh(Wide(simd), mesh, start, &ray, (record, 0.5), self.stack, &mut any),
             );
             if blocked {
                 self.hits.set_blocked(lane);
@@ -292,7 +330,7 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
             let mut nearest = Nearest(self.hits.get(lane));
             simd.vectorize(
                 #[inline(always)]
-                || traverse_mesh(Wide(simd), mesh, start, &ray, record, self.stack, &mut nearest),
+                || traverse_mesh(Wide(simd), mesh, start, &ray, (record, 0.5), self.stack, &mut nearest),
             );
             self.hits.set(lane, nearest.0);
         }

@@ -51,7 +51,7 @@ pub(crate) fn traverse_instance<K: Lanes8, C: HitCallback>(
     let Some(map) = at_time else { return };
     let (origin, direction) = (map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)));
     let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], callback.t_max()) else { return };
-    traverse_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, record, stack, callback);
+    traverse_mesh(lanes, &scene.meshes[index as usize], ChildRef::ROOT, &ray, (record, rays.time_of(i)), stack, callback);
 }
 
 /// Sends a ray of a visibility mask and a time through the part of the scene's tree below `start`.
@@ -102,7 +102,7 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for SceneVisitor<'_, C> {
         }
         if let (MapKind::Identity, Geometry::Mesh(index)) = (record.map, record.geometry.get()) {
             let mesh = &self.scene.meshes[index as usize];
-            return traverse_mesh(lanes, mesh, ChildRef::ROOT, ray, record, self.stack, self.callback);
+            return traverse_mesh(lanes, mesh, ChildRef::ROOT, ray, (record, self.time), self.stack, self.callback);
         }
         match record.geometry.get() {
             Geometry::Mesh(index) => {
@@ -115,31 +115,40 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for SceneVisitor<'_, C> {
                     &record.world_to_object
                 };
                 let Some(ray) = lanes.image(map, ray, self.callback.t_max()) else { return false };
-                traverse_mesh(lanes, &self.scene.meshes[index as usize], ChildRef::ROOT, &ray, record, self.stack, self.callback)
+                traverse_mesh(
+                    lanes,
+                    &self.scene.meshes[index as usize],
+                    ChildRef::ROOT,
+                    &ray,
+                    (record, self.time),
+                    self.stack,
+                    self.callback,
+                )
             }
             Geometry::Shape(shape) => record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, self.callback),
         }
     }
 }
 
-/// Sends a ray in object space through the part of a mesh's tree below `start`.
+/// Sends a ray in object space and at a time through the part of a mesh's tree below `start`.
 #[inline(always)]
 pub(crate) fn traverse_mesh<K: Lanes8, C: HitCallback>(
     lanes: K,
     mesh: &Blas,
     start: ChildRef,
     ray: &PreparedRay,
-    record: &InstanceRecord,
+    (record, time): (&InstanceRecord, f32),
     stack: &mut Stack,
     callback: &mut C,
 ) -> bool {
-    let mut visitor = MeshVisitor { mesh, record, callback };
+    let mut visitor = MeshVisitor { mesh, record, time, callback };
     traverse(lanes, &mesh.nodes, start, ray, stack, &mut visitor)
 }
 
 struct MeshVisitor<'a, C: HitCallback> {
     mesh: &'a Blas,
     record: &'a InstanceRecord,
+    time: f32,
     callback: &'a mut C,
 }
 
@@ -158,10 +167,14 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for MeshVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
-        if leaf.is(Kind::Triangles) {
+        if !leaf.is(Kind::Triangles) {
+            return intersect_smooth(lanes, &self.mesh.smooth, leaf.index(), ray, self.record.owner(), self.callback);
+        }
+        if self.mesh.is_still() {
             return intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback);
         }
-        intersect_smooth(lanes, &self.mesh.smooth, leaf.index(), ray, self.record.owner(), self.callback)
+        let block = self.mesh.block_at(leaf.index(), self.time);
+        intersect_leaf(lanes, &block, ray, self.record.owner(), self.callback)
     }
 }
 

@@ -1,5 +1,7 @@
 //! A ray in a ray stream: its traversal state and its steps. Each step returns the number of the next queue, so no step branches on it.
 
+use super::single::EMPTY_STACK;
+use super::single_scene::traverse_mesh;
 use crate::hit_callback::{HitCallback, RayQuery};
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
@@ -171,6 +173,20 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
         Kind::MeshInner as usize
     }
 
+    /// Through a mesh that deforms, to the end: its triangles are not those in memory.
+    #[inline(always)]
+    fn pass_deforming<S: Simd>(&mut self, simd: S, mesh: &Blas, record: &InstanceRecord) -> usize {
+        let (ray, at) = (self.rays[1], (record, self.time));
+        let mut stack = EMPTY_STACK;
+        let callback = &mut self.callback;
+        self.ended = simd.vectorize(
+            #[inline(always)]
+            || traverse_mesh(Wide(simd), mesh, ChildRef::ROOT, &ray, at, &mut stack, callback),
+        );
+        self.shorten();
+        if self.ended { Kind::End as usize } else { Kind::Next as usize }
+    }
+
     /// Takes a hit; true when it ends the search.
     #[inline(always)]
     fn add(&mut self, hit: Hit, transparent: bool) -> bool {
@@ -262,7 +278,12 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
                         None => false,
                     },
                 };
-                if may_hit { self.enter(&scene.meshes[index as usize]) } else { Kind::Next as usize }
+                let mesh = &*scene.meshes[index as usize];
+                match (may_hit, mesh.is_still()) {
+                    (false, _) => Kind::Next as usize,
+                    (true, true) => self.enter(mesh),
+                    (true, false) => self.pass_deforming(simd, mesh, record),
+                }
             }
             Geometry::Shape(shape) => {
                 self.ended = record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, &mut self.callback);

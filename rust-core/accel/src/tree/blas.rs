@@ -26,6 +26,10 @@ pub struct Blas {
     pub(crate) blocks: Vec<TriangleBlock>,
     /// Leaves of curves and points; then there are no triangles.
     pub(crate) smooth: Smooth,
+    /// Of a mesh that deforms, as many blocks for each of `blocks` as it has keys.
+    pub(crate) key_blocks: Vec<TriangleBlock>,
+    /// Times at which the points are given, 0 for a mesh that stands still.
+    pub(crate) keys: usize,
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
     pub(crate) outline: Vec<Bounds>,
     pub(crate) triangles: usize,
@@ -51,7 +55,7 @@ impl Care {
         if triangles <= FEW_TRIANGLES { Care::Thorough } else { Care::Quick }
     }
 
-    pub(super) fn effort(self) -> Effort {
+    pub(crate) fn effort(self) -> Effort {
         match self {
             Care::Quick => Effort::QUICK,
             Care::Thorough => Effort::THOROUGH,
@@ -100,14 +104,14 @@ impl Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Ok(Blas { nodes, blocks, smooth: Smooth::Nothing, outline, triangles: primitives, sah_cost })
+        Ok(Blas { nodes, blocks, key_blocks: Vec::new(), keys: 0, smooth: Smooth::Nothing, outline, triangles: primitives, sah_cost })
     }
 
     /// The bytes of the tree.
     pub fn memory(&self) -> BlasMemory {
         BlasMemory {
             nodes: self.nodes.capacity() * size_of::<Node>(),
-            blocks: self.blocks.capacity() * size_of::<TriangleBlock>() + self.smooth.memory(),
+            blocks: (self.blocks.capacity() + self.key_blocks.capacity()) * size_of::<TriangleBlock>() + self.smooth.memory(),
             triangles: self.triangles,
         }
     }
@@ -145,7 +149,7 @@ pub(crate) fn triangle_bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
 }
 
 #[inline(always)]
-fn triangle_box(corners: &[[f32; 3]; 3]) -> Option<Aabb> {
+pub(crate) fn triangle_box(corners: &[[f32; 3]; 3]) -> Option<Aabb> {
     let [a, b, c] = corners.map(Vec3A::from_array);
     let usable = |x: Vec3A| x.abs().cmple(Vec3A::splat(LARGEST_COORDINATE));
     let (min, max) = (a.min(b).min(c), a.max(b).max(c));
@@ -155,9 +159,16 @@ fn triangle_box(corners: &[[f32; 3]; 3]) -> Option<Aabb> {
 }
 
 /// What a mesh's tree is built over and put together from.
-struct Triangles<'a> {
-    positions: &'a [[f32; 3]],
-    triangles: &'a [[u32; 3]],
+pub(crate) struct Triangles<'a> {
+    pub(crate) positions: &'a [[f32; 3]],
+    pub(crate) triangles: &'a [[u32; 3]],
+}
+
+impl Triangles<'_> {
+    /// The points of a triangle, if there are all three.
+    pub(crate) fn corners_of(&self, number: u32) -> Option<[[f32; 3]; 3]> {
+        corners(self.positions, &self.triangles[number as usize])
+    }
 }
 
 impl Source for Triangles<'_> {

@@ -1,6 +1,7 @@
 //! What rays traverse: the BLAS of a mesh, the TLAS of a scene, their nodes and instances.
 
 pub(crate) mod blas;
+pub(crate) mod deforming;
 pub(crate) mod instance;
 mod loose_lights;
 pub(crate) mod moving;

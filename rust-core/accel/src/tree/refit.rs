@@ -20,6 +20,9 @@ impl Blas {
             let corners = corners(positions, triangle)?;
             Some((corners, triangle_bounds(&corners)?))
         };
+        if !self.is_still() {
+            return None;
+        }
         // Where all are in the tree, none can enter, and one that leaves is found below.
         let all = self.triangles == triangles.len();
         if !all && triangles.par_iter().filter_map(placed).count() != self.triangles {
@@ -31,7 +34,16 @@ impl Blas {
         let (nodes, bounds) = fit_nodes(&self.nodes, &boxes);
         let fitting = sah_cost(&nodes, &bounds) <= self.sah_cost * MOST_GROWTH;
         let outline = outline(&nodes, bounds);
-        fitting.then_some(Blas { nodes, blocks, smooth: Smooth::Nothing, outline, triangles: self.triangles, sah_cost: self.sah_cost })
+        fitting.then_some(Blas {
+            nodes,
+            blocks,
+            key_blocks: Vec::new(),
+            keys: 0,
+            smooth: Smooth::Nothing,
+            outline,
+            triangles: self.triangles,
+            sah_cost: self.sah_cost,
+        })
     }
 }
 

@@ -145,7 +145,7 @@ impl Tlas {
 
     /// Whether anything moves while the shutter is open.
     pub fn moves(&self) -> bool {
-        !self.moving.is_empty()
+        !self.moving.is_empty() || self.meshes.iter().any(|mesh| !mesh.is_still())
     }
 
     /// How an instance moves whose record says that it does.

@@ -56,7 +56,7 @@ impl TlasInput {
         let Geometry::Mesh(mesh) = instance.geometry else { return false };
         let blocks = &meshes[mesh as usize].blocks;
         // Curves and points have no blocks of triangles, and stay instances.
-        if blocks.len() > SMALL_MESH || !meshes[mesh as usize].smooth.is_empty() {
+        if blocks.len() > SMALL_MESH || !meshes[mesh as usize].smooth.is_empty() || !meshes[mesh as usize].is_still() {
             return false;
         }
         for block in blocks {

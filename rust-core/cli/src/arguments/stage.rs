@@ -29,6 +29,9 @@ pub(crate) struct StageArguments {
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
+    /// Everything stands still at the frame, whatever the camera's shutter says
+    #[arg(long = "disable-motionblur", alias = "disableMotionBlur")]
+    pub(crate) disable_motion_blur: bool,
     /// Treat every warning as an error.
     #[arg(long)]
     pub(crate) strict: bool,

@@ -119,7 +119,7 @@ fn of_points(points: &[[f32; 3]], widths: &[f32]) -> Bounds {
 /// Bounds of a mesh in its own space.
 pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
     let mut bounds = Bounds::default();
-    for point in mesh.points.iter() {
+    for point in mesh.points.iter().chain(mesh.motion.iter().flat_map(|key| key.points.iter())) {
         bounds.extend(point.map(f64::from));
     }
     bounds

@@ -38,8 +38,10 @@ pub(super) fn tables(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
+    motion::report_meshes(scene, diagnostics);
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     meshes.extend(smooth::append(scene, cuts, names, &mut table, diagnostics)?);
+    motion::fill_keys(scene, &mut table);
     // Curves and points have one material.
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).chain(cuts.iter().map(|_| 1)).collect();
     let mut instances = Vec::new();

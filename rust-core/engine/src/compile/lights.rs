@@ -260,7 +260,7 @@ fn emissive_triangles(
         // Placements of a set have the same materials.
         let first = geometry.instances[number as usize].first_material as usize;
         let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());
-        let moves = motion::moves(group, &scene.settings);
+        let moves = motion::moves(group, &scene.settings) || motion::deforms(mesh, &scene.settings);
         if emits && moves {
             let message = "it shines and moves; its light is found by chance, without light sampling";
             diagnostics.push(Diagnostic::info(&group.origin, message));

@@ -7,8 +7,8 @@ use super::{
 use crate::{
     accel::{MovingInstance, Tlas},
     error::Diagnostic,
-    geometry::{GeometryTable, NONE},
-    scene::{Camera, Instances, Integrator, Light, LightShape, Origin, Scene, Settings, Shutter, Transform, key_problem},
+    geometry::{GeometryTable, MeshKeys, NONE},
+    scene::{Camera, Instances, Integrator, Light, LightShape, Mesh, Origin, Scene, Settings, Shutter, Transform, key_problem},
     transport::{Rolling, Shutter as ShutterTable},
 };
 use gonio_simd::motion::{Interpolation, Motion, Rows};
@@ -61,6 +61,44 @@ pub(super) fn fill(table: &mut GeometryTable, moving: &[MovingInstance], instanc
         table.motion_of[one.instance as usize] = table.motion.len() as u32;
         table.motion.push(one.motion.clone());
     }
+}
+
+/// Whether a mesh changes its form.
+pub(super) fn deforms(mesh: &Mesh, settings: &Settings) -> bool {
+    blurs(settings) && !mesh.motion.is_empty() && mesh.key_problem().is_none() && mesh.motion.iter().any(|key| *key != mesh.motion[0])
+}
+
+/// Says what keys of meshes cannot be used.
+pub(super) fn report_meshes(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) {
+    for mesh in scene.meshes.iter().filter(|_| blurs(&scene.settings)) {
+        if let Some(problem) = mesh.key_problem() {
+            diagnostics.push(Diagnostic::warning(&mesh.origin, format!("{problem}; its form is not blurred")));
+        }
+    }
+}
+
+/// Puts keys of meshes where surface points look for them.
+pub(super) fn fill_keys(scene: &Scene, table: &mut GeometryTable) {
+    if !scene.meshes.iter().any(|mesh| deforms(mesh, &scene.settings)) {
+        return;
+    }
+    for mesh in &scene.meshes {
+        let mut keys = MeshKeys::default();
+        if deforms(mesh, &scene.settings) {
+            let has_normals = mesh.normals.is_some() && mesh.motion.iter().all(|key| key.normals.is_some());
+            keys.segments = mesh.motion.len() as u32 - 1;
+            (keys.first_point, keys.points) = (table.key_points.len() as u32, 3 * mesh.points.len() as u32);
+            table.key_points.extend(mesh.motion.iter().flat_map(|key| key.points.as_flattened()));
+            keys.first_normal = table.key_normals.len() as u32;
+            if has_normals {
+                keys.normals = mesh.normals.as_ref().map_or(0, |normals| normals.values.len() as u32);
+                table.key_normals.extend(mesh.motion.iter().filter_map(|key| key.normals.as_deref()).flatten());
+            }
+        }
+        table.mesh_keys.push(keys);
+    }
+    // Curves and points are numbered behind the meshes, and keep their shape.
+    table.mesh_keys.resize_with(scene.meshes.len() + scene.curves.len() + scene.points.len(), MeshKeys::default);
 }
 
 /// The world box of all that placements pass, as far as their keys tell.

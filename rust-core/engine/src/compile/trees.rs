@@ -46,13 +46,17 @@ pub(super) fn build_trees(
     let gone = gone(scene, previous);
     let care = Care::of_scene(scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum());
     // Arrays of no length may share an address with others.
-    let same = |kept: &&KeptTree, mesh: &Mesh| Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles);
+    let same = |kept: &&KeptTree, mesh: &Mesh| {
+        kept.tree.is_still() && Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles)
+    };
     let tree = |mesh: &Mesh| {
         check(cancel)?;
-        if let Some(kept) = known.get(&arrays(&mesh.points, &mesh.triangles)).copied().filter(|kept| same(kept, mesh)) {
+        let deforms = super::motion::deforms(mesh, &scene.settings);
+        if !deforms && let Some(kept) = known.get(&arrays(&mesh.points, &mesh.triangles)).copied().filter(|kept| same(kept, mesh)) {
             return Ok((kept.clone(), None));
         }
         let (tree, problem) = match fitted(mesh, &gone) {
+            _ if deforms => (deforming(mesh, care, cancel)?, None),
             Some(tree) => (tree, None),
             None => built(mesh, care, cancel)?,
         };
@@ -89,6 +93,13 @@ fn fitted(mesh: &Mesh, gone: &HashMap<[usize; 2], &KeptTree>) -> Option<Blas> {
     let kept = gone.get(&[mesh.points.len(), mesh.triangles.len()])?;
     let same = kept.tree.memory().triangles > 0 && kept.triangles == mesh.triangles;
     if same { kept.tree.refit(&mesh.points, &mesh.triangles) } else { None }
+}
+
+/// The tree of a mesh whose keys are right; a mesh of wrong triangles has none.
+fn deforming(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<Blas> {
+    let triangles: &[[u32; 3]] = if wrong_triangle(mesh).is_none() { &mesh.triangles } else { &[] };
+    let keys: Vec<&[[f32; 3]]> = mesh.motion.iter().map(|key| &*key.points).collect();
+    Blas::build_deforming(&keys, triangles, care, cancel).map_err(|_| Error::Cancelled)
 }
 
 fn built(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<(Blas, Option<Diagnostic>)> {

@@ -556,6 +556,8 @@ class Scene:
         uvs: Buffer | None = None,
         primvars: Mapping[str, Buffer] | None = None,
         slots: Buffer | None = None,
+        motion: Buffer | None = None,
+        motion_normals: Buffer | None = None,
         name: str = "mesh",
         index: int | None = None,
     ) -> int: ...

@@ -35,11 +35,23 @@ class Scene(_gonio.Scene):
         uvs: Buffer | None = None,
         primvars: Mapping[str, Buffer] | None = None,
         slots: Buffer | None = None,
+        motion: Buffer | None = None,
+        motion_normals: Buffer | None = None,
         name: str = "mesh",
     ) -> int:
         """Adds a mesh; gives its number. The arrays are those of `put_mesh`."""
         return self.put_mesh(
-            points, triangles, corners=corners, faces=faces, normals=normals, uvs=uvs, primvars=primvars, slots=slots, name=name
+            points,
+            triangles,
+            corners=corners,
+            faces=faces,
+            normals=normals,
+            uvs=uvs,
+            primvars=primvars,
+            slots=slots,
+            motion=motion,
+            motion_normals=motion_normals,
+            name=name,
         )
 
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int:

@@ -26,7 +26,8 @@ impl GeometryTable {
     /// A corner of the triangles, object space.
     #[inline(always)]
     pub(super) fn point<L: Lanes>(&self, l: L, hit: &HitLanes<L>, corner: usize) -> Vec3<L> {
-        Vec3::gather(l, &self.points, hit.points[corner] * 3)
+        let still = Vec3::gather(l, &self.points, hit.points[corner] * 3);
+        if self.mesh_keys.is_empty() { still } else { self.moved_point(l, hit, corner, still) }
     }
 
     /// Edges of the triangles from corner 0 to 1 and 2, world space.

@@ -1,5 +1,6 @@
 //! Compiled geometry: flat tables that surface points are gathered from, for all meshes, curves, points and instances at once.
 
+mod deforming;
 mod derivatives;
 mod instance_row;
 mod moving;
@@ -7,6 +8,7 @@ mod primvar;
 mod smooth;
 mod surface_point;
 
+pub use deforming::MeshKeys;
 pub use derivatives::UvDerivatives;
 pub use instance_row::InstanceRow;
 pub use primvar::{PrimvarKind, PrimvarRef};
@@ -58,6 +60,12 @@ pub struct GeometryTable {
     pub motion: Vec<Motion>,
     /// See `motion`.
     pub motion_of: Vec<u32>,
+    /// Keys of meshes that change their form: by mesh where they stand, empty where none does.
+    pub mesh_keys: Vec<MeshKeys>,
+    /// Coordinates of the points at all keys, object space.
+    pub key_points: Vec<f32>,
+    /// Numbers of the shading normals at all keys.
+    pub key_normals: Vec<f32>,
     /// Pass index of each set.
     pub set_pass_index: Vec<u32>,
     /// 1 for sets that cut holes into the coverage, else 0; empty where there is none.
@@ -91,6 +99,8 @@ impl GeometryTable {
             + self.primvars.len()
             + self.instance_primvars.len()
             + self.instances.len() * size_of::<InstanceRow>() / 4
+            + self.key_points.len()
+            + self.key_normals.len()
             + self.instance_transform.len()
             + self.materials.len();
         words * 4

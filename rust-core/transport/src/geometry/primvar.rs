@@ -87,10 +87,12 @@ impl GeometryTable {
         (value, present)
     }
 
-    /// Three components at one corner of the hit triangles.
+    /// The shading normal at one corner of the hit triangles, at the hits' times.
     #[inline(always)]
     pub(super) fn corner_vector<L: Lanes>(&self, l: L, hit: &HitLanes<L>, reference: &RefLanes<L>, corner: u32) -> Vec3<L> {
-        Vec3::gather(l, &self.values, self.value_place(l, hit, reference, corner))
+        let place = self.value_place(l, hit, reference, corner);
+        let still = Vec3::gather(l, &self.values, place);
+        if self.mesh_keys.is_empty() { still } else { self.moved_normal(l, hit, place - reference.first_value, still) }
     }
 
     /// Four components of a primvar column at the three corners; missing ones are zero.

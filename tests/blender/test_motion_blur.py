@@ -1,0 +1,156 @@
+"""Motion blur as Blender's settings ask for it, held to the mean of single moments."""
+
+import importlib
+
+import numpy as np
+import pytest
+
+
+def part(name):
+    """A module of the extension."""
+    return importlib.import_module(f"gonio_extension.{name}")
+
+
+class Engine:
+    """Moves the frame, as the render engine does."""
+
+    def __init__(self, scene, depsgraph):
+        self.scene, self.depsgraph = scene, depsgraph
+
+    def frame_set(self, frame, subframe):
+        self.scene.frame_set(frame, subframe=subframe)
+        self.depsgraph.update()
+
+
+def exported(scene):
+    """The scene as a final render exports it, with its report."""
+    import bpy
+
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    told = part("report").Report()
+    exporter = part("export").Exporter(told)
+    exporter.sync(depsgraph)
+    exporter.blur(Engine(scene, depsgraph), depsgraph)
+    exporter.settings(depsgraph, width=scene.render.resolution_x, height=scene.render.resolution_y)
+    return exporter.scene, told
+
+
+def picture(scene, seed=0):
+    import gonio
+
+    made, _ = exported(scene)
+    made.set(samples=scene.gonio.samples, noise_threshold=0.0, seed=seed, filter="box", filter_width=1.0)
+    with gonio.Render(made) as render:
+        assert render.wait()
+        return np.asarray(render.film()["color"])[..., :3].astype(float)
+
+
+def animated(samples):
+    """A cube that turns and moves, a plane that a shape key bends, a lamp and a camera that move, over a floor."""
+    import bpy
+    import scenes
+
+    scene = scenes.lit_floor(width=32, height=32, samples=samples)
+    scene.gonio.max_bounces = 1
+    lamp = bpy.data.objects["Lamp"]
+    lamp.data.shadow_soft_size = 0.2
+    bpy.ops.mesh.primitive_cube_add(size=0.6, location=(0, 0, 0.3))
+    cube = bpy.context.object
+    bpy.ops.mesh.primitive_plane_add(size=0.8, location=(0.8, -0.6, 0.3))
+    plane = bpy.context.object
+    plane.shape_key_add(name="Basis")
+    bent = plane.shape_key_add(name="Bent")
+    for point in (2, 3):
+        bent.data[point].co.z += 0.4
+        bent.data[point].co.y += 0.3
+    camera = scene.camera
+    camera.data.ortho_scale = 3.0
+
+    def key(owner, path, values):
+        for frame, value in zip((1, 3), values, strict=True):
+            setattr(owner, path, value)
+            owner.keyframe_insert(path, frame=frame)
+
+    key(cube, "location", ((-1.0, 0.0, 0.3), (0.6, 0.3, 0.5)))
+    key(cube, "rotation_euler", ((0.0, 0.0, 0.0), (0.0, 0.0, 1.5)))
+    key(bent, "value", (0.0, 1.0))
+    key(camera, "location", ((0.0, 0.0, 5.0), (0.2, 0.0, 5.0)))
+    key(lamp, "location", ((0.0, 0.0, 2.0), (0.5, 0.0, 2.0)))
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
+    return scene
+
+
+@pytest.mark.blender
+def test_blur_is_the_mean_of_moments():
+    scene = animated(256)
+    for thing in scene.objects:
+        if hasattr(thing, "cycles"):
+            thing.cycles.motion_steps = 3
+    blurred = np.mean([picture(scene, seed) for seed in range(2)], axis=0)
+    scene.render.use_motion_blur = False
+    scene.gonio.samples = 16
+    moments = []
+    for moment in range(32):
+        scene.frame_set(1, subframe=0.5 + (moment + 0.5) / 32) if moment < 16 else scene.frame_set(2, subframe=(moment + 0.5) / 32 - 0.5)
+        moments.append(picture(scene, 100 + moment))
+    mean = np.mean(moments, axis=0)
+    scene.frame_set(2)
+    still = picture(scene)
+
+    def blocks(seen):
+        return seen.reshape(8, 4, 8, 4, 3).mean(axis=(1, 3))
+
+    off = np.abs(blocks(blurred) - blocks(mean)).max() / mean.mean()
+    assert off < 0.06, off
+    assert np.abs(blocks(still) - blocks(mean)).max() / mean.mean() > 0.2
+
+
+@pytest.mark.blender
+def test_positions_steps_and_switches_are_followed():
+    import bpy
+
+    scene = animated(4)
+    cube = bpy.data.objects["Cube"]
+
+    def places():
+        made, _ = exported(scene)
+        described = made.to_dict()
+        motion = next((one["motion"] for one in described["instances"] if one["origin"]["name"] == "Cube"), [])
+        return [key[0]["columns"][3][0] for key in motion], described["settings"]["shutter"]
+
+    found, shutter = places()
+    assert len(found) == 3 and found[0] < found[1] < found[2]
+    assert shutter["blur"] and shutter["curve"] == [] and shutter["row_exposure"] == 1.0
+    middle = found[1]
+    if hasattr(scene.render, "motion_blur_position"):
+        scene.render.motion_blur_position = "START"
+        assert places()[0][0] == pytest.approx(middle, abs=1e-5)
+        scene.render.motion_blur_position = "END"
+        assert places()[0][2] == pytest.approx(middle, abs=1e-5)
+        scene.render.motion_blur_position = "CENTER"
+    assert scene.frame_current == 2
+    if hasattr(cube, "cycles"):
+        cube.cycles.motion_steps = 2
+        assert len(places()[0]) == 5
+        cube.cycles.use_motion_blur = False
+        assert places()[0] == []
+    points = scene.render.motion_blur_shutter_curve.curves[0].points
+    points[0].location = (0.0, 0.0)
+    scene.render.motion_blur_shutter_curve.update()
+    assert len(places()[1]["curve"]) > 2
+    scene.render.use_motion_blur = False
+    assert places()[0] == [] and not places()[1]["blur"]
+
+
+@pytest.mark.blender
+def test_the_engine_moves_the_frame_and_puts_it_back(tmp_path):
+    import bpy
+    import scenes
+
+    scene = animated(8)
+    scenes.render(tmp_path / "blurred")
+    assert scene.frame_current == 2
+    names = [line for line in part("report").Report().counted]
+    assert not names
+    assert bpy.data.objects["Cube"].matrix_world.translation.x == pytest.approx(-0.2, abs=1e-3)
