@@ -26,7 +26,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
     let material = scene.add_material(material);
     scene.instances.push(Instances {
         origin: Origin::new("test"),
-        mesh,
+        geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform::IDENTITY],
         primvars: Vec::new(),

@@ -7,7 +7,7 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
-use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
+use gonio::scene::{Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -184,7 +184,7 @@ impl<'py> Placer<'_, '_, 'py> {
         let place = self.gathered.len();
         let instances = Instances {
             origin: Origin::new(placement.path(&element.path)),
-            mesh: key.0,
+            geometry: key.0.into(),
             materials: key.1.clone(),
             transforms: Vec::new(),
             primvars: Vec::new(),
@@ -319,7 +319,9 @@ fn drop_meshes(context: &mut Context<'_, '_>, failed: &HashSet<MeshId>) {
         !failed.contains(&MeshId(id - 1))
     });
     for instances in &mut context.scene.instances {
-        instances.mesh = MeshId(numbers[instances.mesh.index()]);
+        if let Geometry::Mesh(mesh) = &mut instances.geometry {
+            *mesh = MeshId(numbers[mesh.index()]);
+        }
     }
     for grid in &mut context.scene.grids {
         if let GridArea::Mesh { mesh, .. } = &mut grid.area {

@@ -3,6 +3,7 @@
 mod array;
 mod artist_sky;
 mod buffer;
+mod curves;
 mod daylight;
 mod description;
 mod error;

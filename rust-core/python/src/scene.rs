@@ -2,6 +2,7 @@
 
 use crate::{
     buffer::{floats_of_any_width, matrices},
+    curves::{CurveBuffers, PointBuffers},
     daylight::{self, Daylight},
     description,
     error::{exception, setting},
@@ -12,7 +13,7 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{self, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform},
+    scene::{self, CurvesId, Geometry, Instances, MaterialId, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
 };
 use pyo3::{
     prelude::*,
@@ -38,6 +39,23 @@ impl Scene {
         let scene = CLASS.import(py, "gonio.scene", "Scene")?.call0()?.cast_into::<Self>()?;
         *scene.borrow_mut() = self;
         Ok(scene)
+    }
+}
+
+impl Scene {
+    /// What is placed: one of these.
+    fn geometry(&self, mesh: Option<u32>, curves: Option<u32>, points: Option<u32>) -> PyResult<Geometry> {
+        let (kind, number, geometry, there) = match (mesh, curves, points) {
+            (Some(mesh), None, None) => ("mesh", mesh, Geometry::from(MeshId(mesh)), self.scene.meshes.len()),
+            (None, Some(curves), None) => ("curves", curves, CurvesId(curves).into(), self.scene.curves.len()),
+            (None, None, Some(points)) => ("points", points, PointsId(points).into(), self.scene.points.len()),
+            _ => return Err(setting("mesh", "expected one of mesh, curves and points".to_owned())),
+        };
+        if number as usize >= there {
+            let kinds = if kind == "mesh" { "meshes" } else { kind };
+            return Err(setting(kind, format!("{number} was found, the scene has {there} {kinds}")));
+        }
+        Ok(geometry)
     }
 }
 
@@ -75,17 +93,64 @@ impl Scene {
         description::put(&mut self.scene.meshes, "mesh", mesh, index)
     }
 
-    /// Places a mesh many times, or replaces the placements `index`; gives their number.
+    /// Adds curves, or replaces curves `index`; gives their number.
+    ///
+    /// points: float buffer (N, 3), curve after curve; counts: integer buffer, the points of each curve; widths: diameters, a number or a float buffer;
+    /// type: linear or cubic; basis: bezier, bspline or catmullRom; wrap: nonperiodic, periodic or pinned; shape: round, or ribbon for flat ones that
+    /// face each ray; primvars: values by name, 1 to 4 numbers each. Whether values belong to points (vertex), joints of spans (varying), curves
+    /// (uniform) or all (constant) follows from their number, or is told by a pair of buffer and word.
+    #[pyo3(signature = (points, counts, widths, *, r#type = "linear", basis = "bezier", wrap = "nonperiodic", shape = "round", primvars = None, name = "curves", index = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn put_curves(
+        &mut self,
+        points: &Bound<'_, PyAny>,
+        counts: &Bound<'_, PyAny>,
+        widths: &Bound<'_, PyAny>,
+        r#type: &str,
+        basis: &str,
+        wrap: &str,
+        shape: &str,
+        primvars: Option<&Bound<'_, PyDict>>,
+        name: &str,
+        index: Option<u32>,
+    ) -> PyResult<u32> {
+        let buffers = CurveBuffers { points, counts, widths, kind: r#type, basis, wrap, shape, primvars };
+        description::put(&mut self.scene.curves, "curves", buffers.curves(name)?, index)
+    }
+
+    /// Adds points, or replaces points `index`; gives their number.
+    ///
+    /// points: float buffer (N, 3); widths: diameters, a number or a float buffer; normals: float buffer (N, 3) of shading normals in place of the
+    /// shape's; shape: sphere, or disc for flat ones that face each ray; primvars: values by name, 1 to 4 numbers a point, or one for all.
+    #[pyo3(signature = (points, widths, *, normals = None, shape = "sphere", primvars = None, name = "points", index = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn put_points(
+        &mut self,
+        points: &Bound<'_, PyAny>,
+        widths: &Bound<'_, PyAny>,
+        normals: Option<&Bound<'_, PyAny>>,
+        shape: &str,
+        primvars: Option<&Bound<'_, PyDict>>,
+        name: &str,
+        index: Option<u32>,
+    ) -> PyResult<u32> {
+        let buffers = PointBuffers { points, widths, normals, shape, primvars };
+        description::put(&mut self.scene.points, "points", buffers.points(name)?, index)
+    }
+
+    /// Places a mesh, or curves or points (then mesh is None), many times, or replaces the placements `index`; gives their number.
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
     /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
-    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
+    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
-        mesh: u32,
+        mesh: Option<u32>,
         materials: Vec<u32>,
         transforms: &Bound<'_, PyAny>,
+        curves: Option<u32>,
+        points: Option<u32>,
         name: &str,
         visibility: Option<HashMap<String, bool>>,
         primvars: Option<&Bound<'_, PyDict>>,
@@ -93,9 +158,7 @@ impl Scene {
         light_group: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
-        if mesh as usize >= self.scene.meshes.len() {
-            return Err(setting("mesh", format!("{mesh} was found, the scene has {} meshes", self.scene.meshes.len())));
-        }
+        let geometry = self.geometry(mesh, curves, points)?;
         if let Some(material) = materials.iter().find(|material| **material as usize >= self.scene.materials.len()) {
             return Err(setting("materials", format!("{material} was found, the scene has {} materials", self.scene.materials.len())));
         }
@@ -111,7 +174,7 @@ impl Scene {
         let (visibility, [holdout, shadow_catcher]) = description::visibility(visibility.unwrap_or_default())?;
         let instances = Instances {
             origin: Origin::new(name),
-            mesh: MeshId(mesh),
+            geometry,
             materials: materials.into_iter().map(MaterialId).collect(),
             transforms,
             primvars: own,
@@ -180,11 +243,13 @@ impl Scene {
         description::put(&mut self.scene.measured, "measured", element, index)
     }
 
-    /// Keeps the first `n` elements of a kind: meshes, instances, materials, textures, measured, lights, cameras, meters or grids.
+    /// Keeps the first `n` elements of a kind: meshes, curves, points, instances, materials, textures, measured, lights, cameras, meters or grids.
     fn truncate(&mut self, kind: &str, n: usize) -> PyResult<()> {
         let scene = &mut self.scene;
         match kind {
             "meshes" => scene.meshes.truncate(n),
+            "curves" => scene.curves.truncate(n),
+            "points" => scene.points.truncate(n),
             "instances" => scene.instances.truncate(n),
             "materials" => scene.materials.truncate(n),
             "textures" => scene.textures.truncate(n),
@@ -194,7 +259,7 @@ impl Scene {
             "meters" => scene.meters.truncate(n),
             "grids" => scene.grids.truncate(n),
             other => {
-                let expected = "meshes, instances, materials, textures, measured, lights, cameras, meters or grids";
+                let expected = "meshes, curves, points, instances, materials, textures, measured, lights, cameras, meters or grids";
                 return Err(setting("kind", format!("'{other}' was found, expected {expected}")));
             }
         }

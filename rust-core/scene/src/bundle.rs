@@ -66,7 +66,12 @@ pub fn load_bundle(path: &Path) -> Result<Scene> {
 /// Where elements come from is left out: USD numbers the prototypes of instances otherwise each time that a stage is opened.
 pub fn digest_scene(scene: &Scene) -> Digest {
     let parts = (&scene.meshes, &scene.instances, &scene.materials, &scene.textures, &scene.measured, &scene.lights, &scene.cameras);
-    let (json, mut digest) = blob::digest(|| serde_json::to_value(parts));
+    // Scenes without curves and points keep the digests that their checkpoints have.
+    let shapes = (!scene.curves.is_empty() || !scene.points.is_empty()).then_some((&scene.curves, &scene.points));
+    let (json, mut digest) = blob::digest(|| match shapes {
+        None => serde_json::to_value(parts),
+        Some(shapes) => serde_json::to_value((parts, shapes)),
+    });
     // Descriptions that cannot be written differ from all others in their arrays.
     let mut json = json.unwrap_or_default();
     leave_out_origins(&mut json);

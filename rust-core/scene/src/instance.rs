@@ -1,6 +1,6 @@
-//! Placed meshes.
+//! Placed geometry.
 
-use super::{MaterialId, MeshId, Origin, Primvar, Transform};
+use super::{CurvesId, MaterialId, MeshId, Origin, PointsId, Primvar, Transform};
 use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
@@ -32,14 +32,61 @@ impl Visibility {
     }
 }
 
-/// One mesh placed once or many times, with the same materials.
+/// What is placed; described as the number of a mesh, or as `{"curves": number}` or `{"points": number}`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Geometry {
+    /// A triangle mesh.
+    Mesh(MeshId),
+    /// Curves.
+    Curves {
+        /// Their number.
+        curves: CurvesId,
+    },
+    /// Points.
+    Points {
+        /// Their number.
+        points: PointsId,
+    },
+}
+
+impl Geometry {
+    /// The mesh, if it is one.
+    pub fn mesh(self) -> Option<MeshId> {
+        match self {
+            Self::Mesh(mesh) => Some(mesh),
+            Self::Curves { .. } | Self::Points { .. } => None,
+        }
+    }
+}
+
+impl From<MeshId> for Geometry {
+    fn from(mesh: MeshId) -> Self {
+        Self::Mesh(mesh)
+    }
+}
+
+impl From<CurvesId> for Geometry {
+    fn from(curves: CurvesId) -> Self {
+        Self::Curves { curves }
+    }
+}
+
+impl From<PointsId> for Geometry {
+    fn from(points: PointsId) -> Self {
+        Self::Points { points }
+    }
+}
+
+/// One mesh, or curves or points, placed once or many times, with the same materials.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Instances {
     /// Where they came from.
     pub origin: Origin,
     /// What is placed.
-    pub mesh: MeshId,
-    /// A material for each slot of the mesh; missing ones give the default material.
+    #[serde(rename = "mesh")]
+    pub geometry: Geometry,
+    /// A material for each slot of a mesh, or the one of curves or points; missing ones give the default material.
     pub materials: Vec<MaterialId>,
     /// Local to world, metres, one an instance.
     pub transforms: Vec<Transform>,

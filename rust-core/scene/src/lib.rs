@@ -9,6 +9,7 @@ mod atomic;
 mod blob;
 mod bundle;
 mod camera;
+mod curves;
 mod digest;
 pub mod error;
 mod goniogram;
@@ -20,6 +21,7 @@ mod measured;
 mod mesh;
 mod meter;
 mod origin;
+mod points;
 mod settings;
 mod texture;
 mod transform;
@@ -30,6 +32,7 @@ pub use atomic::{write_atomically, write_through};
 pub use bundle::digest_scene;
 pub use bundle::{load_bundle, save_bundle, with_images};
 pub use camera::{Camera, CameraExposure, Projection};
+pub use curves::{CurveBasis, CurveShape, CurveWrap, Curves};
 pub use digest::{Digest, Digesting};
 pub use error::{Diagnostic, Error, Result, Severity};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
@@ -37,7 +40,7 @@ pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,
 };
 pub use goniogram::Goniogram;
-pub use instance::{Instances, Visibility};
+pub use instance::{Geometry, Instances, Visibility};
 pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use material::{Closure, Distribution, Material, Model, ShaderOutput, SubsurfaceMethod};
@@ -45,6 +48,7 @@ pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
+pub use points::{PointShape, Points};
 pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;
@@ -70,6 +74,14 @@ id!(
     MeshId
 );
 id!(
+    /// Curves of the scene.
+    CurvesId
+);
+id!(
+    /// Points of the scene.
+    PointsId
+);
+id!(
     /// A material of the scene.
     MaterialId
 );
@@ -83,7 +95,13 @@ id!(
 pub struct Scene {
     /// Triangle meshes, shared by instances.
     pub meshes: Vec<Mesh>,
-    /// Placed meshes.
+    /// Curves, shared by instances.
+    #[serde(default)]
+    pub curves: Vec<Curves>,
+    /// Points, shared by instances.
+    #[serde(default)]
+    pub points: Vec<Points>,
+    /// Placed meshes, curves and points.
     pub instances: Vec<Instances>,
     /// Materials.
     pub materials: Vec<Material>,
@@ -124,6 +142,16 @@ impl Scene {
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);
         MeshId(id_of(self.meshes.len()))
+    }
+    /// Adds curves.
+    pub fn add_curves(&mut self, curves: Curves) -> CurvesId {
+        self.curves.push(curves);
+        CurvesId(id_of(self.curves.len()))
+    }
+    /// Adds points.
+    pub fn add_points(&mut self, points: Points) -> PointsId {
+        self.points.push(points);
+        PointsId(id_of(self.points.len()))
     }
     /// Adds a material.
     pub fn add_material(&mut self, material: Material) -> MaterialId {

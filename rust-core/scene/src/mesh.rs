@@ -5,12 +5,15 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What a primvar's values belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PrimvarInterpolation {
     /// One value for the mesh.
+    #[default]
     Constant,
-    /// One value a triangle.
+    /// One value a triangle, or a curve.
     Uniform,
+    /// One value a joint of a curve's spans; elsewhere one a point.
+    Varying,
     /// One value a point.
     Vertex,
     /// One value a triangle corner, three a triangle.
@@ -18,7 +21,7 @@ pub enum PrimvarInterpolation {
 }
 
 /// Named values on a mesh, 1 to 4 floats each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Primvar {
     /// The name without prefix: `st`, `displayColor`.
     pub name: String,
@@ -32,6 +35,17 @@ pub struct Primvar {
     /// Index into the values for each element; `None` means in order.
     #[serde(default, with = "super::blob::optional")]
     pub indices: Option<Arc<[u32]>>,
+}
+
+impl Primvar {
+    /// One float for all.
+    pub fn constant(name: &str, value: f32) -> Self {
+        Self { name: name.to_owned(), components: 1, values: Arc::from([value]), ..Self::default() }
+    }
+    /// Bytes held by the arrays.
+    pub fn memory(&self) -> usize {
+        self.values.len() * 4 + self.indices.as_ref().map_or(0, |i| i.len() * 4)
+    }
 }
 
 /// A triangle mesh in its own space.
@@ -64,10 +78,9 @@ impl Mesh {
     }
     /// Bytes held by the arrays.
     pub fn memory(&self) -> usize {
-        let primvar = |p: &Primvar| p.values.len() * 4 + p.indices.as_ref().map_or(0, |i| i.len() * 4);
         self.points.len() * 12
             + self.triangles.len() * 12
-            + self.normals.iter().chain(&self.primvars).map(primvar).sum::<usize>()
+            + self.normals.iter().chain(&self.primvars).map(Primvar::memory).sum::<usize>()
             + self.slots.as_ref().map_or(0, |s| s.len() * 2)
             + self.faces.as_ref().map_or(0, |f| f.len() * 4)
     }

@@ -12,7 +12,7 @@ pub(crate) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform
     let material = scene.add_material(material);
     scene.instances.push(Instances {
         origin: Origin::new("bench"),
-        mesh,
+        geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![transform],
         primvars: Vec::new(),

@@ -1,6 +1,6 @@
 //! World bounds.
 
-use super::lights::sized;
+use super::{lights::sized, numbers::geometry_number};
 use crate::scene::{LightShape, Mesh, Scene, Transform};
 
 /// A box, empty when its minimum is above its maximum.
@@ -28,7 +28,7 @@ impl Bounds {
     pub(crate) fn of_all(scene: &Scene, map: &Transform) -> Self {
         let mut bounds = Self::default();
         for instances in &scene.instances {
-            let mesh = scene.meshes.get(instances.mesh.index()).map(of_mesh).unwrap_or_default();
+            let mesh = scene.meshes.get(geometry_number(scene, instances.geometry)).map(of_mesh).unwrap_or_default();
             instances.transforms.iter().for_each(|transform| bounds.join(&mesh.transformed(&map.after(transform))));
         }
         for light in scene.lights.iter().filter(|light| !light.shape.is_at_infinity()) {
@@ -111,7 +111,7 @@ pub(super) fn of_mesh(mesh: &Mesh) -> Bounds {
 pub(super) fn of_instances(scene: &Scene, meshes: &[Bounds]) -> Bounds {
     let mut bounds = Bounds::default();
     for instances in &scene.instances {
-        let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };
+        let Some(mesh) = meshes.get(geometry_number(scene, instances.geometry)) else { continue };
         for transform in &instances.transforms {
             bounds.join(&mesh.transformed(transform));
         }

@@ -1,6 +1,6 @@
 //! What casts caustics: instances that mirror or refract light sharply. Light paths are aimed at them.
 
-use super::bounds::Bounds;
+use super::{bounds::Bounds, numbers::geometry_number};
 use crate::{
     bsdf::Surface,
     error::Diagnostic,
@@ -27,7 +27,7 @@ impl Casters {
         let mut boxes = Vec::new();
         let mut enclosing: Option<Origin> = None;
         for instances in &scene.instances {
-            let Some(mesh) = meshes.get(instances.mesh.index()) else { continue };
+            let Some(mesh) = meshes.get(geometry_number(scene, instances.geometry)) else { continue };
             if !is_one(instances, materials, |surface| surface.lobes.smooth) {
                 continue;
             }

@@ -3,6 +3,7 @@
 use super::{
     bounds::Bounds,
     instances::{append_instances, report_unplaceable},
+    numbers::{geometry_number, named},
     primvars::{Elements, append, problem},
 };
 use crate::{
@@ -35,12 +36,13 @@ pub(super) fn tables(
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).collect();
     let mut instances = Vec::new();
     for (set, group) in scene.instances.iter().enumerate() {
-        let (Some(bounds), Some(slots)) = (mesh_bounds.get(group.mesh.index()), slots.get(group.mesh.index())) else {
-            diagnostics.push(Diagnostic::warning(&group.origin, format!("mesh {} does not exist; left out", group.mesh.0)));
+        let number = geometry_number(scene, group.geometry);
+        let (Some(bounds), Some(slots)) = (mesh_bounds.get(number), slots.get(number)) else {
+            diagnostics.push(Diagnostic::warning(&group.origin, format!("{} does not exist; left out", named(group.geometry))));
             continue;
         };
         report_unplaceable(bounds, group, diagnostics);
-        let row = InstanceRow { mesh: group.mesh.0, ..meshes[group.mesh.index()] };
+        let row = InstanceRow { mesh: number as u32, ..meshes[number] };
         append_instances(group, set as u32, *slots, row, names, materials, origin, &mut table, &mut instances, diagnostics);
     }
     table.set_pass_index = scene.instances.iter().map(|group| group.pass_index).chain([0]).collect();

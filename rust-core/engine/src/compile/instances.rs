@@ -49,7 +49,7 @@ pub(super) fn append_instances(
         let rebased = rebased(transform, origin);
         table.instances.push(InstanceRow { number: number as u32, ..row });
         table.instance_transform.extend(rebased.columns.iter().flatten().map(|x| *x as f32));
-        instances.push(Instance { geometry: Geometry::Mesh(group.mesh.0), object_to_world: rows(&rebased), mask, transparent });
+        instances.push(Instance { geometry: Geometry::Mesh(mesh.mesh), object_to_world: rows(&rebased), mask, transparent });
     }
 }
 

@@ -5,6 +5,7 @@ use super::{
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
     light_groups::GroupNames,
+    numbers::geometry_number,
     openings::{self, Part},
     quantity::{self, FarFields},
     textures::CompiledTextures,
@@ -240,7 +241,10 @@ fn emissive_triangles(
     let mut first_light = Vec::with_capacity(geometry.instances.len());
     let mut number = 0;
     for group in &scene.instances {
-        let Some(mesh) = scene.meshes.get(group.mesh.index()).filter(|_| !group.transforms.is_empty()) else { continue };
+        // Curves and points shine too, but rays alone find them.
+        let Some(mesh) = scene.meshes.get(geometry_number(scene, group.geometry)).filter(|_| !group.transforms.is_empty()) else {
+            continue;
+        };
         // Placements of a set have the same materials.
         let first = geometry.instances[number as usize].first_material as usize;
         let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());

@@ -15,6 +15,7 @@ mod lights;
 mod luminaires;
 mod materials;
 mod measured;
+mod numbers;
 mod openings;
 mod oversized;
 mod primvars;
@@ -25,6 +26,8 @@ mod textures;
 mod trees;
 mod view;
 mod whitted;
+
+use numbers::geometry_number;
 
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
@@ -168,7 +171,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
 }
 
 fn instanced_triangles(scene: &Scene) -> u64 {
-    let mesh = |i: &crate::scene::Instances| scene.meshes.get(i.mesh.index()).map_or(0, |mesh| mesh.triangles.len() as u64);
+    let mesh =
+        |i: &crate::scene::Instances| scene.meshes.get(geometry_number(scene, i.geometry)).map_or(0, |mesh| mesh.triangles.len() as u64);
     scene.instances.iter().map(|instances| mesh(instances) * instances.transforms.len() as u64).sum()
 }
 

@@ -60,7 +60,7 @@ impl Elements {
         match interpolation {
             PrimvarInterpolation::Constant => 1,
             PrimvarInterpolation::Uniform => self.uniform,
-            PrimvarInterpolation::Vertex => self.points,
+            PrimvarInterpolation::Vertex | PrimvarInterpolation::Varying => self.points,
             PrimvarInterpolation::FaceVarying => self.corners,
         }
     }
@@ -100,7 +100,7 @@ pub(super) fn append(primvar: &Primvar, table: &mut GeometryTable) -> PrimvarRef
     let kind = match primvar.interpolation {
         PrimvarInterpolation::Constant => PrimvarKind::Constant,
         PrimvarInterpolation::Uniform => PrimvarKind::Uniform,
-        PrimvarInterpolation::Vertex => PrimvarKind::Vertex,
+        PrimvarInterpolation::Vertex | PrimvarInterpolation::Varying => PrimvarKind::Vertex,
         PrimvarInterpolation::FaceVarying => PrimvarKind::FaceVarying,
     };
     PrimvarRef { kind, components: u32::from(primvar.components), first_value, first_index }

@@ -9,7 +9,7 @@ pub(crate) fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]]
     let material = scene.add_material(material);
     scene.instances.push(Instances {
         origin: Origin::new("part"),
-        mesh,
+        geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform::IDENTITY],
         primvars: Vec::new(),

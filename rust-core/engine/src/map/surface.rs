@@ -43,13 +43,14 @@ pub(super) fn chosen(scene: &Scene, compiled: &CompiledScene, options: &MapOptio
             return None;
         }
         let transform = set.transforms[row.number as usize];
-        let mesh = &scene.meshes[set.mesh.index()];
+        let number = set.geometry.mesh()?;
+        let mesh = &scene.meshes[number.index()];
         let areas: Vec<f64> = mesh.triangles.iter().map(|corners| area(&mesh.points, *corners, &transform)).collect();
         let surface = MappedSurface {
             origin: set.origin.clone(),
             instance: instance as u32,
             placement: [row.number, set.transforms.len() as u32],
-            mesh: set.mesh,
+            mesh: number,
             transform,
             areas,
         };

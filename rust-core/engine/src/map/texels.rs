@@ -49,7 +49,7 @@ pub(super) fn coordinates(mesh: &Mesh, name: &str, surface: &MappedSurface) -> R
 fn value(primvar: &Primvar, mesh: &Mesh, triangle: usize, corner: usize) -> Option<[f32; 2]> {
     let components = usize::from(primvar.components);
     let element = match primvar.interpolation {
-        PrimvarInterpolation::Vertex => mesh.triangles[triangle][corner] as usize,
+        PrimvarInterpolation::Vertex | PrimvarInterpolation::Varying => mesh.triangles[triangle][corner] as usize,
         PrimvarInterpolation::FaceVarying => 3 * triangle + corner,
         PrimvarInterpolation::Constant | PrimvarInterpolation::Uniform => return None,
     };

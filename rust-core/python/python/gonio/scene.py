@@ -46,13 +46,50 @@ class Scene(_gonio.Scene):
         """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers or triples; gives its number."""
         return self.put_material(material(name, parameters))
 
+    def add_curves(
+        self,
+        points: Buffer,
+        counts: Buffer,
+        widths: float | Buffer | tuple[Buffer, str],
+        *,
+        type: str = "linear",
+        basis: str = "bezier",
+        wrap: str = "nonperiodic",
+        shape: str = "round",
+        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        name: str = "curves",
+    ) -> int:
+        """Adds curves; gives their number. The arguments are those of `put_curves`."""
+        return self.put_curves(points, counts, widths, type=type, basis=basis, wrap=wrap, shape=shape, primvars=primvars, name=name)
+
+    def add_points(
+        self,
+        points: Buffer,
+        widths: float | Buffer | tuple[Buffer, str],
+        *,
+        normals: Buffer | None = None,
+        shape: str = "sphere",
+        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        name: str = "points",
+    ) -> int:
+        """Adds points; gives their number. The arguments are those of `put_points`."""
+        return self.put_points(points, widths, normals=normals, shape=shape, primvars=primvars, name=name)
+
     def add_instance(
-        self, mesh: int, materials: Sequence[int] = (), *, transform: Matrix | None = None, name: str = "instance"
+        self,
+        mesh: int | None = None,
+        materials: Sequence[int] = (),
+        *,
+        curves: int | None = None,
+        points: int | None = None,
+        transform: Matrix | None = None,
+        name: str = "instance",
     ) -> None:
-        """Places a mesh; transform is a 4×4 matrix for column vectors."""
+        """Places a mesh, or curves or points; transform is a 4×4 matrix for column vectors."""
         x, y, z, origin = columns(transform)["columns"]
         rows = [*zip(x, y, z, origin, strict=True), (0.0, 0.0, 0.0, 1.0)]
-        self.put_instances(mesh, [*materials], array("d", [value for row in rows for value in row]), name=name)
+        flat = array("d", [value for row in rows for value in row])
+        self.put_instances(mesh, [*materials], flat, curves=curves, points=points, name=name)
 
     def add_light(
         self,

@@ -77,7 +77,7 @@ fn scene(nodes: &Value) -> Scene {
     let [x, y, z] = COLUMNS;
     scene.instances.push(Instances {
         origin: Origin::new("test"),
-        mesh,
+        geometry: mesh.into(),
         materials: vec![material],
         transforms: vec![Transform { columns: [x, y, z, PLACE] }],
         primvars: Vec::new(),
