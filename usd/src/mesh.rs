@@ -123,7 +123,7 @@ fn creases<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Creases {
 }
 
 /// Motion is not blurred.
-fn report_blur(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
+pub(crate) fn report_blur(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
     for name in ["velocities", "accelerations"] {
         if prim.has_authored(name) {
             context.unsupported(&format!("motion blur ({name})"), &prim.origin());
