@@ -55,7 +55,7 @@ def _factor(random, share):
 def _random(t, node, context):
     """The strand's random number, or what is linked in its place."""
     number = t.input(node, "Random", context)
-    if t.linked(node, "Random", context) or t.kind != "Material" or not number.is_constant():
+    if t.linked(node, "Random", context) or t.kind != "Material" or not number.is_constant:
         return number
     return t.primvar(STRAND["Random"], (number.constant[0],) * 4, kind="VALUE")
 
