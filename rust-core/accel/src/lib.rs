@@ -1,6 +1,6 @@
 //! Ray tracing acceleration: TLAS and BLASes, two levels of 8-wide bounding volume hierarchies (BVH).
 //!
-//! A [`Blas`] (bottom-level acceleration structure) holds the triangles of one mesh, a [`Tlas`] (top-level acceleration structure) the instances of
+//! A [`Blas`] (bottom-level acceleration structure) holds the triangles of one mesh, or curves or points, a [`Tlas`] (top-level acceleration structure) the instances of
 //! many. In goes a [`RayBatch`], out come [`Hits`] ([`Tlas::first_hit`]) or which rays are blocked ([`Tlas::occluded`]).
 //!
 //! Coherent rays go in packets of sixteen. Incoherent rays go alone, eight boxes or triangles at a time, or in ray streams
@@ -25,4 +25,5 @@ pub use intersect::shape::Shape;
 pub use ray::{Covered, Hits, NONE, RayBatch, TransparentHit};
 pub use tree::blas::{Blas, BlasMemory, Care};
 pub use tree::instance::{Geometry, Instance};
+pub use tree::smooth_tree::{FIRST_PIECE, LAST_PIECE, Seen};
 pub use tree::tlas::Tlas;

@@ -1,6 +1,8 @@
 //! The inner operations of traversal with one ray, at the width of the data.
 
 use super::prepared::{Padded, PreparedRay};
+use super::segment_block::SmoothHits;
+use super::smooth::Smooth;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use crate::tree::node::{Node, WIDTH};
@@ -18,4 +20,7 @@ pub(crate) trait Lanes8: Copy {
 
     /// The triangles hit with `ray.t_min < t <= t_max`, as a mask; `hits` receives their distances and barycentric coordinates.
     fn triangles(self, block: &TriangleBlock, ray: &PreparedRay, t_max: f32, hits: &mut BlockHits) -> u32;
+
+    /// The pieces of curves or points of a leaf hit with `ray.t_min < t <= t_max`, as a mask.
+    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32;
 }

@@ -1,10 +1,14 @@
-//! Tests of a ray against eight boxes, eight triangles and analytic shapes, at one lane and in registers.
+//! Tests of a ray against eight boxes, eight triangles, eight pieces of curves or points, and analytic shapes, at one lane and in registers.
 
 pub(crate) mod block_tests;
 pub(crate) mod lanes8;
+pub(crate) mod point_block;
 pub(crate) mod prepared;
 pub(crate) mod scalar;
+pub(crate) mod segment_block;
 pub(crate) mod shape;
+pub(crate) mod smooth;
+mod smooth_scalar;
 pub(crate) mod transform;
 pub(crate) mod triangle_block;
 pub(crate) mod wide;

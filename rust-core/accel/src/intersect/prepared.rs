@@ -119,8 +119,8 @@ impl PreparedRay {
         true
     }
 
-    /// Another ray moved, in the place where it stays: to the bits of [`PreparedRay::new`], but for the direction, which no test reads, and
-    /// zeros that keep their signs; false when it can hit nothing.
+    /// Another ray moved, in the place where it stays: to the bits of [`PreparedRay::new`], but for zeros that keep their signs; false when it
+    /// can hit nothing.
     #[inline(always)]
     pub(crate) fn shift<S: Simd>(&mut self, simd: S, ray: &PreparedRay, translation: f32x4<S>, t_max: f32) -> bool {
         let origin = f32x4::from_slice(simd, &ray.origin) + translation;
@@ -137,7 +137,7 @@ impl PreparedRay {
         (-(origin - pad) * reciprocal).store_slice(&mut self.far_offset);
         origin.swizzle_dyn(order).store_slice(&mut self.start);
         (self.near_rows, self.far_rows, self.axes) = (ray.near_rows, ray.far_rows, ray.axes);
-        (self.shear, self.t_min) = (ray.shear, ray.t_min);
+        (self.shear, self.t_min, self.direction) = (ray.shear, ray.t_min, ray.direction);
         true
     }
 

@@ -2,6 +2,9 @@
 
 use super::lanes8::Lanes8;
 use super::prepared::{Padded, PreparedRay};
+use super::segment_block::SmoothHits;
+use super::smooth::Smooth;
+use super::smooth_scalar;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use crate::tree::node::{Node, WIDTH};
@@ -65,5 +68,10 @@ impl Lanes8 for Scalar {
             mask |= u32::from(inside & (t > ray.t_min) & (t <= t_max)) << lane;
         }
         mask
+    }
+
+    #[inline(always)]
+    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+        smooth_scalar::intersect(smooth, leaf, ray, t_max, hits)
     }
 }

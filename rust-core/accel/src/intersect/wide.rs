@@ -2,6 +2,8 @@
 
 use super::lanes8::Lanes8;
 use super::prepared::{Padded, PreparedRay};
+use super::segment_block::SmoothHits;
+use super::smooth::Smooth;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use crate::tree::node::{Node, WIDTH};
@@ -54,6 +56,11 @@ impl<S: Simd> Lanes8 for Wide<S> {
         (v * inverse).store_slice(&mut hits.u);
         (w * inverse).store_slice(&mut hits.v);
         hit.to_bitmask() as u32
+    }
+
+    #[inline(always)]
+    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+        smooth.intersect(self.0, leaf, ray, t_max, hits)
     }
 }
 

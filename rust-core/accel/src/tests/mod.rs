@@ -8,6 +8,7 @@ mod oracle;
 mod refit;
 mod robust;
 mod scenes;
+mod smooth;
 mod watertight;
 
 use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, Tlas};

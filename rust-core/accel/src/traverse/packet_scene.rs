@@ -5,6 +5,7 @@ use super::packet_ray::{Group, PACKET, PacketRays, lane_of};
 use super::single::Stack;
 use super::single_scene::{SceneStacks, traverse_mesh, traverse_scene_from};
 use crate::hit_callback::{Any, HitCallback, Nearest};
+use crate::intersect::segment_block::SmoothHits;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::intersect::wide::Wide;
 use crate::ray::{Hit, NONE};
@@ -189,6 +190,30 @@ struct MeshVisitor<'a, const ANY: bool> {
     hits: &'a mut PacketHits,
 }
 
+impl<const ANY: bool> MeshVisitor<'_, ANY> {
+    /// A leaf of curves or points with one lane.
+    #[inline(always)]
+    fn smooth<S: Simd>(&mut self, simd: S, rays: &PacketRays<S>, leaf: usize, lane: usize) {
+        let ray = rays.single(lane);
+        let mut found = SmoothHits::default();
+        let mut mask = self.mesh.smooth.intersect(simd, leaf, &ray, self.hits.t[lane], &mut found);
+        if ANY {
+            if mask != 0 {
+                self.hits.set_blocked(lane);
+            }
+            return;
+        }
+        while mask != 0 {
+            let slot = mask.trailing_zeros() as usize % WIDTH;
+            mask &= mask - 1;
+            let (primitive, u, v) = self.mesh.smooth.describe(leaf, slot, &ray, &found);
+            let mut nearest = Nearest(self.hits.get(lane));
+            nearest.add(Hit { t: found.t[slot], u, v, primitive, instance: self.record.id }, false);
+            self.hits.set(lane, nearest.0);
+        }
+    }
+}
+
 impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
     const ORDERED: bool = !ANY;
 
@@ -204,7 +229,15 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for MeshVisitor<'_, ANY> {
 
     #[inline(always)]
     fn leaf(&mut self, simd: S, rays: &PacketRays<S>, group: &Group<S>, leaf: ChildRef, lanes: u32) {
-        intersect_leaf::<S, ANY>(simd, &self.mesh.blocks[leaf.index()], rays, group, lanes, self.record.id, self.hits);
+        if leaf.is(Kind::Triangles) {
+            return intersect_leaf::<S, ANY>(simd, &self.mesh.blocks[leaf.index()], rays, group, lanes, self.record.id, self.hits);
+        }
+        // Eight pieces of curves are as many as a register holds: one ray after the other.
+        let mut left = lanes;
+        while left != 0 {
+            self.smooth(simd, rays, leaf.index(), left.trailing_zeros() as usize % PACKET);
+            left &= left - 1;
+        }
     }
 
     #[inline(always)]

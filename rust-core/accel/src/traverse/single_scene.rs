@@ -4,6 +4,8 @@ use super::single::{Stack, Visitor, traverse};
 use crate::hit_callback::HitCallback;
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
+use crate::intersect::segment_block::SmoothHits;
+use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::ray::{Hit, RayBatch};
 use crate::tree::blas::Blas;
@@ -145,7 +147,10 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for MeshVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
-        intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback)
+        if leaf.is(Kind::Triangles) {
+            return intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback);
+        }
+        intersect_smooth(lanes, &self.mesh.smooth, leaf.index(), ray, self.record.owner(), self.callback)
     }
 }
 
@@ -159,6 +164,33 @@ fn intersect_leaf<K: Lanes8, C: HitCallback>(lanes: K, block: &TriangleBlock, ra
         mask &= mask - 1;
         let hit = Hit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], primitive: block.primitives[lane], instance: owner.id };
         if callback.add(hit, owner.transparent) {
+            return true;
+        }
+    }
+    false
+}
+
+/// Hands the pieces of curves or points of a leaf that a ray meets to a callback; true when it ended the search.
+#[inline(always)]
+fn intersect_smooth<K: Lanes8, C: HitCallback>(
+    lanes: K,
+    smooth: &Smooth,
+    leaf: usize,
+    ray: &PreparedRay,
+    owner: Owner,
+    callback: &mut C,
+) -> bool {
+    let mut hits = SmoothHits::default();
+    let mut mask = lanes.smooth(smooth, leaf, ray, callback.t_max(), &mut hits);
+    while mask != 0 {
+        let lane = mask.trailing_zeros() as usize % WIDTH;
+        mask &= mask - 1;
+        // What an earlier lane of this leaf covers needs no description.
+        if C::ORDERED && hits.t[lane] > callback.t_max() {
+            continue;
+        }
+        let (primitive, u, v) = smooth.describe(leaf, lane, ray, &hits);
+        if callback.add(Hit { t: hits.t[lane], u, v, primitive, instance: owner.id }, owner.transparent) {
             return true;
         }
     }

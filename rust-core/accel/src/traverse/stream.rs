@@ -1,7 +1,7 @@
 //! Ray streams: traversal by thirty-two incoherent rays at once, each a step at a time.
 //!
 //! A single ray waits for memory, and for branches that no predictor knows: what it meets next is as good as random. Here every kind of step (test
-//! a node's boxes, test a block of triangles, enter an instance, end) has a queue of rays. The rays of a queue take their step one after the other,
+//! a node's boxes, test a block of triangles or of curves, enter an instance, end) has a queue of rays. The rays of a queue take their step one after the other,
 //! without a branch on its outcome. Each goes to the queue of its next step, and memory fetches what that step reads. Queues within the cache are
 //! the idea of Barringer and Akenine-Möller: Dynamic Ray Stream Traversal, ACM TOG 33(4), 2014. There rays are grouped by node, here by step.
 
@@ -93,6 +93,9 @@ pub(crate) fn stream<S: Simd, Q: RayQuery>(simd: S, scene: &Tlas, rays: &RayBatc
         }
         for place in queues.take(Kind::WorldTriangles) {
             queues.add(streamed[place].world_triangles(simd, scene), place);
+        }
+        for place in queues.take(Kind::Smooth) {
+            queues.add(streamed[place].smooth(simd), place);
         }
         for place in queues.take(Kind::Next) {
             queues.add(streamed[place].pop(&stacks[place]), place);

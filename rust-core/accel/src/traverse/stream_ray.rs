@@ -3,6 +3,8 @@
 use crate::hit_callback::{HitCallback, RayQuery};
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
+use crate::intersect::segment_block::SmoothHits;
+use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::intersect::wide::{Wide, intersect_boxes};
 use crate::ray::{Hit, NONE, RayBatch};
@@ -53,6 +55,8 @@ pub(crate) struct StreamRay<'a, C: HitCallback> {
     rays: [PreparedRay; 2],
     nodes: [&'a [Node]; 2],
     blocks: [&'a [TriangleBlock]; 2],
+    /// Leaves of the curves or points it is in.
+    smooth: &'a Smooth,
     /// Where in memory the children of a kind begin, for fetching them.
     addresses: [usize; KINDS],
     callback: C,
@@ -83,6 +87,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             rays: [PreparedRay::NOTHING; 2],
             nodes: [&scene.nodes, &[]],
             blocks: [&scene.blocks, &[]],
+            smooth: &Smooth::Nothing,
             addresses,
             callback,
             farthest: 0,
@@ -156,6 +161,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
     fn enter(&mut self, mesh: &'a Blas) -> usize {
         self.nodes[1] = &mesh.nodes;
         self.blocks[1] = &mesh.blocks;
+        self.smooth = &mesh.smooth;
         self.addresses[Kind::MeshInner as usize] = mesh.nodes.as_ptr().addr();
         self.addresses[Kind::Triangles as usize] = mesh.blocks.as_ptr().addr();
         self.current = ChildRef::new(Kind::MeshInner, 0);
@@ -200,6 +206,23 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             mask &= mask - 1;
             let [t, u, v] = [hits.t[lane], hits.u[lane], hits.v[lane]];
             if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }, self.transparent) {
+                return Kind::End as usize;
+            }
+        }
+        Kind::Next as usize
+    }
+
+    /// The step at a block of pieces of curves or of points.
+    #[inline(always)]
+    pub(crate) fn smooth<S: Simd>(&mut self, simd: S) -> usize {
+        let (smooth, leaf, ray) = (self.smooth, self.current.index(), self.rays[1]);
+        let mut hits = SmoothHits::default();
+        let mut mask = smooth.intersect(simd, leaf, &ray, self.callback.t_max(), &mut hits);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize % WIDTH;
+            mask &= mask - 1;
+            let (primitive, u, v) = smooth.describe(leaf, lane, &ray, &hits);
+            if self.add(Hit { t: hits.t[lane], u, v, primitive, instance: self.instance }, self.transparent) {
                 return Kind::End as usize;
             }
         }

@@ -1,4 +1,4 @@
-//! The bottom-level acceleration structure (BLAS): the tree of one triangle mesh.
+//! The bottom-level acceleration structure (BLAS): the tree of one triangle mesh, or of curves or points.
 
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
 use crate::build::collapse::LeafMaker;
@@ -6,6 +6,7 @@ use crate::build::division::Source;
 use crate::build::effort::Effort;
 use crate::build::wide_tree::{WideTree, build};
 use crate::cancelled::Cancelled;
+use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::TriangleBlock;
 use glam::Vec3A;
 use gonio_simd::prefetch;
@@ -18,11 +19,13 @@ const OUTLINE: usize = 32;
 /// Points that a mesh's extent is taken from.
 const SAMPLES: usize = 1 << 16;
 
-/// Bottom level (BLAS): the tree over the triangles of one mesh in object space. Share it between scenes by `Arc`.
+/// Bottom level (BLAS): the tree over the triangles of one mesh, or over curves or points, in object space. Share it between scenes by `Arc`.
 #[derive(Debug)]
 pub struct Blas {
     pub(crate) nodes: Vec<Node>,
     pub(crate) blocks: Vec<TriangleBlock>,
+    /// Leaves of curves and points; then there are no triangles.
+    pub(crate) smooth: Smooth,
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
     pub(crate) outline: Vec<Bounds>,
     pub(crate) triangles: usize,
@@ -48,7 +51,7 @@ impl Care {
         if triangles <= FEW_TRIANGLES { Care::Thorough } else { Care::Quick }
     }
 
-    fn effort(self) -> Effort {
+    pub(super) fn effort(self) -> Effort {
         match self {
             Care::Quick => Effort::QUICK,
             Care::Thorough => Effort::THOROUGH,
@@ -61,9 +64,9 @@ impl Care {
 pub struct BlasMemory {
     /// Bytes of the nodes.
     pub nodes: usize,
-    /// Bytes of the triangle blocks.
+    /// Bytes of the blocks of triangles, pieces of curves or points.
     pub blocks: usize,
-    /// Triangles in the tree.
+    /// Triangles, pieces of curves or points in the tree.
     pub triangles: usize,
 }
 
@@ -80,8 +83,10 @@ impl Blas {
     pub(crate) fn fetch(&self, child: ChildRef) {
         if child.is_inner() {
             prefetch(&self.nodes, child.index());
-        } else {
+        } else if child.is(Kind::Triangles) {
             prefetch(&self.blocks, child.index());
+        } else {
+            self.smooth.fetch(child.index());
         }
     }
 
@@ -95,14 +100,14 @@ impl Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Ok(Blas { nodes, blocks, outline, triangles: primitives, sah_cost })
+        Ok(Blas { nodes, blocks, smooth: Smooth::Nothing, outline, triangles: primitives, sah_cost })
     }
 
     /// The bytes of the tree.
     pub fn memory(&self) -> BlasMemory {
         BlasMemory {
             nodes: self.nodes.capacity() * size_of::<Node>(),
-            blocks: self.blocks.capacity() * size_of::<TriangleBlock>(),
+            blocks: self.blocks.capacity() * size_of::<TriangleBlock>() + self.smooth.memory(),
             triangles: self.triangles,
         }
     }

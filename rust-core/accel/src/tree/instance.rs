@@ -9,7 +9,7 @@ use crate::ray::Hit;
 /// What an instance shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Geometry {
-    /// A mesh, by its number in the scene's list of trees.
+    /// A mesh, or curves or points, by its number in the scene's list of trees.
     Mesh(u32),
     /// An analytic shape.
     Shape(Shape),

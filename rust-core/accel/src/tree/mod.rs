@@ -5,5 +5,6 @@ pub(crate) mod instance;
 mod loose_lights;
 pub(crate) mod node;
 mod refit;
+pub(crate) mod smooth_tree;
 pub(crate) mod tlas;
 mod tlas_input;

@@ -16,7 +16,7 @@ pub(crate) const STACK: usize = 512;
 #[repr(transparent)]
 pub(crate) struct ChildRef(pub(crate) u32);
 
-/// Kinds of children; curves, spheres and moving triangles would be further leaf kinds.
+/// Kinds of children.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Kind {
@@ -34,6 +34,8 @@ pub(crate) enum Kind {
     Triangles = 5,
     /// The next entry of the stack.
     Next = 6,
+    /// A block of pieces of curves, or of points, of a geometry that has no triangles.
+    Smooth = 7,
 }
 
 /// Kinds that three bits can tell apart.

@@ -2,6 +2,7 @@
 
 use super::blas::{Blas, corners, outline, sah_cost, triangle_bounds};
 use super::node::{Bounds, ChildRef, Node, WIDTH};
+use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::ray::NONE;
 use rayon::prelude::*;
@@ -30,7 +31,7 @@ impl Blas {
         let (nodes, bounds) = fit_nodes(&self.nodes, &boxes);
         let fitting = sah_cost(&nodes, &bounds) <= self.sah_cost * MOST_GROWTH;
         let outline = outline(&nodes, bounds);
-        fitting.then_some(Blas { nodes, blocks, outline, triangles: self.triangles, sah_cost: self.sah_cost })
+        fitting.then_some(Blas { nodes, blocks, smooth: Smooth::Nothing, outline, triangles: self.triangles, sah_cost: self.sah_cost })
     }
 }
 

@@ -42,7 +42,8 @@ impl TlasInput {
     fn open(&mut self, meshes: &[Arc<Blas>], instance: &Instance, owner: Owner) -> bool {
         let Geometry::Mesh(mesh) = instance.geometry else { return false };
         let blocks = &meshes[mesh as usize].blocks;
-        if blocks.len() > SMALL_MESH {
+        // Curves and points have no blocks of triangles, and stay instances.
+        if blocks.len() > SMALL_MESH || !meshes[mesh as usize].smooth.is_empty() {
             return false;
         }
         for block in blocks {

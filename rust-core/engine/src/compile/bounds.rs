@@ -21,14 +21,14 @@ impl Default for Bounds {
 impl Bounds {
     /// World bounds of everything placed in a scene.
     pub fn of_scene(scene: &Scene) -> Self {
-        let meshes: Vec<Self> = scene.meshes.iter().map(of_mesh).collect();
-        of_instances(scene, &meshes)
+        of_instances(scene, &of_geometry(scene))
     }
     /// Bounds of a scene's surfaces and of its lights that have a place, after a map of the world.
     pub(crate) fn of_all(scene: &Scene, map: &Transform) -> Self {
         let mut bounds = Self::default();
+        let all = of_geometry(scene);
         for instances in &scene.instances {
-            let mesh = scene.meshes.get(geometry_number(scene, instances.geometry)).map(of_mesh).unwrap_or_default();
+            let mesh = all.get(geometry_number(scene, instances.geometry)).copied().unwrap_or_default();
             instances.transforms.iter().for_each(|transform| bounds.join(&mesh.transformed(&map.after(transform))));
         }
         for light in scene.lights.iter().filter(|light| !light.shape.is_at_infinity()) {
@@ -96,6 +96,24 @@ impl Bounds {
         let away = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
         if away > 2.0 * self.radius() { centre } else { [0.0; 3] }
     }
+}
+
+/// Bounds of meshes, curves and points in their own spaces.
+fn of_geometry(scene: &Scene) -> Vec<Bounds> {
+    let curves = scene.curves.iter().map(|curves| of_points(&curves.points, &curves.widths.values));
+    let points = scene.points.iter().map(|points| of_points(&points.points, &points.widths.values));
+    scene.meshes.iter().map(of_mesh).chain(curves).chain(points).collect()
+}
+
+/// Bounds of points with diameters, the largest for all.
+fn of_points(points: &[[f32; 3]], widths: &[f32]) -> Bounds {
+    let radius = 0.5 * f64::from(widths.iter().copied().filter(|width| width.is_finite()).fold(0.0, f32::max));
+    let mut bounds = Bounds::default();
+    for point in points.iter().map(|point| point.map(f64::from)) {
+        bounds.extend(point.map(|x| x - radius));
+        bounds.extend(point.map(|x| x + radius));
+    }
+    bounds
 }
 
 /// Bounds of a mesh in its own space.

@@ -2,9 +2,11 @@
 
 use super::{
     bounds::Bounds,
+    cut::Cut,
     instances::{append_instances, report_unplaceable},
     numbers::{geometry_number, named},
     primvars::{Elements, append, problem},
+    smooth,
 };
 use crate::{
     accel::Instance,
@@ -25,6 +27,7 @@ pub(super) struct CompiledGeometry {
 /// Lays meshes and instances out.
 pub(super) fn tables(
     scene: &Scene,
+    cuts: &[Cut],
     mesh_bounds: &[Bounds],
     names: &[String],
     materials: &MaterialTable,
@@ -32,8 +35,10 @@ pub(super) fn tables(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
-    let meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
-    let slots: Vec<usize> = scene.meshes.iter().map(slots_of).collect();
+    let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
+    meshes.extend(smooth::append(scene, cuts, names, &mut table, diagnostics)?);
+    // Curves and points have one material.
+    let slots: Vec<usize> = scene.meshes.iter().map(slots_of).chain(cuts.iter().map(|_| 1)).collect();
     let mut instances = Vec::new();
     for (set, group) in scene.instances.iter().enumerate() {
         let number = geometry_number(scene, group.geometry);
@@ -120,6 +125,8 @@ fn append_checked(
 fn pad(table: &mut GeometryTable) {
     table.points.extend([0.0; 12]);
     table.values.extend([0.0; 4]);
+    table.radii.extend([0.0; 4]);
+    table.pieces.extend([0; 4]);
     table.corners.extend([0; 4]);
     table.instance_transform.extend([0.0; 12]);
     let integers = [&mut table.slots, &mut table.value_indices, &mut table.primvars, &mut table.instance_primvars, &mut table.materials];

@@ -241,7 +241,12 @@ fn emissive_triangles(
     let mut first_light = Vec::with_capacity(geometry.instances.len());
     let mut number = 0;
     for group in &scene.instances {
-        // Curves and points shine too, but rays alone find them.
+        if group.geometry.mesh().is_none() && geometry_number(scene, group.geometry) != usize::MAX {
+            // Curves and points shine too, but rays alone find them.
+            first_light.resize(first_light.len() + group.transforms.len(), NONE);
+            number += group.transforms.len() as u32;
+            continue;
+        }
         let Some(mesh) = scene.meshes.get(geometry_number(scene, group.geometry)).filter(|_| !group.transforms.is_empty()) else {
             continue;
         };

@@ -5,6 +5,7 @@
 mod bounds;
 mod casters;
 mod catchers;
+mod cut;
 mod geometry;
 mod goniograms;
 mod instances;
@@ -22,6 +23,9 @@ mod primvars;
 mod quantity;
 mod samples;
 mod shader_passes;
+mod smooth;
+mod smooth_primvars;
+mod strand_materials;
 mod textures;
 mod trees;
 mod view;
@@ -68,6 +72,7 @@ pub struct CompiledScene {
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
+    smooth: Vec<smooth::KeptSmooth>,
     images: kept::KeptImages,
     kept_lights: lights::KeptLights,
     measured: measured::CompiledMeasured,
@@ -80,6 +85,10 @@ pub struct CompileStatistics {
     pub triangles: u64,
     /// Triangles of all instances.
     pub instanced_triangles: u64,
+    /// Straight pieces that curves were cut into, all curves once.
+    pub segments: u64,
+    /// Points with a size, all once.
+    pub points: u64,
     /// Instances.
     pub instances: u64,
     /// Lights, triangles of emissive meshes among them.
@@ -100,6 +109,8 @@ pub struct CompileStatistics {
 pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
     let start = Instant::now();
     let mut diagnostics = Vec::new();
+    let adapted = strand_materials::without_subsurface(scene, &mut diagnostics);
+    let scene = adapted.as_ref().unwrap_or(scene);
     let none = (kept::KeptImages::default(), lights::KeptLights::default());
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
     let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
@@ -110,16 +121,21 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     check(cancel)?;
     let trees_start = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
+    let cuts = cut::cut_all(scene, &mut diagnostics);
+    let smooth = smooth::build(scene, &cuts, previous.map_or(&[], |p| &p.smooth), cancel)?;
     let built = trees_start.elapsed().as_secs_f64();
-    let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).collect();
+    let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).chain(smooth.iter().map(|kept| kept.bounds)).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
     oversized::report(scene, &bounds, &mut diagnostics);
     let origin = bounds.rebase_origin();
-    let mut geometry = geometry::tables(scene, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
+    let mut geometry = geometry::tables(scene, &cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
-    let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
+    let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();
+    drop(cuts);
+    let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| &kept.tree).chain(smooth.iter().map(|kept| &kept.tree)).cloned().collect();
+    let tree_bytes: usize = blases.iter().map(|tree| tree.memory().bytes()).sum();
     let first_light = geometry.first_light as usize;
     let bvh = Tlas::build_with_lights(blases, &geometry.instances, first_light, cancel).map_err(|_| Error::Cancelled)?;
     let statistics = CompileStatistics {
@@ -127,7 +143,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         instanced_triangles: instanced_triangles(scene),
         instances: u64::from(geometry.first_light),
         lights: lights.table.len() as u64,
-        geometry_bytes: (trees.iter().map(|kept| kept.tree.memory().bytes()).sum::<usize>() + geometry.table.memory()) as u64,
+        segments,
+        points: scene.points.iter().map(|points| points.points.len() as u64).sum(),
+        geometry_bytes: (tree_bytes + geometry.table.memory()) as u64,
         texture_bytes: textures.table.bytes() as u64,
         textures_s: textures.seconds,
         build_s: built,
@@ -135,6 +153,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     };
     let any_absorbing =
         scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
+    let emits = |number: usize| materials.even_emission(materials.number(number)).is_some();
+    smooth::report_emission(scene, emits, &mut diagnostics);
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
     casters::report(scene, &casters, &mut diagnostics);
@@ -164,6 +184,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         casters,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
+        smooth,
         images: textures.kept,
         kept_lights: lights.kept,
         measured,

@@ -8,9 +8,9 @@ use gonio_simd::{Lanes, U};
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct InstanceRow {
-    /// Mesh.
+    /// Mesh, or behind all meshes curves or points.
     pub mesh: u32,
-    /// First triangle of the mesh.
+    /// First triangle of the mesh, or piece of the curves.
     pub first_triangle: u32,
     /// First point of the mesh.
     pub first_point: u32,

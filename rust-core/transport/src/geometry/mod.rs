@@ -1,13 +1,15 @@
-//! Compiled geometry: flat tables that surface points are gathered from, for all meshes and instances at once.
+//! Compiled geometry: flat tables that surface points are gathered from, for all meshes, curves, points and instances at once.
 
 mod derivatives;
 mod instance_row;
 mod primvar;
+mod smooth;
 mod surface_point;
 
 pub use derivatives::UvDerivatives;
 pub use instance_row::InstanceRow;
 pub use primvar::{PrimvarKind, PrimvarRef};
+pub use smooth::{FIRST_PIECE, LAST_PIECE, PrimitiveShape, SmoothHit};
 pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, offset_ray_origin, shadow_ray_to};
 
 /// No entry.
@@ -23,6 +25,14 @@ pub struct GeometryTable {
     pub points: Vec<f32>,
     /// Point numbers, three a triangle, counted over all meshes.
     pub corners: Vec<u32>,
+    /// A [`PrimitiveShape`] for each geometry: meshes, behind them curves and points; empty where there are meshes alone.
+    pub shapes: Vec<u32>,
+    /// Of each piece of curves its first point in the geometry, with [`FIRST_PIECE`] and [`LAST_PIECE`].
+    pub pieces: Vec<u32>,
+    /// Radii of the points of curves and of points, object space.
+    pub radii: Vec<f32>,
+    /// Number of the point that has the first radius: those of meshes come before.
+    pub first_radius: u32,
     /// Material slot of each triangle of the meshes that have slots.
     pub slots: Vec<u32>,
     /// Values of all primvars.
@@ -66,6 +76,8 @@ impl GeometryTable {
     pub fn memory(&self) -> usize {
         let words = self.points.len()
             + self.corners.len()
+            + self.pieces.len()
+            + self.radii.len()
             + self.slots.len()
             + self.values.len()
             + self.value_indices.len()

@@ -1,9 +1,9 @@
 //! Surface points at hits: position with an error bound, normals, and the primvars' derivatives, on lanes.
 
-use super::{GeometryTable, NORMALS, instance_row::MeshLanes};
+use super::{GeometryTable, NORMALS, SmoothHit, instance_row::MeshLanes};
 use gonio_simd::{F, Lanes, U, Vec3};
 
-/// Hits of meshes, one per lane, with what is looked up once.
+/// Hits of meshes, curves and points, one per lane, with what is looked up once.
 #[derive(Clone, Copy, Debug)]
 pub struct HitLanes<L: Lanes> {
     /// Instance number.
@@ -22,6 +22,8 @@ pub struct HitLanes<L: Lanes> {
     pub first_primvar: U<L>,
     /// Point numbers of the corners over all meshes.
     pub points: [U<L>; 3],
+    /// On curves and points what there is in place of corners; values there change as between corners 0 and 1.
+    pub smooth: SmoothHit<L>,
 }
 
 /// A point on a surface, world space.
@@ -39,10 +41,12 @@ pub struct SurfacePoint<L: Lanes> {
     pub edges: [Vec3<L>; 2],
     /// Twice the triangle's area.
     pub double_area: F<L>,
+    /// Along curves, not unit; elsewhere zero.
+    pub tangent: Vec3<L>,
 }
 
 /// Rounding errors of a chain of `n` operations: n ε / (1 − n ε) (Higham; pbrt-v4 section 6.8).
-const fn gamma(n: u32) -> f32 {
+pub(super) const fn gamma(n: u32) -> f32 {
     let e = f32::EPSILON * 0.5;
     n as f32 * e / (1.0 - n as f32 * e)
 }
@@ -52,8 +56,12 @@ impl GeometryTable {
     #[inline(always)]
     pub fn hit_lanes<L: Lanes>(&self, l: L, instance: U<L>, primitive: U<L>, u: F<L>, v: F<L>) -> HitLanes<L> {
         let MeshLanes { mesh, first_triangle, first_point, first_primvar } = self.mesh_lanes(l, instance);
-        let [a, b, c, _] = l.gather_integer_quads(&self.corners, (first_triangle + primitive) * 3);
-        HitLanes { instance, primitive, u, v, mesh, first_point, first_primvar, points: [a, b, c] }
+        let corners = (first_triangle + primitive) * 3;
+        let corners = if self.any_smooth() { corners.keep_if(corners.lt(self.corners.len() as u32)) } else { corners };
+        let [a, b, c, _] = l.gather_integer_quads(&self.corners, corners);
+        let smooth = SmoothHit::none(l);
+        let hit = HitLanes { instance, primitive, u, v, mesh, first_point, first_primvar, points: [a, b, c], smooth };
+        if self.any_smooth() { self.with_smooth(l, hit, first_triangle) } else { hit }
     }
 
     /// The points themselves.
@@ -76,12 +84,14 @@ impl GeometryTable {
         let geometric_normal = (cross * sign).normalize_or(Vec3::splat(l, [0.0, 0.0, 1.0]));
         let shading_normal = self.shading_normal(l, hit, cofactors, sign, geometric_normal);
         let error = self.position_error([p0, p1, p2], local, columns, origin, edges);
-        SurfacePoint { position, error, geometric_normal, shading_normal, edges, double_area }
+        let tangent = Vec3::splat(l, [0.0; 3]);
+        let point = SurfacePoint { position, error, geometric_normal, shading_normal, edges, double_area, tangent };
+        if self.any_smooth() { self.smooth_point(l, hit, (columns, origin), (cofactors, sign), point) } else { point }
     }
 
     /// The interpolated normal carried to world space, on the geometric normal's side.
     #[inline(always)]
-    fn shading_normal<L: Lanes>(&self, l: L, hit: &HitLanes<L>, cofactors: [Vec3<L>; 3], sign: F<L>, flat: Vec3<L>) -> Vec3<L> {
+    pub(super) fn shading_normal<L: Lanes>(&self, l: L, hit: &HitLanes<L>, cofactors: [Vec3<L>; 3], sign: F<L>, flat: Vec3<L>) -> Vec3<L> {
         if !self.any_normals {
             return flat;
         }

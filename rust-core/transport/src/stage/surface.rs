@@ -152,6 +152,7 @@ fn surface_lanes<L: Lanes>(
         }
         None => (Vec3::splat(l, [0.0; 3]), l.f(0.0)),
     };
+    let tangent = if geometry.any_smooth() { hit.smooth.shape.ne(0).select(point.tangent, tangent) } else { tangent };
     store3(tangent, &mut out.tangent, at);
     // A pixel's cone meets an inclined surface in a longer ellipse; its shorter axis would blur less, its longer one more.
     let cosine = point.geometric_normal.dot(wo).abs().max(0.05);

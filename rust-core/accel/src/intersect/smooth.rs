@@ -1,0 +1,193 @@
+//! The leaves of trees of curves and points, of one shape each: which a ray meets, and where, in two numbers.
+//!
+//! The two numbers stand in the place of a triangle's barycentric coordinates and say all that there is to know of a hit, without the ray:
+//!
+//! | shape | u | v |
+//! | --- | --- | --- |
+//! | tube | share of the piece; on the rounded ends ±2 plus the normal's part along the axis | turn about the axis |
+//! | ribbon | share of the piece | packed: share of the radius, −1 to 1; turn of the ribbon's side |
+//! | sphere | first octahedral coordinate of the normal | second one |
+//! | disc | packed: shares of the radius along two axes | packed: octahedral coordinates of the normal |
+//!
+//! A turn is a number from −2 to 2 in place of an angle ([`turn`]). Packed are two numbers in 15 bits each. The reader is `geometry/smooth.rs`
+//! of `gonio-transport`.
+
+use super::point_block::{PointBlock, intersect_discs, intersect_spheres};
+use super::prepared::PreparedRay;
+use super::segment_block::{END_CAP, START_CAP, SegmentBlock, SmoothHits, intersect_ribbons, intersect_tubes};
+use crate::ray::NONE;
+use crate::tree::node::WIDTH;
+use fearless_simd::Simd;
+use gonio_simd::prefetch;
+
+/// The leaves of a tree.
+#[derive(Clone, Debug, Default)]
+pub(crate) enum Smooth {
+    /// A tree of triangles has none.
+    #[default]
+    Nothing,
+    Tubes(Vec<SegmentBlock>),
+    Ribbons(Vec<SegmentBlock>),
+    Spheres(Vec<PointBlock>),
+    Discs(Vec<PointBlock>),
+}
+
+/// A hit of a lane: primitive, and the two numbers.
+pub(crate) type LaneHit = (u32, f32, f32);
+
+impl Smooth {
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        match self {
+            Smooth::Nothing => true,
+            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => blocks.is_empty(),
+            Smooth::Spheres(blocks) | Smooth::Discs(blocks) => blocks.is_empty(),
+        }
+    }
+
+    /// Bytes held.
+    pub(crate) fn memory(&self) -> usize {
+        match self {
+            Smooth::Nothing => 0,
+            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => blocks.capacity() * size_of::<SegmentBlock>(),
+            Smooth::Spheres(blocks) | Smooth::Discs(blocks) => blocks.capacity() * size_of::<PointBlock>(),
+        }
+    }
+
+    /// Has memory fetch a leaf.
+    #[inline(always)]
+    pub(crate) fn fetch(&self, index: usize) {
+        match self {
+            Smooth::Nothing => {}
+            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => prefetch(blocks, index),
+            Smooth::Spheres(blocks) | Smooth::Discs(blocks) => prefetch(blocks, index),
+        }
+    }
+
+    /// The lanes of a leaf that a ray meets with `ray.t_min < t <= t_max`, as a mask.
+    #[inline(never)]
+    pub(crate) fn intersect<S: Simd>(&self, simd: S, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+        simd.vectorize(
+            #[inline(always)]
+            || match self {
+                Smooth::Nothing => 0,
+                Smooth::Tubes(blocks) => intersect_tubes(simd, &blocks[leaf], ray, t_max, hits),
+                Smooth::Ribbons(blocks) => intersect_ribbons(simd, &blocks[leaf], ray, t_max, hits),
+                Smooth::Spheres(blocks) => intersect_spheres(simd, &blocks[leaf], ray, t_max, hits),
+                Smooth::Discs(blocks) => intersect_discs(simd, &blocks[leaf], ray, t_max, hits),
+            },
+        )
+    }
+
+    /// Which primitive a lane has hit, and where on it.
+    pub(crate) fn describe(&self, leaf: usize, lane: usize, ray: &PreparedRay, hits: &SmoothHits) -> LaneHit {
+        let lane = lane % WIDTH;
+        let out = [hits.out[0][lane], hits.out[1][lane], hits.out[2][lane]];
+        match self {
+            Smooth::Nothing => (NONE, 0.0, 0.0),
+            Smooth::Tubes(blocks) => {
+                let block = &blocks[leaf];
+                let (axis, _) = block.lane(lane, 0.0);
+                let (u, v) = on_tube(axis, hits.along[lane], out);
+                (block.primitives[lane], u, v)
+            }
+            Smooth::Ribbons(blocks) => {
+                let block = &blocks[leaf];
+                let (axis, radius) = block.lane(lane, hits.along[lane]);
+                (block.primitives[lane], hits.along[lane], on_ribbon(axis, radius, ray, out))
+            }
+            Smooth::Spheres(blocks) => {
+                let [u, v] = octahedral(unit(out));
+                (blocks[leaf].primitives[lane], u, v)
+            }
+            Smooth::Discs(blocks) => {
+                let block = &blocks[leaf];
+                let (u, v) = on_disc(block.radius[lane], ray, out);
+                (block.primitives[lane], u, v)
+            }
+        }
+    }
+}
+
+pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The unit vector; along z where there is none.
+fn unit(v: [f32; 3]) -> [f32; 3] {
+    let length = dot(v, v).sqrt();
+    let scaled = v.map(|x| x / length);
+    if length > 0.0 && scaled.iter().all(|x| x.is_finite()) { scaled } else { [0.0, 0.0, 1.0] }
+}
+
+/// The first two axes of the frame about a unit vector: those of `gonio_simd::Frame::from_normal`.
+fn frame(n: [f32; 3]) -> [[f32; 3]; 2] {
+    let [x, y, z] = n;
+    let sign = 1.0f32.copysign(z);
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    [[sign * x * x * a + 1.0, sign * b, -sign * x], [b, sign + y * y * a, -y]]
+}
+
+/// A direction in a plane as a number from −2 to 2: y over |x| + |y| where x is positive, else 2 less that, with the sign of y.
+fn turn(x: f32, y: f32) -> f32 {
+    let sum = x.abs() + y.abs();
+    let share = if sum > 0.0 { y / sum } else { 0.0 };
+    if x >= 0.0 { share } else { 2.0f32.copysign(y) - share }
+}
+
+/// The octahedral coordinates of a unit vector, −1 to 1 (Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014).
+fn octahedral(n: [f32; 3]) -> [f32; 2] {
+    let sum = n[0].abs() + n[1].abs() + n[2].abs();
+    let [x, y] = [n[0] / sum, n[1] / sum];
+    if n[2] >= 0.0 { [x, y] } else { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] }
+}
+
+/// The vector of octahedral coordinates, as the reader finds it.
+fn from_octahedral([x, y]: [f32; 2]) -> [f32; 3] {
+    let z = 1.0 - x.abs() - y.abs();
+    let fold = (-z).max(0.0);
+    unit([x - fold.copysign(x), y - fold.copysign(y), z])
+}
+
+/// The largest of 15 bits.
+const FIFTEEN: f32 = 32767.0;
+
+/// Two numbers from −1 to 1 in 15 bits each, as the bits of a number that no operation but a copy may see.
+fn packed(x: f32, y: f32) -> f32 {
+    let bits = |x: f32| (0.5f32.mul_add(x.clamp(-1.0, 1.0), 0.5) * FIFTEEN).round() as u32;
+    f32::from_bits(bits(x) << 15 | bits(y))
+}
+
+/// What the reader finds of a number in 15 bits.
+fn in_fifteen_bits(x: f32) -> f32 {
+    (0.5f32.mul_add(x.clamp(-1.0, 1.0), 0.5) * FIFTEEN).round() * (2.0 / FIFTEEN) - 1.0
+}
+
+fn on_tube(axis: [f32; 3], along: f32, out: [f32; 3]) -> (f32, f32) {
+    let axis = unit(axis);
+    let [x, y] = frame(axis);
+    let v = turn(dot(out, x), dot(out, y));
+    let u = if along == END_CAP || along == START_CAP { along + dot(unit(out), axis).clamp(-1.0, 1.0) } else { along };
+    (u, v)
+}
+
+fn on_ribbon(axis: [f32; 3], radius: f32, ray: &PreparedRay, out: [f32; 3]) -> f32 {
+    let axis = unit(axis);
+    let back = [-ray.direction[0], -ray.direction[1], -ray.direction[2]];
+    let side = unit(cross(axis, back));
+    let [x, y] = frame(axis);
+    packed(dot(out, side) / radius, 0.5 * turn(dot(side, x), dot(side, y)))
+}
+
+fn on_disc(radius: f32, ray: &PreparedRay, out: [f32; 3]) -> (f32, f32) {
+    let back = unit([-ray.direction[0], -ray.direction[1], -ray.direction[2]]);
+    let [a, b] = octahedral(back);
+    // Axes of the normal that the reader finds.
+    let [x, y] = frame(from_octahedral([in_fifteen_bits(a), in_fifteen_bits(b)]));
+    (packed(dot(out, x) / radius, dot(out, y) / radius), packed(a, b))
+}

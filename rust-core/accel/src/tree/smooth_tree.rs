@@ -1,0 +1,160 @@
+//! Trees of curves and points: what they are built over and put together from.
+
+use super::blas::{Blas, Care, outline, sah_cost};
+use super::node::{Kind, LARGEST_COORDINATE, MAX_INDEX, ROUNDING_PAD};
+use crate::build::collapse::LeafMaker;
+use crate::build::division::Source;
+use crate::build::wide_tree::{WideTree, build};
+use crate::cancelled::Cancelled;
+use crate::intersect::point_block::PointBlock;
+use crate::intersect::segment_block::{Segment, SegmentBlock};
+use crate::intersect::smooth::Smooth;
+use glam::Vec3A;
+use obvhs::aabb::Aabb;
+use std::sync::atomic::AtomicBool;
+
+/// Bit of a piece's entry: it is the first of its curve.
+pub const FIRST_PIECE: u32 = 1 << 31;
+/// Bit of a piece's entry: it is the last of its curve.
+pub const LAST_PIECE: u32 = 1 << 30;
+
+/// Points that an extent is taken from.
+const SAMPLES: usize = 1 << 16;
+
+/// What is seen of curves or points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seen {
+    /// Tubes and spheres.
+    Solid,
+    /// Ribbons and discs that face each ray.
+    Facing,
+}
+
+impl Blas {
+    /// Builds the tree of curves: centres and radii `points[n]`, and for each straight piece the number of its first point (the second one follows it) with
+    /// [`FIRST_PIECE`] and [`LAST_PIECE`].
+    ///
+    /// Pieces without a positive radius, or with a point that is missing, not finite or beyond 1e12 are left out. Runs in the current rayon pool.
+    pub fn of_curves(points: &[[f32; 4]], pieces: &[u32], seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+        assert!(pieces.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} pieces of curves");
+        let curves = Pieces { points, pieces };
+        let tree = build(&curves, &curves, care.effort(), cancel)?;
+        Ok(Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Tubes(leaves) } else { Smooth::Ribbons(leaves) }))
+    }
+
+    /// Builds the tree of points: centres and radii. Those without a positive radius, or not finite or beyond 1e12, are left out.
+    pub fn of_points(points: &[[f32; 4]], seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+        assert!(points.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} points");
+        let balls = Balls { points };
+        let tree = build(&balls, &balls, care.effort(), cancel)?;
+        Ok(Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Spheres(leaves) } else { Smooth::Discs(leaves) }))
+    }
+
+    fn smooth<L>(tree: WideTree<L>, leaves: impl FnOnce(Vec<L>) -> Smooth) -> Blas {
+        let WideTree { nodes, leaves: blocks, bounds, primitives } = tree;
+        let sah_cost = sah_cost(&nodes, &bounds);
+        let outline = outline(&nodes, bounds);
+        Blas { nodes, blocks: Vec::new(), smooth: leaves(blocks), outline, triangles: primitives, sah_cost }
+    }
+}
+
+/// The padded box of a sphere, if it has a place and a size that is not negative.
+#[inline(always)]
+fn ball_box(ball: &[f32; 4]) -> Option<Aabb> {
+    let (centre, radius) = (Vec3A::new(ball[0], ball[1], ball[2]), ball[3]);
+    let usable = centre.abs().cmple(Vec3A::splat(LARGEST_COORDINATE)).all() && (0.0..=LARGEST_COORDINATE).contains(&radius);
+    // Beside the rounding of coordinates that of the radius.
+    let pad = (centre.abs().max_element() + radius) * (2.0 * ROUNDING_PAD) + radius * 1e-5;
+    usable.then(|| Aabb::new(centre - (radius + pad), centre + (radius + pad)))
+}
+
+fn extent(points: &[[f32; 4]]) -> Aabb {
+    let step = points.len().div_ceil(SAMPLES).max(1);
+    points.iter().step_by(step).filter_map(ball_box).fold(Aabb::empty(), |all, b| all.union(&b))
+}
+
+struct Pieces<'a> {
+    points: &'a [[f32; 4]],
+    pieces: &'a [u32],
+}
+
+impl Pieces<'_> {
+    fn first(&self, piece: u32) -> usize {
+        (self.pieces[piece as usize] & !(FIRST_PIECE | LAST_PIECE)) as usize
+    }
+
+    fn is(&self, piece: u32, bit: u32) -> bool {
+        self.pieces[piece as usize] & bit != 0
+    }
+}
+
+impl Source for Pieces<'_> {
+    fn len(&self) -> usize {
+        self.pieces.len()
+    }
+
+    #[inline(always)]
+    fn bounds(&self, number: u32) -> Option<Aabb> {
+        let first = self.first(number);
+        let (a, b) = (self.points.get(first)?, self.points.get(first + 1)?);
+        let bounds = ball_box(a)?.union(&ball_box(b)?);
+        (a[3].max(b[3]) > 0.0).then_some(bounds)
+    }
+
+    fn extent(&self) -> Aabb {
+        extent(self.points)
+    }
+}
+
+impl LeafMaker for Pieces<'_> {
+    type Leaf = SegmentBlock;
+    const CAPACITY: u32 = 8;
+    const KIND: Kind = Kind::Smooth;
+    const COST: f32 = 2.0;
+
+    fn leaf(&self, primitives: &[u32]) -> SegmentBlock {
+        let mut block = SegmentBlock::EMPTY;
+        for (lane, &piece) in primitives.iter().enumerate() {
+            let first = self.first(piece);
+            let next = if self.is(piece, LAST_PIECE) { None } else { self.points.get(first + 2).copied() };
+            let segment = Segment { ends: [self.points[first], self.points[first + 1]], next, first: self.is(piece, FIRST_PIECE) };
+            block.set(lane, &segment, piece);
+        }
+        block
+    }
+}
+
+struct Balls<'a> {
+    points: &'a [[f32; 4]],
+}
+
+impl Source for Balls<'_> {
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    #[inline(always)]
+    fn bounds(&self, number: u32) -> Option<Aabb> {
+        let ball = &self.points[number as usize];
+        if ball[3] > 0.0 { ball_box(ball) } else { None }
+    }
+
+    fn extent(&self) -> Aabb {
+        extent(self.points)
+    }
+}
+
+impl LeafMaker for Balls<'_> {
+    type Leaf = PointBlock;
+    const CAPACITY: u32 = 8;
+    const KIND: Kind = Kind::Smooth;
+    const COST: f32 = 1.0;
+
+    fn leaf(&self, primitives: &[u32]) -> PointBlock {
+        let mut block = PointBlock::EMPTY;
+        for (lane, &point) in primitives.iter().enumerate() {
+            block.set(lane, self.points[point as usize], point);
+        }
+        block
+    }
+}

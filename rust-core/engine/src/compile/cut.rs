@@ -1,0 +1,273 @@
+//! Curves cut into straight pieces, and points, as the trees and the tables have them.
+
+use crate::{
+    error::Diagnostic,
+    geometry::{FIRST_PIECE, LAST_PIECE},
+    scene::{CurveBasis, CurveWrap, Curves, Points, Primvar, PrimvarInterpolation, Scene},
+};
+use rayon::prelude::*;
+
+/// Curves or points laid out.
+#[derive(Debug, Default)]
+pub(super) struct Cut {
+    /// Centres and radii, local units; a closed curve has copies of its ends beyond them.
+    pub(super) points: Vec<[f32; 4]>,
+    /// Of each piece of a curve its first point, with the bits of its ends; none for points.
+    pub(super) pieces: Vec<u32>,
+    /// Where each point of curves lies.
+    pub(super) places: Vec<Place>,
+}
+
+/// A place on a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) curve: u32,
+    /// Span of the curve, and how far along it.
+    pub(super) span: u32,
+    pub(super) t: f32,
+}
+
+/// Where a curve's elements begin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CurveStart {
+    pub(super) point: usize,
+    pub(super) joint: usize,
+    pub(super) count: usize,
+}
+
+/// All curves and behind them all points of a scene.
+pub(super) fn cut_all(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Vec<Cut> {
+    let mut cuts = Vec::with_capacity(scene.curves.len() + scene.points.len());
+    cuts.extend(scene.curves.iter().map(|curves| cut_curves(curves, diagnostics)));
+    cuts.extend(scene.points.iter().map(|points| cut_points(points, diagnostics)));
+    cuts
+}
+
+/// The control points of a span with their weights.
+type Weights = [(usize, f32); 4];
+
+/// What a value is at `t` of span `span` of a curve of `count` points, as weights of its points.
+pub(super) fn weights(basis: CurveBasis, wrap: CurveWrap, count: usize, span: usize, t: f32) -> Weights {
+    let s = 1.0 - t;
+    let at = |i: usize| i % count.max(1);
+    match basis {
+        CurveBasis::Linear => [(at(span), s), (at(span + 1), t), (0, 0.0), (0, 0.0)],
+        CurveBasis::Bezier => {
+            let w = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+            [0, 1, 2, 3].map(|k| (at(3 * span + k), w[k]))
+        }
+        CurveBasis::BSpline => {
+            let w = [s * s * s, 3.0 * t * t * t - 6.0 * t * t + 4.0, 3.0 * s * s * s - 6.0 * s * s + 4.0, t * t * t];
+            spline(wrap, count, span, w.map(|w| w / 6.0))
+        }
+        CurveBasis::CatmullRom => {
+            let w = [-t * s * s, 2.0 - 5.0 * t * t + 3.0 * t * t * t, 2.0 - 5.0 * s * s + 3.0 * s * s * s, -s * t * t];
+            spline(wrap, count, span, w.map(|w| 0.5 * w))
+        }
+    }
+}
+
+/// The points that steer a span of a spline: pinned ones have a mirrored point beyond each end.
+fn spline(wrap: CurveWrap, count: usize, span: usize, mut w: [f32; 4]) -> Weights {
+    if wrap != CurveWrap::Pinned {
+        return [0, 1, 2, 3].map(|k| ((span + k) % count.max(1), w[k]));
+    }
+    let mut points = [span.wrapping_sub(1), span, span + 1, span + 2];
+    if span == 0 {
+        // 2 a − b in place of the point before.
+        (w[1], w[2], w[0], points[0]) = (w[1] + 2.0 * w[0], w[2] - w[0], 0.0, 0);
+    }
+    if span + 2 >= count {
+        (w[2], w[1], w[3], points[3]) = (w[2] + 2.0 * w[3], w[1] - w[3], 0.0, 0);
+    }
+    [0, 1, 2, 3].map(|k| (points[k], w[k]))
+}
+
+/// Where the curves begin; those beyond the points that there are have none.
+pub(super) fn starts(curves: &Curves) -> Vec<CurveStart> {
+    let (mut point, mut joint) = (0, 0);
+    let mut starts = Vec::with_capacity(curves.counts.len());
+    for count in curves.counts.iter().map(|count| *count as usize) {
+        let there = if point + count <= curves.points.len() { count } else { 0 };
+        starts.push(CurveStart { point, joint, count: there });
+        point += count;
+        joint += curves.basis.spans(count, curves.wrap)[1];
+    }
+    starts
+}
+
+impl Place {
+    /// First float of the values there of a primvar, and their weights; none where a value is missing.
+    pub(super) fn values(&self, curves: &Curves, start: &CurveStart, primvar: &Primvar) -> [(usize, f32); 4] {
+        let elements = match primvar.interpolation {
+            PrimvarInterpolation::Constant => [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)],
+            PrimvarInterpolation::Uniform => [(self.curve as usize, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)],
+            PrimvarInterpolation::Varying => {
+                let [_, joints] = curves.basis.spans(start.count, curves.wrap);
+                let next = (self.span as usize + 1) % joints.max(1);
+                [(start.joint + self.span as usize, 1.0 - self.t), (start.joint + next, self.t), (0, 0.0), (0, 0.0)]
+            }
+            PrimvarInterpolation::Vertex | PrimvarInterpolation::FaceVarying => {
+                let weights = weights(curves.basis, curves.wrap, start.count, self.span as usize, self.t);
+                weights.map(|(point, weight)| (start.point + point, weight))
+            }
+        };
+        elements.map(|(element, weight)| (place_of(primvar, element), weight))
+    }
+}
+
+/// First float of an element's value.
+pub(super) fn place_of(primvar: &Primvar, element: usize) -> usize {
+    let number = primvar.indices.as_ref().map_or(element, |indices| indices.get(element).map_or(usize::MAX, |i| *i as usize));
+    number.saturating_mul(usize::from(primvar.components))
+}
+
+/// The sum of weighted values of one component.
+pub(super) fn sum(primvar: &Primvar, values: &[(usize, f32); 4], component: usize) -> f32 {
+    let value = |(at, weight): &(usize, f32)| primvar.values.get(at.saturating_add(component)).map_or(0.0, |value| value * weight);
+    values.iter().filter(|(_, weight)| *weight != 0.0).map(value).sum()
+}
+
+/// Most and fewest pieces of a span of a spline.
+const PIECES: [f32; 2] = [1.0, 16.0];
+/// A piece may leave the curve by this share of the radius.
+const MOST_ERROR: f32 = 0.1;
+
+/// One curve while it is cut.
+struct Cutter<'a> {
+    curves: &'a Curves,
+    start: CurveStart,
+    number: u32,
+}
+
+impl Cutter<'_> {
+    /// Centre and radius at a place; the radius as it was asked for.
+    fn at(&self, span: usize, t: f32) -> [f32; 4] {
+        let Curves { points, basis, wrap, .. } = self.curves;
+        let mut sum = [0.0; 4];
+        for (point, weight) in weights(*basis, *wrap, self.start.count, span, t) {
+            // A weight of zero drops what is not finite elsewhere.
+            if weight != 0.0 {
+                let point = points[self.start.point + point];
+                (0..3).for_each(|k| sum[k] += weight * point[k]);
+            }
+        }
+        let place = self.place(span, t);
+        sum[3] = 0.5 * self::sum(&self.curves.widths, &place.values(self.curves, &self.start, &self.curves.widths), 0);
+        sum
+    }
+
+    fn place(&self, span: usize, t: f32) -> Place {
+        Place { curve: self.number, span: span as u32, t }
+    }
+
+    /// Pieces of a span: as many as its bend asks for.
+    fn pieces(&self, span: usize) -> usize {
+        if self.curves.basis == CurveBasis::Linear {
+            return 1;
+        }
+        let [a, p, q, r, b] = [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| self.at(span, t));
+        let off = |x: [f32; 4], t: f32| (0..4).map(|k| (x[k] - (a[k] + (b[k] - a[k]) * t)).powi(2)).sum::<f32>().sqrt();
+        // A parabola is off most in the middle, and three quarters of that at the quarters.
+        let off = (off(p, 0.25) / 0.75).max(off(q, 0.5)).max(off(r, 0.75) / 0.75);
+        let chord = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f32>().sqrt();
+        let allowed = MOST_ERROR * a[3].max(b[3]).max(0.0) + 1e-3 * chord;
+        let pieces = (off / allowed.max(f32::MIN_POSITIVE)).sqrt().ceil();
+        if pieces.is_finite() { pieces.clamp(PIECES[0], PIECES[1]) as usize } else { 1 }
+    }
+
+    /// Appends the curve.
+    fn cut(&self, out: &mut Cut) {
+        let [spans, _] = self.curves.basis.spans(self.start.count, self.curves.wrap);
+        let mut own: Vec<([f32; 4], Place)> = Vec::new();
+        for span in 0..spans {
+            let pieces = self.pieces(span);
+            let first = usize::from(span > 0);
+            own.extend((first..=pieces).map(|i| i as f32 / pieces as f32).map(|t| (self.at(span, t), self.place(span, t))));
+        }
+        // Points that do not move on would be pieces without a direction.
+        own.dedup_by(|next, kept| next.0[..3] == kept.0[..3]);
+        if own.len() < 2 {
+            return;
+        }
+        let closed = self.curves.wrap == CurveWrap::Periodic;
+        let mut first = out.points.len() as u32;
+        let pieces = own.len() as u32 - 1;
+        if closed && own.len() > 3 {
+            let (before, after) = (own[own.len() - 2], own[1]);
+            own.insert(0, before);
+            own.push(after);
+            first += 1;
+            out.pieces.extend(first..first + pieces);
+        } else {
+            let bits = |i: u32| if i == 0 { FIRST_PIECE } else { 0 } | if i == pieces - 1 { LAST_PIECE } else { 0 };
+            out.pieces.extend((0..pieces).map(|i| (first + i) | bits(i)));
+        }
+        out.points.extend(own.iter().map(|(point, _)| *point));
+        out.places.extend(own.iter().map(|(_, place)| *place));
+    }
+}
+
+/// Curves that are cut as one task.
+const TASK: usize = 4096;
+
+fn cut_curves(curves: &Curves, diagnostics: &mut Vec<Diagnostic>) -> Cut {
+    let starts = starts(curves);
+    let numbers: Vec<u32> = (0..starts.len() as u32).collect();
+    let parts: Vec<Cut> = numbers
+        .par_chunks(TASK)
+        .map(|numbers| {
+            let mut part = Cut::default();
+            for number in numbers {
+                Cutter { curves, start: starts[*number as usize], number: *number }.cut(&mut part);
+            }
+            part
+        })
+        .collect();
+    let mut cut = Cut::default();
+    for part in parts {
+        let first = cut.points.len() as u32;
+        cut.points.extend(part.points);
+        cut.places.extend(part.places);
+        cut.pieces.extend(part.pieces.iter().map(|piece| piece + first));
+    }
+    let short = starts.iter().filter(|start| curves.basis.spans(start.count, curves.wrap)[0] == 0).count();
+    let sum: u64 = curves.counts.iter().map(|count| u64::from(*count)).sum();
+    let mut tell = |message: String| diagnostics.push(Diagnostic::warning(&curves.origin, message));
+    if sum != curves.points.len() as u64 {
+        tell(format!("the curves have {sum} points by their counts, {} were found; curves beyond them are left out", curves.points.len()));
+    } else if short > 0 {
+        tell(format!("{short} of {} curves have too few points for a {:?} curve; they are left out", starts.len(), curves.basis));
+    }
+    report_sizes(&mut cut.points, &mut tell);
+    cut
+}
+
+fn cut_points(points: &Points, diagnostics: &mut Vec<Diagnostic>) -> Cut {
+    let radius = |i: usize| {
+        let element =
+            if matches!(points.widths.interpolation, PrimvarInterpolation::Vertex | PrimvarInterpolation::Varying) { i } else { 0 };
+        0.5 * points.widths.values.get(place_of(&points.widths, element)).copied().unwrap_or(0.0)
+    };
+    let placed = |(i, point): (usize, &[f32; 3])| [point[0], point[1], point[2], radius(i)];
+    let mut cut = Cut { points: points.points.par_iter().enumerate().map(placed).collect(), ..Cut::default() };
+    report_sizes(&mut cut.points, &mut |message| diagnostics.push(Diagnostic::warning(&points.origin, message)));
+    cut
+}
+
+/// Says which places and widths make no sense; those widths become zero.
+fn report_sizes(points: &mut [[f32; 4]], tell: &mut dyn FnMut(String)) {
+    let lost = points.iter().filter(|point| !point[..3].iter().all(|x| x.abs() <= 1e12)).count();
+    let odd = points.iter().filter(|point| !(0.0..=1e12).contains(&point[3])).count();
+    let thin = points.iter().filter(|point| point[3] == 0.0).count();
+    let all = points.len();
+    if lost > 0 {
+        tell(format!("{lost} of {all} places are not finite or lie beyond 1e12; what is there is left out"));
+    }
+    if odd > 0 {
+        tell(format!("widths are negative, too large or not a number at {odd} of {all} places; they count as 0"));
+        points.iter_mut().filter(|point| !(0.0..=1e12).contains(&point[3])).for_each(|point| point[3] = 0.0);
+    } else if thin == all && all > 0 {
+        tell("all widths are 0, so that nothing is seen".to_owned());
+    }
+}
