@@ -28,8 +28,8 @@ def _untold(what, instead):
 
 
 OBJECTS = {
-    "hair strands": Limit("Hair strands of particle systems", "left out"),
-    "kind of object": Limit("Hair curves, point clouds, volumes, grease pencil", "left out"),
+    "kind of object": Limit("Volumes, grease pencil", "left out"),
+    "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
     "light linking": Limit("Light linking and shadow linking", "every light lights everything, and everything blocks it"),
     "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
     "adaptive subdivision": Limit("Adaptive subdivision", "as many levels as the modifier states"),
@@ -105,7 +105,11 @@ MATERIALS = {
     "displacement": Limit("Displacement that moves the surface", "its normals bend, and its shape stays"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
-    "closure": Limit("Hair and other shaders that are named in the report", "a diffuse surface of its colour"),
+    "huang": _quietly("Principled Hair BSDF: Huang's model", "Chiang's model of the same colour and roughness; a round section"),
+    "strands on meshes": _untold(
+        "Shaders of hair on meshes: along the first edge of each triangle, as in Cycles", "along the first texture coordinate"
+    ),
+    "closure": Limit("Other shaders that are named in the report", "a diffuse surface of its colour"),
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
     "blurred bevel": _untold("Bevel in blurred reflections of glossy surfaces", "edges are rounded there too"),
     "distribution": Limit("Distributions of microfacets beyond GGX, Beckmann and Ashikhmin-Shirley", "GGX"),

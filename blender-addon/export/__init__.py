@@ -6,6 +6,8 @@ import gonio
 from . import camera, collecting, limits, motion, settings, view, world
 from .changes import Changes, touched
 from .gather import Walk, fill_random
+from .fibres import KINDS as FIBRES
+from .fibres import Fibres
 from .given import fill_given, is_given
 from .images import Images
 from .instancer import PREFIX as INSTANCER
@@ -34,6 +36,7 @@ class Exporter:
         self._measured = Slots()
         self._materials = Materials(self.scene, Slots(), self._images, Measurements(self.scene, self._measured), report)
         self._meshes = Meshes(self.scene, Slots(), report)
+        self._fibres = Fibres(self.scene, report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
         self._camera, self._follows_view, self._synced = None, False, False
@@ -98,6 +101,7 @@ class Exporter:
             return changes
         if found.geometry:
             self._meshes.forget(found.geometry)
+            self._fibres.forget(found.geometry)
         if found.every_material:
             self._materials.forget_all()
         for uid in found.materials:
@@ -165,6 +169,7 @@ class Exporter:
     def _placements(self, depsgraph, changes, keep_known):
         """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
         self._meshes.begin(keep_known)
+        self._fibres.begin(keep_known)
         self._materials.begin(self._surroundings(depsgraph))
         # All objects are looked at anew.
         self.report.forget_all("Object")
@@ -176,11 +181,11 @@ class Exporter:
                 limits.of_object(group, self.report)
                 if group.kind != "LIGHT":
                     materials = self._materials.of_slots(group.slots, walk.materials, override)
-                    mesh = self._meshes.number(group, materials.primvars)
-                    if mesh is not None:
-                        entries.append((group, mesh, materials.numbers, materials.placed))
+                    for shown, numbers in self._surfaces(group, materials, depsgraph):
+                        entries.append((group, shown, numbers, materials.placed))
                         keys.append(key)
-                        self._primvars[key] = materials.primvars
+                        if shown[0] == "mesh":
+                            self._primvars[key] = materials.primvars
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)
@@ -191,9 +196,19 @@ class Exporter:
         lamps = [(group, key) for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True) if group.kind == "LIGHT"]
         self._lights.lamps([group for group, _ in lamps], [key for _, key in lamps])
         self._meshes.sweep()
-        changes.geometry |= self._meshes.any_written
+        self._fibres.sweep()
+        changes.geometry |= self._meshes.any_written or self._fibres.any_written
         changes.shading |= self._materials.any_written
         changes.transforms |= self._instances.any_written
+
+    def _surfaces(self, group, materials, depsgraph):
+        """What a group shows: kinds of surfaces with their numbers, and the materials of each."""
+        if group.kind not in FIBRES:
+            mesh = self._meshes.number(group, materials.primvars)
+            return [] if mesh is None else [(("mesh", mesh), materials.numbers)]
+        last = len(materials.numbers) - 1
+        shown = self._fibres.of_group(group, materials.primvars, depsgraph)
+        return [(place, [materials.numbers[min(max(slot or 0, 0), last)]]) for place, slot in shown]
 
     def _scene_camera(self, depsgraph, size=None):
         """The scene's camera, unless a 3D view was set; gives whether it differs."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One walk over everything that the depsgraph shows: placements grouped by what is placed."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -13,6 +13,8 @@ from .visibility import Visibility, combined, is_ordinary
 # Objects whose surface Blender turns into a mesh on demand.
 AS_MESH = {"CURVE", "SURFACE", "FONT", "META"}
 # Kinds of object that show nothing by themselves.
+# The kind of groups that are the hair of particle systems.
+HAIR = "HAIR"
 SILENT = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
 
 
@@ -39,6 +41,8 @@ class Group:
     random: np.ndarray | None = None
     # What the instancer gives each placement, by name.
     instancer: dict = field(default_factory=dict)
+    # The group of the hair of its particle systems, if there is any.
+    hair: "Group | None" = None
 
 
 class Walk:
@@ -50,8 +54,9 @@ class Walk:
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
             count = row + 1
-            # Instancers may be hidden themselves.
-            if not item.show_self or (part is not None and not part.shows(item)):
+            # Instancers may be hidden themselves, and their hair may be seen.
+            is_shown = item.show_self
+            if not (is_shown or item.show_particles) or (part is not None and not part.shows(item)):
                 continue
             thing = item.object
             original, data = thing.original, thing.data
@@ -60,15 +65,31 @@ class Walk:
                 parents = _special_parents(depsgraph, self._visibility) if parents is None else parents
                 if (uid := item.parent.original.session_uid) in parents:
                     key, parent = (*key, uid), parents[uid]
+            if not is_shown:
+                key = (*key, HAIR)
             group = groups.get(key, self)
             if group is self:
                 groups[key] = None
                 with report.guard("Object", original.name, "it is left out"):
-                    groups[key] = self._group(item, thing, original, data, parent, row)
+                    groups[key] = self._shown(item, thing, original, data, parent, row)
             elif group is not None:
                 group.rows.append(row)
-        self.groups = _once([group for group in groups.values() if group is not None])
+                if group.hair is not None:
+                    group.hair.rows.append(row)
+        shown = [group for group in groups.values() if group is not None]
+        self.groups = _once(shown) + [group.hair for group in shown if group.hair is not None]
         _fill(depsgraph, self.groups, count, part)
+
+    def _shown(self, item, thing, original, data, parent, row):
+        """The group of a thing, with that of its hair, or the latter alone."""
+        group = self._group(item, thing, original, data, parent, row)
+        has_hair = group is not None and item.show_particles and len(thing.particle_systems) > 0
+        hair = replace(group, kind=HAIR, rows=list(group.rows)) if has_hair else None
+        if not item.show_self:
+            return hair
+        if hair is not None:
+            group.hair = hair
+        return group
 
     def _group(self, item, thing, original, data, parent, row):
         kind = thing.type

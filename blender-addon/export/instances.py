@@ -21,7 +21,8 @@ NO_VALUES = {}
 class Entry:
     """What the scene was told of one group."""
 
-    mesh: int
+    # Mesh, curves or points, and their number.
+    shown: tuple
     materials: list
     name: str
     visibility: dict
@@ -36,7 +37,7 @@ class Entry:
     def is_like(self, other):
         """Whether another entry tells the scene the same."""
         return (
-            self.mesh == other.mesh
+            self.shown == other.shown
             and self.materials == other.materials
             and self.name == other.name
             and self.visibility == other.visibility
@@ -66,7 +67,8 @@ class Instances:
         self._single = {}
 
     def write(self, entries, keys=()):
-        """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there; `keys` name their groups."""
+        """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
+        name their groups."""
         self.any_written, self._single, number, self._sources = False, {}, 0, []
         for entry, key in zip(entries, keys or [None] * len(entries), strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
@@ -79,7 +81,7 @@ class Instances:
             self._scene.truncate("instances", number)
             del self._written[number:]
 
-    def _write(self, number, group, mesh, materials, wanted):
+    def _write(self, number, group, shown, materials, wanted):
         """Puts one entry; gives how many it became, 0 or 1."""
         is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
         self._single[group.object_uid] = None
@@ -87,7 +89,7 @@ class Instances:
             return 0
         values = _values(group, wanted) if wanted else NO_VALUES
         of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
-        self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
+        self._put(number, Entry(shown, materials, *of_group, wanted, group.matrices, values))
         if is_single:
             self._single[group.object_uid] = number
         return 1
@@ -124,9 +126,9 @@ class Instances:
         for number, (key, shares) in enumerate(self._sources):
             entry = self._written[number]
             motion = moved(key, entry.transforms, shares, places)
-            mesh = meshes.get(key, entry.mesh)
-            if motion is not None or mesh != entry.mesh:
-                self._put(number, replace(entry, motion=motion, mesh=mesh))
+            shown = ("mesh", meshes[key]) if key in meshes and entry.shown[0] == "mesh" else entry.shown
+            if motion is not None or shown != entry.shown:
+                self._put(number, replace(entry, motion=motion, shown=shown))
 
     def _leave_out(self, group):
         """Takes the placements away that cannot be shown, with a report line; gives whether any are left."""
@@ -147,8 +149,9 @@ class Instances:
             self._written[number] = entry
             return
         self.any_written = True
+        kind, shown = entry.shown
         self._scene.put_instances(
-            entry.mesh,
+            shown if kind == "mesh" else None,
             entry.materials,
             entry.transforms,
             motion=entry.motion,
@@ -158,6 +161,7 @@ class Instances:
             pass_index=entry.pass_index,
             light_group=entry.light_group,
             index=number if known else None,
+            **({} if kind == "mesh" else {kind: shown}),
         )
         if known:
             self._written[number] = entry

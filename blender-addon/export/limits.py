@@ -3,7 +3,7 @@
 
 from functools import lru_cache
 
-from .gather import AS_MESH
+from .gather import AS_MESH, HAIR
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
@@ -42,6 +42,8 @@ MATERIAL = (
     ("opaque shadows", "use_transparent_shadow", (True,), ""),
     ("bump correction", "cycles.use_bump_map_correction", (True,), ""),
 )
+# Kinds of objects that are shown, beside those that become meshes.
+SHOWN = {"MESH", "CURVES", "POINTCLOUD"}
 # Switches of passes that mean no pass that could be missing.
 NO_PASSES = {"use_pass_cryptomatte_accurate"}
 # Passes whose switches are named otherwise.
@@ -74,23 +76,22 @@ def of_material(material, report):
 
 
 def of_object(group, report):
-    """Settings of an object, or of its lamp, that have no effect."""
+    """Settings of an object, or of its lamp, that have no effect; hair has its object's."""
+    if group.kind == HAIR:
+        return
     source, name = group.source.original, group.name
     _tell("Object", source, OBJECT, report, name)
     if group.kind == "LIGHT":
         _tell("Light", source.data, LIGHT, report)
         if not source.is_shadow_catcher:
             report.tell("catcher's lamp", "Object", name)
-    elif group.kind != "MESH" and group.kind not in AS_MESH:
+    elif group.kind not in SHOWN and group.kind not in AS_MESH:
         report.tell("kind of object", "Object", name, f"{KINDS.get(group.kind, group.kind.capitalize())} objects")
     if any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in source.modifiers):
         report.tell("adaptive subdivision", "Object", name)
-    for system in source.particle_systems:
-        if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
-            report.tell("hair strands", "Object", name, f"Hair strands ({system.name})")
 
 
-KINDS = {"CURVES": "Hair curves", "POINTCLOUD": "Point cloud", "GREASEPENCIL": "Grease pencil", "GPENCIL": "Grease pencil"}
+KINDS = {"GREASEPENCIL": "Grease pencil", "GPENCIL": "Grease pencil"}
 
 
 def _tell(kind, owner, settings, report, name=""):

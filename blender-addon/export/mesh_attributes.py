@@ -82,6 +82,12 @@ def _part(values, name):
     return values[:, 3:] if width > 3 else np.ones((len(values), 1), dtype=np.float32)
 
 
+def part_of_attribute(attributes, name):
+    """What a name asks for of attributes that are of points or curves; None if they have no such."""
+    attribute = attributes.get(name) or attributes.get(name.removeprefix(FACTOR).removeprefix(ALPHA))
+    return None if attribute is None else _part(read(attribute), name)
+
+
 def _placed(mesh, attribute, values, spread):
     """Values of points or corners; those of faces are given to their corners, whose number cannot be mistaken, those of edges to points."""
     if attribute.domain == "EDGE":

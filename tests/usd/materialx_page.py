@@ -30,9 +30,6 @@ ABSENT = {
     "flake3d": "no kernel",
     "hextilednormalmap": "no kernel",
     "blur": "the input as it is",
-    **dict.fromkeys(
-        ["deon_hair_absorption_from_melanin", "chiang_hair_absorption_from_color", "chiang_hair_roughness"], "comes with hair"
-    ),
 }
 
 

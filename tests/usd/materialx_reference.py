@@ -323,3 +323,24 @@ def blackbody(v, *_):
     y = np.where(kelvin < 2222, red, np.where(kelvin < 4000, warm, cold))
     xyz = stacked([x / y, np.ones_like(x), (1 - x - y) / y])
     return np.maximum(xyz @ np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]]).T, 0)
+
+
+@primitive("chiang_hair_roughness")
+def chiang_hair_roughness(v, _, output):
+    along, about = np.clip(v["longitudinal"], 1e-3, 1), np.clip(v["azimuthal"], 1e-3, 1)
+    variance = (0.726 * along + 0.812 * along**2 + 3.7 * along**20) ** 2
+    scale = {"roughness_R": 1.0, "roughness_TT": v["scale_TT"], "roughness_TRT": v["scale_TRT"]}[output]
+    return stacked([variance * scale**2, 0.265 * about + 1.194 * about**2 + 5.372 * about**22])
+
+
+@primitive("deon_hair_absorption_from_melanin")
+def deon_hair_absorption_from_melanin(v, *_):
+    amount = -np.log(np.maximum(1 - v["melanin_concentration"], 1e-4))
+    brown, red = amount * (1 - v["melanin_redness"]), amount * v["melanin_redness"]
+    return np.maximum(brown * -np.log(v["eumelanin_color"]) + red * -np.log(v["pheomelanin_color"]), 0)
+
+
+@primitive("chiang_hair_absorption_from_color")
+def chiang_hair_absorption_from_color(v, *_):
+    scale = np.polyval([0.245, 5.574, -10.73, 2.532, -0.215, 5.969], v["azimuthal_roughness"])
+    return (np.log(np.clip(v["color"], 1e-3, 1)) / scale) ** 2

@@ -50,7 +50,7 @@ LEFT_OUT = {
     "time", "frame",
     "transformpoint", "transformvector", "transformnormal", "normalmap", "bump", "heighttonormal", "blur", "tiledcircles",
     "tiledcloverleafs",
-    "tiledhexagons", "deon_hair_absorption_from_melanin", "chiang_hair_absorption_from_color", "chiang_hair_roughness", "gooch_shade",
+    "tiledhexagons", "gooch_shade",
 }  # fmt: skip
 
 

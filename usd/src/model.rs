@@ -3,7 +3,7 @@
 //! The world is a model, and so is each prototype of native instances and of point instancers: read once, placed often.
 
 use crate::options::Purpose;
-use gonio::scene::{MaterialId, MeshId, Transform};
+use gonio::scene::{Geometry, MaterialId, MeshId, Transform};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
@@ -23,16 +23,16 @@ pub struct Inherited {
 /// Materials that are filled in when they are known.
 pub type Slots = Rc<OnceCell<Vec<MaterialId>>>;
 
-/// A mesh with its materials.
+/// A mesh, curves or points with their materials.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// The mesh.
-    pub mesh: MeshId,
+    /// What is shown.
+    pub geometry: Geometry,
     /// The material of each slot, known when the whole stage has been walked; empty where no binding is authored at or above the prim.
     pub slots: Slots,
     /// The prim that each slot's binding is looked up at: the mesh, then its subsets. Empty where no binding counts.
     pub slot_prims: Vec<String>,
-    /// Whether the mesh has displayOpacity itself.
+    /// Whether it has displayOpacity itself.
     pub has_opacity: bool,
     /// Whether MeshLightAPI or its like makes it a light.
     pub is_light: bool,

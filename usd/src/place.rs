@@ -7,7 +7,9 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
-use gonio::scene::{Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
+use gonio::scene::{
+    Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+};
 use gonio::{Error, Result};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -46,8 +48,8 @@ impl Placement {
     }
 }
 
-/// Instances that share a mesh, materials, the names of their values and a light group.
-type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>, String);
+/// Instances that share geometry, materials, the names of their values and a light group.
+type Key = (Geometry, Vec<MaterialId>, Vec<(String, usize)>, String);
 
 /// Instances under construction: the values of all placements, one after the other, for each name of the key.
 #[derive(Debug)]
@@ -145,18 +147,18 @@ impl<'py> Placer<'_, '_, 'py> {
     }
 
     fn shape(&mut self, element: &Element, shape: &Shape, placement: &Placement) -> Result<()> {
-        if self.failed.contains(&shape.mesh) {
+        if shape.geometry.mesh().is_some_and(|mesh| self.failed.contains(&mesh)) {
             return Ok(());
         }
         self.count(element, placement.transforms.len())?;
-        let mesh = &self.context.scene.meshes[shape.mesh.index()];
+        let scene = &self.context.scene;
         let inherited = primvar::merged(&element.primvars, &placement.primvars);
-        let primvars: Vec<Inherited> = inherited.iter().filter(|value| mesh.primvar(&value.name).is_none()).cloned().collect();
+        let primvars: Vec<Inherited> = inherited.iter().filter(|value| !has_primvar(scene, shape.geometry, &value.name)).cloned().collect();
         let transforms = self.transforms(element, placement);
         let materials = self.materials(element, shape, placement, &primvars, &transforms);
         let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
         let group = self.light_group(element, placement, &materials);
-        let key = (shape.mesh, materials, names, group);
+        let key = (shape.geometry, materials, names, group);
         let place = match self.places.get(&key) {
             Some(place) => *place,
             None => self.new_set(element, &key, placement),
@@ -184,7 +186,7 @@ impl<'py> Placer<'_, '_, 'py> {
         let place = self.gathered.len();
         let instances = Instances {
             origin: Origin::new(placement.path(&element.path)),
-            geometry: key.0.into(),
+            geometry: key.0,
             materials: key.1.clone(),
             transforms: Vec::new(),
             motion: Vec::new(),
@@ -214,7 +216,7 @@ impl<'py> Placer<'_, '_, 'py> {
         let bound = rebound.or_else(|| shape.slots.get().cloned());
         let mut materials = bound.unwrap_or_else(|| vec![material::fallback(self.context, has_opacity); shape.slot_prims.len()]);
         if shape.is_light {
-            let area = transforms.first().map(|transform| self.area(shape.mesh, transform));
+            let area = shape.geometry.mesh().zip(transforms.first()).map(|(mesh, transform)| self.area(mesh, transform));
             materials.iter_mut().for_each(|material| *material = self.glowing(&element.path, *material, area));
         }
         materials
@@ -283,6 +285,15 @@ impl<'py> Placer<'_, '_, 'py> {
         });
         context.scene.instances = instances.collect();
         drop_meshes(context, &failed);
+    }
+}
+
+/// Whether geometry has a primvar of a name itself.
+fn has_primvar(scene: &Scene, geometry: Geometry, name: &str) -> bool {
+    match geometry {
+        Geometry::Mesh(mesh) => scene.meshes[mesh.index()].primvar(name).is_some(),
+        Geometry::Curves { curves } => scene.curves[curves.index()].primvar(name).is_some(),
+        Geometry::Points { points } => scene.points[points.index()].primvar(name).is_some(),
     }
 }
 

@@ -37,14 +37,24 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -
     Some(primvar)
 }
 
+/// The diameters of curves and points: `primvars:widths` goes before `widths`.
+pub fn widths<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<FacePrimvar> {
+    of_either_name(context, prim, "widths")
+}
+
+/// A value that may stand among the primvars or by itself, there of points unless it says otherwise.
+fn of_either_name<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> Option<FacePrimvar> {
+    let found = if prim.has_authored(&format!("{PREFIX}{name}")) { read(context, prim, name) } else { None };
+    found.or_else(|| {
+        let attribute = if prim.has_authored(name) { prim.attribute(name)? } else { return None };
+        let interpolation = interpolation(context, prim, &attribute, Interpolation::Vertex);
+        from_attribute(context, &attribute, name, interpolation)
+    })
+}
+
 /// The normals: `primvars:normals` goes before `normals`.
 pub fn normals<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<FacePrimvar> {
-    let found = if prim.has_authored("primvars:normals") { read(context, prim, "normals") } else { None };
-    let found = found.or_else(|| {
-        let attribute = if prim.has_authored("normals") { prim.attribute("normals")? } else { return None };
-        let interpolation = interpolation(context, prim, &attribute, Interpolation::Vertex);
-        from_attribute(context, &attribute, "normals", interpolation)
-    })?;
+    let found = of_either_name(context, prim, "normals")?;
     if found.components == 3 {
         return Some(found);
     }

@@ -165,7 +165,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             return Ok(());
         }
         // Surfaces have no surfaces below them: their primvars need not be read again.
-        let is_surface = matches!(kind, PrimKind::Mesh | PrimKind::Quadric | PrimKind::Unsupported);
+        let is_surface = matches!(kind, PrimKind::Mesh | PrimKind::Quadric | PrimKind::Curves | PrimKind::Points | PrimKind::Unsupported);
         let handed_down = if is_surface { branch.primvars.clone() } else { primvar::handed_down(self.context, prim, &branch.primvars) };
         let below = Rc::new(Branch { primvars: handed_down, ..branch });
         let children = self.children(prim, predicate, &below);
@@ -195,6 +195,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         match kind {
             PrimKind::Mesh => self.mesh(prim, branch, model)?,
             PrimKind::Quadric => self.quadric(prim, type_name, branch, model)?,
+            PrimKind::Curves => self.curves(prim, type_name, branch, model),
+            PrimKind::Points => self.points(prim, branch, model),
             PrimKind::Instancer => self.point_instancer(prim, branch, model)?,
             PrimKind::Light => push(model, prim, branch, Kind::Light),
             PrimKind::Camera => push(model, prim, branch, Kind::Camera),

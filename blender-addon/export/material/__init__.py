@@ -12,6 +12,7 @@ from . import (  # noqa: F401 (they register their nodes)
     camera_nodes,
     closures,
     colour,
+    hair,
     info_nodes,
     inputs,
     light_nodes,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the Object, Particle, Curves, Point and Volume Info nodes know of a placement; the last three know nothing of meshes."""
+"""What the Object, Particle, Point and Volume Info nodes know of a placement; the last two know nothing of meshes."""
 
 from .inputs import COLOUR, INDEX, LOCATION, PARTICLE, RANDOM
 from .translator import value_node
@@ -24,7 +24,7 @@ def particle_info(t, node, context, output):
     return t.instance_primvar(PARTICLE + output.identifier, kind) if t.kind == "Material" else t.graph.scalar(0.0)
 
 
-@value_node("ShaderNodeHairInfo", "ShaderNodePointInfo", "ShaderNodeVolumeInfo")
+@value_node("ShaderNodePointInfo", "ShaderNodeVolumeInfo")
 def of_no_mesh(t, node, context, output):
-    """As in Cycles zero on whatever is no curve, point or volume."""
+    """As in Cycles zero on whatever is no point or volume."""
     return t.graph.scalar(0.0)

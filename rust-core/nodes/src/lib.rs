@@ -16,6 +16,7 @@ mod fold;
 mod fractal;
 mod gabor;
 mod graph;
+mod hair;
 pub mod hash;
 mod magic;
 mod mx_noise;

@@ -10,6 +10,7 @@ use crate::{
     brick::BrickTexture,
     columns::Io,
     gabor::GaborTexture,
+    hair,
     magic::MagicTexture,
     mx_noise::{MxFractal, MxNoise},
     mx_worley::{MxCellNoise, MxWorley},
@@ -266,6 +267,10 @@ operations! {
         Wavelength<light: Wavelength>(l, wavelength: 1) -> 3, Zero = light.evaluate(l, &wavelength);
         /// The linear Rec.709 colour of a black body of a temperature in kelvin, as Blender's Blackbody node has it.
         Blackbody(l, temperature: 1) -> 3, Zero = blackbody::Blackbody.evaluate(l, &temperature);
+        /// Variance along a fibre and width about it of roughnesses 0 to 1, as Chiang's hair model maps them.
+        HairRoughness(l, longitudinal: 1, azimuthal: 1) -> 2, Zero = hair::roughness(longitudinal[0], azimuthal[0]);
+        /// The absorption coefficient with which much hair has a colour, for the roughness about it.
+        HairAbsorption(l, color: 3, azimuthal: 1) -> 3, Zero = hair::absorption(color, azimuthal[0]);
         /// MaterialX's gradient noise, about in [-1, 1].
         MxNoise<noise: MxNoise>(l, texcoord: 3) -> 4, Zero = noise.evaluate(l, &texcoord);
         /// MaterialX's fractal of that noise.

@@ -38,6 +38,12 @@ pub enum Model {
     DiffuseToon,
     /// A cone of even brightness about the mirror direction.
     GlossyToon,
+    /// A hair or fibre along the tangent (Chiang et al. 2016): the parameters `hair_*` and `specular_ior`.
+    Hair,
+    /// What a fibre reflects as one lobe about its tangent, `base_color`, `hair_widths` and `hair_tilt`.
+    HairReflection,
+    /// What passes a fibre, likewise.
+    HairTransmission,
     /// Diffuse transmission alone.
     Translucent,
     /// Subsurface scattering alone.

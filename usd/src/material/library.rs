@@ -143,7 +143,16 @@ pub(in crate::material) fn plain_id(node: &Element) -> String {
         }
         (name, "BSDF" | "EDF") => format!("ND_{name}"),
         (
-            "surface" | "surface_unlit" | "disney_principled" | "roughness_anisotropy" | "roughness_dual" | "artistic_ior" | "blackbody",
+            "surface"
+            | "surface_unlit"
+            | "disney_principled"
+            | "roughness_anisotropy"
+            | "roughness_dual"
+            | "artistic_ior"
+            | "blackbody"
+            | "chiang_hair_roughness"
+            | "deon_hair_absorption_from_melanin"
+            | "chiang_hair_absorption_from_color",
             _,
         ) => {
             format!("ND_{}", node.name)

@@ -119,6 +119,8 @@ const CASES: &[Case] = &[
     ("transformmatrix", "vector3", &[("in", "vector3", "1, 2, 3"), ("mat", "matrix33", "0,1,0, 0,0,1, 1,0,0")], [3.0, 1.0, 2.0]),
     ("time", "float", &[], [2.0; 3]),
     ("blackbody", "color3", &[("temperature", "float", "6500")], [1.014_4, 0.998_2, 0.995_6]),
+    ("deon_hair_absorption_from_melanin", "vector3", &[], [0.087_17, 0.157_79, 0.348_09]),
+    ("chiang_hair_absorption_from_color", "vector3", &[("color", "color3", "0.5, 0.2, 0.1")], [0.013_57, 0.073_16, 0.149_74]),
     ("roughness_dual", "vector2", &[("roughness", "vector2", "0.5, -1")], [0.25, 0.25, 0.0]),
 ];
 

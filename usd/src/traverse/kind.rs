@@ -3,7 +3,7 @@
 use super::Walker;
 use crate::prim::Prim;
 use crate::pxr::Module;
-use crate::{light, quadrics};
+use crate::{curves, light, quadrics};
 use pyo3::prelude::*;
 
 /// What a prim type means to the traversal.
@@ -12,6 +12,9 @@ pub(super) enum PrimKind {
     Container,
     Mesh,
     Quadric,
+    /// Curves of any kind.
+    Curves,
+    Points,
     Instancer,
     Light,
     Camera,
@@ -40,10 +43,12 @@ impl<'py> Walker<'_, '_, 'py> {
         match type_name {
             "" | "Xform" | "Scope" | "SkelRoot" => PrimKind::Container,
             "Mesh" => PrimKind::Mesh,
+            "Points" => PrimKind::Points,
             "PointInstancer" => PrimKind::Instancer,
             "Camera" => PrimKind::Camera,
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" | "Skeleton" | "SkelAnimation" | "BlendShape" | "RenderSettings"
             | "RenderProduct" | "RenderVar" | "RenderPass" => PrimKind::Leaf,
+            curves if curves::is_curves(curves) => PrimKind::Curves,
             quadric if quadrics::is_quadric(quadric) => PrimKind::Quadric,
             light if light::is_light(light) => PrimKind::Light,
             other => self.classify_by_schema(other, prim),

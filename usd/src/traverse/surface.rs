@@ -1,11 +1,12 @@
-//! Meshes, quadrics and their materials.
+//! Meshes, quadrics, curves, points and their materials.
 
 use super::{Branch, Walker, push};
 use crate::model::{Inherited, Kind, Model, Shape};
 use crate::prim::Prim;
-use crate::{draw_mode, material, mesh, mesh_light, meter, primvar, quadrics};
+use crate::{curves, draw_mode, material, mesh, mesh_light, meter, points, primvar, quadrics};
 use gonio::Result;
 use gonio::mesh::Interpolation;
+use gonio::scene::{Geometry, Primvar};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
@@ -15,9 +16,10 @@ impl<'py> Walker<'_, '_, 'py> {
         let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(()) };
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
         let is_light = mesh_light::is_geometry_light(prim);
-        let shape = Shape { mesh: self.submit(source)?, slots: Rc::default(), slot_prims, has_opacity, is_light };
+        let mesh = self.submit(source)?;
+        let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims, has_opacity, is_light };
         if meter::is_measured(prim) {
-            push(model, prim, branch, Kind::Measured(Some(shape.mesh)));
+            push(model, prim, branch, Kind::Measured(Some(mesh)));
         }
         // A binding may stand on a subset alone.
         let is_bound = branch.is_bound || shape.slot_prims.len() > 1;
@@ -29,7 +31,7 @@ impl<'py> Walker<'_, '_, 'py> {
     pub(super) fn stand_in(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
         let Some((source, materials)) = draw_mode::stand_in(self.context, prim, branch.draw_mode) else { return Ok(()) };
         let slots = Rc::new(OnceCell::from(materials));
-        let shape = Shape { mesh: self.submit(source)?, slots, slot_prims: Vec::new(), has_opacity: false, is_light: false };
+        let shape = Shape { geometry: self.submit(source)?.into(), slots, slot_prims: Vec::new(), has_opacity: false, is_light: false };
         push(model, prim, branch, Kind::Shape(shape));
         Ok(())
     }
@@ -62,10 +64,35 @@ impl<'py> Walker<'_, '_, 'py> {
             push(model, prim, branch, Kind::Measured(Some(mesh)));
         }
         let is_light = mesh_light::is_geometry_light(prim);
-        let shape = Shape { mesh, slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light };
+        let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light };
         let branch = Branch { primvars: primvar::merged(&own, &branch.primvars), ..branch.clone() };
         self.push_shape(prim, &branch, shape, model);
         Ok(())
+    }
+
+    /// Adds curves.
+    pub(super) fn curves(&mut self, prim: &Prim<'py>, type_name: &str, branch: &Branch, model: &mut Model) {
+        let Some(curves) = curves::read(self.context, prim, type_name) else { return };
+        let has_opacity = has_opacity(&curves.primvars);
+        let geometry = self.context.scene.add_curves(curves).into();
+        self.push_fibres(prim, branch, geometry, has_opacity, model);
+    }
+
+    /// Adds points.
+    pub(super) fn points(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) {
+        let Some(points) = points::read(self.context, prim) else { return };
+        let has_opacity = has_opacity(&points.primvars);
+        let geometry = self.context.scene.add_points(points).into();
+        self.push_fibres(prim, branch, geometry, has_opacity, model);
+    }
+
+    fn push_fibres(&mut self, prim: &Prim<'py>, branch: &Branch, geometry: Geometry, has_opacity: bool, model: &mut Model) {
+        report_still(self.context, prim);
+        if mesh_light::is_geometry_light(prim) {
+            self.context.unsupported("curves and points as lights", &prim.origin());
+        }
+        let shape = Shape { geometry, slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light: false };
+        self.push_shape(prim, branch, shape, model);
     }
 
     /// Looks up the materials of all shapes in one call: `pxr` reads the collections above anew in each.
@@ -91,6 +118,19 @@ impl<'py> Walker<'_, '_, 'py> {
             let _ = slots.set(materials.by_ref().take(count).collect());
         }
     }
+}
+
+/// Curves and points keep their shape while the shutter is open.
+fn report_still(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
+    for name in ["velocities", "accelerations"] {
+        if prim.has_authored(name) {
+            context.unsupported(&format!("motion blur of curves and points ({name})"), &prim.origin());
+        }
+    }
+}
+
+fn has_opacity(primvars: &[Primvar]) -> bool {
+    primvars.iter().any(|primvar| primvar.name == "displayOpacity")
 }
 
 /// A primvar with one value, whatever its interpolation says.

@@ -3,7 +3,7 @@
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Closure, Input, Operation, Primvar, PrimvarInterpolation, Scene},
+    scene::{Closure, Input, Model, Operation, Primvar, PrimvarInterpolation, Scene},
 };
 
 /// What texture coordinates are called, the likeliest first.
@@ -38,7 +38,8 @@ pub(super) fn used_names(scene: &Scene, measured: &CompiledMeasured) -> Vec<Stri
 /// Whether a surface depends on its tangent, and that follows texture coordinates.
 fn lies_along_coordinates(closure: &Closure, measured: &CompiledMeasured) -> bool {
     let anisotropy = closure.input("specular_anisotropy").is_some_and(|input| !matches!(input, Input::Constant([0.0, ..])));
-    closure.tangent.is_none() && (anisotropy || measured.of(closure).is_some_and(|measured| !measured.is_isotropic()))
+    let fibre = matches!(closure.model, Model::Hair | Model::HairReflection | Model::HairTransmission);
+    closure.tangent.is_none() && (anisotropy || fibre || measured.of(closure).is_some_and(|measured| !measured.is_isotropic()))
 }
 
 /// The column of a name.

@@ -125,7 +125,7 @@ impl Integrator for LightIntegrator<'_> {
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
         let masks = [going_on & goes, ending];
-        send_on(chunk, point, lobes.medium(), (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);
+        send_on(chunk, point, lobes, (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);
     }
 
     #[inline(always)]

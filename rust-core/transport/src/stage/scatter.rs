@@ -118,7 +118,7 @@ pub(crate) fn scatter<L: Lanes>(
     }
     let sample = kernels::sample(chunk.l, lobes, point.local_wo, [u[0], u[1], u[2]]);
     let factor = sample.value * sample.pdf.recip();
-    send_on(chunk, point, lobes.medium(), (&sample, factor), u[3], [going_on, ending], next, walks);
+    send_on(chunk, point, lobes, (&sample, factor), u[3], [going_on, ending], next, walks);
 }
 
 /// Appends the paths that go on in sampled directions, with `factor` on their throughput, and starts walks under the surface.
@@ -127,7 +127,7 @@ pub(crate) fn scatter<L: Lanes>(
 pub(crate) fn send_on<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    medium: Option<&Medium<L>>,
+    lobes: &Lobes<'_, L>,
     (sample, factor): (&BsdfSample<L>, Spectrum<L>),
     u_roulette: F<L>,
     [going_on, ending]: [M<L>; 2],
@@ -139,14 +139,18 @@ pub(crate) fn send_on<L: Lanes>(
     // A direction on the other side of the triangle than of the shading normal would leak light.
     let across = point.at.geometric.dot(wi).lt(0.0);
     // What facets refract goes on where bent normals send it: lost, it would darken smooth edges.
-    let consistent = (sample.transmitted & (across | !sample.diffuse)) | (!sample.transmitted).and_not(across);
+    let mut consistent = (sample.transmitted & (across | !sample.diffuse)) | (!sample.transmitted).and_not(across);
+    if lobes.has_fibre() {
+        // Fibres scatter about their tangent: no side is the wrong one.
+        consistent = l.m(true);
+    }
     let throughput = point.throughput * factor;
     let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
         & throughput.max_component().is_finite();
-    if let Some(medium) = medium {
+    if let Some(medium) = lobes.medium() {
         let entered = alive & sample.entered;
         alive = alive.and_not(sample.entered);
         start_walks(point, wi, throughput, medium, entered, walks);

@@ -5,6 +5,7 @@ mod adjust;
 mod channels;
 mod compositing;
 mod geometric;
+mod hair;
 mod hextile;
 mod math;
 mod matrices;

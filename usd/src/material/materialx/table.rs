@@ -3,7 +3,9 @@
 
 use super::super::emit::{add, divide, mix, multiply, subtract};
 use super::Rule::{self, Each, Later, Of, Own};
-use super::{adjust, channels, compositing, geometric, hextile, math, matrices, noise, normals, pattern, physical, texture, transform};
+use super::{
+    adjust, channels, compositing, geometric, hair, hextile, math, matrices, noise, normals, pattern, physical, texture, transform,
+};
 use gonio::scene::Input;
 
 /// A node.
@@ -171,4 +173,7 @@ pub(in crate::material) const ROWS: &[Row] = &[
     row("roughness_dual", Of(&[("roughness", 0.0)], physical::roughness_dual)),
     row("artistic_ior", Each(physical::artistic_ior)),
     row("blackbody", Own(physical::blackbody)),
+    row("chiang_hair_roughness", Each(hair::roughness)),
+    row("deon_hair_absorption_from_melanin", Own(hair::from_melanin)),
+    row("chiang_hair_absorption_from_color", Own(hair::from_color)),
 ];

@@ -2,12 +2,13 @@
 
 use super::albedo::{dielectric_albedo, mean, schlick_albedo, sheen_albedo};
 use super::facets::{Widths, facets, film};
+use super::hair;
 use crate::material::emit::{add, clamp, colour, divide, multiply, rest, scalar, unary};
 use crate::material::network::{Network, Shader};
 use gonio::scene::{Channel, Closure, Distribution, Input, Model, NodeId, Operation};
 
 /// The distributions that become lobes.
-const LOBES: [&str; 8] = [
+const LOBES: [&str; 9] = [
     "ND_oren_nayar_diffuse_bsdf",
     "ND_burley_diffuse_bsdf",
     "ND_subsurface_bsdf",
@@ -16,7 +17,11 @@ const LOBES: [&str; 8] = [
     "ND_dielectric_bsdf",
     "ND_generalized_schlick_bsdf",
     "ND_conductor_bsdf",
+    "ND_chiang_hair_bsdf",
 ];
+
+/// The distribution of hair, which has no weight.
+const HAIR: &str = "ND_chiang_hair_bsdf";
 
 /// What a lobe can be in a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,14 +66,18 @@ pub(super) fn lobe(network: &mut Network<'_>, shader: &Shader) -> (Lobe, Input) 
         "ND_dielectric_bsdf" => dielectric(network, shader),
         "ND_generalized_schlick_bsdf" => schlick(network, shader),
         "ND_conductor_bsdf" => (conductor(network, shader), Kind::Other),
+        HAIR => (hair::chiang(network, shader), Kind::Other),
         _ => {
             let (base, roughness) = (network.colour(shader, "color", [0.18; 3]), network.scalar(shader, "roughness", 0.0));
             (diffuse(base, roughness), Kind::Base)
         }
     };
+    closure.normal = direction(network, shader, "normal");
+    if &*shader.id == HAIR {
+        return (Lobe { closure, kind }, scalar(0.0));
+    }
     let weight = network.scalar(shader, "weight", 1.0);
     closure.weight = clamp(&mut network.graph, weight, scalar(0.0), scalar(1.0));
-    closure.normal = direction(network, shader, "normal");
     closure.tangent = direction(network, shader, "tangent");
     let reflected = match &*shader.id {
         "ND_sheen_bsdf" => Some(sheen_albedo(network, &closure)),

@@ -3,6 +3,7 @@
 mod albedo;
 mod closures;
 mod facets;
+mod hair;
 mod layers;
 mod lobes;
 mod materialx;

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shaders of hair, and what the Curves Info node knows of a strand."""
+
+from .closures import closure
+from .inputs import STRAND, carried, hit
+from .translator import closure_node, value_node
+
+# Absorption of the two pigments of hair in linear Rec.709, by one over the radius, as Cycles has it.
+EUMELANIN, PHEOMELANIN = (0.506, 0.841, 1.653), (0.343, 0.733, 1.924)
+# Roughness of TT and TRT along the hair over that of R, squared.
+SCALES = (1.0, 0.25, 4.0)
+
+
+@closure_node("ShaderNodeBsdfHairPrincipled")
+def principled_hair(t, node, context):
+    is_huang = node.model == "HUANG"
+    if is_huang:
+        t.tell("huang", node, context, "Principled Hair BSDF: Huang's model")
+    random = _random(t, node, context)
+    varied = _factor(random, t.input(node, "Random Roughness", context))
+    roughness = (t.input(node, "Roughness", context, 0.3) * varied).clamp(1e-3, 1.0)
+    around = roughness if is_huang else t.input(node, "Radial Roughness", context, 0.3) * varied
+    tints = {}
+    if is_huang:
+        for name, socket in (("r", "Reflection"), ("tt", "Transmission"), ("trt", "Secondary Reflection")):
+            tints[f"hair_tint_{name}"] = t.input(node, socket, context, 1.0).maximum(0.0)
+    coat = t.graph.scalar(0.0) if is_huang else t.input(node, "Coat", context).clamp()
+    widths = _widths(t, roughness, around)
+    reflected = _widths(t, (roughness * (1.0 - coat)).clamp(1e-3, 1.0), around)
+    variances = [reflected.component(0)] + [widths.component(0) * scale for scale in SCALES[1:]]
+    return [
+        closure(
+            t.graph,
+            "Hair",
+            hair_absorption=_absorption(t, node, context, random, around),
+            hair_variance=t.graph.combine(*variances),
+            hair_scale=t.graph.combine(*(widths.component(1),) * 3),
+            hair_tilt=t.input(node, "Offset", context),
+            specular_ior=t.input(node, "IOR", context, 1.55),
+            **tints,
+        )
+    ]
+
+
+def _widths(t, along, around):
+    """The variance along the hair and the width about it."""
+    return t.graph.add("HairRoughness", along, around, kind="VECTOR")
+
+
+def _factor(random, share):
+    """A factor about 1, by a random number."""
+    return 1.0 + (random - 0.5) * share.clamp() * 2.0
+
+
+def _random(t, node, context):
+    """The strand's random number, or what is linked in its place."""
+    number = t.input(node, "Random", context)
+    if t.linked(node, "Random", context) or t.kind != "Material" or not number.is_constant:
+        return number
+    return t.primvar(STRAND["Random"], (number.constant[0],) * 4, kind="VALUE")
+
+
+def _absorption(t, node, context, random, around):
+    """The absorption coefficient by one of three ways to say it."""
+    if node.parametrization == "ABSORPTION":
+        return t.input(node, "Absorption Coefficient", context)
+    if node.parametrization == "COLOR":
+        return _of_colour(t, t.input(node, "Color", context), around)
+    melanin = t.input(node, "Melanin", context, 0.8) * _factor(random, t.input(node, "Random Color", context))
+    redness = t.input(node, "Melanin Redness", context, 1.0)
+    amount = -(1.0 - melanin).maximum(1e-4).apply("Logarithm")
+    pigments = t.graph.vector(EUMELANIN) * (amount * (1.0 - redness)) + t.graph.vector(PHEOMELANIN) * (amount * redness)
+    return pigments.maximum(0.0) + _of_colour(t, t.input(node, "Tint", context, 1.0), around)
+
+
+def _of_colour(t, colour, around):
+    return t.graph.add("HairAbsorption", colour, around, kind="VECTOR")
+
+
+@closure_node("ShaderNodeBsdfHair")
+def hair(t, node, context):
+    return [
+        closure(
+            t.graph,
+            "HairReflection" if node.component == "Reflection" else "HairTransmission",
+            base_color=t.input(node, "Color", context),
+            hair_widths=t.graph.combine(
+                t.input(node, "RoughnessU", context, 0.1), t.input(node, "RoughnessV", context, 1.0), t.graph.scalar(0.0)
+            ),
+            hair_tilt=-t.input(node, "Offset", context),
+            tangent=t.input(node, "Tangent", context).node if t.linked(node, "Tangent", context) else None,
+        )
+    ]
+
+
+@value_node("ShaderNodeHairInfo")
+def hair_info(t, node, context, output):
+    """As in Cycles zero on whatever is no strand."""
+    name = output.identifier
+    if t.kind != "Material":
+        return t.graph.scalar(0.0)
+    if name == "Tangent Normal":
+        along, back = carried(t, t.primvar(STRAND["Tangent"]), "Object", "World", "Vector"), hit(t, "Incoming")
+        # Zero stays zero where there is no strand.
+        return (along.cross(back).cross(along)).normalized()
+    return t.primvar(STRAND[name], kind="VALUE") if name in STRAND else None
