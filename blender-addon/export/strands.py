@@ -46,7 +46,7 @@ def systems(source, is_render):
 
 
 def of_system(source, modifier, system, is_render, wanted, first):
-    """The hair of a particle system in the object's own space; `first` is how many strands the systems before it have. None if there is none."""
+    """The hair of a particle system in the object's own space, None if there is none; `first` is how many strands were read before."""
     settings = system.settings
     own, children = len(system.particles), len(system.child_particles)
     if not is_render:

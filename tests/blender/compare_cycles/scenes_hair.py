@@ -83,7 +83,7 @@ def tube(cover: bpy.types.Material, x: float, *, around: int = 96) -> None:
 
 
 def hair_shaders() -> None:
-    """Shaders of hair on tubes: both parts of the older one, and Chiang's in three ways to say its colour; even scales, for edges run both ways."""
+    """Shaders of hair on tubes: both parts of the older one, and Chiang's in three ways to say its colour; edges run both ways."""
     resolution(64 * 5, 96)
     lit_floor()
     older = {"Color": (0.6, 0.4, 0.3), "RoughnessU": 0.4, "RoughnessV": 0.7, "Tangent": (0.0, 0.0, 1.0)}

@@ -29,12 +29,11 @@ impl<L: Lanes> MarschnerLobe<L> {
     /// The lobe seen from `wo`.
     #[inline(always)]
     pub(crate) fn new(wo: Vec3<L>, widths: [F<L>; 2], tilt: F<L>, passes: bool) -> Self {
-        let l = wo.x.lanes();
         let widths = [widths[0].clamp(LEAST, 1.0), widths[1].clamp(LEAST, 1.0)];
         let (cos, azimuth) = across(wo);
         let theta = wo.x.atan2(cos);
-        let arc = |end: F<L>| ((end + theta) * 0.5 - tilt).atan2(widths[0]);
-        let [first, last] = [arc(l.f(-FRAC_PI_2)), arc(l.f(FRAC_PI_2))];
+        let first = ((theta - FRAC_PI_2) * 0.5 - tilt).atan2(widths[0]);
+        let last = ((theta + FRAC_PI_2) * 0.5 - tilt).atan2(widths[0]);
         Self { passes, widths, tilt, theta, azimuth, arcs: [first, last - first] }
     }
     /// Whether it is of what passes.

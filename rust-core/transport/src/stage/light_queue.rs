@@ -9,23 +9,28 @@ use gonio_camera::sampler::dimension;
 use gonio_light::LightSample;
 use gonio_simd::{F, Lanes, Vec3};
 
-/// The light samples of a register of hits; the chunk's first call samples for all later hits too.
+/// The light samples of a register of hits; the chunk's first call samples for all later hits too. `is_fibre` where no side is dark.
 #[inline(always)]
-pub(crate) fn sample_queued<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, queue: &mut LightSampleQueue) -> LightSample<L> {
+pub(crate) fn sample_queued<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    at: usize,
+    is_fibre: bool,
+    queue: &mut LightSampleQueue,
+) -> LightSample<L> {
     if !queue.made {
-        sample_chunk(chunk.l, chunk, at, queue);
+        sample_chunk(chunk.l, chunk, at, is_fibre, queue);
     }
     queue.load(chunk.l, at)
 }
 
 /// Selects and samples lights for all hits of the chunk from a register's beginning on: a function of its own, as those of `kernels.rs`.
 #[inline(never)]
-fn sample_chunk<L: Lanes>(l: L, chunk: &ChunkContext<'_, L>, first: usize, queue: &mut LightSampleQueue) {
+fn sample_chunk<L: Lanes>(l: L, chunk: &ChunkContext<'_, L>, first: usize, is_fibre: bool, queue: &mut LightSampleQueue) {
     l.vectorize(
         #[inline(always)]
         || {
             for at in (first..chunk.count).step_by(L::COUNT) {
-                select_lights(chunk, at, queue);
+                select_lights(chunk, at, is_fibre, queue);
             }
             let total = queue.sort(&chunk.tables.lights, first..chunk.count, L::COUNT);
             for at in (0..total).step_by(L::COUNT) {
@@ -38,7 +43,7 @@ fn sample_chunk<L: Lanes>(l: L, chunk: &ChunkContext<'_, L>, first: usize, queue
 
 /// Light selection for a register of hits.
 #[inline(always)]
-fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, queue: &mut LightSampleQueue) {
+fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, is_fibre: bool, queue: &mut LightSampleQueue) {
     let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
     let path = l.load_integers(chunk.order, at);
     let index = context.index(l, chunk.paths.track(l, path).slot);
@@ -46,7 +51,8 @@ fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, queue: &mut L
     let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
     let surface = &chunk.columns.surface;
-    let (p, n) = (load3(l, &surface.position, at), load3(l, &surface.shading_normal, at));
+    let p = load3(l, &surface.position, at);
+    let n = if is_fibre { Vec3::splat(l, [0.0; 3]) } else { load3(l, &surface.shading_normal, at) };
     let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_light);
     light.store(&mut queue.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut queue.selected, at);

@@ -23,7 +23,8 @@ pub(crate) fn sample_light<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
-    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.at.position, &point.at.frame.z, &u);
+    let normal = point.at.lit_normal(lobes);
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.at.position, &normal, &u);
     queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), present, shadows, deposits);
 }
 

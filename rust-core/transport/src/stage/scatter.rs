@@ -171,6 +171,7 @@ pub(crate) fn send_on<L: Lanes>(
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
+    from.normal = point.at.lit_normal(lobes);
     if straight.any() {
         let before = chunk.paths.previous(l, point.path);
         from.position = straight.select(before.position, from.position);

@@ -3,6 +3,7 @@
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
 use crate::state::paths::PreviousLanes;
 use crate::state::rays::RayLanes;
+use gonio_bsdf::Lobes;
 use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
@@ -35,6 +36,12 @@ impl<L: Lanes> Interaction<L> {
         let to = shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance);
         let ShadowSegment { origin, direction, t_max } = to;
         RayLanes { origin, direction, t_min: self.error.lanes().f(0.0), t_max }
+    }
+
+    /// The normal that lights are chosen by; zero where lobes are about a fibre, of which no side is dark.
+    #[inline(always)]
+    pub(crate) fn lit_normal(&self, lobes: &Lobes<'_, L>) -> Vec3<L> {
+        if lobes.has_fibre() { Vec3::splat(self.error.lanes(), [0.0; 3]) } else { self.frame.z }
     }
 
     /// What the next vertex's MIS weight needs of this one.

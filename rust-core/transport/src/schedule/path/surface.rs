@@ -68,7 +68,7 @@ impl Integrator for PathIntegrator {
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if (non_specular & going_on).any() && !tables.lights.is_empty() {
             if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {
-                let sample = sample_queued(chunk, at, &mut queues.light_samples);
+                let sample = sample_queued(chunk, at, lobes.has_fibre(), &mut queues.light_samples);
                 queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), going_on, &mut queues.shadows, deposits);
             } else {
                 let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);

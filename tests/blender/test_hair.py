@@ -1,0 +1,97 @@
+"""Hair, hair curves and point clouds in scenes, and what strands know, against Cycles."""
+
+import pytest
+
+
+def curves_of(points, name, cover=None, radius=0.02):
+    """A hair curves object through the given points, one array a curve."""
+    import bpy
+    import numpy as np
+
+    made = bpy.data.hair_curves.new(name)
+    made.add_curves([len(each) for each in points])
+    flat = np.concatenate(points).astype(np.float32)
+    made.position_data.foreach_set("vector", flat.reshape(-1))
+    made.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", np.full(len(flat), radius, dtype=np.float32))
+    if cover is not None:
+        made.materials.append(cover)
+    thing = bpy.data.objects.new(name, made)
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def exported():
+    import bpy
+    from gonio_extension.export import Exporter
+    from gonio_extension.report import Report
+
+    report = Report()
+    scene = Exporter(report).sync(bpy.context.evaluated_depsgraph_get()).to_dict()
+    return scene, [line.text for line in report.diagnostics]
+
+
+@pytest.mark.blender
+def test_hair_curves_come_as_they_are():
+    import bpy
+    import numpy as np
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.scene.cycles_curves.shape = "THICK"
+    points = [np.array([(0, 0, 0), (0, 0, 1), (0, 1, 2)]), np.array([(1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 2)]), np.array([(5, 5, 5)])]
+    curves_of(points, "Strands")
+    scene, told = exported()
+    (curves,) = scene["curves"]
+    # A single point is no curve.
+    assert curves["counts"] == [3, 4] and (curves["basis"], curves["wrap"], curves["shape"]) == ("CatmullRom", "Pinned", "Round")
+    assert np.allclose(curves["points"], np.concatenate(points[:2])) and np.allclose(curves["widths"]["values"], 0.04)
+    assert scene["instances"][0]["mesh"] == {"curves": 0} and not told
+
+
+@pytest.mark.blender
+def test_particle_hair_stands_on_its_emitter():
+    import bpy
+    import numpy as np
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=1.0, location=(1, 2, 3))
+    ball = bpy.context.object
+    for name in ("Skin", "Fur"):
+        ball.data.materials.append(bpy.data.materials.new(name))
+    ball.modifiers.new("Fur", "PARTICLE_SYSTEM")
+    settings = ball.particle_systems[0].settings
+    settings.type, settings.count, settings.hair_length, settings.material = "HAIR", 20, 0.5, 2
+    settings.display_step, settings.root_radius, settings.tip_radius, settings.radius_scale = 3, 1.0, 0.5, 0.1
+    settings.use_close_tip = False
+    scene, told = exported()
+    (curves,) = scene["curves"]
+    assert len(curves["counts"]) == 20 and not told
+    roots = np.array(curves["points"])[np.cumsum([0, *curves["counts"][:-1]])]
+    assert np.allclose(np.linalg.norm(roots, axis=1), 1.0, atol=0.02)
+    widths = np.array(curves["widths"]["values"])
+    assert np.isclose(widths.max(), 0.1) and np.isclose(widths.min(), 0.05)
+    placed = {str(each["mesh"]): each["materials"] for each in scene["instances"]}
+    assert placed["{'curves': 0}"] == [scene["instances"][0]["materials"][1]]
+    ball.show_instancer_for_viewport = False
+    scene, _ = exported()
+    assert [each["mesh"] for each in scene["instances"]] == [{"curves": 0}]
+
+
+@pytest.mark.blender
+def test_strands_know_what_cycles_knows(tmp_path):
+    import bpy
+    import numpy as np
+    from beside_cycles import both, scene
+    from test_info_nodes import shown
+
+    outputs = ("Is Strand", "Intercept", "Length", "Thickness", "Tangent Normal", "Random")
+    scene(len(outputs))
+    bpy.context.scene.cycles_curves.shape = "RIBBONS"
+    for number, output in enumerate(outputs):
+        # As wide as the picture is high, so that the middle is seen whatever the filter.
+        x = number - 0.5 * len(outputs) + 0.5
+        along = np.linspace(-2.0, 3.0, 6)
+        points = np.stack([np.full_like(along, x), along, np.zeros_like(along)], axis=1)
+        curves_of([points], output, shown("HairInfo", output), radius=0.45)
+    cycles, gonio = (picture for picture in both(tmp_path))
+    middle = slice(cycles.shape[0] // 2, cycles.shape[0] // 2 + 1)
+    assert np.abs(cycles[middle] - gonio[middle]).max() < 0.02 * max(1.0, float(cycles[middle].max())), (cycles[middle], gonio[middle])

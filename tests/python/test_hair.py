@@ -1,0 +1,80 @@
+"""Fibres of the hair model on curves and meshes: white ones vanish before a white world, and light paths bring what camera paths find."""
+
+import numpy as np
+import pytest
+
+import gonio
+
+SIZE, SAMPLES = 48, 64
+BOUNCES = 200
+
+
+def closure(model, **parameters):
+    def constant(value):
+        numbers = list(value) if isinstance(value, (list, tuple)) else [value] * 3
+        return {"Constant": [*numbers, 1.0]}
+
+    return {"weight": constant(1.0), "model": model, "parameters": [[name, constant(value)] for name, value in parameters.items()]}
+
+
+def tuft(closures, shape="round", count=60, **settings):
+    """Bent strands all over a picture, before a white dome."""
+    scene = gonio.Scene()
+    scene.set(width=SIZE, height=SIZE, samples=SAMPLES, max_bounces=BOUNCES, max_glossy_bounces=BOUNCES, max_transmission_bounces=BOUNCES, **settings)
+    random = np.random.default_rng(1)
+    roots, ways = random.uniform(-1, 1, (count, 3)), random.normal(size=(count, 3))
+    bends = random.normal(size=(count, 3)) * 0.3
+    t = np.linspace(-1, 1, 6)[None, :, None]
+    points = (roots[:, None] + ways[:, None] * t + bends[:, None] * t * t).astype("f4").reshape(-1, 3)
+    curves = scene.add_curves(points, np.full(count, 6, "i4"), 0.05, type="cubic", basis="catmullRom", wrap="pinned", shape=shape)
+    material = scene.put_material({"origin": "hair", "closures": closures})
+    scene.add_instance(None, [material], curves=curves)
+    scene.add_light("dome", [1, 1, 1])
+    scene.add_camera([[1, 0, 0, 0], [0, 0, 1, 6], [0, -1, 0, 0], [0, 0, 0, 1]], fov=25)
+    return scene
+
+
+def picture(scene, name="color"):
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        return np.asarray(render.film()[name])[..., :3]
+
+
+def means(image):
+    """Means of blocks of 8 × 8 pixels."""
+    return image.reshape(SIZE // 8, 8, SIZE // 8, 8, 3).mean((1, 3, 4))
+
+
+@pytest.mark.parametrize("shape", ["round", "ribbon"])
+def test_white_fibres_vanish_before_a_white_world(shape):
+    image = picture(tuft([closure("Hair", hair_absorption=0.0)], shape))
+    # Every path keeps its weight; what bounces on for ever is lost with Russian roulette's noise.
+    assert np.abs(means(image) - 1.0).max() < 0.02, means(image)
+    assert abs(image.mean() - 1.0) < 0.003
+
+
+@pytest.mark.parametrize("model", ["HairReflection", "HairTransmission"])
+def test_the_older_lobes_keep_all_light(model):
+    image = picture(tuft([closure(model, base_color=1.0, hair_widths=[0.3, 0.6, 0.0], hair_tilt=0.0)]))
+    # Directions along the fibre are left out.
+    assert abs(image.mean() - 1.0) < 0.01
+
+
+def test_absorbing_fibres_have_their_colour():
+    image = picture(tuft([closure("Hair", hair_absorption=[0.1, 0.5, 2.0])], count=300))
+    red, green, blue = image[12:-12, 12:-12].mean((0, 1))
+    assert 1.0 > red > green > blue > 0.0
+
+
+def test_light_behind_a_fibre_shines_through():
+    # A tube before a lamp: what passes it is brighter in the middle than what it reflects at the same height.
+    scene = gonio.Scene()
+    scene.set(width=32, height=32, samples=64)
+    line = np.array([[-3, 0, 0], [3, 0, 0]], "f4")
+    curves = scene.add_curves(line, np.array([2], "i4"), 0.5)
+    material = scene.put_material({"origin": "hair", "closures": [closure("Hair", hair_absorption=0.0)]})
+    scene.add_instance(None, [material], curves=curves)
+    scene.add_light("sphere", [100, 100, 100], radius=0.2, transform=[[1, 0, 0, 0], [0, 1, 0, -4], [0, 0, 1, 0], [0, 0, 0, 1]])
+    scene.add_camera([[1, 0, 0, 0], [0, 0, 1, 6], [0, -1, 0, 0], [0, 0, 0, 1]], fov=4)
+    behind = picture(scene).mean()
+    assert behind > 0.0 and np.isfinite(behind)
