@@ -26,6 +26,12 @@ pub(crate) struct StageArguments {
     /// The RenderSettings prim to follow.
     #[arg(long, short = 's', alias = "renderSettingsPrimPath", value_name = "PRIMPATH")]
     pub(crate) settings: Option<String>,
+    /// The RenderPass prim to follow: what of the stage is shown, and whose settings count unless --settings says.
+    #[arg(long = "render-pass", alias = "pass", value_name = "PRIMPATH")]
+    pub(crate) render_pass: Option<String>,
+    /// Nothing moves while the shutter is open.
+    #[arg(long = "disable-motion-blur", alias = "disable-motionblur")]
+    pub(crate) disable_motion_blur: bool,
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
