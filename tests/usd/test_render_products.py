@@ -175,3 +175,79 @@ def test_variables_that_are_not_there_are_named(run, tmp_path):
     odd = 'def RenderVar "odd"\n{\n    uniform string sourceName = "C<RD><RS>L"\n    uniform token sourceType = "lpe"\n}\n'
     done = rendered(run, tmp_path, settings("", 'token productName = "out.exr"\n    rel orderedVars = [</odd>]'), odd)
     assert "'C<RD><RS>L' (lpe) is not supported" in done.stderr
+
+
+# Three settings as studios have them.
+
+# A shot: one beauty with layers for compositing in halves and floats, one data picture, and one picture for eyes.
+SHOT = settings(
+    "uniform float pixelAspectRatio = 1",
+    'token productName = "beauty.####.exr"\n    rel orderedVars = [</Vars/Ci>, </Vars/uv>, </Vars/worn>]',
+    'token productName = "data.####.exr"\n    rel orderedVars = [</Vars/depth>, </Vars/N>]',
+    'token productName = "view.####.png"\n    rel orderedVars = </Vars/Ci>',
+)
+SHOT_VARIABLES = VARIABLES.replace(
+    'def Scope "Vars"\n{',
+    """def Scope "Vars"
+{
+    def RenderVar "Ci"
+    {
+        uniform token dataType = "color4h"
+        uniform string sourceName = "Ci"
+    }
+    def RenderVar "depth"
+    {
+        uniform token dataType = "float"
+        uniform string sourceName = "z"
+    }""",
+)
+
+# A catalogue: two cameras with a resolution each, cropped and with overscan, squeezed pixels, one policy each.
+SECOND_CAMERA = SCENE[SCENE.index("def Camera") : SCENE.index("def DomeLight")].replace('"Cam"', '"Wide"').replace("horizontalAperture = 36", "horizontalAperture = 72")
+CATALOGUE = settings(
+    "bool disableDepthOfField = 1",
+    'token productName = "front.exr"\n    uniform int2 resolution = (30, 20)\n    uniform token aspectRatioConformPolicy = "cropAperture"',
+    'token productName = "wide.exr"\n    uniform int2 resolution = (40, 10)\n    rel camera = </Wide>\n    uniform float4 dataWindowNDC = (-0.1, -0.1, 1.1, 1.1)\n    uniform token aspectRatioConformPolicy = "adjustApertureHeight"',
+    'token productName = "squeezed.exr"\n    uniform int2 resolution = (20, 40)\n    uniform token aspectRatioConformPolicy = "adjustPixelAspectRatio"',
+)
+
+
+def test_a_shot_with_three_products(run, tmp_path):
+    done = rendered(run, tmp_path, SHOT, SHOT_VARIABLES, options=["--frames", "7:8"])
+    assert sorted(done.stdout.split()) == sorted(f"{name}.000{frame}.{ending}" for frame in (7, 8) for name, ending in [("beauty", "exr"), ("data", "exr"), ("view", "png")])
+    beauty, data = pictures.read(tmp_path / "beauty.0008.exr"), pictures.read(tmp_path / "data.0008.exr")
+    assert {name: values.dtype.itemsize for name, values in beauty.channels.items()} == {
+        **dict.fromkeys("RGBA", 2),
+        **dict.fromkeys(["uv.R", "uv.G", "uv.B", "uv.A", "worn"], 4),
+    }
+    assert {"depth.Z", "N.R", "N.G", "N.B"} <= set(data.channels) and all(values.dtype.itemsize == 4 for values in data.channels.values())
+    assert float(data["depth.Z"][20, 20]) == pytest.approx(10, rel=1e-4)
+
+
+def test_a_catalogue_of_cameras_and_policies(run, tmp_path):
+    rendered(run, tmp_path, CATALOGUE, SECOND_CAMERA)
+    front, wide, squeezed = (pictures.read(tmp_path / f"{name}.exr") for name in ("front", "wide", "squeezed"))
+    assert front.shape == (20, 30) and front.header["gonio:camera"] == "/Cam"
+    assert wide.header["gonio:camera"] == "/Wide" and windows(wide) == ([(-4, -1), (43, 10)], [(0, 0), (39, 9)])
+    assert squeezed.shape == (40, 20) and squeezed.header["pixelAspectRatio"] == pytest.approx(2)
+
+
+def test_colours_in_another_gamut(run, tmp_path):
+    plain = settings("", f'token productName = "rec709.exr"\n    rel orderedVars = {ALL}')
+    rendered(run, tmp_path, plain, VARIABLES, spp=16)
+    body = 'uniform token renderingColorSpace = "lin_ap1_scene"'
+    rendered(run, tmp_path, settings(body, f'token productName = "ap1.exr"\n    rel orderedVars = {ALL}'), VARIABLES, spp=16)
+    rec709, ap1 = pictures.read(tmp_path / "rec709.exr"), pictures.read(tmp_path / "ap1.exr")
+    # From linear Rec.709 to ACEScg (Bradford), as OCIO's configurations have it.
+    to_ap1 = np.array([[0.6131, 0.3395, 0.0474], [0.0702, 0.9164, 0.0134], [0.0206, 0.1096, 0.8698]])
+    assert np.abs(rec709.rgb @ to_ap1.T - ap1.rgb).max() < 2e-4
+    direct = lambda picture: np.stack([picture[f"direct.{c}"] for c in "RGB"], axis=-1)
+    assert np.abs(direct(rec709) @ to_ap1.T - direct(ap1)).max() < 2e-4
+    # Numbers are no colours.
+    assert np.array_equal(rec709["worn"], ap1["worn"]) and np.array_equal(rec709["Pc.X"], ap1["Pc.X"])
+    assert "chromaticities" in ap1.header and "chromaticities" not in rec709.header
+
+
+def test_a_colour_space_that_is_not_linear_is_told(run, tmp_path):
+    done = rendered(run, tmp_path, settings('uniform token renderingColorSpace = "srgb_texture"', 'token productName = "a.exr"'))
+    assert "renderingColorSpace is 'srgb_texture'" in done.stderr

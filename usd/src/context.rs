@@ -5,6 +5,7 @@ use crate::material::{Library, Shaded};
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
+use crate::render_pass::Roles;
 use crate::vt::FromValue;
 use gonio::scene::{Goniogram, MaterialId, MeasuredId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};
@@ -43,6 +44,8 @@ pub struct Context<'a, 'py> {
     pub options: &'a StageOptions,
     /// The scene so far; its transforms are in metres, its up axis is the stage's.
     pub scene: Scene,
+    /// What prims are in the render pass.
+    pub roles: Roles<'py>,
     /// Metres in a unit of the stage; all transforms handed on contain it already.
     pub metres_per_unit: f64,
     /// The stage's vertical axis.
@@ -88,6 +91,7 @@ impl<'a, 'py> Context<'a, 'py> {
             time,
             options,
             scene: Scene::default(),
+            roles: Roles::default(),
             metres_per_unit: 0.01,
             up_axis: UpAxis::Y,
             material_ids: HashMap::new(),

@@ -1,6 +1,6 @@
 //! How a camera meets an image: aspect ratio policies, and a camera and a light for stages without them.
 
-use gonio::scene::{Camera, Emission, Light, LightShape, Origin, Scene, Transform};
+use gonio::scene::{Camera, DomeFormat, Emission, Light, LightShape, Origin, Scene, Transform};
 
 /// Vertical field of view of the automatic camera, degrees.
 const AUTO_FIELD_OF_VIEW: f64 = 35.0;
@@ -124,6 +124,12 @@ pub fn camera_light(camera: &Camera) -> Light {
     let emission = Emission { radiance: [std::f32::consts::PI; 3], normalized: true, ..Emission::default() };
     let shape = LightShape::Distant { angle_deg: 0.0 };
     Light { emission, casts_shadow: false, ..Light::new(Origin::new(CAMERA_LIGHT), shape, camera.transform) }
+}
+
+/// An even sky for stages without any light, in which a white surface is white (1 cd/m²).
+pub fn dome_light() -> Light {
+    let emission = Emission { radiance: [1.0; 3], ..Emission::default() };
+    Light { emission, ..Light::new(Origin::new(CAMERA_LIGHT), LightShape::Dome { format: DomeFormat::default() }, Transform::IDENTITY) }
 }
 
 /// Width over height of a camera's aperture, for pictures whose height follows the camera.

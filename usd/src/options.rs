@@ -123,14 +123,18 @@ pub struct StageOptions {
     pub variants: Vec<VariantSelection>,
     /// A layer that is put over the stage.
     pub session_layer: Option<PathBuf>,
+    /// Whether layers are read into memory as a whole, so that files that change on disk later do not matter.
+    pub detached: bool,
     /// Whether payloads are loaded.
     pub load_payloads: bool,
     /// Purposes of material bindings in the order in which they are tried; the empty one is the all-purpose binding.
     pub material_binding_purposes: Option<Vec<String>>,
     /// Path of the RenderSettings prim; `None` takes the one that the stage names.
     pub render_settings: Option<String>,
-    /// Whether what moves while the camera's shutter is open is blurred.
-    pub motion_blur: bool,
+    /// Path of the RenderPass prim that says what is shown.
+    pub render_pass: Option<String>,
+    /// Whether nothing moves while the shutter is open, whatever the render settings say.
+    pub disable_motion_blur: bool,
     /// Whether warnings end the reading.
     pub strict: bool,
     /// Whether the reading goes on where a light's photometric file cannot be read, with a warning and a stand-in.
@@ -147,10 +151,12 @@ impl Default for StageOptions {
             subtree: None,
             variants: Vec::new(),
             session_layer: None,
+            detached: false,
             load_payloads: true,
             material_binding_purposes: None,
             render_settings: None,
-            motion_blur: true,
+            render_pass: None,
+            disable_motion_blur: false,
             strict: false,
             lenient: true,
         }
@@ -167,6 +173,7 @@ impl StageOptions {
     pub fn with_settings(&self, settings: Option<&RenderSettings>) -> Self {
         let mut options = self.clone();
         if let Some(settings) = settings {
+            options.disable_motion_blur |= settings.disable_motion_blur;
             options.purposes.get_or_insert_with(|| settings.purposes.clone());
             options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());
         }

@@ -5,6 +5,7 @@ mod rebound;
 use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
+use crate::render_pass::Role;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
 use gonio::scene::{
@@ -29,6 +30,8 @@ struct Placement {
     renamed: Option<(String, String)>,
     /// Whether a material binding outside the model may count inside.
     is_rebound: bool,
+    /// What all of a point instancer's prototypes are in the render pass: that which the instancer is.
+    role: Option<Role>,
 }
 
 impl Placement {
@@ -39,7 +42,7 @@ impl Placement {
             None => self.renamed.clone(),
         };
         let is_rebound = self.is_rebound || group.instance.is_some() && element.is_bound;
-        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound }
+        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound, role: self.role }
     }
 
     fn path(&self, path: &str) -> String {
@@ -48,8 +51,8 @@ impl Placement {
     }
 }
 
-/// Instances that share geometry, materials, the names of their values and a light group.
-type Key = (Geometry, Vec<MaterialId>, Vec<(String, usize)>, String);
+/// Instances that share geometry, materials, the names of their values, a light group and what they are in the render pass.
+type Key = (Geometry, Vec<MaterialId>, Vec<(String, usize)>, String, Role);
 
 /// Instances under construction: the values of all placements, one after the other, for each name of the key.
 #[derive(Debug)]
@@ -83,6 +86,7 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         purpose: None,
         renamed: None,
         is_rebound: false,
+        role: None,
     };
     let rebound = rebound::materials(context, world, &placement);
     let mut placer = Placer {
@@ -143,11 +147,13 @@ impl<'py> Placer<'_, '_, 'py> {
         let tiled: Vec<Inherited> = group.primvars.iter().map(|value| tiled(value, outer.len())).collect();
         let near = primvar::merged(&tiled, &element.primvars);
         let primvars = primvar::merged(&near, &repeated);
-        self.place(&group.model, &Placement { transforms, primvars, purpose, ..placement.inside(element, group) })
+        let role = placement.role.or_else(|| group.instance.is_none().then(|| self.role(element, placement)));
+        self.place(&group.model, &Placement { transforms, primvars, purpose, role, ..placement.inside(element, group) })
     }
 
     fn shape(&mut self, element: &Element, shape: &Shape, placement: &Placement) -> Result<()> {
-        if shape.geometry.mesh().is_some_and(|mesh| self.failed.contains(&mesh)) {
+        let role = self.role(element, placement);
+        if shape.geometry.mesh().is_some_and(|mesh| self.failed.contains(&mesh)) || !role.rendered {
             return Ok(());
         }
         self.count(element, placement.transforms.len())?;
@@ -158,7 +164,7 @@ impl<'py> Placer<'_, '_, 'py> {
         let materials = self.materials(element, shape, placement, &primvars, &transforms);
         let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
         let group = self.light_group(element, placement, &materials);
-        let key = (shape.geometry, materials, names, group);
+        let key = (shape.geometry, materials, names, group, role);
         let place = match self.places.get(&key) {
             Some(place) => *place,
             None => self.new_set(element, &key, placement),
@@ -170,6 +176,12 @@ impl<'py> Placer<'_, '_, 'py> {
         }
         gathered.instances.transforms.extend(transforms);
         Ok(())
+    }
+
+    /// What an element is in the render pass.
+    fn role(&self, element: &Element, placement: &Placement) -> Role {
+        let roles = &self.context.roles;
+        if roles.are_plain() { Role::default() } else { placement.role.unwrap_or_else(|| roles.role(&placement.path(&element.path))) }
     }
 
     /// The light group that the prim names, for what shines.
@@ -191,8 +203,8 @@ impl<'py> Placer<'_, '_, 'py> {
             transforms: Vec::new(),
             motion: Vec::new(),
             primvars: Vec::new(),
-            visibility: Visibility::default(),
-            holdout: false,
+            visibility: Visibility { camera: key.4.camera, ..Visibility::default() },
+            holdout: key.4.matte,
             shadow_catcher: false,
             pass_index: 0,
             light_group: key.3.clone(),
@@ -249,13 +261,18 @@ impl<'py> Placer<'_, '_, 'py> {
 
     fn lights(&mut self, element: &Element, placement: &Placement) {
         let path = placement.path(&element.path);
-        let Some(prim) = self.context.prim_at(&path) else { return };
+        let role = self.role(element, placement);
+        let Some(prim) = self.context.prim_at(&path).filter(|_| role.rendered) else { return };
+        let first = self.context.scene.lights.len();
         for transform in self.transforms(element, placement) {
             if daylight::is_daylight(&prim) {
                 daylight::add_lights(self.context, &prim, &transform);
             } else if let Some(light) = light::light(self.context, &prim, &transform) {
                 self.context.scene.lights.push(light);
             }
+        }
+        if !role.camera {
+            self.context.scene.lights[first..].iter_mut().for_each(|light| light.visibility.camera = false);
         }
     }
 

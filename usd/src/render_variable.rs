@@ -29,6 +29,8 @@ pub struct RenderVariable {
     pub name: String,
     /// What it shows.
     pub source: Source,
+    /// Whether files have it in half floats.
+    pub half: bool,
 }
 
 /// Reads a variable; `None`, with a report, for those that gonio does not have.
@@ -48,7 +50,13 @@ pub(crate) fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Opt
     if source.is_none() {
         context.unsupported(&format!("the render variable '{stated}' ({})", if kind.is_empty() { "raw" } else { &kind }), &prim.origin());
     }
-    source.map(|source| RenderVariable { name, source })
+    source.map(|source| RenderVariable { name, source, half: is_half(context, prim) })
+}
+
+/// Whether the variable's type is one of halves, as `color3h`, `half` and `float16` are.
+fn is_half<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
+    let kind: String = context.get_authored(prim, "dataType").unwrap_or_default();
+    kind.starts_with("half") || kind.ends_with("16") || kind.strip_suffix('h').is_some_and(|kind| kind.ends_with(['2', '3', '4']))
 }
 
 fn value_kind<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> ShaderValue {

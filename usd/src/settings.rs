@@ -5,6 +5,7 @@ use crate::framing::ConformPolicy;
 use crate::options::Purpose;
 use crate::prim::Prim;
 use crate::render_variable::{self, RenderVariable};
+use gonio::colour::{ColourSpace, Gamut, Transfer};
 use gonio::scene::{Origin, Scene};
 use gonio::{Error, Result};
 use pyo3::{intern, prelude::*};
@@ -40,6 +41,8 @@ pub struct Framing {
     pub data_window: [f64; 4],
     /// Whether all lenses are pinholes.
     pub disable_depth_of_field: bool,
+    /// Whether nothing moves while the shutter is open.
+    pub disable_motion_blur: bool,
 }
 
 /// What a `RenderSettings` prim says.
@@ -55,6 +58,8 @@ pub struct RenderSettings {
     pub material_binding_purposes: Vec<String>,
     /// Whether nothing moves while the shutter is open.
     pub disable_motion_blur: bool,
+    /// The gamut in which EXR files have their colours; gonio itself renders in linear Rec.709.
+    pub gamut: Gamut,
     /// The files wanted.
     pub products: Vec<Product>,
 }
@@ -113,12 +118,12 @@ fn setting<'p, 'py>(settings: &'p Prim<'py>, product: Option<&'p Prim<'py>>, nam
 
 fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings {
     let product_prims: Vec<Prim<'py>> = prim.targets("products").iter().filter_map(|path| context.prim_at(path)).collect();
-    report_left_out(context, prim);
     RenderSettings {
         framing: framing(context, prim, product_prims.first()),
         purposes: purposes(context, prim),
         material_binding_purposes: binding_purposes(context, prim),
-        disable_motion_blur: ["disableMotionBlur", "instantaneousShutter"].iter().any(|name| context.get(prim, name).unwrap_or(false)),
+        disable_motion_blur: is_instantaneous(context, prim, None),
+        gamut: gamut(context, prim),
         products: product_prims.iter().filter_map(|product| read_product(context, prim, product)).collect(),
         origin: prim.origin(),
     }
@@ -141,7 +146,14 @@ fn framing<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, product: Optio
         conform,
         data_window: context.get(of("dataWindowNDC"), "dataWindowNDC").unwrap_or(WHOLE_PICTURE),
         disable_depth_of_field: context.get(of("disableDepthOfField"), "disableDepthOfField").unwrap_or(false),
+        disable_motion_blur: is_instantaneous(context, prim, product),
     }
+}
+
+/// Whether nothing moves while the shutter is open, by the name of today or the one before it.
+fn is_instantaneous<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, product: Option<&Prim<'py>>) -> bool {
+    let mut says = |name: &str| context.get(setting(prim, product, name), name).unwrap_or(false);
+    says("disableMotionBlur") || says("instantaneousShutter")
 }
 
 /// The all-purpose binding's token is empty; some exporters write its name.
@@ -162,15 +174,15 @@ fn purposes<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Vec<Purpos
     purposes
 }
 
-fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
-    let space: Option<String> = context.get_authored(prim, "renderingColorSpace");
-    if let Some(space) = space.filter(|space| !space.is_empty() && !is_linear_rec709(space)) {
-        context.warn(&prim.origin(), format!("renderingColorSpace is '{space}'; gonio renders in linear Rec.709"));
+/// The gamut of `renderingColorSpace`; spaces that are not linear are told.
+fn gamut<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Gamut {
+    let space: String = context.get_authored(prim, "renderingColorSpace").unwrap_or_default();
+    match ColourSpace::parse(&space) {
+        Ok(ColourSpace::Colour { transfer: Transfer::Linear, gamut }) => return gamut,
+        Ok(ColourSpace::Auto) => {}
+        _ => context.warn(&prim.origin(), format!("renderingColorSpace is '{space}', expected a linear space such as lin_rec709_scene or lin_ap1_scene; files are in linear Rec.709")),
     }
-}
-
-fn is_linear_rec709(space: &str) -> bool {
-    gonio::colour::ColourSpace::parse(space) == Ok(gonio::colour::ColourSpace::LINEAR_REC709)
+    Gamut::Rec709
 }
 
 fn read_product<'py>(context: &mut Context<'_, 'py>, settings: &Prim<'py>, prim: &Prim<'py>) -> Option<Product> {

@@ -16,7 +16,8 @@ use crate::prim::Prim;
 use crate::pxr::{Module, Trap};
 use crate::settings::{self, RenderSettings};
 use crate::traverse::Walker;
-use crate::{material, motion, place, pxr, skeleton};
+use crate::watch::Reading;
+use crate::{material, motion, place, pxr, render_pass, skeleton};
 use gonio::scene::Scene;
 use gonio::{Diagnostic, Error, Result, Severity};
 use info::read_info;
@@ -73,6 +74,7 @@ impl Stage {
     pub fn open(py: Python<'_>, path: &Path, options: &StageOptions) -> Result<Self> {
         pxr::ensure(py)?;
         check_file(path)?;
+        let _reading = Reading::start(py);
         let trap = Trap::set(py);
         let mut diagnostics = Vec::new();
         let opened = open_prepared(py, path, options, &mut diagnostics);
@@ -98,6 +100,11 @@ impl Stage {
         &self.path
     }
 
+    /// The `Usd.TimeCode` of a time.
+    pub(crate) fn time<'py>(&self, py: Python<'py>, time: SampleTime) -> Result<Bound<'py, PyAny>> {
+        time_code(py, self.info.time_range, time).map_err(|error| unreadable(py, &self.path, &error))
+    }
+
     /// The `Usd.Stage`.
     pub fn object<'py>(&self, py: Python<'py>) -> &Bound<'py, PyAny> {
         self.object.bind(py)
@@ -109,6 +116,7 @@ impl Stage {
     /// Cancellation, settings that do not exist, a stage with more instances than 2²⁵, photometric files that cannot be read unless `lenient` is
     /// set, and with `strict` any warning.
     pub fn load(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
+        let _reading = Reading::start(py);
         let trap = Trap::set(py);
         let result = self.read(py, options, cancel).and_then(|loaded| self.blurred(py, options, cancel, loaded));
         let messages = trap.release();
@@ -127,7 +135,7 @@ impl Stage {
 
     /// What was read, with how it moves while the shutter of its camera is open.
     fn blurred(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool, mut loaded: Loaded) -> Result<Loaded> {
-        if !options.motion_blur || loaded.settings.as_ref().is_some_and(|settings| settings.disable_motion_blur) {
+        if options.with_settings(loaded.settings.as_ref()).disable_motion_blur {
             return Ok(loaded);
         }
         let shutter = self.shutter(py, options, &loaded.scene).map_err(|error| unreadable(py, &self.path, &error))?;
@@ -159,12 +167,15 @@ impl Stage {
         let time = time_code(py, self.info.time_range, options.time).map_err(unreadable)?;
         // What is shown depends on the settings, so they are read in a context of their own.
         let mut first = Context::new(self.object.bind(py).clone(), time.clone(), options, cancel);
-        let settings = settings::render_settings(&mut first, options.render_settings.as_deref())?;
+        let pass = options.render_pass.as_deref().map(|path| render_pass::read(&mut first, path)).transpose()?.unwrap_or_default();
+        let of_settings = options.render_settings.as_deref().or(pass.source.as_deref());
+        let settings = settings::render_settings(&mut first, of_settings)?;
         let (_, mut diagnostics) = first.finish();
         let options = options.with_settings(settings.as_ref());
         let mut context = Context::new(self.object.bind(py).clone(), time, &options, cancel);
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
+        context.roles = pass.roles;
         context.material_definitions = self.documents.as_ref().map(|documents| documents.definitions().to_vec()).unwrap_or_default();
         if self.info.has_skeletons {
             skeleton::bake(&mut context);

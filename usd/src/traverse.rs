@@ -140,7 +140,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         let standing = if limited { self.context.options.standing(&prim.path()) } else { Standing::Within };
         let type_name = prim.type_name();
         let kind = self.kind(&type_name, prim);
-        if kind == PrimKind::Leaf || standing == Standing::Beside {
+        let is_pruned = model.root.is_empty() && !self.context.roles.are_plain() && self.context.roles.prunes(&prim.path());
+        if kind == PrimKind::Leaf || standing == Standing::Beside || is_pruned {
             return Ok(());
         }
         *self.context.prim_counts.entry(type_name.clone()).or_default() += 1;

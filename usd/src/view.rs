@@ -2,7 +2,7 @@
 
 use crate::camera::choose;
 use crate::context::UpAxis;
-use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, camera_light};
+use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, camera_light, dome_light};
 use crate::settings::{Framing, conform_cameras};
 use crate::stage::Loaded;
 use crate::{data_window, render_variable};
@@ -27,6 +27,16 @@ pub enum Resolution {
     Exact([u32; 2]),
 }
 
+/// The light of stages without any.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Headlight {
+    /// One at the camera.
+    #[default]
+    Camera,
+    /// An even sky.
+    Dome,
+}
+
 /// What the caller wants of the view.
 #[derive(Clone, Debug)]
 pub struct ViewOptions {
@@ -36,8 +46,12 @@ pub struct ViewOptions {
     pub resolution: Resolution,
     /// Factor on both sides.
     pub scale: f64,
-    /// Whether stages without light get one at the camera.
+    /// Width of a pixel over its height; `None` leaves it to the stage.
+    pub pixel_aspect: Option<f64>,
+    /// Whether stages without light get one.
     pub camera_light: bool,
+    /// Which light that is.
+    pub headlight: Headlight,
     /// Whether the settings' data window counts; else the whole picture is rendered.
     pub data_window: bool,
     /// Which of the settings' products the picture is for; without it the passes of all are in one picture, framed as the first says.
@@ -46,7 +60,16 @@ pub struct ViewOptions {
 
 impl Default for ViewOptions {
     fn default() -> Self {
-        Self { camera: None, resolution: Resolution::Stage, scale: 1.0, camera_light: true, data_window: true, product: None }
+        Self {
+            camera: None,
+            resolution: Resolution::Stage,
+            scale: 1.0,
+            pixel_aspect: None,
+            camera_light: true,
+            headlight: Headlight::default(),
+            data_window: true,
+            product: None,
+        }
     }
 }
 
@@ -72,6 +95,9 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
     set_resolution(loaded, options)?;
     let note = |message: &str| Diagnostic::info(&Origin::new("stage"), message);
     let scene = &mut loaded.scene;
+    if scene.instances.is_empty() && scene.lights.is_empty() {
+        notes.push(note("nothing of it can be seen: there are no surfaces and no lights among what is read"));
+    }
     if scene.cameras.is_empty() {
         notes.push(note("there is no camera; one that sees everything is used"));
         let Bounds { min, max } = Bounds::of_scene(scene);
@@ -83,8 +109,12 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
         ));
     }
     if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(shines) {
-        notes.push(note("there is no light; one at the camera lights it (--disable-camera-light takes it away)"));
-        scene.lights.push(camera_light(&scene.cameras[scene.settings.camera as usize]));
+        let (light, words) = match options.headlight {
+            Headlight::Camera => (camera_light(&scene.cameras[scene.settings.camera as usize]), "one at the camera"),
+            Headlight::Dome => (dome_light(), "an even sky"),
+        };
+        notes.push(note(&format!("there is no light; {words} lights it (--disable-camera-light takes it away)")));
+        scene.lights.push(light);
     }
     render_variable::add_shader_outputs(scene, &variables);
     conform_cameras(scene, framing.as_ref().map_or(ConformPolicy::default(), |framing| framing.conform));
@@ -100,6 +130,12 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
     }
     let has_settings = loaded.settings.is_some();
     let scene = &mut loaded.scene;
+    if let Some(aspect) = options.pixel_aspect {
+        if !(aspect > 0.0 && aspect.is_finite()) {
+            return Err(Error::setting("pixel-aspect", format!("{aspect} was found, expected a number above 0")));
+        }
+        scene.settings.pixel_aspect = aspect;
+    }
     let aspect = scene.cameras.get(scene.settings.camera as usize).map_or(DEFAULT_ASPECT, aperture_aspect);
     let pixel_aspect = scene.settings.pixel_aspect;
     let by_width = |width: u32| [width, ((f64::from(width) * pixel_aspect / aspect).round() as u32).max(1)];

@@ -6,8 +6,9 @@ use super::{
     denoise::Denoiser,
     file_name, list,
     output::{Notes, Writer},
+    products::{gamut_of, half_layers},
     progress::Reporter,
-    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, stage_options},
+    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, sample_time, stage_options, write_cropped},
 };
 use clap::Parser;
 use gonio::{
@@ -15,7 +16,7 @@ use gonio::{
     checkpoint::{merge, parts},
 };
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, SampleTime, Stage, StageOptions, framing::is_camera_lit};
+use gonio_usd::{Loaded, Stage, StageOptions, framing::is_camera_lit};
 use pyo3::{
     prelude::*,
     types::{PyCFunction, PyDict, PyTuple},
@@ -33,6 +34,7 @@ pub fn farm_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
         return Err(Error::setting("arguments", "expected those of gonio render"));
     };
     options.inputs().for_each(|path| *path = folder.join(&*path));
+    options.settle();
     // The notes are the coordinator's to tell.
     options.quiet = true;
     let mut loaded = load(py, &open(py, &options)?, &options, frame)?;
@@ -48,11 +50,11 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
         return Err(Error::setting("output", "no file was given; say -o picture.exr"));
     }
     let writer = Writer::new(&options.files, Execution::detect())?;
-    let frames = frames_of(options)?;
     let folder = std::env::current_dir().map_err(|error| Error::io(Path::new("."), error))?;
     let inputs: Vec<PathBuf> = options.inputs().map(|path| folder.join(&*path)).collect();
     let cluster = connect(py, options).map_err(|error| failure(py, &error))?;
     let stage = open(py, options)?;
+    let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
     let first = load(py, &stage, options, frames[0])?;
     if !options.quiet {
         list(&first.diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
@@ -79,7 +81,7 @@ fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
 
 /// The stage at a frame with what the command line says.
 fn load(py: Python<'_>, stage: &Stage, options: &RenderOptions, frame: Option<f64>) -> Result<Loaded> {
-    let time = frame.map_or(SampleTime::Start, SampleTime::Code);
+    let time = sample_time(options, frame);
     let mut loaded = stage.load(py, &StageOptions { time, ..stage_options(&options.stage)? }, &INTERRUPTED)?;
     complete_scene(options, &mut loaded, None)?;
     Ok(loaded)
@@ -99,11 +101,14 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
         time,
         camera_lit: is_camera_lit(scene),
         interrupted: false,
+        snapshot: false,
+        half_layers: &half_layers(&variables),
+        gamut: gamut_of(first),
         attributes: &attributes(options, scene),
     };
     let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
     let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();
-    writer.write_all(&outputs, &image, &notes, options.quiet)
+    write_cropped(writer, &outputs, &image, &notes, options)
 }
 
 /// `gonio.farm.Cluster`, which asks now and then whether Ctrl-C was pressed.

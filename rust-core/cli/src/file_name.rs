@@ -4,25 +4,37 @@ use std::path::{Path, PathBuf};
 
 /// Whether a name has a place for the frame.
 pub(super) fn has_frame(path: &Path) -> bool {
-    let text = path.to_string_lossy();
-    text.contains('#') || text.contains("$F")
+    for_frame(path, 0.0) != path
 }
 
 /// The name for a frame.
 pub(super) fn for_frame(path: &Path, frame: f64) -> PathBuf {
     let text = path.to_string_lossy();
-    PathBuf::from(hashes(&dollars(&text, frame), frame))
+    let named = PLACES.iter().fold(text.into_owned(), |text, (start, end)| filled(&text, start, end, frame));
+    PathBuf::from(hashes(&named, frame))
 }
 
-fn dollars(text: &str, frame: f64) -> String {
+/// What the places begin and end with, around their width: Houdini's `$F4` and `<F4>`, C's `%04d`. The longer go first.
+const PLACES: [(&str, &str); 5] = [("$FF", ""), ("<FF", ">"), ("$F", ""), ("<F", ">"), ("%", "d")];
+
+/// Where a place begins, and its width and length behind that.
+fn place<'t>(text: &'t str, start: &str) -> Option<(usize, &'t str)> {
+    text.find(start).map(|at| (at, &text[at + start.len()..]))
+}
+
+fn filled(text: &str, start: &str, end: &str, frame: f64) -> String {
     let mut out = String::new();
     let mut rest = text;
-    while let Some((before, after)) = rest.split_once("$F") {
-        out.push_str(before);
+    while let Some((at, after)) = place(rest, start) {
         let digits = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-        let width = after[..digits].parse().unwrap_or(1);
-        out.push_str(&number(frame, width, 0));
-        rest = &after[digits..];
+        if let Some(behind) = after[digits..].strip_prefix(end) {
+            out.push_str(&rest[..at]);
+            out.push_str(&number(frame, after[..digits].parse().unwrap_or(1), 0));
+            rest = behind;
+        } else {
+            out.push_str(&rest[..at + start.len()]);
+            rest = after;
+        }
     }
     out + rest
 }
@@ -59,6 +71,15 @@ mod tests {
         assert_eq!(name("a.###.###.exr", 1.5), "a.001.500.exr");
         assert_eq!(name("a.##.exr", -3.0), "a.-03.exr");
         assert_eq!(name("a.####.exr", 1.25), "a.0001.250.exr");
+        assert_eq!(
+            (name("a.<F4>.exr", 7.0), name("a.%04d.exr", 7.0), name("a.%d.exr", 7.0)),
+            ("a.0007.exr".into(), "a.0007.exr".into(), "a.7.exr".into())
+        );
+        assert_eq!(
+            (name("a.$FF.exr", 1.5), name("50%.exr", 7.0), name("a<Fold.exr", 7.0)),
+            ("a.1.500.exr".into(), "50%.exr".into(), "a<Fold.exr".into())
+        );
+        assert!(!has_frame(Path::new("50%.exr")) && has_frame(Path::new("a.%04d.exr")));
         assert!(has_frame(Path::new("x$F4.exr")) && !has_frame(Path::new("x.exr")));
     }
 }

@@ -17,6 +17,20 @@ pub(super) fn parse(text: &str) -> Result<Vec<f64>> {
     Ok(frames)
 }
 
+/// So many frames from the one named on, else from the stage's first, else from 1; `step` apart.
+pub(super) fn counted(named: Option<&[f64]>, first: Option<f64>, count: u32, step: Option<f64>) -> Result<Vec<f64>> {
+    let start = match named {
+        None => first.unwrap_or(1.0),
+        Some([start]) => *start,
+        Some(_) => return Err(Error::setting("frame-count", "it counts from one frame on, and --frames names several")),
+    };
+    let step = step.unwrap_or(1.0);
+    if !step.is_finite() || step == 0.0 {
+        return Err(Error::setting("frame-inc", format!("{step} was found, expected a number other than 0")));
+    }
+    Ok((0..count).map(|number| start + step * f64::from(number)).collect())
+}
+
 fn append(part: &str, frames: &mut Vec<f64>) -> Option<()> {
     let number = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
     let Some((start, rest)) = part.split_once(':') else {
@@ -39,7 +53,14 @@ fn append(part: &str, frames: &mut Vec<f64>) -> Option<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::parse;
+    use super::{counted, parse};
+
+    #[test]
+    fn counted_frames() {
+        assert_eq!(counted(Some(&[1.0]), None, 3, Some(2.0)).expect("valid"), [1.0, 3.0, 5.0]);
+        assert_eq!(counted(None, Some(101.0), 2, None).expect("valid"), [101.0, 102.0]);
+        assert!(counted(Some(&[1.0, 2.0]), None, 2, None).is_err() && counted(None, None, 2, Some(0.0)).is_err());
+    }
 
     #[test]
     fn ranges_and_steps() {

@@ -1,12 +1,12 @@
 //! `gonio info`.
 
-use super::{arguments::InfoOptions, light_words::describe, print, render::stage_options};
+use super::{arguments::InfoOptions, explain, light_words::describe, print, render::stage_options};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
     scene::Scene,
 };
-use gonio_usd::{SampleTime, load_stage};
+use gonio_usd::{SampleTime, Stage};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
@@ -19,7 +19,11 @@ pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBo
     if let Some(frame) = options.frame {
         stage_options.time = SampleTime::Code(frame);
     }
-    let loaded = load_stage(py, &options.stage.stage, &stage_options, interrupted)?;
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let loaded = stage.load(py, &stage_options, interrupted)?;
+    if let Some(path) = &options.explain {
+        return explain::tell(py, &stage, &stage_options, &loaded, path);
+    }
     let compiled = py.detach(|| compile(&loaded.scene, None, interrupted))?;
     let diagnostics: Vec<&Diagnostic> = loaded.diagnostics.iter().chain(&compiled.diagnostics).collect();
     if options.json {

@@ -1,18 +1,22 @@
 //! The `gonio` command.
 
 mod arguments;
+mod autocrop;
 mod bench;
 mod bsdf;
 mod channel;
 mod checkpoint;
 mod compare;
+mod completion;
 mod daylight;
 mod denoise;
 mod drawing;
+mod explain;
 mod falsecolor;
 mod farm;
 mod file;
 mod file_name;
+mod foreign;
 mod frames;
 mod glare;
 mod goniometer;
@@ -30,6 +34,7 @@ mod relight;
 mod render;
 mod report;
 mod share;
+mod snapshot;
 
 pub use farm::farm_scene;
 
@@ -44,9 +49,19 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Exit status of a run that was interrupted.
 const INTERRUPTED_STATUS: i32 = 130;
+/// Exit status for a command line that cannot be understood.
+const USAGE_STATUS: i32 = 2;
 
 /// Runs the command with its arguments, the program's name first; gives the exit status.
 pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
+    let translated = match foreign::translate(&arguments) {
+        Ok(translated) => translated,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            return USAGE_STATUS;
+        }
+    };
+    let arguments = translated.words;
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -57,9 +72,19 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     };
     INTERRUPTED.store(false, Ordering::Relaxed);
     interrupt::install();
+    if let Command::Render(options) = &parsed.command
+        && !options.quiet
+    {
+        translated.notes.iter().for_each(|note| say(note));
+    }
     let result = match parsed.command {
-        Command::Render(mut options) if options.farm.dask.is_some() => farm::render(py, &mut options, &arguments),
-        Command::Render(options) => render::render(py, &options, &INTERRUPTED),
+        Command::Render(mut options) => {
+            options.settle();
+            match options.farm.dask {
+                Some(_) => farm::render(py, &mut options, &arguments),
+                None => render::render(py, &options, &INTERRUPTED),
+            }
+        }
         Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),
@@ -73,6 +98,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
+        Command::Completion(options) => completion::completion(&options),
     };
     match result {
         Ok(status) => status,
@@ -116,7 +142,7 @@ fn list(diagnostics: &[Diagnostic], most: usize) {
 mod interrupt {
     //! Ctrl-C through Python's own machinery, so that nothing unsafe is needed.
 
-    use super::INTERRUPTED;
+    use super::{INTERRUPTED, snapshot::SNAPSHOT_ASKED};
     use pyo3::{prelude::*, types::PyCFunction};
     use std::sync::atomic::Ordering;
 
@@ -127,6 +153,11 @@ mod interrupt {
                 let handler = PyCFunction::new_closure(py, None, None, |_, _| INTERRUPTED.store(true, Ordering::Relaxed))?;
                 let signal = py.import("signal")?;
                 signal.call_method1("signal", (signal.getattr("SIGINT")?, handler))?;
+                // Not all systems have it.
+                if let Ok(number) = signal.getattr("SIGUSR1") {
+                    let handler = PyCFunction::new_closure(py, None, None, |_, _| SNAPSHOT_ASKED.store(true, Ordering::Relaxed))?;
+                    signal.call_method1("signal", (number, handler))?;
+                }
                 Ok(())
             };
             // Python installs handlers in its main thread alone; elsewhere Ctrl-C belongs to the host.

@@ -19,8 +19,7 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
     if !options.quiet {
         say(&format!("{} parts, samples {}:{} of {}", options.parts.len(), range.start, range.end, whole.identity.settings.samples));
     }
-    let notes =
-        Notes { exposure: whole.identity.exposure, time: 0.0, camera_lit: false, interrupted: false, attributes: &whole.identity.notes };
+    let notes = Notes { exposure: whole.identity.exposure, attributes: &whole.identity.notes, ..Notes::default() };
     let mut image = whole.film.develop();
     writer.finish(&mut image)?;
     writer.write_all(&options.files.output, &image, &notes, options.quiet)?;

@@ -3,6 +3,7 @@
 use super::{arguments::OutputArguments, denoise::Denoiser, file::make_folder, print};
 use gonio::{
     Error, Result,
+    colour::Gamut,
     film::Image,
     output::{Adaptation, DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_exr, write_picture},
     scene::{Aov, Settings},
@@ -14,7 +15,7 @@ use std::{
 };
 
 /// What a file says about its picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Notes<'a> {
     /// Exposure of the camera.
     pub(super) exposure: f32,
@@ -24,6 +25,12 @@ pub(super) struct Notes<'a> {
     pub(super) camera_lit: bool,
     /// The render did not end by itself, and somebody waits.
     pub(super) interrupted: bool,
+    /// The render goes on.
+    pub(super) snapshot: bool,
+    /// Passes that EXR files have in half floats, whatever they hold.
+    pub(super) half_layers: &'a [String],
+    /// The gamut of EXR files' colours; `None` is Rec.709.
+    pub(super) gamut: Option<Gamut>,
     /// Further text attributes.
     pub(super) attributes: &'a [(String, String)],
 }
@@ -89,7 +96,7 @@ impl Writer {
     /// Writes all files at once: the wait is that for the slowest.
     pub(super) fn write_all(&self, paths: &[PathBuf], image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
         let as_it_is = about.camera_lit && !self.is_stated;
-        let look = if as_it_is { Look { tone_map: ToneMap::None, ..self.look } } else { self.look_at(image, about.time) };
+        let look = if as_it_is { Look { tone_map: ToneMap::None, ..self.look } } else { self.look_at(image, about) };
         paths.iter().try_for_each(|path| make_folder(path))?;
         let written: Vec<Result<()>> = std::thread::scope(|scope| {
             let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, &look, about))).collect();
@@ -106,10 +113,17 @@ impl Writer {
     }
 
     /// How a picture is shown, by an eye that has adapted to those before it.
-    fn look_at(&self, image: &Image, time: f64) -> Look {
+    fn look_at(&self, image: &Image, about: &Notes<'_>) -> Look {
         let adapted = self.eye.as_ref().map(|eye| {
             let measured = log_average(image, self.execution);
-            eye.lock().unwrap_or_else(PoisonError::into_inner).follow(measured, time)
+            let mut eye = eye.lock().unwrap_or_else(PoisonError::into_inner);
+            // The eye adapts to pictures that are done.
+            let before = *eye;
+            let adapted = eye.follow(measured, about.time);
+            if about.snapshot {
+                *eye = before;
+            }
+            adapted
         });
         Look { adapted, ..self.look }
     }
@@ -117,8 +131,15 @@ impl Writer {
     /// Writes one file.
     fn write(&self, path: &Path, image: &Image, look: &Look, about: &Notes<'_>) -> Result<()> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-            let Notes { exposure, interrupted, attributes, .. } = *about;
-            let options = ExrOptions { half: self.half, exposure, hasty: interrupted, attributes: attributes.to_vec() };
+            let Notes { exposure, interrupted, attributes, half_layers, gamut, .. } = *about;
+            let options = ExrOptions {
+                half: self.half,
+                half_layers: half_layers.to_vec(),
+                gamut,
+                exposure,
+                hasty: interrupted,
+                attributes: attributes.to_vec(),
+            };
             write_exr(path, image, &options)
         } else {
             write_picture(path, image, look, self.execution)

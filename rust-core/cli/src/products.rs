@@ -1,6 +1,6 @@
 //! The pictures of a frame: one where the command line names the files, else those that the stage's render products ask for.
 
-use gonio::{Error, Result};
+use gonio::{Error, Result, colour::Gamut};
 use gonio_usd::{Loaded, render_variable::RenderVariable};
 use std::{collections::HashSet, path::PathBuf};
 
@@ -19,14 +19,27 @@ pub(super) struct Picture {
     /// The first of the products that share it; `None` for all of them at once.
     pub(super) product: Option<usize>,
     pub(super) files: Vec<File>,
+    /// The gamut of EXR files' colours.
+    pub(super) gamut: Option<Gamut>,
 }
 
 impl Picture {
     /// One picture with the variables of all products in each of these files.
     pub(super) fn of_all_products(loaded: &Loaded, paths: impl Iterator<Item = PathBuf>) -> Self {
         let variables = loaded.settings.as_ref().map(|settings| settings.variables()).unwrap_or_default();
-        Self { product: None, files: paths.map(|path| File { path, variables: variables.clone() }).collect() }
+        let files = paths.map(|path| File { path, variables: variables.clone() }).collect();
+        Self { product: None, files, gamut: gamut_of(loaded) }
     }
+}
+
+/// The gamut that the render settings ask for; none for Rec.709, in which pictures are rendered.
+pub(super) fn gamut_of(loaded: &Loaded) -> Option<Gamut> {
+    loaded.settings.as_ref().map(|settings| settings.gamut).filter(|gamut| *gamut != Gamut::Rec709)
+}
+
+/// Names of the variables that files have in half floats.
+pub(super) fn half_layers(variables: &[RenderVariable]) -> Vec<String> {
+    variables.iter().filter(|variable| variable.half).map(|variable| variable.name.clone()).collect()
 }
 
 /// Files written so far, which no later frame may write again.
@@ -59,7 +72,7 @@ impl Products {
             };
             match pictures.iter_mut().find(is_like) {
                 Some(picture) => picture.files.push(file),
-                None => pictures.push(Picture { product: Some(number), files: vec![file] }),
+                None => pictures.push(Picture { product: Some(number), files: vec![file], gamut: gamut_of(loaded) }),
             }
         }
         Ok(pictures)

@@ -1,14 +1,16 @@
 //! `gonio render`.
 
 use super::{
-    arguments::{ComplexityArgument, FilterArgument, RenderOptions, StageArguments},
+    arguments::{ComplexityArgument, FilterArgument, HeadlightArgument, RenderOptions, StageArguments},
+    autocrop,
     checkpoint::{Keeper, sample_range, take_part},
-    daylight, file_name, frames, list,
+    daylight, explain, file_name, frames, list,
     output::{Notes, Writer},
     print,
-    products::{Picture, Products},
+    products::{Picture, Products, half_layers},
     progress::{Reporter, clock},
     say,
+    snapshot::Snapshots,
 };
 use gonio::{
     Error, Result,
@@ -23,7 +25,7 @@ use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
     framing::is_camera_lit,
     render_variable::{self, RenderVariable, aov_by_name},
-    view::{Resolution, ViewOptions, complete},
+    view::{Headlight, Resolution, ViewOptions, complete},
 };
 use pyo3::prelude::*;
 use std::{
@@ -41,10 +43,15 @@ pub(super) const MOST_WARNINGS: usize = 20;
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let mut stage_options = stage_options(&options.stage)?;
+    // A stage that is read again and again may be edited meanwhile.
+    stage_options.detached = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
     let start = Instant::now();
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
     if options.stage.verbose && !options.quiet {
         say(&format!("pxr imported and the stage opened in {:.2} s", start.elapsed().as_secs_f64()));
+    }
+    if let Some(path) = &options.explain {
+        return explain::render(py, options, &stage, &stage_options, path, interrupted);
     }
     if options.list_cameras {
         for camera in &stage.info().cameras {
@@ -54,11 +61,12 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     }
     let execution = Execution::detect();
     let writer = Writer::new(&options.files, execution)?;
-    let frames = frames_of(options)?;
+    let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
+    Snapshots::new(options.snapshot)?;
     let mut previous: Option<Arc<CompiledScene>> = None;
     let mut products = Products::default();
     for frame in &frames {
-        stage_options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
+        stage_options.time = sample_time(options, *frame);
         let start = Instant::now();
         let loaded = stage.load(py, &stage_options, interrupted)?;
         let (loading, waited_for_meshes) = (start.elapsed(), loaded.waited_for_meshes);
@@ -86,10 +94,23 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     Ok(0)
 }
 
-/// The frames asked for; without any the stage's own time, once.
-pub(super) fn frames_of(options: &RenderOptions) -> Result<Vec<Option<f64>>> {
-    let Some(text) = &options.frames else { return Ok(vec![None]) };
-    let frames = frames::parse(text)?;
+/// When the stage is read for a frame.
+pub(super) fn sample_time(options: &RenderOptions, frame: Option<f64>) -> SampleTime {
+    match frame {
+        Some(code) => SampleTime::Code(code),
+        None if options.default_time => SampleTime::Default,
+        None => SampleTime::Start,
+    }
+}
+
+/// The frames asked for; without any the stage's own time, once. `first` is the stage's first.
+pub(super) fn frames_of(options: &RenderOptions, first: Option<f64>) -> Result<Vec<Option<f64>>> {
+    let named = options.frames.as_deref().map(frames::parse).transpose()?;
+    let frames = match (named, options.frame_count) {
+        (None, None) => return Ok(vec![None]),
+        (Some(frames), None) => frames,
+        (named, Some(count)) => frames::counted(named.as_deref(), first, count, options.frame_inc)?,
+    };
     let mut files = options
         .files
         .output
@@ -130,7 +151,8 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,
         session_layer: arguments.session_layer.clone(),
         render_settings: arguments.settings.clone(),
-        motion_blur: !arguments.disable_motion_blur,
+        render_pass: arguments.render_pass.clone(),
+        disable_motion_blur: arguments.disable_motion_blur,
         strict: arguments.strict,
         lenient: arguments.lenient,
         ..StageOptions::default()
@@ -139,6 +161,12 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
 
 /// What the command line adds to a stage: daylight, view and settings. `product` is the render product whose picture it is.
 pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded, product: Option<usize>) -> Result<()> {
+    if options.disable_scene_lights {
+        loaded.scene.lights.clear();
+    }
+    if options.disable_scene_materials {
+        loaded.scene.instances.iter_mut().for_each(|instances| instances.materials.clear());
+    }
     daylight::add(&options.daylight, loaded, options.stage.strict, options.quiet)?;
     Job::apply_settings(options, loaded, product)
 }
@@ -193,8 +221,11 @@ impl Job<'_> {
                 (_, Some(width)) => Resolution::Width(width),
                 _ => Resolution::Stage,
             },
-            scale: options.res_scale,
-            camera_light: !options.disable_camera_light,
+            // husk counts in per cent.
+            scale: if options.res_scale >= 10.0 { options.res_scale / 100.0 } else { options.res_scale },
+            pixel_aspect: options.pixel_aspect,
+            camera_light: !options.disable_camera_light && options.headlight != Some(HeadlightArgument::None),
+            headlight: if options.headlight == Some(HeadlightArgument::Dome) { Headlight::Dome } else { Headlight::Camera },
             data_window: options.crop.is_none(),
             product,
         };
@@ -282,7 +313,11 @@ impl Job<'_> {
             Some(film) => Render::resume(compiled.clone(), &scene.settings, self.execution, film)?,
             None => Render::start(compiled.clone(), &scene.settings, self.execution)?,
         };
-        let keep = |film: &Film| keeper.iter_mut().for_each(|keeper| keeper.keep_if_due(film));
+        let mut snapshots = Snapshots::new(self.options.snapshot)?;
+        let keep = |film: &Film| {
+            keeper.iter_mut().for_each(|keeper| keeper.keep_if_due(film));
+            snapshots.take_if_due(|| self.snapshot(scene, film, hidden));
+        };
         drive(&mut render, self.options.quiet, self.interrupted, keep)?;
         let result = render.finish();
         if let Err(error) = &result
@@ -299,7 +334,7 @@ impl Job<'_> {
         }
         image.layers.retain(|layer| !hidden.contains(&layer.aov));
         if image.samples > 0 || result.is_ok() || render.progress().fraction > 0.0 {
-            self.write(scene, &mut image, result.is_err())?;
+            self.write(scene, &mut image, result.is_err(), false)?;
         }
         if !self.options.quiet && result.is_ok() {
             let rays = render.progress().rays as f64 * 1e-6;
@@ -314,21 +349,36 @@ impl Job<'_> {
         result
     }
 
+    /// Writes the picture so far. One that cannot be written does not end the render.
+    fn snapshot(&self, scene: &Scene, film: &Film, hidden: &[Aov]) {
+        let mut image = film.develop();
+        image.layers.retain(|layer| !hidden.contains(&layer.aov));
+        let samples = image.samples;
+        match self.write(scene, &mut image, true, true) {
+            Ok(()) if self.options.quiet => {}
+            Ok(()) => say(&format!("snapshot with {samples} samples a pixel")),
+            Err(error) => say(&format!("warning: the snapshot could not be written: {error}")),
+        }
+    }
+
     /// Writes all files at once: the wait is that for the slowest.
-    fn write(&self, scene: &Scene, image: &mut Image, interrupted: bool) -> Result<()> {
+    fn write(&self, scene: &Scene, image: &mut Image, interrupted: bool, snapshot: bool) -> Result<()> {
         let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
+        // All files of a picture show the same.
+        let variables = self.picture.files.first().map(|file| file.variables.as_slice()).unwrap_or_default();
         let notes = Notes {
+            half_layers: &half_layers(variables),
+            gamut: self.picture.gamut,
             exposure,
             time: self.time,
             camera_lit: is_camera_lit(scene),
             interrupted,
+            snapshot,
             attributes: &attributes(self.options, scene),
         };
         let paths: Vec<PathBuf> = self.picture.files.iter().map(|file| file.path.clone()).collect();
-        // All files of a picture show the same.
-        let variables = self.picture.files.first().map(|file| file.variables.as_slice()).unwrap_or_default();
         name_layers(self.options, image, &scene.settings, variables);
-        self.writer.write_all(&paths, image, &notes, self.options.quiet)
+        write_cropped(self.writer, &paths, image, &notes, self.options)
     }
 
     /// What keeps the render's checkpoint, if there is to be one.
@@ -337,6 +387,21 @@ impl Job<'_> {
         let identity = Identity::new(scene, self.execution, attributes(self.options, scene).to_vec());
         Keeper::new(path.clone(), identity, &self.options.checkpoint).map(Some)
     }
+}
+
+/// Writes a picture's files, EXR files cropped to what they show if that was asked for.
+pub(super) fn write_cropped(writer: &Writer, paths: &[PathBuf], image: &Image, notes: &Notes<'_>, options: &RenderOptions) -> Result<()> {
+    let quiet = options.quiet || notes.snapshot;
+    if options.autocrop.is_empty() {
+        return writer.write_all(paths, image, notes, quiet);
+    }
+    let is_exr = |path: &&PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
+    let (to_crop, others): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(is_exr);
+    let owned = |paths: Vec<&PathBuf>| paths.into_iter().cloned().collect::<Vec<_>>();
+    writer.write_all(&owned(others), image, notes, quiet)?;
+    let mut part = image.clone();
+    autocrop::crop(&mut part, &options.autocrop)?;
+    writer.write_all(&owned(to_crop), &part, notes, quiet)
 }
 
 /// Makes the layers of a picture those of the stage's render variables, unless there are none or the command line asks for others.

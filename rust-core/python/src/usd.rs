@@ -16,7 +16,7 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for.
 #[pyfunction]
-#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, purposes = None, complexity = "high", camera_light = true, strict = false))]
+#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, render_pass = None, purposes = None, complexity = "high", camera_light = true, strict = false))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd<'py>(
     py: Python<'py>,
@@ -24,12 +24,13 @@ pub(crate) fn load_usd<'py>(
     frame: Option<f64>,
     camera: Option<String>,
     render_settings: Option<String>,
+    render_pass: Option<String>,
     purposes: Option<Vec<String>>,
     complexity: &str,
     camera_light: bool,
     strict: bool,
 ) -> PyResult<Bound<'py, Scene>> {
-    let mut options = StageOptions { strict, render_settings, ..StageOptions::default() };
+    let mut options = StageOptions { strict, render_settings, render_pass, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
         .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high or veryhigh")))?;

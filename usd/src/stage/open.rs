@@ -45,6 +45,7 @@ pub(super) fn open_prepared<'py>(
 /// The stage, with the session layer as the edit target.
 fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, session: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>> {
     let _limit = MemoryLimit::new(py);
+    detach_layers(py, options.detached).map_err(|error| unreadable(py, path, &error))?;
     let root = find_layer(py, path)?;
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
@@ -64,6 +65,17 @@ fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, sessio
         Ok(stage)
     };
     open().map_err(|error| unreadable(py, path, &error))
+}
+
+/// Says for all layers that are opened from now on whether they are read into memory as a whole; without it binary layers stay views of their
+/// files, which end the process where a file is cut short meanwhile.
+fn detach_layers(py: Python<'_>, all: bool) -> PyResult<()> {
+    let layer = Module::Sdf.item(py, "Layer")?;
+    // Not all versions of the package have them.
+    let Some(rules) = layer.getattr_opt("DetachedLayerRules")? else { return Ok(()) };
+    let rules = rules.call0()?;
+    let rules = if all { rules.call_method0("IncludeAll")? } else { rules };
+    layer.call_method1("SetDetachedLayerRules", (rules,)).map(|_| ())
 }
 
 fn find_layer<'py>(py: Python<'py>, path: &Path) -> Result<Bound<'py, PyAny>> {

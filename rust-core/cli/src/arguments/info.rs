@@ -10,6 +10,9 @@ pub(crate) struct InfoOptions {
     /// The frame to look at.
     #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
     pub(crate) frame: Option<f64>,
+    /// Say what a prim has become and why.
+    #[arg(long, value_name = "PRIMPATH")]
+    pub(crate) explain: Option<String>,
     /// For machines.
     #[arg(long)]
     pub(crate) json: bool,

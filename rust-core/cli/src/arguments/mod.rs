@@ -3,6 +3,7 @@
 mod bench;
 mod bsdf;
 mod checkpoint;
+mod completion;
 mod daylight;
 mod falsecolor;
 mod farm;
@@ -22,6 +23,7 @@ mod work;
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
+pub(super) use completion::{CompletionOptions, ShellArgument};
 pub(super) use daylight::DaylightArguments;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
 pub(super) use farm::FarmArguments;
@@ -33,7 +35,7 @@ pub(super) use measure::{GridArguments, MeasureOptions};
 pub(super) use output::OutputArguments;
 pub(super) use photometry::{PhotometryOptions, SymmetryName};
 pub(super) use picture::{CompareOptions, RelightOptions};
-pub(super) use render::{FilterArgument, RenderOptions};
+pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use work::WorkArguments;
@@ -46,9 +48,28 @@ use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 
+/// What the process's status says.
+const EXIT_STATUS: &str = "\
+Exit status:
+  0    done
+  1    an error, told in one line; 'gonio compare' beyond --max
+  2    a command line that cannot be understood
+  3    the USD library broke down over the stage
+  130  interrupted; the picture so far is written";
+
+/// Command lines to start from.
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  gonio render stage.usda -o picture.exr -o picture.png --spp 256
+  gonio render --frames 1:10x2 --camera Main -w 1920 stage.usda out.####.exr
+  gonio render -f 1 -n 10 -i 2 --res 640 360 -o out.$F4.exr stage.usd
+  gonio render stage.usda --settings /Render/Final        (all its products)
+
+SIGUSR1 writes the picture so far.";
+
 /// Physically exact rendering of USD stages, with answers in cd/m² and lux.
 #[derive(Debug, Parser)]
-#[command(name = "gonio", version, about, propagate_version = true)]
+#[command(name = "gonio", version, about, propagate_version = true, after_help = EXIT_STATUS)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
@@ -57,6 +78,9 @@ pub(super) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Render a USD stage to EXR, PNG or JPEG.
+    ///
+    /// Takes the options of usdrecord and husk too; docs/usd.md lists what becomes of each.
+    #[command(after_long_help = RENDER_EXAMPLES)]
     Render(Box<RenderOptions>),
     /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
     Merge(MergeArguments),
@@ -107,6 +131,8 @@ pub(super) enum Command {
     Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.
     Bench(BenchOptions),
+    /// Write what a shell needs to complete gonio's options.
+    Completion(CompletionOptions),
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

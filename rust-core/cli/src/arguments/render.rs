@@ -9,25 +9,40 @@ use std::path::PathBuf;
 pub(crate) struct RenderOptions {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
+    /// The picture to write, as -o.
+    #[arg(value_name = "IMAGE")]
+    pub(crate) image: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) files: OutputArguments,
     /// Camera by name or path; without it the stage's own choice.
     #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
     pub(crate) camera: Option<String>,
     /// Frames: '1', '1:10', '1:10x2', separated by commas.
-    #[arg(long, short = 'f', alias = "frame", value_name = "FRAMES")]
+    #[arg(long, short = 'f', value_name = "FRAMES", allow_hyphen_values = true)]
     pub(crate) frames: Option<String>,
+    /// So many frames from the one that --frames names on, or from the stage's first.
+    #[arg(long = "frame-count", short = 'n', value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) frame_count: Option<u32>,
+    /// From one frame to the next, with --frame-count.
+    #[arg(long = "frame-inc", short = 'i', value_name = "STEP", allow_hyphen_values = true)]
+    pub(crate) frame_inc: Option<f64>,
+    /// Default values of attributes, no time samples.
+    #[arg(long = "default-time", short = 'd', conflicts_with_all = ["frames", "frame_count"])]
+    pub(crate) default_time: bool,
     /// Width and height in pixels.
     #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], overrides_with = "res")]
     pub(crate) res: Option<Vec<u32>>,
     /// Width in pixels; the height follows the camera's shape.
-    #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", conflicts_with = "res")]
+    #[arg(long = "image-width", short = 'w', value_name = "WIDTH", conflicts_with = "res")]
     pub(crate) image_width: Option<u32>,
-    /// Factor on the resolution.
+    /// Factor on the resolution; from 10 on it is per cent.
     #[arg(long = "res-scale", value_name = "FACTOR", default_value_t = 1.0)]
     pub(crate) res_scale: f64,
+    /// Width of a pixel over its height.
+    #[arg(long = "pixel-aspect", value_name = "RATIO")]
+    pub(crate) pixel_aspect: Option<f64>,
     /// Samples a pixel.
-    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, short = 'p', value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(crate) spp: Option<u32>,
     /// Stop sampling where the estimated noise is below this, on Cycles' scale: 0.01 is a clean picture, 0.1 a preview; 0 is off. --spp is the most that a pixel gets, the pass sample_count shows what it got.
     #[arg(long = "noise-threshold", value_name = "ERROR", default_value_t = 0.0)]
@@ -66,7 +81,7 @@ pub(crate) struct RenderOptions {
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(crate) crop: Option<Vec<String>>,
     /// Stop after this many seconds, with whole passes over the picture.
-    #[arg(long = "time-limit", aliases = ["timelimit", "time"], value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long = "time-limit", alias = "time", value_name = "SECONDS", default_value_t = 0.0)]
     pub(crate) time_limit: f64,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
@@ -77,8 +92,26 @@ pub(crate) struct RenderOptions {
     #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_indirect: f32,
     /// No light at the camera for stages without lights.
-    #[arg(long = "disable-camera-light", alias = "disableCameraLight")]
+    #[arg(long = "disable-camera-light")]
     pub(crate) disable_camera_light: bool,
+    /// Light for stages without lights: none, from the camera, or an even sky that shows white as white.
+    #[arg(long, value_enum, ignore_case = true, conflicts_with = "disable_camera_light")]
+    pub(crate) headlight: Option<HeadlightArgument>,
+    /// No light prims; surfaces that shine stay.
+    #[arg(long = "disable-scene-lights")]
+    pub(crate) disable_scene_lights: bool,
+    /// All surfaces in the default material.
+    #[arg(long = "disable-scene-materials")]
+    pub(crate) disable_scene_materials: bool,
+    /// Write the picture so far every so many seconds, over its file; SIGUSR1 does the same once.
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) snapshot: Option<f64>,
+    /// Leave out of EXR files what is black or empty all around, in these passes: names separated by commas, or '*' for all; C is the colour, A its coverage.
+    #[arg(long, value_name = "PASSES", value_delimiter = ',')]
+    pub(crate) autocrop: Vec<String>,
+    /// Say what a prim has become and why, and end.
+    #[arg(long, value_name = "PRIMPATH")]
+    pub(crate) explain: Option<String>,
     /// List the stage's cameras and end.
     #[arg(long = "list-cameras")]
     pub(crate) list_cameras: bool,
@@ -94,6 +127,11 @@ pub(crate) struct RenderOptions {
 }
 
 impl RenderOptions {
+    /// What other options than their own stand for.
+    pub(crate) fn settle(&mut self) {
+        self.files.output.extend(self.image.take());
+    }
+
     /// The files that are read.
     pub(crate) fn inputs(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         [&mut self.stage.stage].into_iter().chain(&mut self.stage.session_layer).chain(&mut self.daylight.weather)
@@ -114,6 +152,17 @@ pub(crate) enum FilterArgument {
     Gaussian,
     /// Blackman–Harris.
     BlackmanHarris,
+}
+
+/// Light for stages without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HeadlightArgument {
+    /// Darkness.
+    None,
+    /// From the camera.
+    Distant,
+    /// From everywhere.
+    Dome,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -26,12 +26,15 @@ pub(crate) struct StageArguments {
     /// The RenderSettings prim to follow.
     #[arg(long, short = 's', alias = "renderSettingsPrimPath", value_name = "PRIMPATH")]
     pub(crate) settings: Option<String>,
+    /// The RenderPass prim to follow: what of the stage is shown, and whose settings count unless --settings says.
+    #[arg(long = "render-pass", alias = "pass", value_name = "PRIMPATH")]
+    pub(crate) render_pass: Option<String>,
+    /// Everything stands still at the frame, whatever the camera's shutter says.
+    #[arg(long = "disable-motion-blur", aliases = ["disable-motionblur", "disableMotionBlur"])]
+    pub(crate) disable_motion_blur: bool,
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
-    /// Everything stands still at the frame, whatever the camera's shutter says
-    #[arg(long = "disable-motionblur", alias = "disableMotionBlur")]
-    pub(crate) disable_motion_blur: bool,
     /// Treat every warning as an error.
     #[arg(long)]
     pub(crate) strict: bool,

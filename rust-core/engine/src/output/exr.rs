@@ -2,21 +2,27 @@
 
 use super::write_atomically;
 use crate::{
+    colour::{Gamut, Primaries, apply, inverse},
     error::{Error, Result},
     film::{Image, Layer, channel_names, is_absolute},
     scene::Aov,
 };
+use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, ImageAttributes, IntegerBounds, Layer as ExrLayer, LayerAttributes,
     Text, Vec2, WritableImage, f16,
 };
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 /// How colour is stored, and what the header says.
 #[derive(Clone, Debug, Default)]
 pub struct ExrOptions {
     /// Half floats for passes that are not absolute.
     pub half: bool,
+    /// Names of further passes in half floats, whatever they hold.
+    pub half_layers: Vec<String>,
+    /// The gamut of the colours; `None` is Rec.709, in which images come. What is measured stays.
+    pub gamut: Option<Gamut>,
     /// Exposure that the colour pass was multiplied by; 0 counts as 1.
     pub exposure: f32,
     /// Written at once rather than small and safe on disk: for a render that was interrupted.
@@ -28,7 +34,7 @@ pub struct ExrOptions {
 /// Writes all passes of an image; absolute ones always as 32-bit floats.
 pub fn write_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()> {
     write_atomically(path, !options.hasty, |file| {
-        let written = picture(image, options).write().to_buffered(file);
+        let written = picture(&in_gamut(image, options.gamut), options).write().to_buffered(file);
         written.map_err(|error| match error {
             exr::error::Error::Io(error) => error,
             other => std::io::Error::other(other.to_string()),
@@ -42,7 +48,8 @@ type ExrImage = exr::image::Image<ExrLayer<AnyChannels<FlatSamples>>>;
 fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     let [width, height] = image.size();
     let [left, top, right, bottom] = image.frame.overscan.map(signed);
-    let channels = image.layers.iter().flat_map(|layer| channels_of(layer, options.half)).collect();
+    let is_half = |layer: &Layer| options.half_layers.contains(&layer.name) || options.half && !is_absolute(layer.aov);
+    let channels = image.layers.iter().flat_map(|layer| channels_of(layer, is_half(layer))).collect();
     let mut attributes = LayerAttributes {
         layer_position: Vec2(signed(image.window.min[0]) - left, signed(image.window.min[1]) - top),
         software_name: Some(Text::from(concat!("gonio ", env!("CARGO_PKG_VERSION")))),
@@ -54,7 +61,7 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     };
     note("gonio:samples", &image.samples.to_string());
     for layer in &image.layers {
-        if let Some(unit) = unit(layer.aov) {
+        if let Some(unit) = unit(layer.aov, options.gamut) {
             note(&format!("gonio:unit:{}", name(layer)), unit);
         }
     }
@@ -67,8 +74,35 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     let side = |axis: usize, beyond: i32| (signed(image.resolution[axis]) - beyond).max(1) as usize;
     let display = IntegerBounds::new((0, 0), (side(0, left + right), side(1, top + bottom)));
     let mut out = exr::image::Image::from_layer(layer);
-    out.attributes = ImageAttributes { display_window: display, pixel_aspect: image.frame.pixel_aspect as f32, ..out.attributes };
+    let chromaticities = options.gamut.map(|gamut| chromaticities(gamut.primaries()));
+    let pixel_aspect = image.frame.pixel_aspect as f32;
+    out.attributes = ImageAttributes { display_window: display, pixel_aspect, chromaticities, ..out.attributes };
     out
+}
+
+fn chromaticities(primaries: Primaries) -> Chromaticities {
+    let place = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
+    let Primaries { red, green, blue, white } = primaries;
+    Chromaticities { red: place(red), green: place(green), blue: place(blue), white: place(white) }
+}
+
+/// The image with its colours in a gamut.
+fn in_gamut(image: &Image, gamut: Option<Gamut>) -> Cow<'_, Image> {
+    let Some(matrix) = gamut.and_then(Gamut::to_rec709).and_then(|matrix| inverse(&matrix)) else { return Cow::Borrowed(image) };
+    let mut image = image.clone();
+    for layer in image.layers.iter_mut().filter(|layer| layer.channels >= 3 && is_colour(layer.aov)) {
+        for pixel in layer.values.chunks_exact_mut(layer.channels) {
+            let colour = apply(&matrix, [pixel[0], pixel[1], pixel[2]].map(f64::from));
+            pixel.iter_mut().zip(colour).for_each(|(value, colour)| *value = colour as f32);
+        }
+    }
+    Cow::Owned(image)
+}
+
+/// Whether a pass is of light or of what colours it.
+fn is_colour(aov: Aov) -> bool {
+    use Aov::{Albedo, Color, DenoisingAlbedo, DenoisingLight, Emission, Environment, Light, LightGroup};
+    matches!(aov, Color | LightGroup(_) | Light(..) | Emission | Environment | Albedo | DenoisingAlbedo | DenoisingLight)
 }
 
 fn signed(x: u32) -> i32 {
@@ -84,11 +118,14 @@ fn name(layer: &Layer) -> &str {
     }
 }
 
-fn unit(aov: Aov) -> Option<&'static str> {
+fn unit(aov: Aov, gamut: Option<Gamut>) -> Option<&'static str> {
     match aov {
         Aov::Luminance => Some("cd/m2"),
         Aov::Illuminance => Some("lx"),
         Aov::Depth | Aov::P => Some("m"),
+        Aov::Color | Aov::LightGroup(_) if gamut.is_some() => {
+            Some("linear, of the header's chromaticities, luminance in cd/m2 times exposure")
+        }
         Aov::Color | Aov::LightGroup(_) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
         _ => None,
     }
@@ -102,7 +139,6 @@ fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
         aov if single && aov != Aov::Depth => name(layer).to_owned(),
         _ => format!("{}.{channel}", name(layer)),
     };
-    let half = half && !is_absolute(layer.aov);
     let columns = columns(&layer.values, layer.channels);
     let channel = |(name, values): (&&str, Vec<f32>)| AnyChannel::new(Text::from(full_name(name).as_str()), samples(values, half));
     names.iter().zip(columns).map(channel).collect()

@@ -756,6 +756,7 @@ def load_usd(
     frame: float | None = None,
     camera: str | None = None,
     render_settings: str | None = None,
+    render_pass: str | None = None,
     purposes: Sequence[str] | None = None,
     complexity: str = "high",
     camera_light: bool = True,

@@ -3,6 +3,7 @@
 import os
 import sys
 
+from . import _watch
 from ._gonio import _main
 
 # 128 + SIGINT, as shells have it.
@@ -11,6 +12,9 @@ INTERRUPTED = 130
 
 def main() -> int:
     """Run the `gonio` command; return its exit status."""
+    status = _watch.watched(sys.argv[1:])
+    if status is not None:
+        return status
     status = _main(["gonio", *sys.argv[1:]])
     if status == INTERRUPTED:
         # Somebody waits, all files are closed, and taking the modules of pxr apart takes longer than writing a picture.

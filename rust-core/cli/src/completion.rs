@@ -1,0 +1,21 @@
+//! `gonio completion`.
+
+use super::arguments::{Arguments, CompletionOptions, ShellArgument};
+use clap::CommandFactory;
+use clap_complete::{Shell, generate};
+use gonio::{Error, Result};
+use std::{io::Write, path::Path};
+
+/// Writes the shell's script to standard output.
+pub(super) fn completion(options: &CompletionOptions) -> Result<i32> {
+    let shell = match options.shell {
+        ShellArgument::Bash => Shell::Bash,
+        ShellArgument::Zsh => Shell::Zsh,
+        ShellArgument::Fish => Shell::Fish,
+    };
+    // In one piece: a reader that leaves early must not break the generator off.
+    let mut script = Vec::new();
+    generate(shell, &mut Arguments::command(), "gonio", &mut script);
+    std::io::stdout().write_all(&script).map_err(|error| Error::io(Path::new("standard output"), error))?;
+    Ok(0)
+}

@@ -1,0 +1,188 @@
+//! The options of usdrecord and husk, a row each.
+
+/// Whose option it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Program {
+    /// OpenUSD's usdrecord.
+    Usdrecord,
+    /// Houdini's husk.
+    Husk,
+    /// Both have it.
+    Both,
+}
+
+impl Program {
+    /// In words.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Usdrecord => "usdrecord",
+            Self::Husk => "husk",
+            Self::Both => "usdrecord and husk",
+        }
+    }
+}
+
+/// What becomes of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum State {
+    /// It is this option of gonio.
+    Works(&'static str),
+    /// Its words are worth a look of their own, and end as this option of gonio.
+    Read(&'static str),
+    /// It is taken and changes nothing; why is said.
+    Idle,
+    /// It would have changed the picture, and gonio cannot: an error.
+    Refused,
+}
+
+#[cfg(test)]
+impl State {
+    /// In a word.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Works(_) | Self::Read(_) => "works",
+            Self::Idle => "taken",
+            Self::Refused => "refused",
+        }
+    }
+}
+
+/// One option.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row {
+    /// As it is written, the longest first.
+    pub(crate) names: &'static [&'static str],
+    /// Whose.
+    pub(crate) program: Program,
+    /// Words that follow it.
+    pub(crate) takes: usize,
+    /// What becomes of it.
+    pub(crate) state: State,
+    /// What differs, why it is not there, what to do in its place; may be empty.
+    pub(crate) note: &'static str,
+}
+
+const fn row(names: &'static [&'static str], program: Program, takes: usize, state: State, note: &'static str) -> Row {
+    Row { names, program, takes, state, note }
+}
+
+use Program::{Both, Husk, Usdrecord};
+use State::{Idle, Read, Refused, Works};
+
+/// All of them: usdrecord's of OpenUSD 24.08, husk's of Houdini 20.5.
+pub(crate) const ROWS: &[Row] = &[
+    row(&["--mask"], Both, 1, Works("--mask"), ""),
+    row(&["--purposes"], Usdrecord, 1, Works("--purposes"), "without it render, where usdrecord shows proxy"),
+    row(&["--purpose"], Husk, 1, Works("--purposes"), "geometry is husk's word for default"),
+    row(&["--sessionLayer"], Usdrecord, 1, Works("--session-layer"), ""),
+    row(&["--disableGpu"], Usdrecord, 0, Idle, "gonio computes on the processor alone"),
+    row(&["--disableCameraLight"], Usdrecord, 0, Works("--disable-camera-light"), "the light is there only where the stage has none"),
+    row(&["--camera"], Both, 1, Works("--camera"), "a name or a path"),
+    row(&["-cam"], Usdrecord, 1, Works("--camera"), ""),
+    row(
+        &["-c"],
+        Both,
+        1,
+        Read("--camera"),
+        "low, medium, high and veryhigh are usdrecord's complexity, all else husk's camera; a camera called so wants --camera",
+    ),
+    row(&["--defaultTime", "-d"], Usdrecord, 0, Works("--default-time"), ""),
+    row(&["--frames"], Usdrecord, 1, Works("--frames"), ""),
+    row(&["--frame"], Husk, 1, Works("--frames"), ""),
+    row(&["-f"], Both, 1, Works("--frames"), ""),
+    row(&["--frame-count", "-n"], Husk, 1, Works("--frame-count"), ""),
+    row(&["--frame-inc", "-i"], Husk, 1, Works("--frame-inc"), ""),
+    row(&["--frame-list"], Husk, 1, Read("--frames"), "all numbers that follow"),
+    row(&["--complexity"], Both, 1, Works("--complexity"), "without it high, where usdrecord has low"),
+    row(
+        &["--colorCorrectionMode", "-color"],
+        Usdrecord,
+        1,
+        Read("--color-space"),
+        "sRGB is what PNG and JPEG files are; EXR files are linear, which disabled asks for; openColorIO is refused: write EXR and convert that",
+    ),
+    row(&["--renderer"], Both, 1, Idle, "gonio is the renderer"),
+    row(&["-R"], Husk, 1, Idle, "gonio is the renderer"),
+    row(&["-r"], Both, 1, Read("--res"), "before two numbers husk's resolution, else usdrecord's renderer, which is gonio"),
+    row(&["--imageWidth", "-w"], Usdrecord, 1, Works("--image-width"), ""),
+    row(&["--enableDomeLightVisibility"], Usdrecord, 0, Idle, "the camera always sees domes"),
+    row(&["--renderPassPrimPath", "-rp"], Usdrecord, 1, Works("--render-pass"), ""),
+    row(&["--renderSettingsPrimPath", "-rs"], Usdrecord, 1, Works("--settings"), ""),
+    row(&["--usd-input"], Husk, 1, Read("STAGE"), ""),
+    row(&["--list-cameras"], Husk, 0, Works("--list-cameras"), ""),
+    row(&["--settings", "-s"], Husk, 1, Works("--settings"), ""),
+    row(&["--pass"], Husk, 1, Works("--render-pass"), ""),
+    row(
+        &["--output", "-o"],
+        Husk,
+        1,
+        Read("--output"),
+        "names of pictures may be separated by commas; $F, $F4, <F>, <F4>, %d, %04d and #### stand for the frame",
+    ),
+    row(&["--res"], Husk, 2, Works("--res"), ""),
+    row(&["--res-scale"], Husk, 1, Works("--res-scale"), "a factor; from 10 on per cent, as husk has it"),
+    row(&["--pixel-aspect"], Husk, 1, Works("--pixel-aspect"), ""),
+    row(&["--pixel-samples", "-p"], Husk, 1, Works("--spp"), ""),
+    row(&["--threads", "-j"], Husk, 1, Works("--threads"), ""),
+    row(&["--engine"], Husk, 1, Idle, "gonio has one engine, which runs on the processor"),
+    row(&["--bucket-size"], Husk, 1, Idle, "tiles are 64 pixels wide and high, and change no picture"),
+    row(&["--bucket-order"], Husk, 1, Idle, "the order of tiles changes no picture"),
+    row(&["--image-mode"], Husk, 1, Idle, "how a picture comes about changes nothing of it"),
+    row(&["--progressive-passes"], Husk, 1, Idle, "how a picture comes about changes nothing of it"),
+    row(&["--disable-scene-lights", "--disable-lighting"], Husk, 0, Works("--disable-scene-lights"), "surfaces that shine stay"),
+    row(&["--disable-scene-materials"], Husk, 0, Works("--disable-scene-materials"), ""),
+    row(&["--headlight"], Husk, 1, Works("--headlight"), "for stages without lights: none, distant or dome"),
+    row(&["--disable-motionblur"], Husk, 0, Works("--disable-motion-blur"), ""),
+    row(&["--snapshot"], Husk, 1, Works("--snapshot"), "over the file itself, whole or not at all; SIGUSR1 does the same once"),
+    row(&["--autocrop"], Husk, 1, Works("--autocrop"), "names of passes, C and A among them, or *; EXR files alone become smaller"),
+    row(&["--exrmode"], Husk, 1, Idle, "EXR files have one part with channels named as compositors expect"),
+    row(&["--timelimit"], Husk, 1, Works("--time-limit"), "of each picture"),
+    row(&["--timelimit-image"], Husk, 0, Idle, "the limit is each picture's anyway"),
+    row(&["--timelimit-nosave-partial"], Husk, 0, Idle, "a picture at its limit is whole, with fewer samples, and is written"),
+    row(&["--make-output-path"], Husk, 0, Idle, "folders that are not there are always made"),
+    row(&["--lock-random"], Husk, 1, Works("--seed"), "without it all frames have the seed 0"),
+    row(&["--dicingcamera"], Husk, 1, Idle, "surfaces are refined alike from all sides, by --complexity"),
+    row(&["--fast-exit"], Husk, 1, Idle, "gonio ends when it is done"),
+    row(&["--skip-licenses"], Husk, 1, Idle, "gonio asks for no licence"),
+    row(&["--verbose", "-V"], Husk, 1, Read("--verbose"), "0 is --quiet, from 3 on --verbose; letters change nothing"),
+    row(&["--slap-comp"], Husk, 1, Refused, "gonio runs no compositing networks; write the passes with --aov and composite the EXR file"),
+    row(
+        &["--tile-count"],
+        Husk,
+        2,
+        Refused,
+        "parts of a picture are asked for by --part NUMBER/COUNT --checkpoint FILE, and 'gonio merge' joins them",
+    ),
+    row(
+        &["--tile-index"],
+        Husk,
+        1,
+        Refused,
+        "parts of a picture are asked for by --part NUMBER/COUNT --checkpoint FILE, and 'gonio merge' joins them",
+    ),
+    row(
+        &["--tile-suffix"],
+        Husk,
+        1,
+        Refused,
+        "parts of a picture are asked for by --part NUMBER/COUNT --checkpoint FILE, and 'gonio merge' joins them",
+    ),
+    row(&["--ao-samples"], Husk, 1, Refused, "gonio has no occlusion in place of light; --headlight dome is an even sky"),
+    row(&["--ao-distance"], Husk, 1, Refused, "gonio has no occlusion in place of light; --headlight dome is an even sky"),
+    row(&["--delegate-options"], Husk, 1, Refused, "gonio's own options are on the command line: gonio render --help"),
+    row(&["--properties"], Husk, 0, Refused, "gonio's own options are on the command line: gonio render --help"),
+    row(&["--property-definition"], Husk, 0, Refused, "gonio's own options are on the command line: gonio render --help"),
+    row(&["--property-definition-file"], Husk, 1, Refused, "gonio's own options are on the command line: gonio render --help"),
+    row(&["--procedurals"], Husk, 0, Refused, "gonio has no procedurals; bake them into the stage"),
+    row(&["--filters"], Husk, 0, Refused, "gonio's pixel filters stand under --filter in gonio render --help"),
+    row(&["--list-renderers"], Husk, 0, Refused, "gonio is the only one"),
+    row(&["--prerender-script"], Husk, 1, Refused, "gonio runs no scripts; call it from one: import gonio"),
+    row(&["--preframe-script"], Husk, 1, Refused, "gonio runs no scripts; call it from one: import gonio"),
+    row(&["--postframe-script"], Husk, 1, Refused, "gonio runs no scripts; call it from one: import gonio"),
+    row(&["--postrender-script"], Husk, 1, Refused, "gonio runs no scripts; call it from one: import gonio"),
+];
+
+/// The option that is written so.
+pub(crate) fn find(name: &str) -> Option<&'static Row> {
+    ROWS.iter().find(|row| row.names.contains(&name))
+}
