@@ -98,6 +98,17 @@ impl<L: Lanes> GlassLobe<L> {
     pub(crate) fn roughness(&self) -> F<L> {
         self.widths.roughness()
     }
+    /// Takes reflection or refraction away in chosen lanes.
+    #[inline(always)]
+    pub(crate) fn dim(&mut self, [reflecting, refracting]: [bool; 2], chosen: M<L>) {
+        if reflecting {
+            self.interface.f0 = self.interface.f0.keep_if(!chosen);
+            self.interface.f90 = self.interface.f90.keep_if(!chosen);
+        }
+        if refracting {
+            self.interface.passed = self.interface.passed.keep_if(!chosen);
+        }
+    }
     /// Value × cosine and pdf.
     #[inline(always)]
     pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {

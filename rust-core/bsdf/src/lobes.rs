@@ -70,6 +70,30 @@ impl<'s, L: Lanes> Lobes<'s, L> {
         self.medium = None;
         self.portal = None;
     }
+    /// Takes facets and interfaces away in chosen lanes: what reflects, what refracts, or both. The lobes below stay as dim as they are.
+    #[inline(always)]
+    pub fn without_facets(&mut self, l: L, [reflecting, refracting]: [bool; 2], chosen: M<L>) {
+        if !chosen.any() {
+            return;
+        }
+        self.total = l.f(0.0);
+        for slot in self.slots[..self.count].iter_mut().flatten() {
+            let gone = match &mut slot.shape {
+                Shape::Reflect(_) => reflecting,
+                Shape::Toon(lobe) => reflecting && lobe.is_glossy(),
+                Shape::Glass(lobe) => {
+                    lobe.dim([reflecting, refracting], chosen);
+                    reflecting && refracting
+                }
+                _ => false,
+            };
+            if gone {
+                slot.weight = slot.weight.keep_if(!chosen);
+                slot.share = slot.share.keep_if(!chosen);
+            }
+            self.total += slot.share;
+        }
+    }
     /// A Lambert lobe alone.
     #[inline(always)]
     pub(crate) fn lambert(l: L, colour: Spectrum<L>) -> Self {

@@ -4,6 +4,7 @@
 //! tile into a film.
 
 pub mod antialias;
+pub mod bake;
 pub mod checkpoint;
 pub mod compile;
 pub mod film;

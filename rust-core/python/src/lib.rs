@@ -2,6 +2,7 @@
 
 mod array;
 mod artist_sky;
+mod bake;
 mod buffer;
 mod curves;
 mod daylight;

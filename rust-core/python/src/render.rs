@@ -1,6 +1,6 @@
 //! A render as an iterator of tiles.
 
-use crate::{error::exception, film::Film, scene::Scene};
+use crate::{bake::BakedPlaces, error::exception, film::Film, scene::Scene};
 use crossbeam_channel::RecvTimeoutError;
 use gonio::{
     checkpoint::{Checkpoint, Identity, write_checkpoint},
@@ -57,12 +57,51 @@ pub(crate) struct Render {
     description: gonio::scene::Scene,
     /// What checkpoints say they are of, once one was asked for.
     identity: OnceLock<Identity>,
+    /// Whether its pixels lie on surfaces.
+    bakes: bool,
 }
 
 impl Render {
     /// The compiled scene, while the render is open.
     pub(crate) fn compiled(&self) -> Option<Arc<CompiledScene>> {
         self.compiled.clone()
+    }
+    /// Runs `start` on a thread of its own, and looks at signals and `cancelled` until it is through.
+    fn started(
+        py: Python<'_>,
+        scene: &Scene,
+        cancelled: Option<&Bound<'_, PyAny>>,
+        bakes: bool,
+        start: impl FnOnce(&AtomicBool) -> Started + Send + 'static,
+    ) -> PyResult<Self> {
+        let description = scene.scene.clone();
+        let stop = Arc::new(AtomicBool::new(false));
+        let (send, started) = crossbeam_channel::bounded(1);
+        let asked = stop.clone();
+        // A thread that panics drops its sender, which the loop below finds out.
+        std::thread::spawn(move || send.send(start(&asked)));
+        let wanted_no_more = || -> PyResult<bool> {
+            py.check_signals()?;
+            cancelled.map_or(Ok(false), |cancelled| cancelled.call0()?.is_truthy())
+        };
+        loop {
+            match py.detach(|| started.recv_timeout(COMPILE_POLL)) {
+                Ok(result) => {
+                    let (running, exposure, compiled) = result.map_err(exception)?;
+                    let (running, compiled) = (Some(running), Some(compiled));
+                    return Ok(Self { running, exposure, compiled, description, identity: OnceLock::new(), bakes });
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("compiling the scene broke off")),
+                Err(RecvTimeoutError::Timeout) => {
+                    let outcome = wanted_no_more();
+                    if !matches!(outcome, Ok(false)) {
+                        stop.store(true, Ordering::Relaxed);
+                        outcome?;
+                        return Err(exception(gonio::Error::Cancelled));
+                    }
+                }
+            }
+        }
     }
     fn running(&self) -> PyResult<&render::Render> {
         self.running.as_ref().ok_or_else(|| PyRuntimeError::new_err("the render has been closed"))
@@ -72,13 +111,18 @@ impl Render {
 /// Time between two looks at whether a compilation is still wanted.
 const COMPILE_POLL: Duration = Duration::from_millis(50);
 
+/// What a thread starts: the workers, the camera's exposure, and what was compiled.
+type Started = gonio::Result<(render::Render, f32, Arc<CompiledScene>)>;
+
+/// Compiles and starts baking.
+fn start_baking(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, places: &BakedPlaces, stop: &AtomicBool) -> Started {
+    let compiled = Arc::new(compile(scene, before, stop)?);
+    let render = gonio::bake::bake(scene, compiled.clone(), &places.target, &scene.settings, Execution::detect())?;
+    Ok((render, 1.0, compiled))
+}
+
 /// Compiles and starts; gives the camera's exposure too.
-fn start(
-    scene: &gonio::scene::Scene,
-    before: Option<&CompiledScene>,
-    resume: Option<&Path>,
-    stop: &AtomicBool,
-) -> gonio::Result<(render::Render, f32, Arc<CompiledScene>)> {
+fn start(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, resume: Option<&Path>, stop: &AtomicBool) -> Started {
     let (settings, execution) = (&scene.settings, Execution::detect());
     let exposure = scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
     let film = resume.map(|path| Checkpoint::resume(path, &Identity::new(scene, execution, Vec::new()))).transpose()?;
@@ -105,36 +149,36 @@ impl Render {
         cancelled: Option<&Bound<'_, PyAny>>,
         resume: Option<PathBuf>,
     ) -> PyResult<Self> {
-        let description = scene.scene.clone();
-        let kept = scene.scene.clone();
-        let before = previous.and_then(Self::compiled);
-        let stop = Arc::new(AtomicBool::new(false));
-        let (send, started) = crossbeam_channel::bounded(1);
-        let asked = stop.clone();
-        // A thread that panics drops its sender, which the loop below finds out.
-        std::thread::spawn(move || send.send(start(&description, before.as_deref(), resume.as_deref(), &asked)));
-        let wanted_no_more = || -> PyResult<bool> {
-            py.check_signals()?;
-            cancelled.map_or(Ok(false), |cancelled| cancelled.call0()?.is_truthy())
-        };
-        loop {
-            match py.detach(|| started.recv_timeout(COMPILE_POLL)) {
-                Ok(result) => {
-                    let (running, exposure, compiled) = result.map_err(exception)?;
-                    let (running, compiled) = (Some(running), Some(compiled));
-                    return Ok(Self { running, exposure, compiled, description: kept, identity: OnceLock::new() });
-                }
-                Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("compiling the scene broke off")),
-                Err(RecvTimeoutError::Timeout) => {
-                    let outcome = wanted_no_more();
-                    if !matches!(outcome, Ok(false)) {
-                        stop.store(true, Ordering::Relaxed);
-                        outcome?;
-                        return Err(exception(gonio::Error::Cancelled));
-                    }
-                }
-            }
-        }
+        let (description, before) = (scene.scene.clone(), previous.and_then(Self::compiled));
+        let start = move |stop: &AtomicBool| start(&description, before.as_deref(), resume.as_deref(), stop);
+        Self::started(py, scene, cancelled, false, start)
+    }
+    /// Bakes: a render whose pixels lie on an instance in place of a camera's view; the film's passes are textures. The scene's settings tell
+    /// samples and passes, not the size.
+    ///
+    /// `instance` is the number of the element that `put_instances` gave, `placement` that of its transform. `triangles` (height, width), int32, is
+    /// the triangle of each pixel, negative where nothing lies, rows from the top; `places` (height, width, 2) are the barycentric coordinates of
+    /// corners 1 and 2 in the middle of each pixel. `steps` (height, width, 4), how both change to the next column and to the next row, spreads
+    /// samples over the pixel. `view` is "above" or "camera". The rest as for `Render(scene)`.
+    #[staticmethod]
+    #[pyo3(signature = (scene, *, instance, triangles, places, steps = None, placement = 0, view = "above", previous = None, cancelled = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn bake(
+        py: Python<'_>,
+        scene: &Scene,
+        instance: u32,
+        triangles: &Bound<'_, PyAny>,
+        places: &Bound<'_, PyAny>,
+        steps: Option<&Bound<'_, PyAny>>,
+        placement: u32,
+        view: &str,
+        previous: Option<&Self>,
+        cancelled: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let places = BakedPlaces::new([instance, placement], triangles, places, steps, view)?;
+        let (description, before) = (scene.scene.clone(), previous.and_then(Self::compiled));
+        let start = move |stop: &AtomicBool| start_baking(&description, before.as_deref(), &places, stop);
+        Self::started(py, scene, cancelled, true, start)
     }
     fn __enter__(slf: Py<Self>) -> Py<Self> {
         slf
@@ -210,6 +254,9 @@ impl Render {
     /// Keeps the sums so far in a file, whole or not at all; `Render(scene, resume=path)` goes on with them, `merge` joins the files of ranges.
     fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let running = self.running()?;
+        if self.bakes {
+            return Err(PyRuntimeError::new_err("what is baked has no checkpoints"));
+        }
         let written = py.detach(|| {
             let identity = self.identity.get_or_init(|| Identity::new(&self.description, Execution::detect(), Vec::new()));
             write_checkpoint(&path, identity, running.film())

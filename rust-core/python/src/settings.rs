@@ -19,7 +19,7 @@ pub(crate) fn change(settings: &mut Settings, changes: &Bound<'_, PyDict>) -> Py
 
 fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     // None leaves a setting as it is, but for the crop and the ranges, which it takes away.
-    if value.is_none() && !matches!(key, "crop" | "sample_range" | "tile_range") {
+    if value.is_none() && !matches!(key, "crop" | "sample_range" | "tile_range" | "clear_roughness") {
         return Ok(());
     }
     match key {
@@ -41,6 +41,9 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "threads" => s.threads = value.extract()?,
         "integrator" => s.integrator = named(key, value, &Integrator::NAMES)?,
         "caustics" => s.caustics = named(key, value, &Caustics::NAMES)?,
+        "reflective_caustics" => s.caustic_paths[0] = value.extract()?,
+        "refractive_caustics" => s.caustic_paths[1] = value.extract()?,
+        "clear_roughness" => s.clear_roughness = value.extract()?,
         "max_bounces" => s.max_bounces = value.extract()?,
         "light_samples" => s.light_samples = value.extract()?,
         "max_diffuse_bounces" => s.kind_bounces[0] = value.extract()?,

@@ -143,6 +143,13 @@ pub struct Settings {
     /// Whether light paths bring caustics; for [`Integrator::Path`].
     #[serde(default)]
     pub caustics: Caustics,
+    /// Whether there are caustics at all: of what reflects, and of what refracts. Without, light that surfaces scatter diffusely does not come from
+    /// either. For [`Integrator::Path`].
+    #[serde(default = "all_caustics")]
+    pub caustic_paths: [bool; 2],
+    /// Before a transparent background glass of this roughness at most is transparent too; `None` is never.
+    #[serde(default)]
+    pub clear_roughness: Option<f32>,
     /// Where in a pixel samples lie; but for [`Antialiasing::Sampled`] it takes the number of samples that it tells and no filter.
     #[serde(default)]
     pub antialiasing: Antialiasing,
@@ -178,6 +185,10 @@ fn light_samples() -> u32 {
     MOST_LIGHT_SAMPLES
 }
 
+fn all_caustics() -> [bool; 2] {
+    [true; 2]
+}
+
 /// No other limit than that of all bounces.
 fn all_bounces() -> [u32; 4] {
     [255; 4]
@@ -205,6 +216,8 @@ impl Default for Settings {
             background: Background::default(),
             mist: Mist::default(),
             caustics: Caustics::default(),
+            caustic_paths: all_caustics(),
+            clear_roughness: None,
             antialiasing: Antialiasing::default(),
             shutter: Shutter::default(),
             filter: Filter::BlackmanHarris,

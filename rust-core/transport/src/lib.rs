@@ -27,6 +27,7 @@ pub use schedule::tracer::{Start, Tracer};
 pub use stage::emit::{Emission, RayTable};
 pub use stage::forward::{Arriving, Picture, Splat, Wanted};
 pub use stage::generate::{TileArea, generate};
+pub use stage::places::{Place, PlaceTable, Viewpoint};
 pub use stage::sensors::{Sensor, SensorTable};
 pub use stage::sort::order_by_material;
 pub use state::light_paths::{Arrivals, Escapes};

@@ -71,6 +71,11 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
             max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
             kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
             clamps: [settings.clamp_direct, settings.clamp_indirect],
+            caustics: settings.caustic_paths,
+            clear_roughness: match settings.background {
+                Background::Transparent => settings.clear_roughness.unwrap_or(-1.0),
+                _ => -1.0,
+            },
         },
         shows_environment: settings.background != Background::Transparent,
         environment_covers: settings.background == Background::Covering,

@@ -103,6 +103,7 @@ pub(super) fn sense(
         kind_bounces: [MOST_BOUNCES; 4],
         clamp_direct: 0.0,
         clamp_indirect: 0.0,
+        caustic_paths: [true; 2],
         time_limit_s: 0.0,
         aovs: vec![Aov::Luminance, Aov::Illuminance],
         shader_passes: Vec::new(),

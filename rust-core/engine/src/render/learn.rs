@@ -1,5 +1,5 @@
 //! The learned light cache (light guiding), which lights arrive where. It is learned from a small picture of the view, which nobody sees, or from a few
-//! paths of all sensors.
+//! paths of all sensors or places.
 
 use super::source::Source;
 use crate::{
@@ -33,9 +33,9 @@ pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source,
             let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &placement), transport };
             from_paths(scene, &tracer, window, SAMPLES, cancelled)
         }
-        Source::Sensors { sensors, transport } => {
+        Source::Sensors { transport, .. } | Source::Places { transport, .. } => {
             let transport = Transport { seed: settings.seed ^ OTHER_SEED, samples: SENSOR_SAMPLES, ..transport.clone() };
-            let tracer = Tracer { tables: &scene.tables, start: Start::Sensors(sensors), transport };
+            let tracer = Tracer { tables: &scene.tables, start: source.start(), transport };
             from_paths(scene, &tracer, Crop { min: [0; 2], max: settings.resolution }, SENSOR_SAMPLES, cancelled)
         }
     }

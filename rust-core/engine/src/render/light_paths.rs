@@ -26,7 +26,12 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
         Caustics::On => true,
         Caustics::Auto => scene.casters.enclosing.is_some(),
     };
-    if !wanted || settings.integrator != Integrator::Path || view.rule.is_some() || scene.casters.targets.is_empty() {
+    if !wanted
+        || settings.caustic_paths != [true; 2]
+        || settings.integrator != Integrator::Path
+        || view.rule.is_some()
+        || scene.casters.targets.is_empty()
+    {
         return None;
     }
     // What shadow catchers hide is compared path by path, from the camera.

@@ -19,7 +19,7 @@ use crate::{
     light::LightCache,
     scene::{Crop, Settings},
     threads::available_threads,
-    transport::{SensorTable, Statistics},
+    transport::{PlaceTable, SensorTable, Statistics},
 };
 use light_paths::LightPaths;
 use photons::PhotonMaps;
@@ -92,6 +92,16 @@ impl Render {
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
         Self::run(scene, settings, Source::Sensors { sensors, transport }, film, None)
+    }
+
+    /// Starts baking at places, whose picture has the resolution of the settings.
+    pub(crate) fn at_places(scene: Arc<CompiledScene>, places: PlaceTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
+        let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0, 0.0, -1.0]);
+        // Places are measured themselves, whatever they are made of.
+        transport.passes.illuminance = false;
+        let window = Crop { min: [0; 2], max: settings.resolution };
+        let film = film_of(&scene, settings, window, 1.0);
+        Self::run(scene, settings, Source::Places { places, transport }, film, None)
     }
 
     fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film, light_paths: Option<LightPaths>) -> Self {

@@ -3,10 +3,10 @@
 use crate::{
     antialias::Rule,
     compile::View,
-    transport::{SensorTable, Start, Transport},
+    transport::{PlaceTable, SensorTable, Start, Transport},
 };
 
-/// A camera's view, or sensors.
+/// A camera's view, sensors, or places on surfaces.
 #[derive(Debug)]
 pub(crate) enum Source {
     /// A picture.
@@ -18,6 +18,13 @@ pub(crate) enum Source {
         /// How.
         transport: Transport,
     },
+    /// Textures.
+    Places {
+        /// Where.
+        places: PlaceTable,
+        /// How.
+        transport: Transport,
+    },
 }
 
 impl Source {
@@ -26,6 +33,7 @@ impl Source {
         match self {
             Self::View(view) => Start::Camera(&view.camera, &view.placement),
             Self::Sensors { sensors, .. } => Start::Sensors(sensors),
+            Self::Places { places, .. } => Start::Places(places),
         }
     }
 
@@ -33,7 +41,7 @@ impl Source {
     pub(crate) fn rule(&self) -> Option<Rule> {
         match self {
             Self::View(view) => view.rule,
-            Self::Sensors { .. } => None,
+            Self::Sensors { .. } | Self::Places { .. } => None,
         }
     }
 
@@ -41,7 +49,7 @@ impl Source {
     pub(crate) fn transport(&self) -> &Transport {
         match self {
             Self::View(view) => &view.transport,
-            Self::Sensors { transport, .. } => transport,
+            Self::Sensors { transport, .. } | Self::Places { transport, .. } => transport,
         }
     }
 }

@@ -529,6 +529,19 @@ class Render:
         cancelled: Callable[[], bool] | None = None,
         resume: str | PathLike[str] | None = None,
     ) -> Render: ...
+    @staticmethod
+    def bake(
+        scene: Scene,
+        *,
+        instance: int,
+        triangles: Buffer,
+        places: Buffer,
+        steps: Buffer | None = None,
+        placement: int = 0,
+        view: str = "above",
+        previous: Render | None = None,
+        cancelled: Callable[[], bool] | None = None,
+    ) -> Render: ...
     def __enter__(self) -> Render: ...
     def __exit__(self, *_exception: type[BaseException] | BaseException | TracebackType | None) -> None: ...
     def __iter__(self) -> Iterator[Tile]: ...
@@ -628,6 +641,9 @@ class Scene:
         crop: tuple[int, int, int, int] | None = ...,
         samples: int | None = ...,
         sample_range: tuple[int, int] | None = ...,
+        reflective_caustics: bool = ...,
+        refractive_caustics: bool = ...,
+        clear_roughness: float | None = ...,
         tile_range: tuple[int, int] | None = ...,
         noise_threshold: float | None = ...,
         min_samples: int | None = ...,

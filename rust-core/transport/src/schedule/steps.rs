@@ -2,7 +2,7 @@
 
 use crate::accumulate::shader_passes::shader_program;
 use crate::kernels;
-use crate::schedule::tracer::Tracer;
+use crate::schedule::tracer::{Start, Tracer};
 use crate::stage::catcher;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
@@ -30,8 +30,13 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let Workspace { paths, nearest, deposits, statistics, times, .. } = ws;
     paths.set_times(times);
-    statistics.rays += paths.count as u64;
-    intersect::intersect(tables, transport, depth, paths, nearest, deposits);
+    if depth == 0 && matches!(tracer.start, Start::Places(_)) {
+        // Their hits were written when they started.
+        nearest.escaped.clear();
+    } else {
+        statistics.rays += paths.count as u64;
+        intersect::intersect(tables, transport, depth, paths, nearest, deposits);
+    }
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
     catcher::fork(tables, paths, &mut nearest.hits);

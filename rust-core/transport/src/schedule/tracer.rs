@@ -8,6 +8,7 @@ use crate::schedule::whitted::{self, WhittedIntegrator};
 use crate::stage::generate::{TileArea, generate, generate_at};
 use crate::stage::integrator::Integrator;
 use crate::stage::intersect::find_first;
+use crate::stage::places::{PlaceTable, Started, start_places};
 use crate::stage::sensors::{SensorTable, start_sensors};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
@@ -26,6 +27,8 @@ pub enum Start<'a> {
     Camera(&'a CameraTable, &'a Placement),
     /// At sensors; depth 1 is their first rays'.
     Sensors(&'a SensorTable),
+    /// At places on surfaces, whose hits are known.
+    Places(&'a PlaceTable),
     /// Nowhere: light paths start at lights, see [`crate::LightTracer`].
     Lights,
 }
@@ -112,12 +115,16 @@ impl Tracer<'_> {
                 dispatch!(self.transport.execution, l => {
                     start_sensors(l, sensors, sampler, area, runs, &mut queues.measure, &mut queues.next);
                 });
-                let context = SampleContext { sampler: *sampler, runs, depth: 0 };
-                steps::measure(self, integrator, &context, ws);
-                steps::trace_shadows(self, true, ws);
-                std::mem::swap(&mut ws.paths, &mut ws.queues.next);
-                steps::set_masks(self.tables, &mut ws.paths);
-                1
+                self.begin_measuring(integrator, batch, ws)
+            }
+            Start::Places(table) => {
+                let Workspace { paths, nearest, queues, .. } = &mut *ws;
+                queues.next.count = 0;
+                dispatch!(self.transport.execution, l => {
+                    let mut started = Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure };
+                    start_places(l, &self.tables.geometry, table, sampler, area, runs, &mut started);
+                });
+                if table.looks() { 0 } else { self.begin_measuring(integrator, batch, ws) }
             }
             Start::Lights => {
                 ws.paths.count = 0;
@@ -127,5 +134,15 @@ impl Tracer<'_> {
         ws.statistics.spent(Stage::Generate, time);
         ws.statistics.camera_rays += ws.paths.count as u64;
         first
+    }
+
+    /// Lights the points that are queued, and takes what they started for the batch's paths; returns the depth of the paths.
+    fn begin_measuring<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
+        let context = SampleContext { sampler: batch.sampler, runs: batch.runs, depth: 0 };
+        steps::measure(self, integrator, &context, ws);
+        steps::trace_shadows(self, true, ws);
+        std::mem::swap(&mut ws.paths, &mut ws.queues.next);
+        steps::set_masks(self.tables, &mut ws.paths);
+        1
     }
 }

@@ -169,7 +169,12 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
             // The pdf of camera rays is their share of the sample.
             add(&mut deposits.sums.alpha, slot, pdf, alive & camera);
         }
-        let alive = if transport.shows_environment { alive } else { alive.and_not(camera) };
+        let clear = if transport.limits.clear_roughness < 0.0 { l.m(false) } else { alive & (flags & flag::CLEAR).ne(0) };
+        if clear.any() {
+            // What glass lets pass of nothing does not cover what is behind.
+            add(&mut deposits.sums.alpha, slot, -throughput.mean(), clear);
+        }
+        let alive = if transport.shows_environment { alive } else { alive.and_not(camera | clear) };
         let delta = (flags & flag::DELTA).ne(0);
         let PreviousLanes { position, normal } = paths.previous(l, path);
         let from = [position, normal];

@@ -2,7 +2,7 @@
 //!
 //! In the order in which `schedule/path` calls them:
 //!
-//! - [`generate`] starts camera paths, [`sensors`] those of meters.
+//! - [`generate`] starts camera paths, [`sensors`] those of meters, [`places`] those of textures that light is baked into.
 //! - [`intersect`] traces them and adds the light of lights they hit; paths fork at shadow catchers ([`catcher`]).
 //! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
 //! - [`surface`] computes the surface points of a chunk.
@@ -28,6 +28,7 @@ pub(crate) mod light_queue;
 pub(crate) mod measure;
 pub(crate) mod merge;
 pub(crate) mod nee;
+pub(crate) mod places;
 pub(crate) mod portal;
 pub(crate) mod scatter;
 pub(crate) mod sensors;

@@ -101,6 +101,18 @@ fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bs
     sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | kept
 }
 
+/// The flag of paths that the camera sends through clear glass, where that is to be transparent.
+#[inline(always)]
+fn clear<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
+    let (l, most) = (chunk.l, chunk.transport.limits.clear_roughness);
+    if most < 0.0 {
+        return l.u(0);
+    }
+    let seen = (point.flags & (flag::CAMERA | flag::CLEAR)).ne(0);
+    let passed = sample.transmitted.and_not(sample.diffuse) & sample.roughness.le(most);
+    l.u(flag::CLEAR).keep_if(seen & passed)
+}
+
 /// Samples the BSDF and appends the paths that go on, after Russian roulette. `ending` paths have no bounce left: only what goes straight
 /// through goes on, as the NEE before counted on it.
 #[inline(always)]
@@ -166,7 +178,13 @@ pub(crate) fn send_on<L: Lanes>(
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
     let kept = brought(chunk, point, sample);
-    let scattered = delta | non_specular | kept | (kind << flag::LAST_SHIFT) | first | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let scattered = delta
+        | non_specular
+        | kept
+        | clear(chunk, point, sample)
+        | (kind << flag::LAST_SHIFT)
+        | first
+        | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;

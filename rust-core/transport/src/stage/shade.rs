@@ -36,7 +36,7 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
     queues: &mut Queues,
     deposits: &mut Deposits,
 ) {
-    let ChunkContext { l, tables, count, columns, .. } = *chunk;
+    let ChunkContext { l, tables, transport, count, columns, .. } = *chunk;
     let values = parameter_values(material, &columns.outputs);
     let mut lobes = Lobes::empty(l);
     queues.light_samples.made = false;
@@ -48,6 +48,10 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
         let (wo, entering) = (point.local_wo, l.load(&columns.surface.side, at).gt(0.0));
         let normals = normals(chunk, material, &point, at);
         material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: I::WALKS }, &mut lobes);
+        if transport.limits.caustics != [true; 2] {
+            let [reflecting, refracting] = transport.limits.caustics;
+            lobes.without_facets(l, [!reflecting, !refracting], scattered_diffusely(&point));
+        }
         integrator.shade(chunk, material, &mut point, &lobes, at, queues, deposits);
     }
 }
@@ -88,6 +92,13 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
         pdf,
         share: pdf,
     }
+}
+
+/// Where the path came from a surface that scattered it diffusely.
+#[inline(always)]
+fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
+    let last = (point.flags >> flag::LAST_SHIFT) & 3;
+    point.alive & last.eq(flag::event::DIFFUSE) & point.bounces.ne(0)
 }
 
 /// The normals beside the shading normal, where the material or the way that the view meets them asks for any.

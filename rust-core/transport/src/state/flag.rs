@@ -22,8 +22,10 @@ pub(crate) const WALKED: u32 = 1024;
 pub(crate) const SEEN_DIRECTLY: u32 = 2048;
 /// The path has scattered by other than mirrors and smooth glass, or went through a portal.
 pub(crate) const ROUGH: u32 = 4096;
+/// The camera sees the path's next hit through clear glass alone, before which a transparent background stays transparent.
+pub(crate) const CLEAR: u32 = 8192;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 13;
+pub(crate) const BOUNCE_SHIFT: u32 = 14;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {

@@ -81,6 +81,10 @@ pub struct Limits {
     pub kind_bounces: [u32; 4],
     /// Limits of direct and indirect contributions, as means of their channels; 0 is off.
     pub clamps: [f32; 2],
+    /// Whether paths that were scattered diffusely last meet reflection off facets, and refraction (Cycles' switches of caustics).
+    pub caustics: [bool; 2],
+    /// Up to this roughness refraction shows what is behind the scene as the camera itself does, where that is transparent; none where negative.
+    pub clear_roughness: f32,
 }
 
 impl Limits {

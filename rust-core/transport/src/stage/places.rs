@@ -1,0 +1,233 @@
+//! Ray generation without a camera: pixels that lie on surfaces, as textures do that light is baked into.
+//!
+//! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
+
+use crate::geometry::{GeometryTable, NONE, SurfacePoint};
+use crate::stage::generate::TileArea;
+use crate::state::flag;
+use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
+use crate::state::rays::RayLanes;
+use gonio_accel::Hits;
+use gonio_camera::sampler::{CAPACITY, Runs, Sampler, dimension, morton_even};
+use gonio_simd::{Column, F, Lanes, M, Spectrum, U, Vec3, padded};
+
+/// Metres from which a path sees its surface.
+const DISTANCE: f32 = 1.0;
+/// The least cosine at which the camera sees a place: what faces away is seen as from its rim.
+const LEAST_COSINE: f32 = 0.02;
+
+/// Where a pixel lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Number of the compiled instance.
+    pub instance: u32,
+    /// Number of the triangle in its mesh.
+    pub triangle: u32,
+    /// Barycentric coordinates of corners 1 and 2 in the middle of the pixel.
+    pub at: [f32; 2],
+    /// How they change from pixel to pixel along a row, and along a column.
+    pub steps: [[f32; 2]; 2],
+}
+
+/// From where places are seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// From right above, along the shading normal.
+    Above,
+    /// From a point, rebased world space.
+    Point([f32; 3]),
+    /// From far off, in the direction of a unit vector.
+    Direction([f32; 3]),
+}
+
+/// A picture of places, row by row from the top.
+#[derive(Debug)]
+pub struct PlaceTable {
+    size: [u32; 2],
+    instance: Column<u32>,
+    triangle: Column<u32>,
+    at: [Column; 2],
+    along: [Column; 2],
+    down: [Column; 2],
+    viewpoint: Viewpoint,
+    /// Whether light that leaves is looked at, and whether light that arrives is measured.
+    looks: bool,
+    measures: bool,
+}
+
+impl PlaceTable {
+    /// `size` is width and height, of which `places` has a place each, or none. It is seen from a viewpoint (`looks`), or lit as meters are
+    /// (`measures`), or both.
+    pub fn new(size: [u32; 2], places: &[Option<Place>], viewpoint: Viewpoint, [looks, measures]: [bool; 2]) -> Self {
+        let room = padded(places.len()) + gonio_simd::PADDING;
+        let (mut instance, mut triangle) = (Column::new(room), Column::new(room));
+        let (mut at, mut along, mut down) = (two(room), two(room), two(room));
+        instance.fill(NONE);
+        for (number, place) in places.iter().enumerate() {
+            let Some(place) = place else { continue };
+            (instance[number], triangle[number]) = (place.instance, place.triangle);
+            for axis in 0..2 {
+                at[axis][number] = place.at[axis];
+                along[axis][number] = place.steps[0][axis];
+                down[axis][number] = place.steps[1][axis];
+            }
+        }
+        Self { size, instance, triangle, at, along, down, viewpoint, looks, measures }
+    }
+
+    /// Whether light that leaves the places is looked at.
+    pub fn looks(&self) -> bool {
+        self.looks
+    }
+}
+
+fn two(room: usize) -> [Column; 2] {
+    [Column::new(room), Column::new(room)]
+}
+
+/// A register of places.
+struct PlaceLanes<L: Lanes> {
+    instance: U<L>,
+    triangle: U<L>,
+    uv: [F<L>; 2],
+    /// Barycentric steps along a row and down a column.
+    steps: [[F<L>; 2]; 2],
+}
+
+/// What starts at places.
+pub(crate) struct Started<'a> {
+    pub(crate) paths: &'a mut Paths,
+    pub(crate) hits: &'a mut Hits,
+    pub(crate) points: &'a mut MeasurePoints,
+}
+
+/// Starts a path towards every place of a tile that a batch holds, with its hit, and queues the points that are measured there.
+#[inline(always)]
+pub(crate) fn start_places<L: Lanes>(
+    l: L,
+    geometry: &GeometryTable,
+    table: &PlaceTable,
+    sampler: &Sampler,
+    area: TileArea,
+    runs: &Runs,
+    started: &mut Started<'_>,
+) {
+    (started.paths.count, started.points.count) = (0, 0);
+    started.hits.resize(padded(CAPACITY) + gonio_simd::PADDING);
+    for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
+        let (slot, pixel) = (l.iota() + slot, l.iota() + first_pixel);
+        let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
+        let inside = x.lt(area.max[0]) & y.lt(area.max[1]);
+        if !inside.any() {
+            continue;
+        }
+        let number = (y * table.size[0] + x).keep_if(inside);
+        let instance = l.gather_integers(&table.instance, number);
+        let inside = inside.and_not(instance.eq(NONE));
+        if !inside.any() {
+            continue;
+        }
+        let u = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
+        let place = place_lanes(l, table, number, instance.keep_if(inside), u);
+        append(l, geometry, table, &place, slot, inside, started);
+    }
+    let count = started.paths.count;
+    started.hits.resize(count);
+    started.paths.set_masks();
+}
+
+/// Random places in pixels, kept on their triangles.
+#[inline(always)]
+fn place_lanes<L: Lanes>(l: L, table: &PlaceTable, number: U<L>, instance: U<L>, [x, y]: [F<L>; 2]) -> PlaceLanes<L> {
+    let [at, along, down] = [pair(l, &table.at, number), pair(l, &table.along, number), pair(l, &table.down, number)];
+    let (x, y) = (x - 0.5, y - 0.5);
+    let u = x.mul_add(along[0], y.mul_add(down[0], at[0])).max(0.0).min(1.0);
+    let v = x.mul_add(along[1], y.mul_add(down[1], at[1])).max(0.0).min(l.f(1.0) - u);
+    PlaceLanes { instance, triangle: l.gather_integers(&table.triangle, number), uv: [u, v], steps: [along, down] }
+}
+
+#[inline(always)]
+fn pair<L: Lanes>(l: L, columns: &[Column; 2], number: U<L>) -> [F<L>; 2] {
+    [l.gather(&columns[0], number), l.gather(&columns[1], number)]
+}
+
+/// Writes paths and hits, and measured points.
+#[inline(always)]
+fn append<L: Lanes>(
+    l: L,
+    geometry: &GeometryTable,
+    table: &PlaceTable,
+    place: &PlaceLanes<L>,
+    slot: U<L>,
+    inside: M<L>,
+    started: &mut Started<'_>,
+) {
+    let PlaceLanes { instance, triangle, uv: [u, v], .. } = *place;
+    let hit = geometry.hit_lanes(l, instance, triangle, u, v);
+    let point = geometry.surface_point(l, &hit);
+    let width = width(place, &point);
+    if table.measures {
+        let measured = MeasureLanes {
+            position: point.position,
+            error: point.error,
+            geometric_normal: point.geometric_normal,
+            shading_normal: point.shading_normal,
+            throughput: Spectrum::one(l),
+            width,
+            slot,
+        };
+        started.points.append(&measured, inside);
+    }
+    if !table.looks {
+        return;
+    }
+    let above = towards_eye(l, table.viewpoint, &point);
+    let origin = above.mul_add(l.f(DISTANCE), point.position);
+    let state = PathLanes {
+        ray: RayLanes { origin, direction: -above, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+        from: PreviousLanes { position: origin, normal: -above },
+        throughput: Spectrum::one(l),
+        pdf: l.f(1.0),
+        width,
+        spread: l.f(0.0),
+        slot,
+        flags: l.u(flag::CAMERA | flag::DELTA),
+        counts: l.u(0),
+        medium: Spectrum::zero(l),
+    };
+    let count = started.paths.count;
+    instance.append(inside, &mut started.hits.instance, count);
+    triangle.append(inside, &mut started.hits.primitive, count);
+    u.append(inside, &mut started.hits.u, count);
+    v.append(inside, &mut started.hits.v, count);
+    l.f(DISTANCE).append(inside, &mut started.hits.t, count);
+    started.paths.append(&state, inside);
+}
+
+/// Unit vectors from places to where they are seen from.
+#[inline(always)]
+fn towards_eye<L: Lanes>(l: L, viewpoint: Viewpoint, point: &SurfacePoint<L>) -> Vec3<L> {
+    let normal = point.shading_normal;
+    let towards = match viewpoint {
+        Viewpoint::Above => return normal,
+        Viewpoint::Point(eye) => (Vec3::splat(l, eye) - point.position).normalize_or(normal),
+        Viewpoint::Direction(direction) => Vec3::splat(l, direction),
+    };
+    turned(turned(towards, normal), point.geometric_normal)
+}
+
+/// A direction turned towards a normal until it is seen from there.
+#[inline(always)]
+fn turned<L: Lanes>(towards: Vec3<L>, normal: Vec3<L>) -> Vec3<L> {
+    let lacking = (towards.x.lanes().f(LEAST_COSINE) - towards.dot(normal)).max(0.0);
+    normal.mul_add(lacking, towards).normalize_or(normal)
+}
+
+/// Metres of a pixel's side on the surface: the root of its area.
+#[inline(always)]
+fn width<L: Lanes>(place: &PlaceLanes<L>, point: &SurfacePoint<L>) -> F<L> {
+    let [along, down] = place.steps;
+    let share = (along[0] * down[1] - along[1] * down[0]).abs();
+    (share * point.double_area).sqrt()
+}
