@@ -5,7 +5,6 @@ import math
 import confidence
 import numpy
 import pytest
-from glass import transmittance
 from rooms import Plane, Room, facing
 
 pytestmark = pytest.mark.validate
@@ -67,6 +66,16 @@ def from_a_point() -> numpy.ndarray:
     return cells
 
 
+def unpolarised(cosine: float) -> float:
+    """What a solid pane lets through if light is unpolarised before each face, as rendered light is: 0.6 % less at 50° than with both
+    polarisations followed."""
+    inside = math.sqrt(1.0 - (1.0 - cosine**2) / INDEX**2)
+    across = ((cosine - INDEX * inside) / (cosine + INDEX * inside)) ** 2
+    along = ((INDEX * cosine - inside) / (INDEX * cosine + inside)) ** 2
+    reflectance = 0.5 * (across + along)
+    return (1 - reflectance) / (1 + reflectance)
+
+
 def hold(case: str, reference: str, room: Room, expected: numpy.ndarray, samples: int = SAMPLES) -> None:
     room.scene.set(caustics="on")
     # A cell is many pixels, whose samples have places of their own.
@@ -106,8 +115,8 @@ def test_the_sun_through_a_pane(degrees):
     room.scene.add_instance(room.scene.add_mesh(points, numpy.array(sides, "i4")), [glass(room)])
     angle = math.radians(degrees)
     room.light({"Distant": {"angle_deg": 0.53}}, 1e6, axes=facing((math.sin(angle), 0, -math.cos(angle))))
-    lux = 1e6 * math.pi * math.sin(math.radians(0.265)) ** 2 * math.cos(angle) * float(transmittance(math.cos(angle), INDEX))
-    hold(f"sun at {degrees}° through a pane of solid glass", "Fresnel's formulas", room, numpy.full(GRID, lux))
+    lux = 1e6 * math.pi * math.sin(math.radians(0.265)) ** 2 * math.cos(angle) * unpolarised(math.cos(angle))
+    hold(f"sun at {degrees}° through a pane of solid glass", "Fresnel's formulas, unpolarised at each face", room, numpy.full(GRID, lux))
 
 
 def test_a_mirror_onto_the_floor():
