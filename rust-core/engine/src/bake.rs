@@ -89,7 +89,9 @@ fn places(scene: &Scene, target: &BakeTarget, instance: u32) -> Result<Vec<Optio
     if !target.steps.is_empty() {
         fits("steps", target.steps.len())?;
     }
-    let mesh = &scene.meshes[scene.instances[target.instance as usize].mesh.index()];
+    let Some(mesh) = scene.instances[target.instance as usize].geometry.mesh().map(|mesh| &scene.meshes[mesh.index()]) else {
+        return Err(Error::setting("instance", "curves and points have no triangles to bake".to_owned()));
+    };
     if let Some(wrong) = target.triangles.iter().find(|triangle| **triangle != NONE && **triangle as usize >= mesh.triangles.len()) {
         let problem = format!("number {wrong} was found, '{}' has {}", mesh.origin, mesh.triangles.len());
         return Err(Error::setting("triangles", problem));

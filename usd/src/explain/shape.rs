@@ -59,6 +59,6 @@ fn triangles(loaded: &Loaded, prim: &Prim<'_>) -> String {
         };
     };
     let mesh = MeshId(number as u32);
-    let placed: usize = scene.instances.iter().filter(|set| set.mesh == mesh).map(|set| set.transforms.len()).sum();
+    let placed: usize = scene.instances.iter().filter(|set| set.geometry.mesh() == Some(mesh)).map(|set| set.transforms.len()).sum();
     format!("triangles: {}, placed {placed} times", scene.meshes[number].triangles.len())
 }

@@ -1,6 +1,7 @@
 //! Meshes, quadrics, curves, points and their materials.
 
 use super::{Branch, Walker, push};
+use crate::context::Context;
 use crate::model::{Inherited, Kind, Model, Shape};
 use crate::prim::Prim;
 use crate::{curves, draw_mode, material, mesh, mesh_light, meter, points, primvar, quadrics};

@@ -54,7 +54,16 @@ impl Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = tree;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Blas { nodes, blocks: Vec::new(), key_blocks: Vec::new(), keys: 0, smooth: leaves(blocks), outline, triangles: primitives, sah_cost }
+        Blas {
+            nodes,
+            blocks: Vec::new(),
+            key_blocks: Vec::new(),
+            keys: 0,
+            smooth: leaves(blocks),
+            outline,
+            triangles: primitives,
+            sah_cost,
+        }
     }
 }
 

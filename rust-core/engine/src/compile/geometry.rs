@@ -4,8 +4,8 @@ use super::{
     bounds::Bounds,
     cut::Cut,
     instances::{append_instances, report_unplaceable},
-    numbers::{geometry_number, named},
     motion,
+    numbers::{geometry_number, named},
     primvars::{Elements, append, problem},
     smooth,
 };
