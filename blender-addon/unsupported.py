@@ -43,7 +43,7 @@ OBJECTS = {
 
 SCENES = {
     "motion blur": Limit("Motion blur", "everything stands still at the frame"),
-    "bake": _untold("Bakes of the kinds Shadow and Environment", "refused by name"),
+    "bake": _untold("Bakes of the kind Shadow", "refused by name"),
     "caustics in bakes": _untold("Caustics by light paths in bakes", "paths from the texels look for them"),
     "spherical stereo": _untold("Spherical stereo of panoramas", "each eye's picture is seen from where it stands"),
     "freestyle": Limit("Freestyle lines", "left out"),

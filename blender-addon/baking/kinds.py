@@ -21,7 +21,7 @@ class Kind:
     """A kind of bake: the renderer's passes, what they stand for, and whether it is seen from the camera where that is asked for."""
 
     passes: tuple[str, ...]
-    # "light", "data" and "share" as they are, or "uv", which Blender's mesh has itself; and the stand-in for the material.
+    # "light", "data" and "share" as they are, "uv", which Blender's mesh has itself, or "world", by the place; and the stand-in for the material.
     meaning: str = "light"
     seen: bool = True
     few: bool = False
@@ -37,6 +37,7 @@ DATA = {
     "AO": Kind(("emission",), "share", seen=False, stand_in="occlusion"),
     "ILLUMINANCE": Kind(("illuminance",), "data", seen=False),
     "EMIT": Kind(("emission",)),
+    "ENVIRONMENT": Kind(("P",), "world", seen=False, few=True),
 }
 
 

@@ -9,7 +9,9 @@ import numpy as np
 
 from ..export.colour_management import to_working
 from ..session.status import text
+from ..units import LUMENS_PER_WATT
 from . import stand_ins, wanted
+from .environment import seen_of_world
 from .kinds import FEW_SAMPLES, Kind, colour_of, kind_of
 from .places import Places, read_places, texture_coordinates
 
@@ -33,7 +35,7 @@ def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tup
         else:
             pixels = _rendered(engine, depsgraph, layer, entry, kind, places)
         if pixels is not None:
-            _write(result, pixels, is_colour=kind.meaning == "light")
+            _write(result, pixels, is_colour=kind.meaning in ("light", "world"))
 
 
 @contextmanager
@@ -63,7 +65,8 @@ def _rendered(engine, depsgraph, layer, entry, kind: Kind, places: Places) -> np
         "instance": number,
         "triangles": places.triangles,
         "places": places.at,
-        "steps": places.steps,
+        # Places are those of the texels' middles.
+        "steps": None if kind.passes == ("P",) else places.steps,
         "view": "camera" if from_camera else "above",
     }
     with _stand_in(exporter, kind, materials, scene):
@@ -75,6 +78,9 @@ def _rendered(engine, depsgraph, layer, entry, kind: Kind, places: Places) -> np
         finally:
             baking.cancel()
         layer.render = baking
+    if kind.meaning == "world":
+        seen = seen_of_world(depsgraph, np.asarray(film["P"]), engine.test_break)
+        return seen * (scene.gonio.film_exposure / LUMENS_PER_WATT)
     return colour_of(kind, lambda name: np.asarray(film[name]), scene.gonio.film_exposure)
 
 

@@ -49,6 +49,15 @@ class Exporter:
         self._synced = True
         return self.scene
 
+    def sync_world(self, depsgraph):
+        """Exports the world and nothing else."""
+        self._images.go_to(depsgraph.scene_eval.frame_current)
+        self._textures.begin()
+        self._world(depsgraph)
+        self._lights.write()
+        self._textures.sweep()
+        return self.scene
+
     def update(self, depsgraph):
         """Exports what `depsgraph.updates` says was touched; gives what came out different."""
         if not self._synced:

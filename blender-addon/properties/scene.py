@@ -38,6 +38,7 @@ BAKES = (
     ("GLOSSY", "Glossy", "Light that is reflected, its colour, or both", 8),
     ("TRANSMISSION", "Transmission", "Light that is transmitted, its colour, or both", 9),
     ("ILLUMINANCE", "Illuminance", "Light that arrives, in lux", 10),
+    ("ENVIRONMENT", "Environment", "The world's light, in the direction of each place from the origin", 11),
 )
 
 

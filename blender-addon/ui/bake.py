@@ -6,7 +6,7 @@ from bpy.types import Panel
 from .base import RenderPanel
 
 # Kinds that are the same from everywhere.
-UNSEEN = {"AO", "POSITION", "NORMAL", "UV", "ROUGHNESS", "ILLUMINANCE"}
+UNSEEN = {"AO", "POSITION", "NORMAL", "UV", "ROUGHNESS", "ILLUMINANCE", "ENVIRONMENT"}
 LOBES = {"DIFFUSE", "GLOSSY", "TRANSMISSION"}
 
 
