@@ -45,14 +45,12 @@ SCENES = {
     "motion blur": _untold(
         "Motion blur of faces that change (velocity attributes), of lenses that zoom, of worlds, and in the viewport", "these stand still at the frame"
     ),
-    "stereoscopy": Limit("Stereoscopy", "one picture, through the camera itself"),
-    "sample subset": Limit("Sample subsets", "all samples are taken"),
+    "bake": _untold("Bakes of the kind Shadow", "refused by name"),
+    "caustics in bakes": _untold("Caustics by light paths in bakes", "paths from the texels look for them"),
+    "spherical stereo": _untold("Spherical stereo of panoramas", "each eye's picture is seen from where it stands"),
     "freestyle": Limit("Freestyle lines", "left out"),
-    "transparent glass": Limit("Transparent Glass", "glass before a transparent film is opaque"),
     "fast gi": Limit("Fast GI Approximation", "light is followed to the last bounce"),
-    "no caustics": Limit("Caustics that are switched off", "they stay"),
     "filter glossy": _quietly("Filter Glossy other than 1", "reflections stay as sharp as they are"),
-    "layer filter": Limit("Filters of view layers", "everything is shown"),
     "noise": _untold(
         "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
@@ -78,12 +76,15 @@ SCENES = {
 
 LIGHTS = {
     "textured lamp": Limit(
-        "Textures and other values that vary over suns, discs, lamps in photometric units or with an IES texture", "it shines evenly with their mean"
+        "Textures and other values that vary over suns, discs, lamps in photometric units or with an IES texture",
+        "it shines evenly with their mean",
     ),
     "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
-    "ies elsewhere": Limit("IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"),
+    "ies elsewhere": Limit(
+        "IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"
+    ),
     "shining meshes": _untold("Photometric units of meshes that shine", "emission in W/m², times 177.83 lm/W"),
     "catcher's groups": _untold("Light groups of shadow catchers", "without what the catcher leaves out"),
 }
@@ -95,7 +96,9 @@ WORLDS = {
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
     "sky elsewhere": Limit("Sky Texture on lamps", "an even sky of its usual brightness"),
     "limb": _untold("Sky Texture: darkening towards the disc's limb, reddening from its top to its foot", "an even disc as bright"),
-    "skies": _untold("Sky Texture in worlds: pictures of 512 rows; atmospheres drawn anew", "within 1 % of Cycles in the median of the picture"),
+    "skies": _untold(
+        "Sky Texture in worlds: pictures of 512 rows; atmospheres drawn anew", "within 1 % of Cycles in the median of the picture"
+    ),
     "twilight": _untold("Twilight in the *Daylight* panel", "no light while the sun is down"),
 }
 

@@ -78,6 +78,13 @@ class GonioRenderEngine(bpy.types.RenderEngine):
             if summary := told.summary():
                 self.report({"WARNING"}, summary)
 
+    def bake(self, depsgraph, object, pass_type, pass_filter, width, height) -> None:
+        if self.has_failed:
+            return
+        with self._reporting():
+            self.final = self.final or FinalSession()
+            report.publish(self.final.bake(self, depsgraph, object, pass_type, pass_filter, (width, height)))
+
     def view_update(self, context, depsgraph) -> None:
         with self._reporting():
             self._viewport().sync(depsgraph)

@@ -87,6 +87,15 @@ class Exporter:
                         numbers[key] = number
         return numbers
 
+    def sync_world(self, depsgraph):
+        """Exports the world and nothing else."""
+        self._images.go_to(depsgraph.scene_eval.frame_current)
+        self._textures.begin()
+        self._world(depsgraph)
+        self._lights.write()
+        self._textures.sweep()
+        return self.scene
+
     def update(self, depsgraph):
         """Exports what `depsgraph.updates` says was touched; gives what came out different."""
         if not self._synced:
@@ -129,13 +138,21 @@ class Exporter:
         self.report.forget_all("Camera")
         return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report), depsgraph)
 
-    def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",)):
-        """Sets resolution, samples, limits and passes."""
+    def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",), eye=None):
+        """Sets resolution, samples, limits and passes; `eye` is a view of a stereoscopic picture."""
         arguments = settings.settings(depsgraph, width=width, height=height, crop=crop, preview=preview, passes=passes)
         if not self._follows_view:
-            self._scene_camera(depsgraph, (width, height))
+            self._scene_camera(depsgraph, (width, height), eye)
         self.scene.set(**arguments)
         return arguments
+
+    def own_entry(self, thing):
+        """The number of the instances whose first placement is an original object itself, and the numbers of its materials; None without any."""
+        return self._instances.own(thing.session_uid)
+
+    def material(self, number):
+        """The description of a material of the scene."""
+        return self._materials.description(number)
 
     def _everything(self, depsgraph):
         self._materials.forget_all()
@@ -151,7 +168,7 @@ class Exporter:
     def _world(self, depsgraph):
         """The world that the view layer shows; one that cannot be exported is black."""
         layer = depsgraph.view_layer_eval
-        shown = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
+        shown = (getattr(layer, "world_override", None) or depsgraph.scene_eval.world) if layer.use_sky else None
         self._lights.domes([])
         self.report.forget_all("World")
         if shown is not None:
@@ -174,12 +191,13 @@ class Exporter:
         # All objects are looked at anew.
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report, self._part)
-        override = depsgraph.view_layer_eval.material_override
+        layer = depsgraph.view_layer_eval
+        override = layer.material_override
         entries, keys, self._primvars = [], [], {}
         for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True):
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
-                if group.kind != "LIGHT":
+                if group.kind != "LIGHT" and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
                     materials = self._materials.of_slots(group.slots, walk.materials, override)
                     for shown, numbers in self._surfaces(group, materials, depsgraph):
                         entries.append((group, shown, numbers, materials.placed))
@@ -210,9 +228,9 @@ class Exporter:
         shown = self._fibres.of_group(group, materials.primvars, depsgraph)
         return [(place, [materials.numbers[min(max(slot or 0, 0), last)]]) for place, slot in shown]
 
-    def _scene_camera(self, depsgraph, size=None):
+    def _scene_camera(self, depsgraph, size=None, eye=None):
         """The scene's camera, unless a 3D view was set; gives whether it differs."""
-        source = depsgraph.scene.camera
+        source = depsgraph.scene.camera if eye is None or eye.camera is None else eye.camera
         if self._follows_view or source is None:
             return False
         self.report.forget_all("Camera")
@@ -220,7 +238,8 @@ class Exporter:
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
         aspect = (render.pixel_aspect_x, render.pixel_aspect_y)
-        return self._put_camera(camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph), depsgraph)
+        description = camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph, eye)
+        return self._put_camera(description, depsgraph)
 
     def _put_camera(self, description, depsgraph):
         description = {**description, "motion": self._camera_motion}

@@ -10,21 +10,24 @@ from .transforms import columns, without_scale
 PINHOLE = {"lens_radius": 0.0, "focus_distance": 1.0, "blades": 0, "blade_rotation_deg": 0.0, "lens_ratio": 1.0}
 
 
-def describe(source, width, height, pixel_aspect, report, depsgraph):
-    """The description of a camera object for a picture of width × height pixels; pixel_aspect is (x, y) of the render settings."""
+def describe(source, width, height, pixel_aspect, report, depsgraph, eye=None):
+    """The description of a camera object for a picture of width × height pixels; pixel_aspect is (x, y) of the render settings. `eye` is a view of a
+    stereoscopic picture, with a place and a shift of its own."""
     lens = source.data
     if source.type == "LIGHT":
         return _through_lamp(source, width, height, pixel_aspect)
     shape = np.array([width * pixel_aspect[0], height * pixel_aspect[1]], dtype=float)
     sensor = _sensor(lens, shape)
-    projection, aperture, offset = _projection(lens, sensor, shape, source.name, report)
+    shift_x = lens.shift_x if eye is None or eye.shift_x is None else eye.shift_x
+    matrix = source.matrix_world if eye is None or eye.matrix is None else eye.matrix
+    projection, aperture, offset = _projection(lens, sensor, shape, source.name, report, shift_x)
     return {
         "origin": {"name": source.name, "file": ""},
         "projection": projection,
         "aperture": [float(x) for x in aperture],
         "aperture_offset": [float(x) for x in offset],
         "clipping": [float(lens.clip_start), float(lens.clip_end)],
-        "transform": columns(without_scale(source.matrix_world)),
+        "transform": columns(without_scale(matrix)),
         "exposure": 1.0,
         **depth_of_field(source, depsgraph),
     }
@@ -43,8 +46,8 @@ def _fitted(lens, sensor, shape):
     return sensor[0] if horizontal else sensor[1]
 
 
-def _projection(lens, sensor, shape, name, report):
-    shift = np.array([lens.shift_x, lens.shift_y])
+def _projection(lens, sensor, shape, name, report, shift_x):
+    shift = np.array([shift_x, lens.shift_y])
     if lens.type == "ORTHO":
         size = sensor * lens.ortho_scale / _fitted(lens, sensor, shape)
         return "Orthographic", size, shift * lens.ortho_scale

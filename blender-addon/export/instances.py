@@ -65,11 +65,13 @@ class Instances:
         self._sources = []
         # Objects that are placed as themselves and not otherwise: the number of their entry, by session_uid.
         self._single = {}
+        # Objects that are placed as themselves first: the number of their entry, by session_uid.
+        self._own = {}
 
     def write(self, entries, keys=()):
         """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
         name their groups."""
-        self.any_written, self._single, number, self._sources = False, {}, 0, []
+        self.any_written, self._single, self._own, number, self._sources = False, {}, {}, 0, []
         for entry, key in zip(entries, keys or [None] * len(entries), strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
                 written = self._write(number, *entry)
@@ -92,7 +94,14 @@ class Instances:
         self._put(number, Entry(shown, materials, *of_group, wanted, group.matrices, values))
         if is_single:
             self._single[group.object_uid] = number
+        if group.is_itself and (group.kept is None or group.kept[0]):
+            self._own[group.object_uid] = number
         return 1
+
+    def own(self, uid):
+        """The number of the entry whose first placement is an object itself, by session_uid, and the numbers of its materials; None without one."""
+        number = self._own.get(uid)
+        return None if number is None else (number, self._written[number].materials)
 
     def move(self, moved):
         """Moves the evaluated objects given by session_uid, of which nothing else has changed; False, with nothing written, where that may

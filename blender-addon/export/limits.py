@@ -7,21 +7,13 @@ from .gather import AS_MESH, HAIR
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
-    ("stereoscopy", "render.use_multiview", (False,), ""),
     ("freestyle", "render.use_freestyle", (False,), ""),
-    ("transparent glass", "cycles.film_transparent_glass", (False,), ""),
     ("fast gi", "cycles.use_fast_gi", (False,), ""),
-    ("no caustics", "cycles.caustics_reflective", (True,), "Reflective caustics that are switched off"),
-    ("no caustics", "cycles.caustics_refractive", (True,), "Refractive caustics that are switched off"),
     ("filter glossy", "cycles.blur_glossy", (0.0, 1.0), ""),
-    ("sample subset", "cycles.use_sample_subset", (False,), ""),
     ("culling", "render.use_simplify and cycles.use_camera_cull", (False,), "Culling by camera"),
     ("culling", "render.use_simplify and cycles.use_distance_cull", (False,), "Culling by distance"),
 )
-LAYER = (
-    ("layer filter", "use_sky", (True,), "A view layer without Environment"),
-    ("layer filter", "use_solid", (True,), "A view layer without Surfaces"),
-)
+LAYER = ()
 OBJECT = (
     ("light linking", "light_linking.receiver_collection", (None,), "Light linking"),
     ("light linking", "light_linking.blocker_collection", (None,), "Shadow linking"),
@@ -58,6 +50,21 @@ def of_scene(depsgraph, report):
             if kind != "World":
                 report.forget_all(kind)
             _tell(kind, owner, settings, report)
+
+
+def of_file(scene, layer, report):
+    """Settings of a scene and of all that it shows that have no effect, without an export; nodes are looked at by exports alone."""
+    _tell("Scene", scene, SCENE, report)
+    _tell("View Layer", layer, LAYER, report)
+    if scene.world is not None:
+        _tell("World", scene.world, WORLD, report)
+    for thing in scene.objects:
+        _tell("Object", thing, OBJECT, report)
+        if thing.type == "LIGHT":
+            _tell("Light", thing.data, LIGHT, report)
+        for slot in thing.material_slots:
+            if slot.material is not None:
+                _tell("Material", slot.material, MATERIAL, report)
 
 
 def of_passes(layer, known, report):

@@ -76,6 +76,10 @@ class Materials:
             self._slotted[slots] = Slotted(numbers, primvars, frozenset().union(*(each.instance_primvars for each in translated)))
         return self._slotted[slots]
 
+    def description(self, number):
+        """What was written last of a material of the scene."""
+        return self._slots.written(number)
+
     def _number(self, material):
         """The number of a material (None: the default one), translated and written where that is still to be done."""
         uid = _uid(material)

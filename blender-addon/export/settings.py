@@ -7,6 +7,8 @@ FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-ha
 # Whole widths in pixels a unit of Cycles' filter width: its windows reach a width to either side, its Gaussian's deviation is a quarter of it.
 WIDTHS = {"gaussian": 1.5, "blackman-harris": 2.0, "tent": 1.0}
 CAUSTICS = {"AUTO": "auto", "ON": "on", "OFF": "off"}
+# Samples that are summed together.
+BLOCK = 16
 # Darker films are as noisy as this one.
 LEAST_EXPOSURE = 1e-6
 # Exponents of the way into the mist, as Cycles has them.
@@ -36,6 +38,9 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "noise_white": LUMENS_PER_WATT / max(float(ask("film_exposure", 1.0)), LEAST_EXPOSURE),
         "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
         "caustics": CAUSTICS.get(ask("caustics", "AUTO"), "auto"),
+        "reflective_caustics": bool(ask("caustics_reflective", True)),
+        "refractive_caustics": bool(ask("caustics_refractive", True)),
+        "clear_roughness": float(ask("film_transparent_roughness", 0.1)) if ask("film_transparent_glass", False) else None,
         "max_bounces": int(ask("max_bounces", 12)),
         "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
         "max_glossy_bounces": int(ask("glossy_bounces", 4)),
@@ -52,12 +57,32 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "film_transparent": bool(render.film_transparent),
         "passes": list(passes),
     }
+    if not preview and ask("use_sample_subset", False):
+        arguments["sample_range"] = _subset(ask, int(samples))
+    if arguments.setdefault("sample_range") is not None:
+        # A part of the samples cannot know which pixels have enough.
+        arguments["noise_threshold"] = 0.0
     if preview and ask("use_preview_direct_light", False):
         arguments.update(max_diffuse_bounces=0, max_glossy_bounces=0)
     mist = scene.world.mist_settings if scene.world is not None else None
     if mist is not None and "mist" in passes:
         arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])
     return arguments
+
+
+def _subset(ask, samples):
+    """The first sample of a subset and the one behind its last, at the nearest ends of blocks of samples; None for all of them."""
+    first = int(ask("sample_offset", 0))
+    first, end = (_whole_block(sample, samples) for sample in (first, first + int(ask("sample_subset_length", samples))))
+    if first >= end:
+        # Too little to be divided further.
+        first = max(0, min(first, (samples - 1) // BLOCK * BLOCK))
+        end = min(first + BLOCK, samples)
+    return None if (first, end) == (0, samples) else (first, end)
+
+
+def _whole_block(sample, samples):
+    return samples if sample >= samples else min(round(sample / BLOCK) * BLOCK, samples)
 
 
 def _noise_threshold(ask, prefix, samples):

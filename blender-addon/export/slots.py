@@ -22,6 +22,10 @@ class Slots:
         self._numbers[key] = number
         return number, True
 
+    def written(self, number):
+        """The description that stands at a place."""
+        return self._written[number]
+
     def put(self, write, description, number):
         """Writes a description, if it differs from what stands there; gives whether it was written."""
         if number in self._written and self._written[number] == description:

@@ -4,6 +4,8 @@
 import bpy
 
 from .. import measuring
+from ..baking import wanted
+from .bake_illuminance import GONIO_OT_bake_illuminance
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .measure_grids import GONIO_OT_measure_grids
@@ -15,6 +17,7 @@ from .standard_view import GONIO_OT_use_standard_view
 CLASSES = (
     GONIO_OT_settings_from_cycles,
     GONIO_OT_use_standard_view,
+    GONIO_OT_bake_illuminance,
     GONIO_OT_expose_for_daylight,
     GONIO_OT_measure_grids,
     GONIO_OT_measure_luminaire,
@@ -28,9 +31,11 @@ def register() -> None:
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     measuring.register()
+    wanted.register()
 
 
 def unregister() -> None:
+    wanted.unregister()
     measuring.unregister()
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)

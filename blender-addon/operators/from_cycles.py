@@ -3,6 +3,9 @@
 
 import bpy
 
+from .. import report
+from ..export import limits
+
 # Gonio's names of scene settings, with Cycles' where they differ.
 SCENE = {
     name: name
@@ -27,6 +30,13 @@ SCENE = {
         "transmission_bounces",
         "transparent_max_bounces",
         "film_exposure",
+        "caustics_reflective",
+        "caustics_refractive",
+        "use_sample_subset",
+        "sample_offset",
+        "sample_subset_length",
+        "film_transparent_glass",
+        "film_transparent_roughness",
         "pixel_filter_type",
         "filter_width",
     )
@@ -52,6 +62,13 @@ def _marks_caustics(scene) -> bool:
     return bool(lights) and any(getattr(each.cycles, "is_caustics_caster", False) for each in scene.objects)
 
 
+def left_behind(context) -> report.Report:
+    """A report of what the file says to Cycles and Gonio does not follow."""
+    told = report.Report()
+    limits.of_file(context.scene, context.view_layer, told)
+    return told
+
+
 class GONIO_OT_settings_from_cycles(bpy.types.Operator):
     """Take sampling, light paths, film, passes and portals over from what this file says to Cycles"""
 
@@ -74,5 +91,9 @@ class GONIO_OT_settings_from_cycles(bpy.types.Operator):
         for light in lights:
             if light.library is None:
                 changed += take_over(light, LIGHT)
-        self.report({"INFO"}, f"{len(changed)} settings taken over from Cycles" if changed else "All settings are Cycles' already")
+        taken = f"{len(changed)} settings taken over from Cycles" if changed else "All settings are Cycles' already"
+        told = left_behind(context)
+        report.publish(told)
+        names = list(dict.fromkeys(line.first.message.partition(":")[0] for line in told.counted))
+        self.report({"INFO"} if not names else {"WARNING"}, taken + (f"; not carried over: {', '.join(names)}" if names else ""))
         return {"FINISHED"}

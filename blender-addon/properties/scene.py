@@ -25,6 +25,22 @@ CAUSTICS = (
     ("OFF", "Off", "Never: camera paths show what they happen to find", 2),
 )
 
+# Blender's names, and one of ours.
+BAKES = (
+    ("COMBINED", "Combined", "All light that leaves the surface", 0),
+    ("AO", "Ambient Occlusion", "How open the surroundings are", 1),
+    ("POSITION", "Position", "Place in the world", 2),
+    ("NORMAL", "Normal", "Normals with their maps", 3),
+    ("UV", "UV", "Texture coordinates", 4),
+    ("ROUGHNESS", "Roughness", "Roughness of the shaders", 5),
+    ("EMIT", "Emission", "What the surface emits", 6),
+    ("DIFFUSE", "Diffuse", "Light that is scattered diffusely, its colour, or both", 7),
+    ("GLOSSY", "Glossy", "Light that is reflected, its colour, or both", 8),
+    ("TRANSMISSION", "Transmission", "Light that is transmitted, its colour, or both", 9),
+    ("ILLUMINANCE", "Illuminance", "Light that arrives, in lux", 10),
+    ("ENVIRONMENT", "Environment", "The world's light, in the direction of each place from the origin", 11),
+)
+
 
 def _threshold(name, description, default):
     """A relative error at which sampling stops."""
@@ -99,6 +115,13 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
     seed: IntProperty(
         name="Seed", description="Another seed gives another pattern of noise", min=0, max=2**31 - 1, default=0, update=tag_data
     )
+    use_sample_subset: switch("Sample Subset", "Take some of the samples alone, for renders that are merged later", tag_data)
+    sample_offset: IntProperty(
+        name="Sample Offset", description="Samples before the first of the subset", min=0, max=MOST_SAMPLES, default=0, update=tag_data
+    )
+    sample_subset_length: IntProperty(
+        name="Subset Length", description="Samples of the subset", min=1, max=MOST_SAMPLES, default=2048, update=tag_data
+    )
     use_animated_seed: switch("Use Animated Seed", "Another pattern of noise for each frame", tag_data)
 
     max_bounces: _bounces("Max Bounces", "Most bounces of a light path", 12)
@@ -113,6 +136,12 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
         default="AUTO",
         update=tag_data,
     )
+    caustics_reflective: switch(
+        "Reflective Caustics", "Surfaces that scatter diffusely are lit by what mirrors and glossy surfaces reflect", tag_data, default=True
+    )
+    caustics_refractive: switch(
+        "Refractive Caustics", "Surfaces that scatter diffusely are lit by what glass refracts", tag_data, default=True
+    )
     clamp_direct: _clamp("Direct", "a direct sample")
     clamp_indirect: _clamp("Indirect", "an indirect sample")
 
@@ -125,6 +154,18 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
         default=1.0,
         update=tag_data,
     )
+    film_transparent_glass: switch(
+        "Transparent Glass", "Glass before a transparent film lets what is composited behind it be seen", tag_data
+    )
+    film_transparent_roughness: FloatProperty(
+        name="Roughness Threshold",
+        description="Glass of at most this roughness is transparent",
+        min=0.0,
+        max=1.0,
+        default=0.1,
+        update=tag_data,
+    )
+    bake_type: EnumProperty(name="Bake Type", description="What is baked", items=BAKES, default="COMBINED")
     pixel_filter_type: EnumProperty(
         name="Filter Type", description="Shape of the pixel filter", items=PIXEL_FILTERS, default="BLACKMAN_HARRIS", update=tag_data
     )

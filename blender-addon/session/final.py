@@ -7,9 +7,10 @@ from contextlib import contextmanager
 
 import gonio
 
-from .. import report
+from .. import baking, report
 from ..export import Exporter, limits
 from . import passes, status
+from .eyes import Eye, eyes
 from .frame import Frame, final_frame
 
 # Seconds between two looks at ESC.
@@ -51,6 +52,19 @@ class FinalSession:
         limits.of_passes(depsgraph.view_layer, passes.SWITCHES, layer.report)
         self._layers[name] = layer
 
+    def bake(self, engine, depsgraph, thing, name: str, pass_filter: int, size: tuple[int, int]) -> report.Report:
+        """Bakes a kind of an object's light; returns what is to be told about it."""
+        layer_name = depsgraph.view_layer.name
+        if layer_name not in self._layers:
+            self.sync(depsgraph)
+        layer = self._layers[layer_name]
+        try:
+            baking.bake(engine, depsgraph, layer, thing, name, pass_filter, size)
+        except gonio.Cancelled:
+            if not engine.test_break():
+                raise
+        return layer.report
+
     def render(self, engine, depsgraph, *, preview: bool = False) -> report.Report:
         """Renders one view layer; returns what is to be told about it."""
         name = depsgraph.view_layer.name
@@ -69,10 +83,16 @@ class FinalSession:
         return layer.report
 
     def _render(self, engine, depsgraph, layer: _Layer, preview: bool) -> None:
-        frame, settings = final_frame(depsgraph.scene.render), depsgraph.scene.gonio
         kinds = passes.add_passes(engine, depsgraph.view_layer)
-        samples = self._settings(depsgraph, layer, frame, kinds, preview)
-        with _result(engine, frame, depsgraph.view_layer.name) as result, _started(layer, engine) as render:
+        for eye in eyes(engine, depsgraph):
+            if not engine.test_break():
+                self._see(engine, depsgraph, layer, kinds, eye, preview)
+
+    def _see(self, engine, depsgraph, layer: _Layer, kinds: list[passes.Pass], eye: Eye, preview: bool) -> None:
+        """Renders one view, the only one but for stereoscopy."""
+        frame, settings = final_frame(depsgraph.scene.render), depsgraph.scene.gonio
+        samples = self._settings(depsgraph, layer, frame, kinds, preview, eye)
+        with _result(engine, frame, depsgraph.view_layer.name, eye.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
             while not (done := render.wait(POLL)):
@@ -91,10 +111,11 @@ class FinalSession:
             if done or render.progress.samples > 0:
                 passes.write_passes(result, render.film(), kinds, settings, samples)
 
-    def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool) -> int:
+    def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool, eye: Eye) -> int:
         """Puts the settings into the scene; returns the samples of a pixel."""
         names = passes.sources(kinds)
-        layer.exporter.settings(depsgraph, width=frame.width, height=frame.height, crop=frame.crop, preview=preview, passes=names)
+        size = {"width": frame.width, "height": frame.height, "crop": frame.crop}
+        layer.exporter.settings(depsgraph, **size, preview=preview, passes=names, eye=eye)
         if preview:
             layer.exporter.scene.set(samples=PREVIEW_SAMPLES, time_limit=PREVIEW_SECONDS)
             return PREVIEW_SAMPLES
@@ -105,10 +126,10 @@ class FinalSession:
 
 
 @contextmanager
-def _result(engine, frame: Frame, layer: str) -> Iterator:
+def _result(engine, frame: Frame, layer: str, view: str) -> Iterator:
     """A render result that is ended whatever happens: one left open crashes Blender later."""
     width, height = frame.size
-    result = engine.begin_result(0, 0, width, height, layer=layer)
+    result = engine.begin_result(0, 0, width, height, layer=layer, **({"view": view} if view else {}))
     whole = False
     try:
         yield result

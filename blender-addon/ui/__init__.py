@@ -4,6 +4,7 @@
 import bpy
 
 from . import (
+    bake,
     film,
     light,
     light_group,
@@ -28,6 +29,7 @@ PANELS = (
     *film.PANELS,
     *simplify.PANELS,
     *performance.PANELS,
+    *bake.PANELS,
     *report.PANELS,
     *passes.PANELS,
     *light.PANELS[:1],

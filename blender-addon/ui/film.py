@@ -13,7 +13,21 @@ class GONIO_RENDER_PT_film(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.prop(scene.gonio, "film_exposure")
-        layout.prop(scene.render, "film_transparent", text="Transparent")
+
+
+class GONIO_RENDER_PT_film_transparency(RenderPanel, Panel):
+    bl_label = "Transparent"
+    bl_parent_id = "GONIO_RENDER_PT_film"
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "film_transparent", text="")
+
+    def draw_settings(self, layout, scene):
+        layout.active = scene.render.film_transparent
+        layout.prop(scene.gonio, "film_transparent_glass", text="Transparent Glass")
+        row = layout.row()
+        row.active = scene.gonio.film_transparent_glass
+        row.prop(scene.gonio, "film_transparent_roughness")
 
 
 class GONIO_RENDER_PT_film_pixel_filter(RenderPanel, Panel):
@@ -43,4 +57,4 @@ class GONIO_RENDER_PT_film_tone_mapping(RenderPanel, Panel):
             layout.operator("gonio.use_standard_view")
 
 
-PANELS = (GONIO_RENDER_PT_film, GONIO_RENDER_PT_film_pixel_filter, GONIO_RENDER_PT_film_tone_mapping)
+PANELS = (GONIO_RENDER_PT_film, GONIO_RENDER_PT_film_transparency, GONIO_RENDER_PT_film_pixel_filter, GONIO_RENDER_PT_film_tone_mapping)

@@ -43,6 +43,9 @@ class GONIO_RENDER_PT_light_paths_caustics(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.prop(scene.gonio, "caustics", text="Light Paths")
+        column = layout.column(heading="Caustics")
+        column.prop(scene.gonio, "caustics_reflective", text="Reflective")
+        column.prop(scene.gonio, "caustics_refractive", text="Refractive")
 
 
 PANELS = (

@@ -18,6 +18,20 @@ class LayerPanel(GonioPanel):
         self.draw_passes(self.layout, context.view_layer)
 
 
+class GONIO_VIEWLAYER_PT_filter(GonioPanel, Panel):
+    bl_label = "Filter"
+    bl_context = "view_layer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, layer = self.layout, context.view_layer
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column(heading="Include")
+        column.prop(layer, "use_sky", text="Environment")
+        column.prop(layer, "use_solid", text="Surfaces")
+
+
 class GONIO_VIEWLAYER_PT_passes(GonioPanel, Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
@@ -99,6 +113,7 @@ def changes_colors(view) -> bool:
 
 
 PANELS = (
+    GONIO_VIEWLAYER_PT_filter,
     GONIO_VIEWLAYER_PT_passes,
     GONIO_VIEWLAYER_PT_passes_data,
     GONIO_VIEWLAYER_PT_passes_light,

@@ -56,6 +56,12 @@ class GONIO_RENDER_PT_sampling_advanced(RenderPanel, Panel):
         row = layout.row(align=True)
         row.prop(scene.gonio, "seed")
         row.prop(scene.gonio, "use_animated_seed", text="", icon="TIME")
+        subset = layout.column(heading="Sample Subset").row(align=True)
+        subset.prop(scene.gonio, "use_sample_subset", text="")
+        values = subset.row(align=True)
+        values.active = scene.gonio.use_sample_subset
+        values.prop(scene.gonio, "sample_offset", text="Offset")
+        values.prop(scene.gonio, "sample_subset_length", text="Length")
 
 
 def _noise_threshold(layout, settings, prefix: str) -> None:

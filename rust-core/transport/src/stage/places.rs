@@ -67,10 +67,8 @@ impl PlaceTable {
         for (number, place) in places.iter().enumerate() {
             let Some(place) = place else { continue };
             (instance[number], triangle[number]) = (place.instance, place.triangle);
-            for axis in 0..2 {
-                at[axis][number] = place.at[axis];
-                along[axis][number] = place.steps[0][axis];
-                down[axis][number] = place.steps[1][axis];
+            for (columns, values) in [(&mut at, place.at), (&mut along, place.steps[0]), (&mut down, place.steps[1])] {
+                columns.iter_mut().zip(values).for_each(|(column, value)| column[number] = value);
             }
         }
         Self { size, instance, triangle, at, along, down, viewpoint, looks, measures }

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the pixels of a texture lie on an object, as Blender gives them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """`triangles` (height, width), -1 where nothing lies, rows from the top; `at` (height, width, 2) are barycentric coordinates of corners 1 and 2
+    in the middle of a pixel, and `steps` (height, width, 4) how both change to the next column and the next row."""
+
+    triangles: np.ndarray
+    at: np.ndarray
+    steps: np.ndarray
+
+    @property
+    def known(self) -> np.ndarray:
+        """Which pixels lie on the object."""
+        return self.triangles >= 0
+
+
+def read_places(result, width: int, height: int) -> Places:
+    """The places of a render result that Blender made for baking.
+
+    Blender counts the coordinates of corners 0 and 1, and its steps are those of half a pixel.
+    """
+    passes = {each.name: each for each in result.layers[0].passes}
+    primitive, steps = (_read(passes[name], width, height) for name in ("BakePrimitive", "BakeDifferential"))
+    # Numbers of triangles stand there bit for bit.
+    triangles = np.ascontiguousarray(primitive[..., 2]).view(np.int32)
+    corner_0, corner_1 = primitive[..., 0], primitive[..., 1]
+    at = np.stack([corner_1, 1.0 - corner_0 - corner_1], axis=-1)
+    along_0, down_0, along_1, down_1 = (2.0 * steps[..., number] for number in range(4))
+    changes = np.stack([along_1, -along_0 - along_1, down_1, -down_0 - down_1], axis=-1)
+    return Places(*(np.ascontiguousarray(each) for each in (triangles, _finite(at), _finite(changes))))
+
+
+def _read(kind, width: int, height: int) -> np.ndarray:
+    flat = np.empty(width * height * kind.channels, dtype=np.float32)
+    kind.rect.foreach_get(flat)
+    return flat.reshape(height, width, kind.channels)[::-1]
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    """Nothing is known of pixels where nothing lies."""
+    return np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0).astype(np.float32)
+
+
+def texture_coordinates(mesh, places: Places) -> np.ndarray:
+    """Coordinates (height, width, 3) of the active UV map, 1 in the third channel; zeros without a map."""
+    found = np.zeros((*places.triangles.shape, 3), dtype=np.float32)
+    layer = mesh.uv_layers.active
+    if layer is None:
+        return found
+    mesh.calc_loop_triangles()
+    corners = np.empty((len(mesh.loop_triangles), 3), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", corners.reshape(-1))
+    uv = np.empty((len(mesh.loops), 2), dtype=np.float32)
+    layer.uv.foreach_get("vector", uv.reshape(-1))
+    known = places.known
+    a, b, c = np.moveaxis(uv[corners[places.triangles[known]]], 1, 0)
+    u, v = places.at[known].T[..., None]
+    found[known] = np.concatenate([a * (1.0 - u - v) + b * u + c * v, np.ones_like(u)], axis=1)
+    return found
