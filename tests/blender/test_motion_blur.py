@@ -45,8 +45,8 @@ def picture(scene, seed=0):
         return np.asarray(render.film()["color"])[..., :3].astype(float)
 
 
-def animated(samples):
-    """A cube that turns and moves, a plane that a shape key bends, a lamp and a camera that move, over a floor."""
+def animated(samples, lamp_moves=False):
+    """A cube that turns and moves, a plane that a shape key bends and a camera that moves, over a floor; or a lamp that moves too."""
     import bpy
     import scenes
 
@@ -75,7 +75,8 @@ def animated(samples):
     key(cube, "rotation_euler", ((0.0, 0.0, 0.0), (0.0, 0.0, 1.5)))
     key(bent, "value", (0.0, 1.0))
     key(camera, "location", ((0.0, 0.0, 5.0), (0.2, 0.0, 5.0)))
-    key(lamp, "location", ((0.0, 0.0, 2.0), (0.5, 0.0, 2.0)))
+    if lamp_moves:
+        key(lamp, "location", ((0.0, 0.0, 2.0), (0.5, 0.0, 2.0)))
     scene.frame_set(2)
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
     return scene
@@ -110,13 +111,14 @@ def test_blur_is_the_mean_of_moments():
 def test_positions_steps_and_switches_are_followed():
     import bpy
 
-    scene = animated(4)
+    scene = animated(4, lamp_moves=True)
     cube = bpy.data.objects["Cube"]
 
     def places():
         made, _ = exported(scene)
         described = made.to_dict()
         motion = next((one["motion"] for one in described["instances"] if one["origin"]["name"] == "Cube"), [])
+        assert (len(described["lights"][0]["motion"]) == 3) == scene.render.use_motion_blur
         return [key[0]["columns"][3][0] for key in motion], described["settings"]["shutter"]
 
     found, shutter = places()

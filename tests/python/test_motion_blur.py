@@ -10,9 +10,8 @@ from small_scenes import FLOOR, QUAD, above, at, finished
 FRAMES = 64
 REPEATS = 4
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)], "f4")
-SIDES = np.array(
-    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]], "i4"
-)
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+SIDES = np.array([corners for a, b, c, d in FACES for corners in ((a, b, c), (a, c, d))], "i4")
 FLAT = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], "f4")
 
 
@@ -84,12 +83,11 @@ def blocks(picture, side=4):
 @pytest.mark.parametrize("kind", KINDS)
 def test_blur_is_the_mean_of_moments(kind):
     blurred = np.stack([blocks(finished(scene_of(kind, samples=256, seed=seed))) for seed in range(REPEATS)])
-    moments = np.stack(
-        [
-            np.mean([blocks(finished(scene_of(kind, (frame + 0.5) / FRAMES, 8, seed=1000 + seed * FRAMES + frame))) for frame in range(FRAMES)], axis=0)
-            for seed in range(REPEATS)
-        ]
-    )
+
+    def moment(frame, seed):
+        return blocks(finished(scene_of(kind, (frame + 0.5) / FRAMES, 8, seed=1000 + seed * FRAMES + frame)))
+
+    moments = np.stack([np.mean([moment(frame, seed) for frame in range(FRAMES)], axis=0) for seed in range(REPEATS)])
     spread = np.sqrt((blurred.var(axis=0, ddof=1) + moments.var(axis=0, ddof=1)) / REPEATS)
     # Sixty-four moments stand for all: an edge that moves by a pixel a moment is off by a part of a step.
     spread = np.maximum(spread, 0.004 * moments.mean())

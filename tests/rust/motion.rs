@@ -31,8 +31,13 @@ fn eye(share: f64) -> Transform {
     turned(0.4 * share, [0.0; 3]).after(&at)
 }
 
-/// A board that turns, bends and moves over a floor, below a lamp and a camera that move too; or all of it at a moment.
+/// A board that turns, bends and moves over a floor, below a camera that moves too; or all of it at a moment.
 fn scene(moment: Option<f64>) -> Scene {
+    scene_of(moment, 0.0)
+}
+
+/// The same over a lamp that moves by some metres.
+fn scene_of(moment: Option<f64>, reach: f64) -> Scene {
     let mut scene = floor(0.6);
     let at = moment.unwrap_or(0.5);
     add_triangles(&mut scene, &bent(at as f32), &TRIANGLES, Material::diffuse(Origin::new("board"), [0.7, 0.2, 0.1]));
@@ -40,20 +45,22 @@ fn scene(moment: Option<f64>) -> Scene {
     set.transforms = vec![board(at), turned(0.3, [0.8, 0.3, -0.9])];
     scene.cameras.push(camera_from_above([0.0, 5.0, 0.0], 4.0));
     scene.cameras[0].transform = eye(at);
-    scene.lights.push(light(LightShape::Sphere { radius: 0.2 }, Transform::translation([at, 2.5, 0.0]), [20.0; 3]));
+    scene.lights.push(light(LightShape::Sphere { radius: 0.2 }, Transform::translation([0.5 + reach * (at - 0.5), 2.5, 0.0]), [20.0; 3]));
     scene.lights.push(light(LightShape::Rectangle { width: 1.0, height: 1.0 }, facing_down([-0.5, 3.0, 0.5]), [2.0; 3]));
     if moment.is_none() {
-        let keys = [0.0, 0.5, 1.0];
-        set_motion(&mut scene, &keys);
+        set_motion(&mut scene, &[0.0, 0.5, 1.0], reach);
     }
     scene
 }
 
-fn set_motion(scene: &mut Scene, keys: &[f64]) {
+fn set_motion(scene: &mut Scene, keys: &[f64], reach: f64) {
+    if reach > 0.0 {
+        scene.lights[0].motion = keys.iter().map(|share| Transform::translation([0.5 + reach * (share - 0.5), 2.5, 0.0])).collect();
+        return;
+    }
     scene.instances[1].motion = keys.iter().map(|share| vec![board(*share), turned(0.3, [0.8, 0.3, -0.9])]).collect();
     scene.meshes[1].motion = keys.iter().map(|share| MeshKey { points: bent(*share as f32).into(), normals: None }).collect();
     scene.cameras[0].motion = keys.iter().map(|share| eye(*share)).collect();
-    scene.lights[0].motion = keys.iter().map(|share| Transform::translation([*share, 2.5, 0.0])).collect();
 }
 
 fn wanted(samples: u32, seed: u32) -> Settings {
@@ -75,10 +82,24 @@ fn blocks(image: &gonio::film::Image) -> Vec<f64> {
 
 #[test]
 fn blur_is_the_mean_of_moments() {
-    let moving = compiled(&scene(None));
+    holds_the_mean(0.0);
+}
+
+/// A lamp that moves is laid out along its way, which is right for what stands still.
+#[test]
+fn lamps_light_from_their_whole_way() {
+    holds_the_mean(2.0);
+}
+
+fn holds_the_mean(reach: f64) {
+    let moving = compiled(&scene_of(None, reach));
     let mut moments = vec![0.0; 36 * 3];
     for moment in 0..MOMENTS {
-        let still = compiled(&scene(Some((moment as f64 + 0.5) / MOMENTS as f64)));
+        let at = (moment as f64 + 0.5) / MOMENTS as f64;
+        // With the lamp alone all else stands at the middle.
+        let mut still = scene_of(Some(if reach > 0.0 { 0.5 } else { at }), reach);
+        still.lights[0].transform.columns[3][0] = 0.5 + reach * (at - 0.5);
+        let still = compiled(&still);
         let found = blocks(&render(&still, &wanted(32, 100 + moment as u32), Execution::best()));
         moments.iter_mut().zip(found).for_each(|(sum, x)| *sum += x / MOMENTS as f64);
     }
@@ -123,7 +144,7 @@ fn keys_that_cannot_be_used_are_told_and_stand_still() {
     odd.instances[1].motion[1].pop();
     odd.meshes[1].motion[2].points = Arc::from([[0.0; 3]; 3]);
     odd.cameras[0].motion.truncate(1);
-    odd.lights[0].motion[0] = Transform::scale(f64::NAN);
+    odd.lights[0].motion = vec![Transform::scale(f64::NAN); 2];
     let odd = gonio::compile::compile(&odd, None, &false.into()).expect("it compiles");
     let told: Vec<String> = odd.diagnostics.iter().map(ToString::to_string).collect();
     for what in ["places 1 times", "other numbers of points", "stands still", "the light stands still"] {

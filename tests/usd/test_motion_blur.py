@@ -25,7 +25,8 @@ QUAD = """
 
 def load(tmp_path, text, shutter=(-0.25, 0.25), **options):
     path = tmp_path / "stage.usda"
-    head = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n    timeCodesPerSecond = 24\n    startTimeCode = 1\n    endTimeCode = 2\n)\n'
+    head = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n    timeCodesPerSecond = 24\n    startTimeCode = 1\n    endTimeCode = 2\n'
+    head += ")\n"
     path.write_text(head + CAMERA % shutter + text)
     scene = gonio.load_usd(str(path), **{"frame": 1.5, "camera_light": True, **options})
     return scene.to_dict(), [" ".join(map(str, line)) for line in scene.diagnostics]
@@ -49,9 +50,11 @@ def test_a_shutter_that_does_not_open_blurs_nothing(tmp_path):
 
 def test_transforms_and_lights_move(tmp_path):
     text = (
-        'def Xform "X"\n{\n    double xformOp:rotateY.timeSamples = { 1: 0, 2: 180 }\n    uniform token[] xformOpOrder = ["xformOp:rotateY"]\n'
+        'def Xform "X"\n{\n    double xformOp:rotateY.timeSamples = { 1: 0, 2: 180 }\n'
+        '    uniform token[] xformOpOrder = ["xformOp:rotateY"]\n'
         f'def Mesh "M"\n{{{QUAD}}}\n'
-        'def SphereLight "L"\n{\n    double3 xformOp:translate = (3, 0, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n}\n'
+        'def SphereLight "L"\n{\n    double3 xformOp:translate = (3, 0, 0)\n'
+        '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n}\n'
     )
     scene, told = load(tmp_path, text)
     axes = [key[0]["columns"][0][0] for key in scene["instances"][0]["motion"]]
@@ -63,7 +66,8 @@ def test_transforms_and_lights_move(tmp_path):
 def test_points_move(tmp_path):
     sampled = QUAD.replace(
         "point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]",
-        "point3f[] points.timeSamples = { 1: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], 2: [(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 1)] }",
+        "point3f[] points.timeSamples = {\n        1: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],\n"
+        "        2: [(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 1)]\n    }",
     )
     scene, _ = load(tmp_path, f'def Mesh "M"\n{{{sampled}}}\n')
     keys = [np.asarray(key["points"]).reshape(-1, 3) for key in scene["meshes"][0]["motion"]]
@@ -115,6 +119,7 @@ def test_settings_switch_it_off(tmp_path):
 def test_the_cameras_sample_count_counts(tmp_path):
     path = tmp_path / "stage.usda"
     head = '#usda 1.0\n(\n    metersPerUnit = 1\n    startTimeCode = 1\n    endTimeCode = 2\n)\n'
-    path.write_text(head + (CAMERA % (-0.25, 0.25)).replace("double shutter:open", "int motion:nonlinearSampleCount = 5\n    double shutter:open"))
+    counted = "int motion:nonlinearSampleCount = 5\n    double shutter:open"
+    path.write_text(head + (CAMERA % (-0.25, 0.25)).replace("double shutter:open", counted))
     scene = gonio.load_usd(str(path), frame=1.5).to_dict()
     assert places(scene["cameras"][0]["motion"]) == pytest.approx([0.5, 0.75, 1.0, 1.25, 1.5])

@@ -2,7 +2,7 @@
 
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
-use crate::{MovingInstance, NONE};
+use crate::{Blas, Care, MovingInstance, NONE};
 use gonio_simd::Execution;
 use gonio_simd::motion::{Interpolation, Motion};
 use std::sync::Arc;
@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 const TIMES: [f32; 4] = [0.0, 0.3, 0.75, 1.0];
 
 /// Instances of which every other moves, by random keys.
-fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<crate::Blas>>, Vec<Instance>, Vec<MovingInstance>) {
-    let meshes: Vec<Arc<crate::Blas>> =
+fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<Blas>>, Vec<Instance>, Vec<MovingInstance>) {
+    let meshes: Vec<Arc<Blas>> =
         [(1, 1.0), (40, 0.5), (800, 0.2)].into_iter().map(|(n, size)| Mesh::soup(random, n, 1.0, size).blas()).collect();
     let placements: Vec<Vec<[[f64; 4]; 3]>> = (0..90).map(|i| (0..2 + i % 3).map(|_| random_placement(random)).collect()).collect();
     let place = |(i, keys): (usize, &Vec<[[f64; 4]; 3]>)| Instance {
@@ -26,8 +26,10 @@ fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<c
     (meshes, instances, moving)
 }
 
-fn built(meshes: &[Arc<crate::Blas>], instances: &[Instance], moving: &[MovingInstance]) -> Tlas {
-    Tlas::build_moving(meshes.to_vec(), instances, moving, instances.len(), &AtomicBool::new(false)).expect("not cancelled")
+fn built(meshes: &[Arc<Blas>], instances: &[Instance], moving: &[MovingInstance]) -> Tlas {
+    let scene = Tlas::build_moving(meshes.to_vec(), instances, moving, instances.len(), &AtomicBool::new(false)).expect("not cancelled");
+    scene.tuners.settle(true);
+    scene
 }
 
 #[test]
@@ -90,4 +92,42 @@ fn walks_within_an_instance_see_it_at_their_time() {
     built(&meshes, &stand, &[]).first_hit_within(Execution::Scalar, &rays.batch(), &numbers, &mut expected);
     assert_eq!(found, expected);
     assert!(found.instance.iter().any(|instance| *instance != NONE));
+}
+
+#[test]
+fn meshes_that_deform_are_met_as_they_are_at_the_rays_time() {
+    let mut random = Random(77);
+    let mesh = Mesh::soup(&mut random, 700, 1.0, 0.2);
+    let moved = |random: &mut Random| mesh.positions.iter().map(|p| [0, 1, 2].map(|k| p[k] + 0.3 * random.signed())).collect::<Vec<_>>();
+    let keys = [mesh.positions.clone(), moved(&mut random), moved(&mut random)];
+    let slices: Vec<&[[f32; 3]]> = keys.iter().map(Vec::as_slice).collect();
+    let tree = Blas::build_deforming(&slices, &mesh.triangles, Care::Quick, &AtomicBool::new(false)).expect("not cancelled");
+    assert!(!tree.is_still() && tree.refit(&mesh.positions, &mesh.triangles).is_none());
+    let instances: Vec<Instance> = (0..20).map(|_| instance(Geometry::Mesh(0), random_placement(&mut random))).collect();
+    let scene = built(&[Arc::new(tree)], &instances, &[]);
+    assert!(scene.moves());
+    let mut rays = OwnedRays::random(&mut random, 2048, 1.0, true);
+    rays.time = (0..2048).map(|i| TIMES[i % 4]).collect();
+    let stands = |time: f32| {
+        let (number, share) = if time < 0.5 { (0, 2.0 * time) } else { (1, 2.0 * time - 1.0) };
+        let between = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * share);
+        let positions = keys[number].iter().zip(&keys[number + 1]).map(between).collect();
+        built(&[Mesh { positions, triangles: mesh.triangles.clone() }.blas()], &instances, &[])
+    };
+    let standing: Vec<Hits> = TIMES.map(|time| super::first_hits(&stands(time), levels()[0], &rays)).into();
+    for level in levels() {
+        let single = super::first_hits(&scene, level, &rays);
+        let (mut packets, mut stream) = (Hits::default(), Hits::default());
+        scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
+        scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
+        assert_eq!(single, packets, "{level:?}");
+        assert_eq!(single, stream, "{level:?}");
+        let mut any = vec![9; 2048];
+        scene.occluded(Execution::Vector(level), &rays.batch(), true, &mut any);
+        let differs =
+            |i: &usize| standing[i % 4].instance[*i] != single.instance[*i] || standing[i % 4].primitive[*i] != single.primitive[*i];
+        assert_eq!((0..2048).filter(differs).count(), 0, "{level:?}");
+        assert!((0..2048).all(|i| (any[i] == 1) == (single.instance[i] != NONE)));
+        assert!(single.instance.iter().filter(|i| **i != NONE).count() > 500);
+    }
 }

@@ -133,7 +133,9 @@ pub(super) fn of_instances(scene: &Scene, meshes: &[Bounds]) -> Bounds {
         for transform in &instances.transforms {
             bounds.join(&mesh.transformed(transform));
         }
-        super::motion::extend(&mut bounds, mesh, instances);
+        for transform in instances.motion.iter().flatten() {
+            bounds.join(&mesh.transformed(transform));
+        }
     }
     bounds
 }

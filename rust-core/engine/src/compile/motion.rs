@@ -1,9 +1,5 @@
 //! What moves while the shutter is open: instances, cameras and lamps, from keys to the motions that kernels read.
 
-use super::{
-    bounds::Bounds,
-    instances::{rebased, rows},
-};
 use crate::{
     accel::{MovingInstance, Tlas},
     error::Diagnostic,
@@ -29,6 +25,12 @@ fn interpolation(shutter: &Shutter) -> Interpolation {
     if shutter.linear { Interpolation::Linear } else { Interpolation::Decomposed }
 }
 
+/// The rows of a map, its image moved so that `origin` becomes zero.
+fn rows(map: &Transform, origin: [f64; 3]) -> Rows {
+    let [x, y, z, place] = &map.columns;
+    std::array::from_fn(|row| [x[row], y[row], z[row], place[row] - origin[row]])
+}
+
 /// Motions of the placements of a set, by their numbers in it; those that stand still are left out.
 pub(super) fn motions(group: &Instances, settings: &Settings, origin: [f64; 3], diagnostics: &mut Vec<Diagnostic>) -> Vec<(usize, Motion)> {
     if group.motion.is_empty() || !blurs(settings) {
@@ -39,7 +41,7 @@ pub(super) fn motions(group: &Instances, settings: &Settings, origin: [f64; 3], 
         return Vec::new();
     }
     let motion = |number: usize| {
-        let keys: Vec<Rows> = group.motion.iter().map(|key| rows(&rebased(&key[number], origin))).collect();
+        let keys: Vec<Rows> = group.motion.iter().map(|key| rows(&key[number], origin)).collect();
         Some((number, Motion::new(&keys, interpolation(&settings.shutter))?))
     };
     (0..group.transforms.len()).filter_map(motion).collect()
@@ -101,20 +103,9 @@ pub(super) fn fill_keys(scene: &Scene, table: &mut GeometryTable) {
     table.mesh_keys.resize_with(scene.meshes.len() + scene.curves.len() + scene.points.len(), MeshKeys::default);
 }
 
-/// The world box of all that placements pass, as far as their keys tell.
-pub(super) fn extend(bounds: &mut Bounds, mesh: &Bounds, group: &Instances) {
-    for transform in group.motion.iter().flatten() {
-        let placed = mesh.transformed(transform);
-        if !placed.is_empty() {
-            bounds.extend(placed.min);
-            bounds.extend(placed.max);
-        }
-    }
-}
-
 /// How a camera moves in the rebased world.
 pub(super) fn of_camera(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Option<Arc<Motion>> {
-    let keys: Vec<Rows> = camera.motion.iter().map(|key| rows(&rebased(key, origin))).collect();
+    let keys: Vec<Rows> = camera.motion.iter().map(|key| rows(key, origin)).collect();
     if blurs(settings) { Motion::new(&keys, interpolation(&settings.shutter)).map(Arc::new) } else { None }
 }
 
@@ -180,7 +171,7 @@ pub(super) fn lamps(light: &Light, settings: &Settings, diagnostics: &mut Vec<Di
         diagnostics.push(Diagnostic::warning(&light.origin, format!("{problem}; the light stands still")));
         return whole();
     }
-    let keys: Vec<Rows> = light.motion.iter().map(rows).collect();
+    let keys: Vec<Rows> = light.motion.iter().map(|key| rows(key, [0.0; 3])).collect();
     let Some(motion) = Motion::new(&keys, interpolation(&settings.shutter)) else { return whole() };
     if matches!(light.shape, LightShape::Dome { .. }) {
         diagnostics.push(Diagnostic::warning(&light.origin, "domes that move are not blurred"));

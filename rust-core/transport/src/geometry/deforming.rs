@@ -80,7 +80,8 @@ impl GeometryTable {
             false => (&self.key_points, keys.first_point, keys.points),
             true => (&self.key_normals, keys.first_normal, keys.normals),
         };
-        if place + 3 > stride {
+        // Lanes beyond the last hit have any number.
+        if stride < 3 || place > stride - 3 {
             return None;
         }
         Some(Between::new(keys.segments, time, first, stride).value(table, place as usize))

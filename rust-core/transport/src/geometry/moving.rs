@@ -29,7 +29,8 @@ impl GeometryTable {
                     *number = rows[place % 3][place / 3] as f32;
                 }
             }
-            None => numbers.copy_from_slice(&self.instance_transform[at..at + 12]),
+            // Lanes beyond the last hit have any number.
+            None => numbers.iter_mut().zip(self.instance_transform.get(at..at + 12).unwrap_or_default()).for_each(|(to, from)| *to = *from),
         }
         numbers
     }
