@@ -1,6 +1,6 @@
 //! Placed meshes.
 
-use super::{MaterialId, MeshId, Origin, Primvar, Transform};
+use super::{Linking, MaterialId, MeshId, Origin, Primvar, Transform};
 use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
@@ -59,4 +59,7 @@ pub struct Instances {
     /// The light group that what they emit belongs to.
     #[serde(default)]
     pub light_group: String,
+    /// What is lit by what they emit, and what casts shadows of it.
+    #[serde(default, skip_serializing_if = "Linking::is_whole")]
+    pub linking: Linking,
 }

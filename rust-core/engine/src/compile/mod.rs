@@ -12,6 +12,7 @@ mod kept;
 mod light_groups;
 mod light_images;
 mod lights;
+mod linking;
 mod luminaires;
 mod materials;
 mod measured;
@@ -114,6 +115,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let origin = bounds.rebase_origin();
     let mut geometry = geometry::tables(scene, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
+    lights.linking.set_masks(&geometry.table, &mut geometry.instances);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| kept.tree.clone()).collect();
@@ -135,6 +137,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
     casters::report(scene, &casters, &mut diagnostics);
+    lights.linking.report(scene, [casters.enclosing.is_some(), !casters.targets.is_empty()], &mut diagnostics);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -148,6 +151,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         triangle_lights: lights.triangle_lights,
         object_lights,
         groups: lights.groups,
+        links: lights.linking.tables,
         any_transparent,
         any_absorbing,
         origin,
