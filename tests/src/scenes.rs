@@ -36,6 +36,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        linking: Default::default(),
     });
 }
 

@@ -208,6 +208,7 @@ impl<'py> Placer<'_, '_, 'py> {
             shadow_catcher: false,
             pass_index: 0,
             light_group: key.3.clone(),
+            linking: gonio::scene::Linking::default(),
         };
         self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
         self.places.insert(key.clone(), place);

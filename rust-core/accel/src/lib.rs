@@ -9,6 +9,7 @@
 //! All are watertight and find the same nearest hit (closest hit). Boxes are widened by a bound on the rounding errors (`intersect/prepared.rs`). The edge
 //! functions of triangles never have a wrong sign (`intersect/triangle_block.rs`). Equal distances go to the lower instance and primitive number.
 
+mod blockers;
 mod build;
 mod cancelled;
 mod hit_callback;
@@ -19,6 +20,7 @@ mod tests;
 mod traverse;
 mod tree;
 
+pub use blockers::Blockers;
 pub use cancelled::Cancelled;
 pub use intersect::block_tests::BlockTests;
 pub use intersect::shape::Shape;

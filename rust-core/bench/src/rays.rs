@@ -78,7 +78,7 @@ impl Rays {
         let mut rays = Self::default();
         for (point, normal) in self.surfaces(tables) {
             let [choice, u, v] = [random.unit(), random.unit(), random.unit()].map(F);
-            let sample = kernels::sample_li(One, tables, None, &point.position, &normal, &[choice, u, v]);
+            let sample = kernels::sample_li(One, tables, None, U(0), &point.position, &normal, &[choice, u, v]);
             if sample.pdf.0 > 0.0 && normal.dot(sample.wi).0 > 0.0 {
                 let segment = shadow_ray_to(point.position, point.geometric_normal, point.error, sample.wi, sample.distance);
                 rays.push(segment.origin, segment.direction, segment.t_max.0, ray_mask::SHADOW);

@@ -193,6 +193,7 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
         (record.opening.is_some_and(|part| part.area.outline != Outline::Faces), flag::ROUND),
         (record.opening.is_some_and(|part| part.area.outline == Outline::Ellipsoid), flag::ALL_ROUND),
         (lit, flag::LIT),
+        (record.sampled_alone, flag::ALONE),
     ] {
         bits |= if set { bit } else { 0 };
     }

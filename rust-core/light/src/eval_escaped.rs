@@ -6,18 +6,20 @@ use super::mis::hit_weight;
 use super::row::field;
 use super::table::{InfiniteLight, LightTable};
 use super::tree::LightCache;
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 impl LightTable {
     /// Light that a ray from `from` (normal `n` there, zero where there is no surface) along unit `wi` meets on leaving the scene: the sum of the infinite
     /// lights' radiances, each times its power-heuristic weight against `bsdf_pdf`. The weight is 1 where the ray is a camera ray (`first`,
-    /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for.
+    /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for; of those alone that the
+    /// class of `receiver`, which sent the ray, sees, and that rays of its `kind` (0 diffuse, 1 glossy, 2 transmitted) see.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
     pub fn eval_escaped<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
+        receiver: U<L>,
         from: Vec3<L>,
         n: Vec3<L>,
         wi: Vec3<L>,
@@ -25,6 +27,7 @@ impl LightTable {
         first: M<L>,
         delta: M<L>,
         only: Option<u32>,
+        kind: U<L>,
     ) -> Spectrum<L> {
         let mut sum = Spectrum::zero(l);
         for infinite in self.infinite.iter().filter(|infinite| only.is_none_or(|only| infinite.light == only)) {
@@ -32,11 +35,18 @@ impl LightTable {
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);
             if weighed.any() {
-                let pdf = pdf * self.light_pmf(l, light_cache, from, n, l.u(infinite.light));
+                let pdf = pdf * self.light_pmf(l, light_cache, receiver, from, n, l.u(infinite.light));
+                let pdf = if infinite.alone { l.f(f32::MAX) } else { pdf };
                 weight = hit_weight(bsdf_pdf, pdf, weighed);
             }
-            let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
-            sum += (radiance * weight).keep_if(seen);
+            let mut scattered = l.m(infinite.scattered);
+            for number in 0..3 {
+                if infinite.hidden >> number & 1 != 0 {
+                    scattered = scattered.and_not(kind.eq(number));
+                }
+            }
+            let seen = (first & l.m(infinite.visible)) | scattered.and_not(first);
+            sum += (radiance * weight).keep_if(seen & self.sees(l, receiver, l.u(infinite.light)));
         }
         sum
     }

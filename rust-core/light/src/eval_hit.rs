@@ -15,13 +15,15 @@ use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 impl LightTable {
     /// Radiance towards `from` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
-    /// [`Self::sample_li`] at `from` with normal `n` would have sampled that point. Both zero outside `mask`, on sides that do not emit, and for lights that rays cannot hit.
+    /// [`Self::sample_li`] at `from` with normal `n` would have sampled that point, endless for lights that light sampling alone finds. Both zero
+    /// outside `mask`, on sides that do not emit, for lights that rays cannot hit, and for those that the class of `receiver` does not see.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
     pub fn eval_hit<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
+        receiver: U<L>,
         light: U<L>,
         from: Vec3<L>,
         n: Vec3<L>,
@@ -79,9 +81,14 @@ impl LightTable {
             || FacingDisk::density(l, &light, from, wi, hit),
         );
         let (pdf, uv) = density;
-        let valid = mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT);
-        let probability = self.light_pmf(l, light_cache, from, n, index);
-        (self.le(l, &light, wi, uv).keep_if(valid), (pdf * probability).keep_if(valid))
+        let valid =
+            mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT) & self.sees(l, receiver, index);
+        let probability = self.light_pmf(l, light_cache, receiver, from, n, index);
+        let mut pdf = pdf * probability;
+        if self.any_alone {
+            pdf = light.flag(flag::ALONE).select(l.f(f32::MAX), pdf);
+        }
+        (self.le(l, &light, wi, uv).keep_if(valid), pdf.keep_if(valid))
     }
 
     /// Runs one kind's density where some lane has it.

@@ -102,6 +102,8 @@ pub(crate) mod flag {
     pub(crate) const ALL_ROUND: u32 = 1 << 20;
     /// What it sends differs by direction or place.
     pub(crate) const VARIED: u32 = 1 << 21;
+    /// Light sampling alone finds it; of scattered rays those that mirrors and smooth glass sent.
+    pub(crate) const ALONE: u32 = 1 << 22;
 }
 
 /// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.

@@ -29,12 +29,15 @@ pub struct LightSample<L: Lanes> {
 
 impl LightTable {
     /// Samples a light and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_light`
-    /// and `u` in `[0, 1)`. Most lights are those that the `light_cache` has learned to arrive there, where there is one.
+    /// and `u` in `[0, 1)`. The point is of a class of receivers, 0 if it sees all lights. Most lights are those that the `light_cache` has learned
+    /// to arrive there, where there is one.
     #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "a point of a class, and its numbers")]
     pub fn sample_li<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
+        receiver: U<L>,
         p: &Vec3<L>,
         n: &Vec3<L>,
         u_light: F<L>,
@@ -43,7 +46,7 @@ impl LightTable {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let chosen = self.sample_light(l, light_cache, p, n, u_light);
+        let chosen = self.sample_light(l, light_cache, receiver, p, n, u_light);
         self.sample_li_of(l, chosen, p, n, u)
     }
 
@@ -89,7 +92,7 @@ impl LightTable {
             distance: valid.select(aim.distance, l.f(f32::MAX)),
             radiance: radiance.keep_if(valid),
             pdf: pdf.keep_if(valid),
-            delta: light.flag(flag::DELTA) | enclosed,
+            delta: light.flag(flag::DELTA | flag::ALONE) | enclosed,
             light: index,
             casts_shadow: light.flag(flag::CASTS_SHADOW),
         }

@@ -8,6 +8,14 @@ use super::table::{InfiniteLight, LightTable};
 use super::{distant, dome};
 use gonio_simd::{F, Lanes, M, U, Vec3};
 
+impl InfiniteLight {
+    /// The normal about which an even dome is sampled: none where light sampling alone has to find what comes from behind the surface too.
+    #[inline(always)]
+    fn normal<L: Lanes>(&self, l: L, n: Vec3<L>) -> Vec3<L> {
+        if self.alone { Vec3::splat(l, [0.0; 3]) } else { n }
+    }
+}
+
 impl LightTable {
     /// Samples a direction to infinite lights.
     #[inline(always)]
@@ -56,7 +64,7 @@ impl LightTable {
                 (local.transform(self.reader(l, l.u(infinite.light)).frame()), pdf, place)
             }
             None => {
-                let (wi, pdf) = dome::sample_constant(l, n, u);
+                let (wi, pdf) = dome::sample_constant(l, infinite.normal(l, n), u);
                 (wi, pdf, [l.f(0.0); 2])
             }
         }
@@ -88,7 +96,7 @@ impl LightTable {
                 let place = dome::place(local);
                 (distribution.pdf(l, local, place), place)
             }
-            None => (dome::pdf_constant(l, n, wi), [l.f(0.0); 2]),
+            None => (dome::pdf_constant(l, infinite.normal(l, n), wi), [l.f(0.0); 2]),
         }
     }
 }

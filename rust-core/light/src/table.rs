@@ -4,6 +4,7 @@ use super::build::fill_row;
 use super::dome::{DomeDistribution, EVEN_SAMPLED_PART};
 use super::goniogram::Goniogram;
 use super::light_kind::LightKind;
+use super::links::{LightLinks, LinkedLights};
 use super::record::{LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
@@ -33,6 +34,10 @@ pub(crate) struct InfiniteLight {
     pub(crate) visible: bool,
     /// To scattered rays.
     pub(crate) scattered: bool,
+    /// Bits of the kinds of scattered rays that do not see it.
+    pub(crate) hidden: u32,
+    /// Light sampling alone finds it.
+    pub(crate) alone: bool,
 }
 
 /// All lights of a scene, laid out for sampling.
@@ -49,6 +54,12 @@ pub struct LightTable {
     pub(crate) goniograms: Vec<Arc<Goniogram>>,
     /// Rows of the rectangles that domes are looked for through.
     pub(crate) portals: Vec<u32>,
+    /// By light, bits of the kinds of scattered rays that do not see it; empty where all see all.
+    pub(crate) hidden: Vec<u32>,
+    /// Whether light sampling alone finds some light.
+    pub(crate) any_alone: bool,
+    /// Which receivers see which lights, if they do not all see all.
+    pub(crate) linked: Option<Arc<LinkedLights>>,
 }
 
 impl LightTable {
@@ -65,7 +76,9 @@ impl LightTable {
             let textured = matches!(record.kind, LightKind::Rectangle | LightKind::Dome);
             let index = record.texture.filter(|_| textured).map(|index| index as usize);
             let image = index.and_then(|i| placed.get(i).copied().flatten().map(|place| (place, textures[i].borrow())));
-            let distribution = image.filter(|_| record.kind == LightKind::Dome).map(|(_, texture)| DomeDistribution::new(texture));
+            let distribution = image.filter(|_| record.kind == LightKind::Dome).map(|(_, texture)| {
+                if record.sampled_alone { DomeDistribution::of_emission(texture) } else { DomeDistribution::new(texture) }
+            });
             let mean = match (&distribution, image) {
                 (Some(distribution), _) => distribution.mean_luminance,
                 (None, Some((_, texture))) => mean_luminance(texture),
@@ -88,18 +101,62 @@ impl LightTable {
             kinds |= 1 << record.kind as u32;
             if record.kind.is_infinite() && row[field::FLAGS].to_bits() & (flag::LIT | flag::DELTA) == flag::LIT {
                 let (visible, scattered) = (record.visible_to_camera, record.visible_to_scattered);
-                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered });
+                let (alone, hidden) = (record.sampled_alone, hidden_bits(record));
+                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered, hidden, alone });
             }
         }
         // Portals show the whole dome to light sampling.
         if portals.is_empty() {
             for dome in infinite.iter().filter(|infinite| infinite.kind == LightKind::Dome) {
-                let part = dome.distribution.as_ref().map_or(EVEN_SAMPLED_PART, |distribution| distribution.sampled_part);
+                let even = if dome.alone { 1.0 } else { EVEN_SAMPLED_PART };
+                let part = dome.distribution.as_ref().map_or(even, |distribution| distribution.sampled_part);
                 rows[dome.light as usize * ROW + field::STRENGTH] *= (SAMPLED_GAIN * part).min(1.0) as f32;
             }
         }
         let sampler = if records.len() <= MOST_EXHAUSTIVE { LightSampler::Exhaustive } else { LightSampler::Tree(LightTree::new(&rows)) };
-        Self { rows, count: records.len(), kinds, sampler, textures: pool, infinite, goniograms: goniograms.to_vec(), portals }
+        let any_alone = records.iter().any(|record| record.sampled_alone);
+        let any_hidden = records.iter().any(|record| hidden_bits(record) != 0);
+        let hidden = if any_hidden { records.iter().map(hidden_bits).collect() } else { Vec::new() };
+        Self {
+            rows,
+            count: records.len(),
+            kinds,
+            sampler,
+            textures: pool,
+            infinite,
+            goniograms: goniograms.to_vec(),
+            portals,
+            hidden,
+            any_alone,
+            linked: None,
+        }
+    }
+    /// The same lights, of which receivers see those alone that `links` let them see.
+    pub fn with_links(self, links: LightLinks) -> Self {
+        let linked = LinkedLights::new(links, &self.rows);
+        Self { linked: Some(Arc::new(linked)), ..self }
+    }
+    /// Whether some kinds of scattered rays do not see some light that others see.
+    pub fn hides_any(&self) -> bool {
+        !self.hidden.is_empty()
+    }
+    /// Whether scattered rays of a kind (0 diffuse, 1 glossy, 2 transmitted) do not see each lane's light.
+    #[inline(always)]
+    pub fn hidden_from<L: Lanes>(&self, l: L, light: U<L>, kind: u32) -> M<L> {
+        if self.hidden.is_empty() {
+            return l.m(false);
+        }
+        ((l.gather_integers(&self.hidden, light) >> kind) & 1).ne(0)
+    }
+    /// Whether receivers of a class see each lane's light.
+    #[inline(always)]
+    pub fn sees<L: Lanes>(&self, l: L, receiver: U<L>, light: U<L>) -> M<L> {
+        self.linked.as_ref().map_or(l.m(true), |linked| linked.links.sees(l, receiver, light))
+    }
+    /// Whether receivers of a class see lights of each lane's set.
+    #[inline(always)]
+    pub fn sees_set<L: Lanes>(&self, l: L, receiver: U<L>, set: U<L>) -> M<L> {
+        self.linked.as_ref().map_or(l.m(true), |linked| linked.links.sees_set(l, receiver, set))
     }
     /// Lights in the table.
     pub fn len(&self) -> usize {
@@ -153,6 +210,11 @@ impl LightTable {
 /// A dome is selected by this times the part of its light that light sampling is to bring, at most by all of it. Least variance on scenes of
 /// `tests/peers/render` (crowd, field, street, car): by all of its light an even sky is drawn in vain, by the part alone a panorama too seldom.
 const SAMPLED_GAIN: f64 = 2.0;
+
+/// The kinds of scattered rays that do not see a light, a bit each.
+fn hidden_bits(record: &LightRecord) -> u32 {
+    record.hidden_from.iter().enumerate().map(|(kind, hidden)| u32::from(*hidden) << kind).sum()
+}
 
 /// Mean luminance over an image.
 fn mean_luminance(image: &LightTexture) -> f64 {

@@ -13,7 +13,7 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{self, CurvesId, Geometry, Instances, MaterialId, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
+    scene::{self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
 };
 use pyo3::{
     prelude::*,
@@ -144,9 +144,10 @@ impl Scene {
     /// Places a mesh, or curves or points (then mesh is None), many times, or replaces the placements `index`; gives their number.
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
-    /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
+    /// shadow), all by default, and `holdout` and `shadow_catcher`; linking: what is lit by what they emit, and what casts shadows of it, described
+    /// as in `to_dict`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
     /// motion: float buffer (K, N, 4, 4), the same at K evenly spaced times over the shutter.
-    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
+    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", linking = None, index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -161,6 +162,7 @@ impl Scene {
         primvars: Option<&Bound<'_, PyDict>>,
         pass_index: u32,
         light_group: &str,
+        linking: Option<&Bound<'_, PyAny>>,
         index: Option<u32>,
     ) -> PyResult<u32> {
         let geometry = self.geometry(mesh, curves, points)?;
@@ -197,8 +199,47 @@ impl Scene {
             shadow_catcher,
             pass_index,
             light_group: light_group.to_owned(),
+            linking: linking.map(|linking| description::read(linking, "linking")).transpose()?.unwrap_or_default(),
         };
         description::put(&mut self.scene.instances, "instances", instances, index)
+    }
+
+    /// Links light `light`, or what the placements `instances` emit, to placements by their numbers.
+    ///
+    /// receivers: those alone that it lights, or all but `receivers_except`; blockers: those alone that cast its shadows, or all but `blockers_except`.
+    /// What is not given is linked to all. Cameras see it either way, and no light is hidden from meters.
+    #[pyo3(signature = (*, light = None, instances = None, receivers = None, receivers_except = None, blockers = None, blockers_except = None))]
+    fn link(
+        &mut self,
+        light: Option<u32>,
+        instances: Option<u32>,
+        receivers: Option<Vec<u32>>,
+        receivers_except: Option<Vec<u32>>,
+        blockers: Option<Vec<u32>>,
+        blockers_except: Option<Vec<u32>>,
+    ) -> PyResult<()> {
+        let sets = self.scene.instances.len();
+        let link = |name: &str, only: Option<Vec<u32>>, except: Option<Vec<u32>>| {
+            if let Some(unknown) = only.iter().chain(&except).flatten().find(|number| **number as usize >= sets) {
+                return Err(setting(name, format!("{unknown} was found, the scene has {sets} instances")));
+            }
+            match (only, except) {
+                (None, None) => Ok(Link::All),
+                (Some(only), None) => Ok(Link::Only(only)),
+                (None, Some(except)) => Ok(Link::Except(except)),
+                (Some(_), Some(_)) => Err(setting(name, "was given together with the exceptions, which are from all".to_owned())),
+            }
+        };
+        let linking =
+            Linking { receivers: link("receivers", receivers, receivers_except)?, blockers: link("blockers", blockers, blockers_except)? };
+        let place = match (light, instances) {
+            (Some(number), None) => self.scene.lights.get_mut(number as usize).map(|light| &mut light.linking),
+            (None, Some(number)) => self.scene.instances.get_mut(number as usize).map(|set| &mut set.linking),
+            _ => return Err(setting("light", "expected either a light or instances".to_owned())),
+        };
+        let found = light.or(instances).unwrap_or_default();
+        *place.ok_or_else(|| setting("light", format!("{found} was found, which the scene does not have")))? = linking;
+        Ok(())
     }
 
     /// Adds a material described as in `to_dict`, or replaces material `index`; gives its number.

@@ -1,6 +1,6 @@
 //! Placed geometry.
 
-use super::{CurvesId, MaterialId, MeshId, Origin, PointsId, Primvar, Transform};
+use super::{CurvesId, Linking, MaterialId, MeshId, Origin, PointsId, Primvar, Transform};
 use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
@@ -109,4 +109,7 @@ pub struct Instances {
     /// The light group that what they emit belongs to.
     #[serde(default)]
     pub light_group: String,
+    /// What is lit by what they emit, and what casts shadows of it.
+    #[serde(default, skip_serializing_if = "Linking::is_whole")]
+    pub linking: Linking,
 }

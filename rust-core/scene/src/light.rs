@@ -1,6 +1,6 @@
 //! Light sources.
 
-use super::{Goniogram, LightQuantity, Opening, Origin, TextureId, Transform, Visibility};
+use super::{Goniogram, LightQuantity, Linking, Opening, Origin, TextureId, Transform, Visibility};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -188,6 +188,9 @@ pub struct Light {
     pub visibility: Visibility,
     /// Whether things block it.
     pub casts_shadow: bool,
+    /// What it lights, and what casts its shadows. Cameras see it either way.
+    #[serde(default, skip_serializing_if = "Linking::is_whole")]
+    pub linking: Linking,
 }
 
 impl Default for Light {
@@ -210,6 +213,7 @@ impl Default for Light {
             motion: Vec::new(),
             visibility: Visibility::default(),
             casts_shadow: true,
+            linking: Linking::default(),
         }
     }
 }

@@ -9,6 +9,7 @@
 use crate::graph::{self, Around, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
+use crate::state::paths::PreviousLanes;
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, LightHits, Lobes, ParameterValues, SpecularRay, Surface, Way};
 use gonio_light::{FixedLightSample, LightCache, LightSample};
@@ -100,10 +101,17 @@ pub(crate) fn specular_rays<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>) -
 
 /// [`gonio_light::LightTable::sample_fixed`].
 #[inline(never)]
-pub(crate) fn sample_fixed<L: Lanes>(l: L, tables: &Tables, fixed: &FixedLightSample, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+pub(crate) fn sample_fixed<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    fixed: &FixedLightSample,
+    receiver: U<L>,
+    p: &Vec3<L>,
+    n: &Vec3<L>,
+) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample_fixed(l, fixed, p, n),
+        || tables.lights.sample_fixed(l, fixed, receiver, p, n),
     )
 }
 
@@ -113,22 +121,22 @@ pub fn sample_li<L: Lanes>(
     l: L,
     tables: &Tables,
     light_cache: Option<&LightCache>,
+    receiver: U<L>,
     p: &Vec3<L>,
     n: &Vec3<L>,
     u: &[F<L>; 3],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample_li(l, light_cache, p, n, u[0], &[u[1], u[2]]),
+        || tables.lights.sample_li(l, light_cache, receiver, p, n, u[0], &[u[1], u[2]]),
     )
 }
 
-/// A point on a light that a ray hit, and the previous vertex (`from`, `normal`), from which MIS asks for the pdf.
+/// A point on a light that a ray hit, and the previous vertex, from which MIS asks for the pdf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightHit<L: Lanes> {
     pub(crate) light: U<L>,
-    pub(crate) from: Vec3<L>,
-    pub(crate) normal: Vec3<L>,
+    pub(crate) from: PreviousLanes<L>,
     pub(crate) direction: Vec3<L>,
     pub(crate) point: Vec3<L>,
 }
@@ -144,7 +152,10 @@ pub(crate) fn eval_light<L: Lanes>(
 ) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_hit(l, light_cache, hit.light, hit.from, hit.normal, hit.direction, hit.point, mask),
+        || {
+            let PreviousLanes { position, normal, receiver } = hit.from;
+            tables.lights.eval_hit(l, light_cache, receiver, hit.light, position, normal, hit.direction, hit.point, mask)
+        },
     )
 }
 
@@ -155,15 +166,20 @@ pub(crate) fn eval_escaped<L: Lanes>(
     l: L,
     tables: &Tables,
     light_cache: Option<&LightCache>,
-    vertex: [Vec3<L>; 2],
+    from: PreviousLanes<L>,
     direction: Vec3<L>,
     pdf: F<L>,
     first_and_delta: [M<L>; 2],
     only: Option<u32>,
+    kind: U<L>,
 ) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_escaped(l, light_cache, vertex[0], vertex[1], direction, pdf, first_and_delta[0], first_and_delta[1], only),
+        || {
+            let PreviousLanes { position, normal, receiver } = from;
+            let [first, delta] = first_and_delta;
+            tables.lights.eval_escaped(l, light_cache, receiver, position, normal, direction, pdf, first, delta, only, kind)
+        },
     )
 }
 

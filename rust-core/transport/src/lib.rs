@@ -37,6 +37,7 @@ pub use state::workspace::Workspace;
 pub use state::workspaces::Workspaces;
 pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
+pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::photons::{Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};

@@ -4,6 +4,7 @@ use super::single::EMPTY_STACK;
 use super::single_scene::{SceneStacks, traverse_instance, traverse_scene};
 use super::stream::{FEWEST_RAYS, stream, with_stacks};
 use super::stream_tuner::{Mode, Part};
+use crate::blockers::{AnyHitLinked, Blockers};
 use crate::hit_callback::{Any, AnyHitTransparent, HitCallback, Nearest, NearestHits, Occluded, RayQuery};
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::scalar::Scalar;
@@ -45,6 +46,18 @@ impl Tlas {
     /// instances are appended to `transparent`, those of a ray together, in no order.
     pub fn any_hit_transparent(&self, execution: Execution, rays: &RayBatch, out: &mut [u8], transparent: &mut Vec<TransparentHit>) {
         self.ask(execution, rays, &mut AnyHitTransparent { occluded: out, transparent });
+    }
+
+    /// The same where each ray is blocked, and dimmed, by the instances of its row alone: `row_of[i]` is that of ray `i`.
+    pub fn any_hit_linked(
+        &self,
+        execution: Execution,
+        rays: &RayBatch,
+        (blockers, row_of): (&Blockers, &[u32]),
+        out: &mut [u8],
+        transparent: &mut Vec<TransparentHit>,
+    ) {
+        self.ask(execution, rays, &mut AnyHitLinked::new(out, transparent, blockers, row_of));
     }
 
     /// Whether packets of coherent shadow rays are faster than incoherent ones: where these do not go in streams.

@@ -5,6 +5,7 @@ use super::{
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
     light_groups::GroupNames,
+    linking::CompiledLinking,
     motion,
     numbers::geometry_number,
     openings::{self, Part},
@@ -15,8 +16,8 @@ use crate::{
     accel::{Geometry, Instance, Shape},
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    light::{Goniogram, LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
-    scene::{Light, LightShape, Mesh, Scene, Transform},
+    light::{Goniogram, LightKind, LightLinks, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
+    scene::{Light, LightShape, Mesh, Scene, Transform, Visibility},
     transport::{LightGroups, MaterialTable, ray_mask},
 };
 use std::sync::Arc;
@@ -30,16 +31,31 @@ pub(super) struct KeptLights {
     records: Vec<LightRecord>,
     images: Vec<Arc<LightTexture>>,
     goniograms: CompiledGoniograms,
+    links: Option<LightLinks>,
     table: Option<Arc<LightTable>>,
 }
 
 impl KeptLights {
     /// The table of these lights: the one at hand if nothing differs, for images are slow to lay out.
-    fn table(&self, records: &[LightRecord], images: &[Arc<LightTexture>], goniograms: &CompiledGoniograms) -> Arc<LightTable> {
+    fn table(
+        &self,
+        records: &[LightRecord],
+        images: &[Arc<LightTexture>],
+        goniograms: &CompiledGoniograms,
+        links: &Option<LightLinks>,
+    ) -> Arc<LightTable> {
         let same_images = self.images.len() == images.len() && self.images.iter().zip(images).all(|(a, b)| Arc::ptr_eq(a, b));
         match &self.table {
-            Some(table) if same_images && self.goniograms.is_of_same(goniograms) && self.records == records => table.clone(),
-            _ => Arc::new(LightTable::build(records, images, &goniograms.tables)),
+            Some(table) if same_images && self.goniograms.is_of_same(goniograms) && self.records == records && self.links == *links => {
+                table.clone()
+            }
+            _ => {
+                let table = LightTable::build(records, images, &goniograms.tables);
+                Arc::new(match links {
+                    Some(links) => table.with_links(links.clone()),
+                    None => table,
+                })
+            }
         }
     }
 }
@@ -54,6 +70,7 @@ pub(super) struct CompiledLights {
     pub(super) instance_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
     pub(super) groups: LightGroups,
+    pub(super) linking: CompiledLinking,
 }
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
@@ -72,6 +89,7 @@ pub(super) fn compile(
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let mut groups = GroupNames::default();
+    let mut light_of = Vec::new();
     for (number, light) in scene.lights.iter().enumerate() {
         let goniogram = goniograms.number(light, diagnostics);
         report_unused(light, kind(light.shape), diagnostics);
@@ -92,14 +110,16 @@ pub(super) fn compile(
                 records[first..].iter_mut().for_each(|record| record.radiance = record.radiance.map(|x| x * share));
             }
         }
+        light_of.resize(records.len(), number as u32);
     }
     instance_light.push(0);
     let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records, diagnostics);
     let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
-    let table = previous.table(&records, &images, &goniograms);
-    let kept = KeptLights { records, images, goniograms, table: Some(table.clone()) };
-    CompiledLights { table, kept, instances, instance_light, triangle_lights, groups }
+    let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
+    let table = previous.table(&records, &images, &goniograms, &links);
+    let kept = KeptLights { records, images, goniograms, links, table: Some(table.clone()) };
+    CompiledLights { table, kept, instances, instance_light, triangle_lights, groups, linking }
 }
 
 /// What the light is made of, in the rebased world.
@@ -172,11 +192,18 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
         texture,
         angle: angle as f32,
         visible_to_camera: light.visibility.camera,
-        visible_to_scattered: light.visibility.diffuse || light.visibility.glossy || light.visibility.transmission,
+        visible_to_scattered: light.visibility.scattered(),
+        hidden_from: hidden_from(&light.visibility),
         casts_shadow: light.casts_shadow,
         opening: part.opening,
         ..LightRecord::new(kind)
     }
+}
+
+/// Kinds of scattered rays that do not see what others see.
+fn hidden_from(visibility: &Visibility) -> [bool; 3] {
+    let Visibility { diffuse, glossy, transmission, .. } = *visibility;
+    if visibility.scattered() { [!diffuse, !glossy, !transmission] } else { [false; 3] }
 }
 
 /// Says what this kind of light has no use for.
@@ -271,7 +298,9 @@ fn emissive_triangles(
             if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);
-                records.extend((0..mesh.triangles.len()).map(|t| triangle_record(mesh, t, &placed, glow(t))));
+                let hidden_from = hidden_from(&group.visibility);
+                let record = |t: usize| LightRecord { hidden_from, ..triangle_record(mesh, t, &placed, glow(t)) };
+                records.extend((0..mesh.triangles.len()).map(record));
             } else {
                 first_light.push(NONE);
             }

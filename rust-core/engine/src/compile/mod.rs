@@ -13,6 +13,7 @@ mod kept;
 mod light_groups;
 mod light_images;
 mod lights;
+mod linking;
 mod luminaires;
 mod materials;
 mod measured;
@@ -132,6 +133,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let mut geometry = geometry::tables(scene, &cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     motion::report_cameras(scene, &mut diagnostics);
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
+    lights.linking.set_masks(&geometry.table, &mut geometry.instances);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
     let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();
@@ -160,6 +162,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
     casters::report(scene, &casters, &mut diagnostics);
+    lights.linking.report(scene, [casters.enclosing.is_some(), !casters.targets.is_empty()], &mut diagnostics);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -173,6 +176,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         triangle_lights: lights.triangle_lights,
         object_lights,
         groups: lights.groups,
+        links: lights.linking.tables,
         any_transparent,
         any_absorbing,
         origin,

@@ -141,7 +141,7 @@ impl Part {
 /// A direction from a place to a light that is alone in its table, for `u` in `[0, 1)`.
 fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One> {
     let no_surface = Vec3::splat(One, [0.0; 3]);
-    emitter.sample_li(One, None, &Vec3::splat(One, place), &no_surface, One.f(0.5), &u.map(|x| One.f(x)))
+    emitter.sample_li(One, None, One.u(0), &Vec3::splat(One, place), &no_surface, One.f(0.5), &u.map(|x| One.f(x)))
 }
 
 /// Drops the parts that something opaque hides.

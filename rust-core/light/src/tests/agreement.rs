@@ -93,7 +93,7 @@ fn densities<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], hits: &[Column; 3]
     for at in (0..hits[0].len()).step_by(L::COUNT) {
         let hit = Vec3::load(l, [&hits[0], &hits[1], &hits[2]], at);
         let wi = (hit - p).normalize();
-        table.eval_hit(l, None, l.u(0), p, n, wi, hit, l.m(true)).1.store(pdf, at);
+        table.eval_hit(l, None, l.u(0), l.u(0), p, n, wi, hit, l.m(true)).1.store(pdf, at);
     }
 }
 

@@ -33,7 +33,7 @@ fn constant_dome_gives_pi() {
 fn look<L: Lanes>(l: L, table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
     let yes = l.m(true);
     let zero = Vec3::splat(l, [0.0; 3]);
-    let seen = table.eval_escaped(l, None, zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None).to_rgb();
+    let seen = table.eval_escaped(l, None, l.u(0), zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None, l.u(0)).to_rgb();
     [seen.r.to_array()[0], seen.g.to_array()[0], seen.b.to_array()[0]]
 }
 
@@ -117,7 +117,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
     let never: M<L> = l.m(false);
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = table.sample_li(l, None, l.u(0), &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
         let by_light = (s.radiance.to_rgb().g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
@@ -125,7 +125,8 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let by_bsdf =
-            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).to_rgb().g * std::f32::consts::PI;
+            table.eval_escaped(l, None, l.u(0), p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None, l.u(0)).to_rgb().g
+                * std::f32::consts::PI;
         (by_light + by_bsdf).store(out, at);
     }
 }
@@ -164,7 +165,7 @@ fn skies_are_selected_by_what_light_samples_bring() {
         record.radiance = [if textures.is_empty() { 1.0 } else { 1.0 / mean }; 3];
         let table = LightTable::build(&[record, LightRecord { radiance: [4e4; 3], ..sun }], textures, &[]);
         let (towards_sun, origin) = (Vec3::splat(One, [0.0, 0.0, 1.0]), Vec3::splat(One, [0.0; 3]));
-        table.light_pmf(One, None, origin, towards_sun, One.u(0)).to_array()[0]
+        table.light_pmf(One, None, One.u(0), origin, towards_sun, One.u(0)).to_array()[0]
     };
     let [bare, even, peak] = [selected(&[]), selected(&[even]), selected(&[peak])];
     assert!(bare > 0.0 && bare < 0.2 && (bare - even).abs() < 0.02, "even skies: {bare} and {even}");

@@ -56,7 +56,7 @@ fn sample_li<L: Lanes>(
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || table.sample_li(l, light_cache, p, n, u[0], &[u[1], u[2]]),
+        || table.sample_li(l, light_cache, l.u(0), p, n, u[0], &[u[1], u[2]]),
     )
 }
 
@@ -74,7 +74,7 @@ fn eval_hit<L: Lanes>(
         #[inline(always)]
         || {
             let hit = sample.wi.mul_add(sample.distance, vertex[0]);
-            table.eval_hit(l, light_cache, sample.light, vertex[0], vertex[1], sample.wi, hit, placed)
+            table.eval_hit(l, light_cache, l.u(0), sample.light, vertex[0], vertex[1], sample.wi, hit, placed)
         },
     )
 }

@@ -22,7 +22,7 @@ fn walled() -> (Vec<LightRecord>, LightTable, Vec<u32>, LightCache) {
     let arrival = |i: usize| {
         let light = nearest[i % 10];
         let distance = away(&lamps[light as usize]);
-        Arrival { position: HERE, distance, light: Some(light), value: distance.powi(-2) }
+        Arrival { position: HERE, distance, light: Some(light), value: distance.powi(-2), receiver: 0 }
     };
     let arrivals: Vec<Arrival> = (0..200).map(arrival).collect();
     let cache = table.learn(&arrivals).expect("there is a tree");
@@ -58,8 +58,8 @@ fn what_is_known_changes_no_light() {
 #[test]
 fn draws_in_vain_are_given_up_and_change_no_light() {
     let (lamps, table, ..) = walled();
-    let elsewhere = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0 };
-    let arrivals: Vec<Arrival> = [elsewhere].into_iter().chain((0..200).map(|_| Arrival::nothing(HERE))).collect();
+    let elsewhere = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0, receiver: 0 };
+    let arrivals: Vec<Arrival> = [elsewhere].into_iter().chain((0..200).map(|_| Arrival::nothing(HERE, 0))).collect();
     let cache = table.learn(&arrivals).expect("something has arrived");
     let count = 1 << 18;
     let drawn = draw_with_cache(Execution::best(), &table, Some(&cache), HERE, UP, &numbers(53, count));
@@ -76,8 +76,8 @@ fn draws_in_vain_are_given_up_and_change_no_light() {
 fn light_from_far_is_no_draw_in_vain() {
     let mut lights = hall(20);
     lights.push(LightRecord { radiance: [10.0; 3], ..LightRecord::new(LightKind::Distant) });
-    let sun = Arrival { position: HERE, distance: 1e6, light: Some(lights.len() as u32 - 1), value: 1.0 };
-    let lamp = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0 };
+    let sun = Arrival { position: HERE, distance: 1e6, light: Some(lights.len() as u32 - 1), value: 1.0, receiver: 0 };
+    let lamp = Arrival { position: [100.0; 3], distance: 5.0, light: Some(0), value: 1.0, receiver: 0 };
     let table = LightTable::build(&lights, NO_IMAGES, &[]);
     let cache = table.learn(&[vec![sun; 200], vec![lamp]].concat()).expect("something has arrived");
     let count = 1 << 14;
@@ -106,5 +106,5 @@ fn few_lights_and_no_arrivals_teach_nothing() {
     let (_, table, ..) = walled();
     assert!(table.learn(&[]).is_none());
     let few = LightTable::build(&hall(3), NO_IMAGES, &[]);
-    assert!(few.learn(&[Arrival { position: HERE, distance: 1.0, light: Some(0), value: 1.0 }]).is_none());
+    assert!(few.learn(&[Arrival { position: HERE, distance: 1.0, light: Some(0), value: 1.0, receiver: 0 }]).is_none());
 }

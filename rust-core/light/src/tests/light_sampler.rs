@@ -45,7 +45,7 @@ fn probabilities<L: Lanes>(l: L, table: &LightTable, points: &[Column; 3], sums:
         let n = Vec3::splat(l, [0.0, 0.0, 1.0]);
         let mut sum = l.f(0.0);
         for light in 0..table.len() as u32 {
-            sum += table.light_pmf(l, None, p, n, l.u(light));
+            sum += table.light_pmf(l, None, l.u(0), p, n, l.u(light));
         }
         sum.store(sums, at);
     }
@@ -81,7 +81,7 @@ fn lights_are_drawn_as_often_as_their_probability_says() {
         let probability = |light: usize| {
             #[inline(always)]
             fn one<L: Lanes>(l: L, table: &LightTable, light: u32) -> f32 {
-                table.light_pmf(l, None, Vec3::splat(l, [0.5, 0.5, 0.0]), Vec3::splat(l, [0.0, 0.0, 1.0]), l.u(light)).to_array()[0]
+                table.light_pmf(l, None, l.u(0), Vec3::splat(l, [0.5, 0.5, 0.0]), Vec3::splat(l, [0.0, 0.0, 1.0]), l.u(light)).to_array()[0]
             }
             f64::from(one(One, &table, light as u32))
         };

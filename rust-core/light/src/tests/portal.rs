@@ -113,7 +113,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
     };
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = table.sample_li(l, None, l.u(0), &p, &n, numbers[0], &[numbers[1], numbers[2]]);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
         let by_light = (s.radiance.to_rgb().g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
@@ -121,7 +121,8 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let by_bsdf =
-            table.eval_escaped(l, None, p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None).to_rgb().g * std::f32::consts::PI;
+            table.eval_escaped(l, None, l.u(0), p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None, l.u(0)).to_rgb().g
+                * std::f32::consts::PI;
         (by_light + by_bsdf.keep_if(open(wi))).store(out, at);
     }
 }

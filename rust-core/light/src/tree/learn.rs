@@ -14,12 +14,14 @@ pub struct Arrival {
     pub light: Option<u32>,
     /// Its contribution, summed over channels.
     pub value: f32,
+    /// The surface's class of receivers.
+    pub receiver: u32,
 }
 
 impl Arrival {
     /// A light was selected and did not arrive.
-    pub fn nothing(position: [f32; 3]) -> Self {
-        Self { position, distance: 0.0, light: None, value: 0.0 }
+    pub fn nothing(position: [f32; 3], receiver: u32) -> Self {
+        Self { position, distance: 0.0, light: None, value: 0.0, receiver }
     }
 }
 
@@ -49,10 +51,14 @@ struct Entry {
 }
 
 impl LightCache {
-    /// Learns from arrivals and from blocked samples; `None` if no light of the tree arrived anywhere.
-    pub(crate) fn learn(tree: &LightTree, arrivals: &[Arrival]) -> Option<Self> {
-        let of_light = |light: u32| tree.leaves.get(light as usize).map_or(FAR, |leaf| (*leaf).min(FAR));
-        let leaf = |arrival: &Arrival| arrival.light.map_or(NONE, of_light);
+    /// Learns from arrivals and from blocked samples; `None` if no light of a tree arrived anywhere. `tree_of` gives the tree by which a class of
+    /// receivers selects, if it does.
+    pub(crate) fn learn<'a>(arrivals: &[Arrival], tree_of: impl Fn(u32) -> Option<&'a LightTree>) -> Option<Self> {
+        let of_light = |tree: &LightTree, light: u32| tree.leaves.get(light as usize).map_or(FAR, |leaf| (*leaf).min(FAR));
+        let leaf = |arrival: &Arrival| {
+            let tree = tree_of(arrival.receiver);
+            arrival.light.map_or(NONE, |light| tree.map_or(FAR, |tree| of_light(tree, light)))
+        };
         let mut ways: Vec<f32> = arrivals.iter().filter(|arrival| leaf(arrival) < FAR).map(|arrival| arrival.distance).collect();
         if ways.is_empty() {
             return None;
@@ -61,10 +67,10 @@ impl LightCache {
         let median = *ways.select_nth_unstable_by(middle, f32::total_cmp).1;
         let per_metre = 1.0 / (CELL * median).max(f32::MIN_POSITIVE);
         let entry = |arrival: &Arrival| {
-            let [place, key] = place(arrival.position, per_metre);
+            let [place, key] = place(arrival.position, per_metre, arrival.receiver);
             Entry { place, key, leaf: leaf(arrival), value: arrival.value }
         };
-        let mut entries: Vec<Entry> = arrivals.iter().map(entry).collect();
+        let mut entries: Vec<Entry> = arrivals.iter().filter(|arrival| tree_of(arrival.receiver).is_some()).map(entry).collect();
         // Stable, so that sums have one order.
         entries.sort_by_key(|entry| (entry.place, entry.key, entry.leaf));
         Some(Self::of_entries(&entries, per_metre))

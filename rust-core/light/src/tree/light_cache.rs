@@ -3,6 +3,7 @@
 //!
 //! Space is divided into cells, and a pilot pass tells which lights arrive in each. There most selections are among those. The others are
 //! among all lights by the light tree, less those in the cache. So each light is selected in one way, and its probability is simple.
+//! Classes of receivers that see other lights have cells of their own.
 
 use super::{Below, LightTree, NONE, Node, below_one, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
@@ -44,24 +45,24 @@ fn step<L: Lanes>(x: F<L>, per_metre: f32) -> U<L> {
     (x * per_metre + SHIFT).floor().to_i32()
 }
 
-/// Place in a table and key of the cell that holds a point.
+/// Place in a table and key of the cell that holds a point, for a class of receivers.
 #[inline(always)]
-fn hashed<L: Lanes>(p: Vec3<L>, per_metre: f32) -> [U<L>; 2] {
+fn hashed<L: Lanes>(p: Vec3<L>, per_metre: f32, class: u32) -> [U<L>; 2] {
     let (x, y, z) = (step(p.x, per_metre), step(p.y, per_metre), step(p.z, per_metre));
-    let mixed = (x * 0x8da6_b343) ^ (y * 0xd816_3841) ^ (z * 0xcb1a_b31f);
-    let key = ((x * 0x9e37_79b1) ^ (y * 0x85eb_ca77) ^ (z * 0xc2b2_ae3d)) | 1;
+    let mixed = (x * 0x8da6_b343) ^ (y * 0xd816_3841) ^ (z * 0xcb1a_b31f) ^ class.wrapping_mul(0x1656_67b1);
+    let key = ((x * 0x9e37_79b1) ^ (y * 0x85eb_ca77) ^ (z * 0xc2b2_ae3d) ^ class.wrapping_mul(0x27d4_eb2f)) | 1;
     [mixed ^ (mixed >> 15), key]
 }
 
 /// The same for one point.
-pub(super) fn place(position: [f32; 3], per_metre: f32) -> [u32; 2] {
-    hashed(Vec3::splat(One, position), per_metre).map(|word| word.0)
+pub(super) fn place(position: [f32; 3], per_metre: f32, class: u32) -> [u32; 2] {
+    hashed(Vec3::splat(One, position), per_metre, class).map(|word| word.0)
 }
 
 impl LightCache {
     #[inline(always)]
-    fn cell<L: Lanes>(&self, l: L, p: Vec3<L>) -> Cell<L> {
-        let [place, key] = hashed(p, self.per_metre);
+    fn cell<L: Lanes>(&self, l: L, class: u32, p: Vec3<L>) -> Cell<L> {
+        let [place, key] = hashed(p, self.per_metre, class);
         let start = (place & self.mask) * WORDS as u32;
         let found = l.gather(&self.cells, start).to_bits().eq(key);
         let count = l.gather(&self.cells, start + COUNT).to_bits().keep_if(found);
@@ -77,10 +78,21 @@ impl LightCache {
         Cell { leaves, count, share }
     }
 
-    /// Selects a light for each point and gives its probability: 0 where no light can arrive, and where the selection is given up.
+    /// Selects a light for each point of a class of receivers, whose tree it is, and gives its probability: 0 where no light can arrive, and where
+    /// the selection is given up.
     #[inline(always)]
-    pub(crate) fn sample_light<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
-        let cell = self.cell(l, p);
+    #[expect(clippy::too_many_arguments, reason = "lights, and a point of a class")]
+    pub(crate) fn sample_light<L: Lanes>(
+        &self,
+        l: L,
+        tree: &LightTree,
+        rows: &[f32],
+        class: u32,
+        p: Vec3<L>,
+        n: Vec3<L>,
+        u: F<L>,
+    ) -> (U<L>, F<L>) {
+        let cell = self.cell(l, class, p);
         let in_cache = u.lt(cell.share);
         let rest = l.f(1.0) - cell.share;
         let (mut light, mut probability) = (l.u(0), l.f(0.0));
@@ -108,8 +120,18 @@ impl LightCache {
 
     /// Probability that [`Self::sample_light`] selects `light` at a point.
     #[inline(always)]
-    pub(crate) fn probability<L: Lanes>(&self, l: L, tree: &LightTree, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
-        let cell = self.cell(l, p);
+    #[expect(clippy::too_many_arguments, reason = "lights, and a point of a class")]
+    pub(crate) fn probability<L: Lanes>(
+        &self,
+        l: L,
+        tree: &LightTree,
+        rows: &[f32],
+        class: u32,
+        p: Vec3<L>,
+        n: Vec3<L>,
+        light: U<L>,
+    ) -> F<L> {
+        let cell = self.cell(l, class, p);
         let leaf = l.gather_integers(&tree.leaves, light);
         let cached = cell.holds(leaf);
         let mut probability = l.f(0.0);

@@ -74,9 +74,14 @@ fn draw<L: Lanes>(l: L, weights: &[F<L>], total: F<L>, u: F<L>) -> Drawn<L> {
 impl LightTree {
     /// A tree over the lights of these rows.
     pub(crate) fn new(rows: &[f32]) -> Self {
+        Self::of(rows, |_| true)
+    }
+
+    /// A tree over some of them.
+    pub(crate) fn of(rows: &[f32], chosen: impl Fn(u32) -> bool) -> Self {
         let rows = rows.as_chunks::<ROW>().0;
         let of = |infinite: bool| {
-            let lights = rows.iter().enumerate().filter(|(_, row)| row[field::STRENGTH] > 0.0);
+            let lights = rows.iter().enumerate().filter(|(light, row)| row[field::STRENGTH] > 0.0 && chosen(*light as u32));
             lights.filter(move |(_, row)| (row[field::FLAGS].to_bits() & flag::INFINITE != 0) == infinite)
         };
         let mut near: Vec<_> = of(false).map(|(light, row)| (light as u32, Bound::of_row(row))).collect();

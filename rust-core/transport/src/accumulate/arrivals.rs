@@ -2,18 +2,20 @@
 
 use crate::accumulate::deposit::Deposits;
 use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::vertex::Interaction;
 use gonio_light::Arrival;
-use gonio_simd::{Lanes, M, Vec3};
+use gonio_simd::{Lanes, M};
 
 impl Deposits {
     /// Notes the points at which the sampled light brings nothing even unblocked.
     #[inline(always)]
-    pub(crate) fn note_lost<L: Lanes>(&mut self, position: Vec3<L>, lost: M<L>) {
+    pub(crate) fn note_lost<L: Lanes>(&mut self, at: &Interaction<L>, lost: M<L>) {
         let Some(arrivals) = &mut self.arrivals else { return };
+        let (position, receivers) = (at.position, at.receiver.to_array());
         let columns = [position.x, position.y, position.z].map(gonio_simd::F::to_array);
         let bits = lost.bits();
         let lanes = (0..L::COUNT).filter(|lane| bits >> lane & 1 != 0);
-        arrivals.extend(lanes.map(|lane| Arrival::nothing(columns.map(|column| column[lane]))));
+        arrivals.extend(lanes.map(|lane| Arrival::nothing(columns.map(|column| column[lane]), receivers[lane])));
     }
 
     /// Notes the contributions of shadow rays that arrived, and where others were blocked.
@@ -21,11 +23,12 @@ impl Deposits {
         let Some(arrivals) = &mut self.arrivals else { return };
         arrivals.extend((0..shadows.count).map(|ray| {
             let position = [0, 1, 2].map(|axis| shadows.rays.origin[axis][ray]);
+            let receiver = shadows.receiver[ray];
             if blocked[ray] != 0 {
-                return Arrival::nothing(position);
+                return Arrival::nothing(position, receiver);
             }
             let value = shadows.contribution.sum_of(ray);
-            Arrival { position, distance: shadows.rays.t_max[ray], light: Some(shadows.light[ray]), value }
+            Arrival { position, distance: shadows.rays.t_max[ray], light: Some(shadows.light[ray]), value, receiver }
         }));
     }
 }

@@ -122,7 +122,7 @@ impl Tracer<'_> {
                 queues.next.count = 0;
                 dispatch!(self.transport.execution, l => {
                     let mut started = Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure };
-                    start_places(l, &self.tables.geometry, table, sampler, area, runs, &mut started);
+                    start_places(l, self.tables, table, sampler, area, runs, &mut started);
                 });
                 if table.looks() { 0 } else { self.begin_measuring(integrator, batch, ws) }
             }

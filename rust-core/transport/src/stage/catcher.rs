@@ -114,7 +114,7 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_environment {
-        let radiance = kernels::eval_escaped(l, tables, None, [from.position, from.normal], direction, point.pdf, [caught, caught], None);
+        let radiance = kernels::eval_escaped(l, tables, None, from, direction, point.pdf, [caught, caught], None, l.u(0));
         let value = transport.limits.clamped(radiance * point.throughput, point.bounces);
         add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
     }

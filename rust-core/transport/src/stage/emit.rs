@@ -108,7 +108,7 @@ fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
     let off = ray.origin.max_abs() * OFFSET;
     PathLanes {
         ray: RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-        from: PreviousLanes { position: ray.origin, normal: ray.normal },
+        from: PreviousLanes { position: ray.origin, normal: ray.normal, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width: l.f(0.0),

@@ -83,6 +83,11 @@ impl Integrator for LightIntegrator<'_> {
         let ChunkContext { l, transport, sample: context, .. } = *chunk;
         let clear = l.gather(&queues.light_paths.starts.clear, point.slot);
         point.alive &= point.bounces.ne(0) | l.gather(&chunk.hits.t, point.path).ge(clear);
+        if !chunk.tables.links.receivers.is_empty() {
+            // What a light does not light stays dark where its light arrives first.
+            let light = l.gather_integers(&queues.light_paths.starts.light, point.slot);
+            point.alive &= point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light);
+        }
         let index = context.index(l, point.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
@@ -225,7 +230,11 @@ fn connect<'s, L: Lanes>(
     let code = code_of_found(l.u(event::DIFFUSE | (2 << flag::BOUNCE_SHIFT)), 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
-    queues.light_paths.connections.rays.append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares }, lit);
+    queues
+        .light_paths
+        .connections
+        .rays
+        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares, receiver: None }, lit);
 }
 
 impl Picture<'_> {

@@ -81,7 +81,7 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
 fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
     PathLanes {
         ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
-        from: PreviousLanes { position: ray.origin, normal: ray.direction },
+        from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width: ray.width,

@@ -11,7 +11,7 @@ use crate::state::columns::gather3;
 use crate::state::flag;
 use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::NearestHits;
-use crate::state::paths::{CarriedLanes, Paths, PreviousLanes, TrackLanes};
+use crate::state::paths::{CarriedLanes, Paths, TrackLanes};
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_accel::NONE;
@@ -105,7 +105,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
         let direction = paths.cone(l, path).direction;
         let from = paths.previous(l, path);
         let point = direction.mul_add(l.gather(&hits.t, path), gather3(l, &paths.rays.origin, path));
-        let hit = LightHit { light, from: from.position, normal: from.normal, direction, point };
+        let hit = LightHit { light, from, direction, point };
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
         let (carried, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
@@ -175,16 +175,15 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
             add(&mut deposits.sums.alpha, slot, -throughput.mean(), clear);
         }
         let alive = if transport.shows_environment { alive } else { alive.and_not(camera | clear) };
-        let delta = (flags & flag::DELTA).ne(0);
-        let PreviousLanes { position, normal } = paths.previous(l, path);
-        let from = [position, normal];
+        let (delta, kind) = ((flags & flag::DELTA).ne(0), (flags >> flag::LAST_SHIFT) & 3);
+        let from = paths.previous(l, path);
         let direction = paths.cone(l, path).direction;
         let (light_cache, camera_and_delta) = (transport.light_cache.as_deref(), [camera, delta]);
-        let mut sent = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None);
+        let mut sent = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None, kind);
         for number in brought_infinite(tables, transport) {
             let brought = transport.is_brought(flags, l.u(number), alive);
             if brought.any() {
-                let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number));
+                let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number), kind);
                 sent = brought.select((sent - part).max(0.0), sent);
             }
         }
@@ -197,7 +196,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
-                let value = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number))
+                let value = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number), kind)
                     * throughput
                     * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };

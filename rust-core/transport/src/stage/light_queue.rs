@@ -53,7 +53,8 @@ fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, is_fibre: boo
     let surface = &chunk.columns.surface;
     let p = load3(l, &surface.position, at);
     let n = if is_fibre { Vec3::splat(l, [0.0; 3]) } else { load3(l, &surface.shading_normal, at) };
-    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &p, &n, u_light);
+    let receiver = tables.links.receiver(l, l.load_integers(&surface.instance, at));
+    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), receiver, &p, &n, u_light);
     light.store(&mut queue.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut queue.selected, at);
     l.store_quads([p.x, p.y, p.z, l.f(0.0)], &mut queue.position, at);

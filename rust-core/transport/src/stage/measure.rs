@@ -7,7 +7,7 @@ use crate::kernels;
 use crate::stage::merge::{Found, irradiance};
 use crate::stage::nee::send;
 use crate::state::columns::load3;
-use crate::state::flag;
+use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::MeasurePoints;
 use crate::state::queue::shadow_rays::ShadowRays;
@@ -58,9 +58,9 @@ pub(crate) fn light_by_fixed_samples<L: Lanes>(
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         for fixed in samples {
-            let reached = tables.lights.reaches(l, fixed, point.at.position, point.at.frame.z) & point.alive;
+            let reached = tables.lights.reaches(l, fixed, point.at.receiver, point.at.position, point.at.frame.z) & point.alive;
             if reached.any() {
-                let sample = kernels::sample_fixed(l, tables, fixed, &point.at.position, &point.at.frame.z);
+                let sample = kernels::sample_fixed(l, tables, fixed, point.at.receiver, &point.at.position, &point.at.frame.z);
                 queue_shadow_ray(chunk, &point, &sample, SampleWeight::Fixed(fixed.share), shadows, deposits);
             }
         }
@@ -85,7 +85,8 @@ pub(crate) fn light_and_start<L: Lanes>(
         if !tables.lights.is_empty() {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
             let light_cache = transport.light_cache.as_deref();
-            let sample = kernels::sample_li(l, tables, light_cache, &point.at.position, &point.at.frame.z, &[u_light, u, v]);
+            let (receiver, normal) = (point.at.receiver, &point.at.frame.z);
+            let sample = kernels::sample_li(l, tables, light_cache, receiver, &point.at.position, normal, &[u_light, u, v]);
             queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
         }
         if let Some(photons) = &transport.photons {
@@ -107,6 +108,7 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, points: &MeasurePoints) ->
             error: l.load(&points.error, at),
             geometric: load3(l, &points.geometric_normal, at),
             frame: Frame::from_normal(load3(l, &points.shading_normal, at)),
+            receiver: l.load_integers(&points.receiver, at),
         },
         throughput: points.throughput.load(l, at),
         width: l.load(&points.width, at),
@@ -126,14 +128,15 @@ fn queue_shadow_ray<L: Lanes>(
 ) {
     let cosine = point.at.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
+    let usable = usable.and_not(chunk.tables.lights.hidden_from(chunk.l, sample.light, event::DIFFUSE));
     if !usable.any() {
-        deposits.note_lost(point.at.position, point.alive);
+        deposits.note_lost(&point.at, point.alive);
         return;
     }
     let weight = weight.of(sample, cosine * FRAC_1_PI);
     let value = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
-    deposits.note_lost(point.at.position, point.alive.and_not(lit));
+    deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
     send(chunk.transport, &point.at, sample, &light, lit, shadows, deposits);
 }

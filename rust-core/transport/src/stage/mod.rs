@@ -25,6 +25,7 @@ pub(crate) mod generate;
 pub(crate) mod integrator;
 pub(crate) mod intersect;
 pub(crate) mod light_queue;
+pub(crate) mod linked_shadow;
 pub(crate) mod measure;
 pub(crate) mod merge;
 pub(crate) mod nee;

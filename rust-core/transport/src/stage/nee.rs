@@ -9,7 +9,7 @@ use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::transport::Transport;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
 #[inline(always)]
@@ -24,7 +24,8 @@ pub(crate) fn sample_light<L: Lanes>(
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let normal = point.at.lit_normal(lobes);
-    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &point.at.position, &normal, &u);
+    let Interaction { position, receiver, .. } = point.at;
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), receiver, &position, &normal, &u);
     queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), present, shadows, deposits);
 }
 
@@ -42,19 +43,38 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.slot, sample.light);
     if !usable.any() {
-        deposits.note_lost(point.at.position, present);
+        deposits.note_lost(&point.at, present);
         return;
     }
     let wi = point.at.frame.to_local(sample.wi);
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
+    let f = if tables.lights.hides_any() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
     let weight = weight.of(sample, pdf);
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
-    deposits.note_lost(point.at.position, present.and_not(lit));
+    deposits.note_lost(&point.at, present.and_not(lit));
     let code = code_of_sampled(point.flags);
     let shares = if deposits.sums.lights.wanted() { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     send(transport, &point.at, sample, &light, lit, shadows, deposits);
+}
+
+/// What is scattered of a light, less by the kinds of scattering that do not see it.
+#[inline(always)]
+fn seen_part<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    lobes: &Lobes<'_, L>,
+    [wo, wi]: [Vec3<L>; 2],
+    all: Spectrum<L>,
+    light: U<L>,
+) -> Spectrum<L> {
+    let (l, lights) = (chunk.l, &chunk.tables.lights);
+    let [diffuse, glossy] = shares(l, lobes, wo, wi, all);
+    let mut seen = Spectrum::one(l);
+    for (kind, share) in [diffuse, glossy, Spectrum::one(l) - diffuse - glossy].into_iter().enumerate() {
+        seen = seen - share.keep_if(lights.hidden_from(l, light, kind as u32));
+    }
+    all * seen.saturate()
 }
 
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray.
@@ -70,7 +90,8 @@ pub(crate) fn send<L: Lanes>(
 ) {
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
-    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares };
+    let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
+    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares, receiver };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -2,12 +2,13 @@
 //!
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
-use crate::geometry::{GeometryTable, NONE, SurfacePoint};
+use crate::geometry::{NONE, SurfacePoint};
 use crate::stage::generate::TileArea;
 use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
+use crate::tables::Tables;
 use gonio_accel::Hits;
 use gonio_camera::sampler::{CAPACITY, Runs, Sampler, dimension, morton_even};
 use gonio_simd::{Column, F, Lanes, M, Spectrum, U, Vec3, padded};
@@ -104,7 +105,7 @@ pub(crate) struct Started<'a> {
 #[inline(always)]
 pub(crate) fn start_places<L: Lanes>(
     l: L,
-    geometry: &GeometryTable,
+    tables: &Tables,
     table: &PlaceTable,
     sampler: &Sampler,
     area: TileArea,
@@ -128,7 +129,7 @@ pub(crate) fn start_places<L: Lanes>(
         }
         let u = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
         let place = place_lanes(l, table, number, instance.keep_if(inside), u);
-        append(l, geometry, table, &place, slot, inside, started);
+        append(l, tables, table, &place, slot, inside, started);
     }
     let count = started.paths.count;
     started.hits.resize(count);
@@ -154,7 +155,7 @@ fn pair<L: Lanes>(l: L, columns: &[Column; 2], number: U<L>) -> [F<L>; 2] {
 #[inline(always)]
 fn append<L: Lanes>(
     l: L,
-    geometry: &GeometryTable,
+    tables: &Tables,
     table: &PlaceTable,
     place: &PlaceLanes<L>,
     slot: U<L>,
@@ -162,8 +163,8 @@ fn append<L: Lanes>(
     started: &mut Started<'_>,
 ) {
     let PlaceLanes { instance, triangle, uv: [u, v], .. } = *place;
-    let hit = geometry.hit_lanes(l, instance, triangle, u, v);
-    let point = geometry.surface_point(l, &hit);
+    let hit = tables.geometry.hit_lanes(l, instance, triangle, u, v);
+    let point = tables.geometry.surface_point(l, &hit);
     let width = width(place, &point);
     if table.measures {
         let measured = MeasureLanes {
@@ -174,6 +175,7 @@ fn append<L: Lanes>(
             throughput: Spectrum::one(l),
             width,
             slot,
+            receiver: tables.links.receiver(l, instance),
         };
         started.points.append(&measured, inside);
     }
@@ -184,7 +186,7 @@ fn append<L: Lanes>(
     let origin = above.mul_add(l.f(DISTANCE), point.position);
     let state = PathLanes {
         ray: RayLanes { origin, direction: -above, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-        from: PreviousLanes { position: origin, normal: -above },
+        from: PreviousLanes { position: origin, normal: -above, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),
         width,

@@ -29,9 +29,10 @@ pub(crate) fn pass_on<L: Lanes>(
         return;
     }
     let ray = ray(chunk, point, portal);
+    let receiver = chunk.paths.previous(chunk.l, point.path).receiver;
     let state = PathLanes {
         ray,
-        from: PreviousLanes { position: ray.origin, normal: ray.direction },
+        from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver },
         throughput,
         pdf: share,
         width: point.width,

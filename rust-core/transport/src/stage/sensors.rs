@@ -129,11 +129,13 @@ pub(crate) fn start_sensors<L: Lanes>(
             throughput: Spectrum::one(l),
             width: l.f(0.0),
             slot,
+            // No light is hidden from a meter.
+            receiver: l.u(0),
         };
         points.append(&point, inside.and_not(looks));
         let state = PathLanes {
             ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-            from: PreviousLanes { position, normal },
+            from: PreviousLanes { position, normal, receiver: l.u(0) },
             throughput: Spectrum::one(l),
             pdf: l.f(1.0),
             width: l.f(0.0),

@@ -75,6 +75,7 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
             error: l.load(&surface.error, at),
             geometric: load3(l, &surface.geometric_normal, at),
             frame,
+            receiver: chunk.tables.links.receiver(l, l.load_integers(&surface.instance, at)),
         },
         wo,
         local_wo: frame.to_local(wo),
@@ -166,6 +167,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
             throughput: point.throughput,
             width: point.width,
             slot: point.slot,
+            receiver: point.at.receiver,
         };
         points.append(&measured, going_on.and_not(all_delta) & is_specular_path(point.flags, point.slot));
     }
@@ -213,13 +215,17 @@ fn add_emission<L: Lanes>(
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let mut value = emission * point.throughput;
     let mut present = present;
+    if !tables.links.emitters.is_empty() {
+        let receiver = chunk.paths.previous(l, point.path).receiver;
+        present &= tables.lights.sees_set(l, receiver, l.gather_integers(&tables.links.emitters, point.instance));
+    }
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, point.instance);
         let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
         if sampled.any() {
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(sampled);
             let from = chunk.paths.previous(l, point.path);
-            let hit = LightHit { light, from: from.position, normal: from.normal, direction: -point.wo, point: point.at.position };
+            let hit = LightHit { light, from, direction: -point.wo, point: point.at.position };
             let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
             value = value * hit_weight(point.pdf, pdf, sampled);
         }

@@ -6,6 +6,7 @@ use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::linked_shadow::occlude_linked;
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
@@ -33,7 +34,11 @@ pub(crate) fn trace_shadows(
         return;
     }
     catcher::set_shadow_masks(tables, shadows);
-    occlude(tables, transport, coherent, shadows, trace, chunk);
+    if tables.links.shadows.is_empty() {
+        occlude(tables, transport, coherent, shadows, trace, chunk);
+    } else {
+        occlude_linked(tables, transport, coherent, shadows, trace, chunk);
+    }
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);
     shadows.count = 0;
@@ -84,7 +89,13 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
 }
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
-fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
+pub(crate) fn dim_by_surfaces(
+    tables: &Tables,
+    transport: &Transport,
+    trace: &mut ShadowTrace,
+    shadows: &mut ShadowRays,
+    columns: &mut ChunkColumns,
+) {
     let ShadowTrace { passed, weights, factors, .. } = trace;
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.

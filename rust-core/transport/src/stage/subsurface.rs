@@ -169,6 +169,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
             error: l.load(&surface.error, at),
             geometric: -load3(l, &surface.geometric_normal, at),
             frame: Frame::from_normal(normal),
+            receiver: chunk.tables.links.receiver(l, l.gather_integers(&walks.instance, walk)),
         },
         wo: normal,
         local_wo: Vec3::splat(l, [0.0, 0.0, 1.0]),

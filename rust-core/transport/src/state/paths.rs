@@ -22,7 +22,7 @@ pub struct Paths {
     pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Previous vertices: items of points and of normals, the fourth word unused, see [`PreviousLanes`].
+    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, whose fourth word is unused, see [`PreviousLanes`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -67,6 +67,8 @@ pub(crate) struct ConeLanes<L: Lanes> {
 pub(crate) struct PreviousLanes<L: Lanes> {
     pub(crate) position: Vec3<L>,
     pub(crate) normal: Vec3<L>,
+    /// Its class as a receiver of light; 0 sees all lights.
+    pub(crate) receiver: U<L>,
 }
 
 /// Where contributions of paths go, and what the paths have met.
@@ -112,7 +114,7 @@ impl Paths {
         self.medium.append(p.medium, chosen, n);
         self.carried.append(p.throughput, p.pdf, chosen, n);
         l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);
-        l.append_quads([from.position.x, from.position.y, from.position.z, l.f(0.0)], chosen, &mut self.vertex, n);
+        l.append_quads([from.position.x, from.position.y, from.position.z, F::from_bits(from.receiver)], chosen, &mut self.vertex, n);
         l.append_quads([from.normal.x, from.normal.y, from.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
         let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
         l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
@@ -136,7 +138,9 @@ impl Paths {
     /// The previous vertices of some paths.
     #[inline(always)]
     pub(crate) fn previous<L: Lanes>(&self, l: L, path: U<L>) -> PreviousLanes<L> {
-        PreviousLanes { position: Vec3::gather(l, &self.vertex, path << 2), normal: Vec3::gather(l, &self.normal, path << 2) }
+        let [x, y, z, receiver] = l.gather_quads(&self.vertex, path << 2);
+        let normal = Vec3::gather(l, &self.normal, path << 2);
+        PreviousLanes { position: Vec3::new(x, y, z), normal, receiver: receiver.to_bits() }
     }
 
     /// Slots, flags, bounce counts and cone growth of some paths.

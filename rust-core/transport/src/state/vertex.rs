@@ -19,6 +19,8 @@ pub(crate) struct Interaction<L: Lanes> {
     /// Geometric normal on the side of `wo`; the frame's z is the shading normal.
     pub(crate) geometric: Vec3<L>,
     pub(crate) frame: Frame<L>,
+    /// Class of what is lit here, by which it selects lights; 0 sees all.
+    pub(crate) receiver: U<L>,
 }
 
 impl<L: Lanes> Interaction<L> {
@@ -47,7 +49,7 @@ impl<L: Lanes> Interaction<L> {
     /// What the next vertex's MIS weight needs of this one.
     #[inline(always)]
     pub(crate) fn as_previous(&self) -> PreviousLanes<L> {
-        PreviousLanes { position: self.position, normal: self.frame.z }
+        PreviousLanes { position: self.position, normal: self.frame.z, receiver: self.receiver }
     }
 }
 

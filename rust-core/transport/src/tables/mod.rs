@@ -1,6 +1,7 @@
 //! What kernels see of a compiled scene and of a view: tables, which no stage changes.
 
 pub(crate) mod light_groups;
+pub(crate) mod links;
 pub(crate) mod material;
 pub(crate) mod photons;
 pub mod ray_mask;
@@ -10,6 +11,7 @@ pub(crate) mod transport;
 
 use crate::geometry::GeometryTable;
 use crate::tables::light_groups::LightGroups;
+use crate::tables::links::Links;
 use gonio_accel::Tlas;
 use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
@@ -39,6 +41,8 @@ pub struct Tables {
     pub object_lights: Vec<u32>,
     /// Lights by group.
     pub groups: LightGroups,
+    /// Which lights light which instances, and which cast their shadows.
+    pub links: Links,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.

@@ -14,5 +14,7 @@ pub const TRANSMISSION: u8 = 16;
 pub const CATCHER_SHADOW: u8 = 32;
 /// Scattered rays that see shadow catchers alone.
 pub const CATCHER_SCATTERED: u8 = 64;
+/// Shadow rays to lights that some instances alone block; of one kind of such lights.
+pub const LINKED_SHADOW: u8 = 128;
 /// All scattered rays.
 pub const INDIRECT: u8 = DIFFUSE | GLOSSY | TRANSMISSION;

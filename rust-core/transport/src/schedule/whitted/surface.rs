@@ -122,11 +122,11 @@ fn light_by_fixed_samples<L: Lanes>(
     let (mut reached, mut before) = (lit, None);
     for fixed in samples {
         if !fixed.follows(before) {
-            reached = lit & tables.lights.reaches(l, fixed, point.at.position, point.at.frame.z);
+            reached = lit & tables.lights.reaches(l, fixed, point.at.receiver, point.at.position, point.at.frame.z);
         }
         before = Some(fixed);
         if reached.any() {
-            let sample = kernels::sample_fixed(l, tables, fixed, &point.at.position, &point.at.frame.z);
+            let sample = kernels::sample_fixed(l, tables, fixed, point.at.receiver, &point.at.position, &point.at.frame.z);
             queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Fixed(fixed.share)), reached, shadows, deposits);
         }
     }

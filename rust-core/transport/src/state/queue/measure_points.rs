@@ -15,6 +15,8 @@ pub(crate) struct MeasurePoints {
     pub(crate) throughput: SpectrumColumns,
     pub(crate) width: Column,
     pub(crate) slot: Column<u32>,
+    /// Classes of receivers, see [`crate::state::vertex::Interaction`].
+    pub(crate) receiver: Column<u32>,
 }
 
 impl Default for MeasurePoints {
@@ -29,6 +31,7 @@ impl Default for MeasurePoints {
             throughput: SpectrumColumns::new(room),
             width: Column::new(room),
             slot: Column::new(room),
+            receiver: Column::new(room),
         }
     }
 }
@@ -43,6 +46,7 @@ pub(crate) struct MeasureLanes<L: Lanes> {
     pub(crate) throughput: Spectrum<L>,
     pub(crate) width: F<L>,
     pub(crate) slot: U<L>,
+    pub(crate) receiver: U<L>,
 }
 
 impl MeasurePoints {
@@ -59,6 +63,7 @@ impl MeasurePoints {
         self.throughput.append(point.throughput, chosen, n);
         point.width.append(chosen, &mut self.width, n);
         point.slot.append(chosen, &mut self.slot, n);
+        point.receiver.append(chosen, &mut self.receiver, n);
         self.count += chosen.count();
     }
 }

@@ -24,6 +24,8 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) code: U<L>,
     pub(crate) light: U<L>,
     pub(crate) shares: Option<[Spectrum<L>; 2]>,
+    /// Class of the receiver, where the light cache learns.
+    pub(crate) receiver: Option<U<L>>,
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -40,6 +42,8 @@ pub(crate) struct ShadowRays {
     pub(crate) light: Column<u32>,
     /// Diffuse and glossy share of contributions at first surfaces; filled where passes of light are wanted.
     pub(crate) shares: [SpectrumColumns; 2],
+    /// Classes of receivers; filled where the light cache learns.
+    pub(crate) receiver: Column<u32>,
 }
 
 impl Default for ShadowRays {
@@ -60,6 +64,7 @@ impl ShadowRays {
             code: Column::new(room),
             light: Column::new(room),
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
+            receiver: Column::new(room),
         }
     }
 
@@ -94,6 +99,9 @@ impl ShadowRays {
         if let Some(shares) = ray.shares {
             self.shares[0].append(shares[0], chosen, n);
             self.shares[1].append(shares[1], chosen, n);
+        }
+        if let Some(receiver) = ray.receiver {
+            receiver.append(chosen, &mut self.receiver, n);
         }
         self.count += chosen.count();
     }

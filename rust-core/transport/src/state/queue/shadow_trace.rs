@@ -2,6 +2,9 @@
 
 use crate::graph::CHUNK;
 use crate::state::queue::shadow_order::ShadowOrder;
+use crate::state::queue::shadow_rays::SHADOW_ROOM;
+use crate::state::rays::Rays;
+use crate::tables::ray_mask;
 use gonio_accel::TransparentHit;
 use gonio_simd::SpectrumColumns;
 
@@ -17,6 +20,27 @@ pub(crate) struct ShadowTrace {
     pub(crate) weights: Vec<f32>,
     /// What a chunk of such hits lets pass.
     pub(crate) factors: SpectrumColumns,
+    pub(crate) linked: LinkedTrace,
+}
+
+/// Shadow rays told apart by what blocks them; see `stage/linked_shadow.rs`.
+#[derive(Debug)]
+pub(crate) struct LinkedTrace {
+    /// Rays that all instances block, or those with a visibility bit.
+    pub(crate) plain: Vec<u32>,
+    /// Rays whose hits are filtered, and the row of blockers of each.
+    pub(crate) filtered: Vec<u32>,
+    pub(crate) rows: Vec<u32>,
+    /// The rays of one kind, and which are blocked.
+    pub(crate) rays: Rays,
+    pub(crate) blocked: Vec<u8>,
+}
+
+impl Default for LinkedTrace {
+    fn default() -> Self {
+        let (rays, blocked) = (Rays::new(SHADOW_ROOM, ray_mask::SHADOW), vec![0; SHADOW_ROOM]);
+        Self { plain: Vec::new(), filtered: Vec::new(), rows: Vec::new(), rays, blocked }
+    }
 }
 
 impl Default for ShadowTrace {
@@ -27,6 +51,7 @@ impl Default for ShadowTrace {
             passed: Vec::new(),
             weights: Vec::new(),
             factors: SpectrumColumns::new(CHUNK),
+            linked: LinkedTrace::default(),
         }
     }
 }

@@ -87,6 +87,7 @@ fn scene(nodes: &Value) -> Scene {
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        linking: Default::default(),
     });
     scene
 }
