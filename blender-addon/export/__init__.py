@@ -151,7 +151,7 @@ class Exporter:
         fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
         self._instances.write(entries)
         self._materials.sweep()
-        self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"])
+        self._lights.lamps([group for group in walk.groups if group.kind == "LIGHT"], self._instances.numbers)
         self._meshes.sweep()
         changes.geometry |= self._meshes.any_written
         changes.shading |= self._materials.any_written

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scene's placements: one entry for each group, rewritten only where something about it changed."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .colour_management import to_rec709
 from .gather import SILENT
+from .linking import ALL, linking
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .object_attribute import object_attribute
 from .transforms import usable
@@ -29,6 +30,8 @@ class Entry:
     wanted: frozenset
     transforms: np.ndarray
     values: dict
+    # What is lit by what it emits, and what casts shadows of it.
+    linking: dict = field(default_factory=lambda: ALL)
 
     def is_like(self, other):
         """Whether another entry tells the scene the same."""
@@ -39,6 +42,7 @@ class Entry:
             and self.visibility == other.visibility
             and self.pass_index == other.pass_index
             and self.light_group == other.light_group
+            and self.linking == other.linking
             and _same(self.transforms, other.transforms)
             and self.values.keys() == other.values.keys()
             and all(_same(self.values[name], other.values[name]) for name in self.values)
@@ -57,30 +61,39 @@ class Instances:
         self._written, self.any_written = [], False
         # Objects that are placed as themselves and not otherwise: the number of their entry, by session_uid.
         self._single = {}
+        # The numbers of the entries of each object, by session_uid.
+        self.numbers = {}
 
     def write(self, entries):
         """Puts the given entries, (group, mesh number, material numbers, primvars wanted), in place of what was there."""
-        self.any_written, self._single, number = False, {}, 0
+        self.any_written, self._single, self.numbers, number = False, {}, {}, 0
+        made = []
         for entry in entries:
             with self._report.guard("Object", entry[0].name, "it is left out"):
-                number += self._write(number, *entry)
+                self._make(made, *entry)
+        for place, (group, _) in enumerate(made):
+            self.numbers.setdefault(group.object_uid, []).append(place)
+        for group, entry in made:
+            with self._report.guard("Object", group.name, "it is left out"):
+                entry.linking = linking(group.source.original, self.numbers)
+                self._put(number, entry)
+                number += 1
         if number < len(self._written):
             self.any_written = True
             self._scene.truncate("instances", number)
             del self._written[number:]
 
-    def _write(self, number, group, mesh, materials, wanted):
-        """Puts one entry; gives how many it became, 0 or 1."""
+    def _make(self, made, group, mesh, materials, wanted):
+        """Appends the entry of a group, if anything of it can be shown."""
         is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
         self._single[group.object_uid] = None
         if group.kept is not None and not self._leave_out(group):
-            return 0
+            return
         values = _values(group, wanted) if wanted else NO_VALUES
         of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
-        self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
         if is_single:
-            self._single[group.object_uid] = number
-        return 1
+            self._single[group.object_uid] = len(made)
+        made.append((group, Entry(mesh, materials, *of_group, wanted, group.matrices, values)))
 
     def move(self, moved):
         """Moves the evaluated objects given by session_uid, of which nothing else has changed; False, with nothing written, where that may
@@ -133,6 +146,7 @@ class Instances:
             primvars=entry.values or None,
             pass_index=entry.pass_index,
             light_group=entry.light_group,
+            linking=None if entry.linking is ALL else entry.linking,
             index=number if known else None,
         )
         if known:

@@ -14,6 +14,7 @@ from . import (
 )
 from .colour_management import to_rec709
 from .lamp_nodes import Part, emission
+from .linking import ALL, linking
 from .transforms import columns, without_scale
 from .visibility import RAYS
 
@@ -129,13 +130,15 @@ class Lights:
         self._written, self._lamps, self._domes = [], [], []
         self.any_written = False
 
-    def lamps(self, groups):
-        """Describes the lamps anew."""
+    def lamps(self, groups, numbers):
+        """Describes the lamps anew; `numbers` are those of the instance sets that objects became, by session_uid."""
         self._report.forget_all("Light")
         self._lamps = []
         for group in groups:
             with self._report.guard("Object", group.name, "the lamp is left out"):
-                self._lamps += self._described(group)
+                links = linking(group.source.original, numbers)
+                linked = {} if links is ALL else {"linking": links}
+                self._lamps += [description | linked for description in self._described(group)]
 
     def _described(self, group):
         """The descriptions of a lamp's placements."""

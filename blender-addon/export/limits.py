@@ -24,8 +24,6 @@ LAYER = (
     ("layer filter", "use_solid", (True,), "A view layer without Surfaces"),
 )
 OBJECT = (
-    ("light linking", "light_linking.receiver_collection", (None,), "Light linking"),
-    ("light linking", "light_linking.blocker_collection", (None,), "Shadow linking"),
     ("adaptive subdivision", "cycles.use_adaptive_subdivision", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_caster", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_receiver", (False,), ""),

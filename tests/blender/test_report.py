@@ -50,7 +50,7 @@ def test_equal_messages_are_counted(tmp_path):
 def test_no_panel_is_offered_in_vain(tmp_path):
     import bpy
 
-    words = ("stereoscopy", "light_linking", "shadow_linking", "bake", "render_path", "freestyle", "gpencil", "output_views")
+    words = ("stereoscopy", "bake", "render_path", "freestyle", "gpencil", "output_views")
     for panel in bpy.types.Panel.__subclasses__():
         if "GONIO" in getattr(panel, "COMPAT_ENGINES", ()):
             assert not any(word in panel.__name__ for word in words), panel.__name__
