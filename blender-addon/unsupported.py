@@ -30,15 +30,11 @@ def _untold(what, instead):
 OBJECTS = {
     "kind of object": Limit("Volumes, grease pencil", "left out"),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
-    "light linking": Limit("Light linking and shadow linking", "every light lights everything, and everything blocks it"),
     "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
     "adaptive subdivision": Limit("Adaptive subdivision", "as many levels as the modifier states"),
     "culling": Limit("Culling of objects by camera or distance", "nothing is culled"),
     "shadow caustics": _quietly("Marks of shadow caustics on objects and lights", "light paths bring all caustics, where *Caustics* is on"),
     "shadow terminator": _quietly("Shadow terminator offsets", "left out"),
-    "varying visibility": _untold(
-        "Lights that some kinds of scattered rays see and others do not", "sampled for all kinds if any sees them"
-    ),
 }
 
 SCENES = {

@@ -212,7 +212,7 @@ class Exporter:
         self._instances.write(entries, keys)
         self._materials.sweep()
         lamps = [(group, key) for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True) if group.kind == "LIGHT"]
-        self._lights.lamps([group for group, _ in lamps], [key for _, key in lamps])
+        self._lights.lamps([group for group, _ in lamps], self._instances.numbers, [key for _, key in lamps])
         self._meshes.sweep()
         self._fibres.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scene's placements: one entry for each group, rewritten only where something about it changed."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .colour_management import to_rec709
 from .gather import SILENT
+from .linking import ALL, linking
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .motion import moved, shares_of
 from .object_attribute import object_attribute
@@ -33,6 +34,8 @@ class Entry:
     values: dict
     # The transforms at even times of the shutter (K, N, 4, 4), where they move.
     motion: np.ndarray | None = None
+    # What is lit by what it emits, and what casts shadows of it.
+    linking: dict = field(default_factory=lambda: ALL)
 
     def is_like(self, other):
         """Whether another entry tells the scene the same."""
@@ -43,6 +46,7 @@ class Entry:
             and self.visibility == other.visibility
             and self.pass_index == other.pass_index
             and self.light_group == other.light_group
+            and self.linking == other.linking
             and _same(self.transforms, other.transforms)
             and (self.motion is None) == (other.motion is None)
             and (self.motion is None or _same(self.motion, other.motion))
@@ -67,36 +71,43 @@ class Instances:
         self._single = {}
         # Objects that are placed as themselves first: the number of their entry, by session_uid.
         self._own = {}
+        # The numbers of the entries of each object, by session_uid.
+        self.numbers = {}
 
     def write(self, entries, keys=()):
         """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
         name their groups."""
-        self.any_written, self._single, self._own, number, self._sources = False, {}, {}, 0, []
+        self.any_written, self._single, self._own, self.numbers, self._sources = False, {}, {}, {}, []
+        made, number = [], 0
         for entry, key in zip(entries, keys or [None] * len(entries), strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
-                written = self._write(number, *entry)
-                number += written
-                if written:
-                    self._sources.append((key, shares_of(entry[0].source.original) if entry[0].kept is None else ()))
+                self._make(made, key, *entry)
+        for place, (group, _, _) in enumerate(made):
+            self.numbers.setdefault(group.object_uid, []).append(place)
+        for group, key, entry in made:
+            with self._report.guard("Object", group.name, "it is left out"):
+                entry.linking = linking(group.source.original, self.numbers)
+                self._put(number, entry)
+                self._sources.append((key, shares_of(group.source.original) if group.kept is None else ()))
+                number += 1
         if number < len(self._written):
             self.any_written = True
             self._scene.truncate("instances", number)
             del self._written[number:]
 
-    def _write(self, number, group, shown, materials, wanted):
-        """Puts one entry; gives how many it became, 0 or 1."""
+    def _make(self, made, key, group, shown, materials, wanted):
+        """Appends the entry of a group, if anything of it can be shown."""
         is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
         self._single[group.object_uid] = None
         if group.kept is not None and not self._leave_out(group):
-            return 0
+            return
         values = _values(group, wanted) if wanted else NO_VALUES
         of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
-        self._put(number, Entry(shown, materials, *of_group, wanted, group.matrices, values))
         if is_single:
-            self._single[group.object_uid] = number
+            self._single[group.object_uid] = len(made)
         if group.is_itself and (group.kept is None or group.kept[0]):
-            self._own[group.object_uid] = number
-        return 1
+            self._own[group.object_uid] = len(made)
+        made.append((group, key, Entry(shown, materials, *of_group, wanted, group.matrices, values)))
 
     def own(self, uid):
         """The number of the entry whose first placement is an object itself, by session_uid, and the numbers of its materials; None without one."""
@@ -169,6 +180,7 @@ class Instances:
             primvars=entry.values or None,
             pass_index=entry.pass_index,
             light_group=entry.light_group,
+            linking=None if entry.linking is ALL else entry.linking,
             index=number if known else None,
             **({} if kind == "mesh" else {kind: shown}),
         )

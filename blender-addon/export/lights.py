@@ -14,6 +14,7 @@ from . import (
 )
 from .colour_management import to_rec709
 from .lamp_nodes import Part, emission
+from .linking import ALL, linking
 from .motion import shares_of
 from .transforms import columns, without_scale
 from .visibility import RAYS
@@ -132,13 +133,17 @@ class Lights:
         self._sources = []
         self.any_written = False
 
-    def lamps(self, groups, keys=()):
-        """Describes the lamps anew."""
+    def lamps(self, groups, numbers, keys=()):
+        """Describes the lamps anew; `numbers` are those of the instance sets that objects became, by session_uid, `keys` name the groups."""
         self._report.forget_all("Light")
         self._lamps, self._sources = [], []
         for group, key in zip(groups, keys or [None] * len(groups), strict=True):
             with self._report.guard("Object", group.name, "the lamp is left out"):
+                first = len(self._lamps)
                 self._described(group, key)
+                links = linking(group.source.original, numbers)
+                if links is not ALL:
+                    self._lamps[first:] = [description | {"linking": links} for description in self._lamps[first:]]
 
     def _described(self, group, key):
         """Adds the descriptions of a lamp's placements."""

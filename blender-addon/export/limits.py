@@ -15,8 +15,6 @@ SCENE = (
 )
 LAYER = ()
 OBJECT = (
-    ("light linking", "light_linking.receiver_collection", (None,), "Light linking"),
-    ("light linking", "light_linking.blocker_collection", (None,), "Shadow linking"),
     ("adaptive subdivision", "cycles.use_adaptive_subdivision", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_caster", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_receiver", (False,), ""),

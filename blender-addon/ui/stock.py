@@ -17,10 +17,6 @@ EXCLUDED = (
     "EEVEE_MATERIAL_PT_viewport_settings",
     "NODE_DATA_PT_light",
     "NODE_DATA_PT_spot",
-    # It holds light linking alone.
-    "OBJECT_PT_shading",
-    "OBJECT_PT_light_linking",
-    "OBJECT_PT_shadow_linking",
     "PARTICLE_PT_hair_shape",
     "PARTICLE_PT_render_path",
     "PHYSICS_PT_fluid_domain_render",

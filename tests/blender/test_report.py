@@ -47,7 +47,7 @@ def test_equal_messages_are_counted(tmp_path):
 def test_no_panel_is_offered_in_vain(tmp_path):
     import bpy
 
-    words = ("light_linking", "shadow_linking", "render_path", "freestyle", "gpencil")
+    words = ("render_path", "freestyle", "gpencil")
     for panel in bpy.types.Panel.__subclasses__():
         if "GONIO" in getattr(panel, "COMPAT_ENGINES", ()):
             assert not any(word in panel.__name__ for word in words), panel.__name__

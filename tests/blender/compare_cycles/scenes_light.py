@@ -77,6 +77,37 @@ def mesh_emitter() -> None:
     ball(material("Emission", Color=(0.3, 0.6, 1.0), Strength=3.0), 0.3, location=(0.9, -0.9, 0.6))
 
 
+def _linked(emitter, name, states, kind="receiver_collection") -> None:
+    """Gives an emitter a collection of receivers or blockers; `states` are link states by object."""
+    import bpy
+
+    collection = bpy.data.collections.new(name)
+    for thing in states:
+        collection.objects.link(thing)
+    for thing, entry in zip(collection.objects, collection.collection_objects, strict=True):
+        entry.light_linking.link_state = states[thing]
+    setattr(emitter.light_linking, kind, collection)
+
+
+def light_linking() -> None:
+    """A red lamp for the ball alone, a green one for all but the box, a blue one that the ball does not block, a slab that lights the floor alone."""
+    even_world(0.1)
+    floor = plane(diffuse((0.6, 0.6, 0.6)))
+    plane(diffuse((0.7, 0.5, 0.35)), location=(0.0, 2.0, 0.0), rotation=(radians(90), 0.0, 0.0))
+    round_one = ball(principled(Base_Color=(0.15, 0.4, 0.7), Roughness=0.4), 0.6, location=(-0.7, 0.2, 0.6))
+    square_one = box(diffuse((0.4, 0.6, 0.3)), location=(0.9, 0.4, 0.5), rotation=(0.0, 0.0, 0.4))
+    slab = box(material("Emission", Color=(1.0, 0.7, 0.4), Strength=3.0), location=(0.2, -1.4, 0.3), scale=(0.8, 0.2, 0.1))
+    soft = {"shadow_soft_size": 0.2, "use_soft_falloff": False}
+    red = lamp("POINT", 60.0, (-1.6, -1.2, 2.6), color=(1.0, 0.3, 0.2), **soft)
+    green = lamp("POINT", 60.0, (1.8, -0.9, 2.2), color=(0.3, 1.0, 0.4), **soft)
+    blue = lamp("AREA", 120.0, (-1.2, -1.0, 3.0), (0.5, -0.3, 0.5), color=(0.3, 0.5, 1.0), size=0.6)
+    _linked(red, "Red", {round_one: "INCLUDE"})
+    _linked(green, "Green", {square_one: "EXCLUDE"})
+    _linked(blue, "Blue", {round_one: "EXCLUDE"}, "blocker_collection")
+    _linked(slab, "Slab", {floor: "INCLUDE"})
+    camera((0.0, -6.5, 2.4), (0.0, 0.3, 0.8), lens=50.0)
+
+
 def hdri() -> None:
     """A latitude-longitude image with a low sun, turned about two axes."""
     corner()

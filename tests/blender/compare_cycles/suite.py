@@ -25,6 +25,7 @@ SCENES = [
     Scene("light", "area_disk", 512, 512),
     Scene("light", "area_ellipse"),
     Scene("light", "mesh_emitter", 256, 256),
+    Scene("light", "light_linking", 512, 512),
     Scene("light", "hdri"),
     Scene("light", "sky_single"),
     Scene("light", "sky_multiple"),
