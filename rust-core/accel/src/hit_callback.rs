@@ -10,6 +10,11 @@ pub(crate) trait HitCallback {
     fn t_max(&self) -> f32;
     /// Takes a hit within the interval; true ends the search.
     fn add(&mut self, hit: Hit, transparent: bool) -> bool;
+    /// [`HitCallback::add`] for a hit on curves or points; `leaves` tells the distance where the ray leaves what it has hit.
+    #[inline(always)]
+    fn add_smooth(&mut self, hit: Hit, _leaves: impl FnOnce() -> f32, transparent: bool) -> bool {
+        self.add(hit, transparent)
+    }
 }
 
 /// What the rays of a batch look for.
@@ -122,6 +127,8 @@ pub(crate) struct UntilOpaque {
     t_max: f32,
     ray: u32,
     hits: Vec<TransparentHit>,
+    /// Those on curves and points, with the distances where the ray leaves what it has hit.
+    smooth: Vec<(TransparentHit, f32)>,
 }
 
 impl HitCallback for UntilOpaque {
@@ -146,9 +153,29 @@ impl HitCallback for UntilOpaque {
         }
         !transparent
     }
+
+    #[inline(always)]
+    fn add_smooth(&mut self, hit: Hit, leaves: impl FnOnce() -> f32, transparent: bool) -> bool {
+        if transparent {
+            let Hit { t, u, v, primitive, instance } = hit;
+            self.smooth.push((TransparentHit { ray: self.ray, instance, primitive, u, v, t }, leaves()));
+        }
+        !transparent
+    }
 }
 
+/// Pieces whose numbers are as near as this are thought to be of one strand.
+const NEAR_PIECES: u32 = 32;
+
 impl UntilOpaque {
+    /// Whether a hit lies within a neighbouring piece that the ray has entered before: pieces of a strand overlap where it bends.
+    fn is_within(&self, hit: &TransparentHit) -> bool {
+        self.smooth.iter().any(|(other, leaves)| {
+            let before = other.t < hit.t || (other.t == hit.t && other.primitive < hit.primitive);
+            before && *leaves >= hit.t && other.instance == hit.instance && other.primitive.abs_diff(hit.primitive) <= NEAR_PIECES
+        })
+    }
+
     /// The place of a hit on the same edge, which two triangles share: the surface is passed once.
     fn twin(&self, hit: &TransparentHit) -> Option<usize> {
         let is_twin = |known: &TransparentHit| {
@@ -168,13 +195,14 @@ impl RayQuery for AnyHitTransparent<'_> {
     type Callback = UntilOpaque;
 
     fn callback(&self) -> UntilOpaque {
-        UntilOpaque { t_max: 0.0, ray: NONE, hits: Vec::new() }
+        UntilOpaque { t_max: 0.0, ray: NONE, hits: Vec::new(), smooth: Vec::new() }
     }
 
     #[inline(always)]
     fn begin(&self, until_opaque: &mut UntilOpaque, i: usize, t_max: f32) {
         (until_opaque.t_max, until_opaque.ray) = (t_max, i as u32);
         until_opaque.hits.clear();
+        until_opaque.smooth.clear();
     }
 
     #[inline(always)]
@@ -182,6 +210,10 @@ impl RayQuery for AnyHitTransparent<'_> {
         self.occluded[i] = u8::from(ended);
         if !ended {
             self.transparent.extend_from_slice(&until_opaque.hits);
+            if !until_opaque.smooth.is_empty() {
+                let seen = until_opaque.smooth.iter().filter(|(hit, _)| !until_opaque.is_within(hit));
+                self.transparent.extend(seen.map(|(hit, _)| *hit));
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The inner operations of traversal with one ray, at the width of the data.
 
+use super::line_ray::SmoothHits;
 use super::prepared::{Padded, PreparedRay};
-use super::segment_block::SmoothHits;
 use super::smooth::Smooth;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};

@@ -2,10 +2,12 @@
 
 pub(crate) mod block_tests;
 pub(crate) mod lanes8;
+pub(crate) mod line_ray;
 pub(crate) mod point_block;
 pub(crate) mod prepared;
 pub(crate) mod scalar;
 pub(crate) mod segment_block;
+mod segments;
 pub(crate) mod shape;
 pub(crate) mod smooth;
 mod smooth_scalar;

@@ -1,6 +1,6 @@
 //! Leaf of a tree of points: up to eight spheres, or discs that face each ray, and their tests, on lanes.
 
-use super::segment_block::{LineRay, SmoothHits, UNSEEN, dot, load3, sphere, store};
+use super::line_ray::{LineRay, SmoothHits, UNSEEN, dot, load3, sphere, store};
 use crate::intersect::prepared::PreparedRay;
 use crate::ray::NONE;
 use crate::tree::node::WIDTH;

@@ -1,8 +1,8 @@
 //! `Lanes8` in plain Rust, for the scalar level.
 
 use super::lanes8::Lanes8;
+use super::line_ray::SmoothHits;
 use super::prepared::{Padded, PreparedRay};
-use super::segment_block::SmoothHits;
 use super::smooth::Smooth;
 use super::smooth_scalar;
 use super::transform::Affine;

@@ -12,9 +12,12 @@
 //! A turn is a number from −2 to 2 in place of an angle ([`turn`]). Packed are two numbers in 15 bits each. The reader is `geometry/smooth.rs`
 //! of `gonio-transport`.
 
+use super::line_ray::{END_CAP, START_CAP, SmoothHits};
 use super::point_block::{PointBlock, intersect_discs, intersect_spheres};
 use super::prepared::PreparedRay;
-use super::segment_block::{END_CAP, START_CAP, SegmentBlock, SmoothHits, intersect_ribbons, intersect_tubes};
+use super::segment_block::SegmentBlock;
+use super::segments::{intersect_ribbons, intersect_tubes};
+use super::smooth_scalar;
 use crate::ray::NONE;
 use crate::tree::node::WIDTH;
 use fearless_simd::Simd;
@@ -77,6 +80,14 @@ impl Smooth {
                 Smooth::Discs(blocks) => intersect_discs(simd, &blocks[leaf], ray, t_max, hits),
             },
         )
+    }
+
+    /// The distance where a ray that enters the shape of a lane at `t` leaves it; of what is flat `t`.
+    pub(crate) fn leaves(&self, leaf: usize, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
+        match self {
+            Smooth::Tubes(blocks) => smooth_scalar::leaves(&blocks[leaf], lane, ray).max(t),
+            _ => t,
+        }
     }
 
     /// Which primitive a lane has hit, and where on it.

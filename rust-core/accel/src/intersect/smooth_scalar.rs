@@ -1,8 +1,10 @@
-//! The tests of curves and points in plain Rust, for the scalar level: see `segment_block.rs` and `point_block.rs`.
+//! The tests of curves and points in plain Rust, for the scalar level: see `segments.rs` and `point_block.rs`.
 
+use super::line_ray::{END_CAP, START_CAP, SmoothHits, UNSEEN};
 use super::point_block::PointBlock;
 use super::prepared::PreparedRay;
-use super::segment_block::{END_CAP, SEAM, START_CAP, SegmentBlock, SmoothHits, UNSEEN};
+use super::segment_block::{OVERLAP, SegmentBlock};
+use super::segments::SEAM;
 use super::smooth::{Smooth, dot};
 use crate::tree::node::WIDTH;
 
@@ -23,6 +25,12 @@ struct LineRay {
 }
 
 impl LineRay {
+    fn new(ray: &PreparedRay, t_max: f32) -> Self {
+        let [x, y, z, _] = ray.direction;
+        let [ox, oy, oz, _] = ray.origin;
+        LineRay { origin: [ox, oy, oz], direction: [x, y, z], squared: x * x + y * y + z * z, range: [ray.t_min, t_max] }
+    }
+
     /// Where the ray is nearest to a point, and the way from there to the point.
     fn foot(&self, point: [f32; 3]) -> (f32, [f32; 3]) {
         let to = along(point, self.origin, -1.0);
@@ -49,9 +57,7 @@ impl LineRay {
 
 /// The lanes of a leaf that a ray meets, as a mask.
 pub(crate) fn intersect(smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
-    let [x, y, z, _] = ray.direction;
-    let [ox, oy, oz, _] = ray.origin;
-    let ray = LineRay { origin: [ox, oy, oz], direction: [x, y, z], squared: x * x + y * y + z * z, range: [ray.t_min, t_max] };
+    let ray = LineRay::new(ray, t_max);
     let mut mask = 0;
     for lane in 0..WIDTH {
         let found = match smooth {
@@ -94,7 +100,8 @@ fn ribbon(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
     let (_, radius) = block.lane(lane, share);
     let next = of_lane(&block.next, lane);
     let t = foot + share * along_ray;
-    let hit = dot(out, out) <= radius * radius && raw >= 0.0 && (raw <= 1.0 || dot(next, next) > 0.0) && ray.behind(t, radius);
+    let goes_on = raw <= 1.0 || (dot(next, next) > 0.0 && dot(next, out) <= OVERLAP[0] * radius);
+    let hit = dot(out, out) <= radius * radius && raw >= 0.0 && goes_on && ray.behind(t, radius);
     hit.then_some((t, share, out))
 }
 
@@ -152,4 +159,29 @@ fn cone(axis: [f32; 3], [start, growth]: [f32; 2], ray: &LineRay, near: Found, [
     let more = (axis_ray * after + e) / slope;
     let (t, all) = (t_near + after, share + more);
     ((0.0..=1.0).contains(&all) && ray.sees(t)).then(|| (t, all, along(along(out, ray.direction, after), axis, -more)))
+}
+
+/// The distance where a ray leaves a rounded cone that it has entered: the last of the spheres at its ends and of the cone between them.
+pub(super) fn leaves(block: &SegmentBlock, lane: usize, ray: &PreparedRay) -> f32 {
+    let ray = LineRay::new(ray, f32::INFINITY);
+    let axis = of_lane(&block.axis, lane);
+    let [radius, growth] = [block.radius[0][lane], block.radius[1][lane]];
+    let (foot, to) = ray.foot(of_lane(&block.start, lane));
+    let along_ray = dot(axis, ray.direction) / ray.squared;
+    let across = along(axis, ray.direction, -along_ray);
+    let sphere = |foot: f32, to: [f32; 3], radius: f32| foot + ((radius * radius - dot(to, to)) / ray.squared).sqrt();
+    let ends = sphere(foot, to, radius).max(sphere(foot + along_ray, along(to, across, 1.0), radius + growth));
+    let slope = dot(axis, axis) - growth * growth;
+    let share = (-dot(to, across) / dot(across, across).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let out = along(to, across, share).map(|x| -x);
+    let near = radius + share * growth;
+    let axis_ray = along_ray * ray.squared;
+    let e = near * growth + dot(axis, out);
+    let a = ray.squared * (dot(across, across) - growth * growth) / slope;
+    let b = -(e * axis_ray / slope);
+    let c = dot(out, out) - near * near - e * e / slope;
+    let after = (-b + (b * b - a * c).sqrt()) / a;
+    let on_cone = slope > 0.0 && (0.0..=1.0).contains(&(share + (axis_ray * after + e) / slope));
+    // NaN of what is not met drops out of a maximum.
+    if on_cone { ends.max(foot + share * along_ray + after) } else { ends }
 }

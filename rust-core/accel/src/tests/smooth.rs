@@ -259,3 +259,17 @@ fn what_makes_no_sense_is_left_out() {
         assert_eq!(first_hits(&tree, level, &rays).t, [1.5]);
     }
 }
+
+#[test]
+fn curves_and_points_take_little_memory() {
+    let mut random = Random(35);
+    let (points, entries) = strands(&mut random, 10_000, 10, 1e-3);
+    let memory = curves(&points, &entries, Seen::Solid).memory();
+    assert_eq!(memory.triangles, 100_000);
+    let bytes = memory.bytes() as f64 / memory.triangles as f64;
+    assert!(bytes < 160.0, "{bytes}");
+    let cloud: Vec<[f32; 4]> = (0..100_000).map(|_| random.point()).map(|[x, y, z]| [x, y, z, 1e-3]).collect();
+    let memory = balls(&cloud, Seen::Solid).memory();
+    let bytes = memory.bytes() as f64 / memory.triangles as f64;
+    assert!(bytes < 90.0, "{bytes}");
+}

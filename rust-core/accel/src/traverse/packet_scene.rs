@@ -5,7 +5,7 @@ use super::packet_ray::{Group, PACKET, PacketRays, lane_of};
 use super::single::Stack;
 use super::single_scene::{SceneStacks, traverse_mesh, traverse_scene_from};
 use crate::hit_callback::{Any, HitCallback, Nearest};
-use crate::intersect::segment_block::SmoothHits;
+use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::intersect::wide::Wide;
 use crate::ray::{Hit, NONE};

@@ -3,8 +3,8 @@
 use super::single::{Stack, Visitor, traverse};
 use crate::hit_callback::HitCallback;
 use crate::intersect::lanes8::Lanes8;
+use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::prepared::PreparedRay;
-use crate::intersect::segment_block::SmoothHits;
 use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::ray::{Hit, RayBatch};
@@ -214,7 +214,8 @@ fn intersect_smooth<K: Lanes8, C: HitCallback>(
             continue;
         }
         let (primitive, u, v) = smooth.describe(leaf, lane, ray, &hits);
-        if callback.add(Hit { t: hits.t[lane], u, v, primitive, instance: owner.id }, owner.transparent) {
+        let hit = Hit { t: hits.t[lane], u, v, primitive, instance: owner.id };
+        if callback.add_smooth(hit, || smooth.leaves(leaf, lane, ray, hit.t), owner.transparent) {
             return true;
         }
     }

@@ -4,8 +4,8 @@ use super::single::EMPTY_STACK;
 use super::single_scene::traverse_mesh;
 use crate::hit_callback::{HitCallback, RayQuery};
 use crate::intersect::lanes8::Lanes8;
+use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::prepared::PreparedRay;
-use crate::intersect::segment_block::SmoothHits;
 use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::intersect::wide::{Wide, intersect_boxes};
@@ -241,7 +241,10 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
             let (primitive, u, v) = smooth.describe(leaf, lane, &ray, &hits);
-            if self.add(Hit { t: hits.t[lane], u, v, primitive, instance: self.instance }, self.transparent) {
+            let hit = Hit { t: hits.t[lane], u, v, primitive, instance: self.instance };
+            self.ended = self.callback.add_smooth(hit, || smooth.leaves(leaf, lane, &ray, hit.t), self.transparent);
+            self.shorten();
+            if self.ended {
                 return Kind::End as usize;
             }
         }

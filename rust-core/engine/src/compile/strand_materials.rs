@@ -32,6 +32,9 @@ pub(super) fn without_subsurface(scene: &Scene, diagnostics: &mut Vec<Diagnostic
                 MaterialId(changed.materials.len() as u32 - 1)
             });
         }
+        if materials == changed.instances[number].materials {
+            continue;
+        }
         let group = &mut changed.instances[number];
         group.materials = materials;
         diagnostics.push(Diagnostic::warning(&group.origin, "subsurface scattering of curves and points is shown as diffuse reflection"));

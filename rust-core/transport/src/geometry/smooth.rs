@@ -123,7 +123,7 @@ impl GeometryTable {
         let entry = l.gather_integers(&self.pieces, (first_piece + hit.primitive).keep_if(is_curve));
         smooth.piece = is_curve.select(entry, hit.first_point + hit.primitive);
         let first = is_curve.select(hit.first_point + (entry & !(FIRST_PIECE | LAST_PIECE)), hit.first_point + hit.primitive);
-        let second = first + is_curve.to_ones();
+        let second = first + l.u(1).keep_if(is_curve);
         // Values change along a piece as between corners 0 and 1 of a triangle.
         let share = hit.u.clamp(0.0, 1.0).keep_if(is_curve);
         let [a, b, c] = hit.points;
@@ -198,8 +198,8 @@ impl GeometryTable {
         let unit = axis.normalize_or(Vec3::splat(l, [0.0, 0.0, 1.0]));
         let curve = hit.smooth.is_curve();
         let [first, last] = [(hit.smooth.piece & FIRST_PIECE).ne(0), (hit.smooth.piece & LAST_PIECE).ne(0)];
-        let before = hit.points[0] - curve.and_not(first).to_ones();
-        let after = hit.points[1] + curve.and_not(last).to_ones();
+        let before = hit.points[0] - l.u(1).keep_if(curve.and_not(first));
+        let after = hit.points[1] + l.u(1).keep_if(curve.and_not(last));
         let starts = (end - Vec3::gather(l, &self.points, before * 3)).normalize_or(unit);
         let ends = (Vec3::gather(l, &self.points, after * 3) - start).normalize_or(unit);
         Axis {
