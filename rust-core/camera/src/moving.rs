@@ -22,11 +22,10 @@ impl CameraTable {
         let rows = [axes[1].cross(axes[2]), axes[2].cross(axes[0]), axes[0].cross(axes[1])];
         let volume = axes[0].dot(rows[0]);
         let over = volume.recip();
-        let column = |x: [F<L>; 3]| Vec3::new(x[0] * over, x[1] * over, x[2] * over);
         let inverse = [
-            column([rows[0].x, rows[1].x, rows[2].x]),
-            column([rows[0].y, rows[1].y, rows[2].y]),
-            column([rows[0].z, rows[1].z, rows[2].z]),
+            Vec3::new(rows[0].x, rows[1].x, rows[2].x) * over,
+            Vec3::new(rows[0].y, rows[1].y, rows[2].y) * over,
+            Vec3::new(rows[0].z, rows[1].z, rows[2].z) * over,
         ];
         self.importance_from(l, point, lens, (axes, inverse, volume), position)
     }
