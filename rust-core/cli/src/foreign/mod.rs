@@ -50,7 +50,7 @@ pub(super) fn translate(words: &[String]) -> Result<Translated> {
         while row.names[0] == "--frame-list" && is_number(rest.peek()) {
             values.extend(rest.next());
         }
-        out.take(row, name, &values)?;
+        out.take(row, name, &values, attached.is_some())?;
     }
     Ok(out)
 }
@@ -79,13 +79,15 @@ fn level(text: &str) -> Option<u32> {
 
 impl Translated {
     /// Says an option in gonio's words.
-    fn take(&mut self, row: &Row, name: &str, values: &[&str]) -> Result<()> {
+    fn take(&mut self, row: &Row, name: &str, values: &[&str], is_attached: bool) -> Result<()> {
         let from = row.program.name();
-        match row.state {
-            State::Works(own) => self.push(own, values),
-            State::Read(own) => self.read(row, own, name, values)?,
-            State::Idle => self.notes.push(format!("{name} ({from}) changes nothing: {}", row.note)),
-            State::Refused => return Err(refusal(name, from, row.note)),
+        match (row.state, values) {
+            // What begins with a dash is taken for a value where it is attached, and there alone.
+            (State::Works(own), [value]) if value.starts_with('-') && is_attached => self.words.push(format!("{own}={value}")),
+            (State::Works(own), _) => self.push(own, values),
+            (State::Read(own), _) => self.read(row, own, name, values)?,
+            (State::Idle, _) => self.notes.push(format!("{name} ({from}) changes nothing: {}", row.note)),
+            (State::Refused, _) => return Err(refusal(name, from, row.note)),
         }
         Ok(())
     }

@@ -87,6 +87,7 @@ fn husk_s_command_lines() {
     assert!(parsed("--verbose 0 stage.usd").quiet);
     assert!(parsed("-V2 stage.usd --verbose").stage.verbose);
     assert_eq!(parsed("stage.usd --frame-list 1 5 9 -o a.####.exr").frames.as_deref(), Some("1,5,9"));
+    assert_eq!(parsed("--res-scale=-1 stage.usd").res_scale, -1.0);
     assert_eq!(parsed("--frame=3 --res 8 8 stage.usd").frames.as_deref(), Some("3"));
 }
 
