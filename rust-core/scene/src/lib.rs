@@ -45,7 +45,7 @@ pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
-pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
+pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings, parse_bytes};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;
 
