@@ -17,6 +17,7 @@ mod picture;
 mod render;
 mod report;
 mod stage;
+mod texture;
 mod work;
 
 pub(super) use bench::BenchOptions;
@@ -36,6 +37,7 @@ pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
+pub(super) use texture::TextureArguments;
 pub(super) use work::WorkArguments;
 
 use bsdf::BSDF_EXAMPLES;
