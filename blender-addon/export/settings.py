@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Render settings: those of `scene.gonio`, by Cycles' names, and Blender's own."""
 
+import bpy
+
 from ..units import LUMENS_PER_WATT
 
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
@@ -54,6 +56,8 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "filter_width": float(ask("filter_width", 1.5)) * WIDTHS[shape] if shape in WIDTHS else 1.0,
         "time_limit": 0.0 if preview else float(ask("time_limit", 0.0)),
         "threads": int(render.threads) if render.threads_mode == "FIXED" else 0,
+        "texture_memory": int(ask("texture_memory", 0)) << 20,
+        "texture_cache": bpy.path.abspath(ask("texture_cache", "")),
         "film_transparent": bool(render.film_transparent),
         "passes": list(passes),
     }

@@ -2,7 +2,7 @@
 """Render settings of a scene, named as Cycles names them."""
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .appearance import AppearanceSettings
 from .switch import switch
@@ -111,6 +111,21 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
         step=100,
         default=0.0,
         unit="TIME_ABSOLUTE",
+    )
+    texture_memory: IntProperty(
+        name="Memory Limit",
+        description="Megabytes that the textures of materials may take, without limit if 0. What goes beyond is read in tiles from the "
+        "texture cache as it is needed; the picture is the same",
+        min=0,
+        max=2**20,
+        default=0,
+        update=tag_data,
+    )
+    texture_cache: StringProperty(
+        name="Cache Folder",
+        description="Where tiles of textures are kept between renders; the user's folder for caches if empty",
+        subtype="DIR_PATH",
+        update=tag_data,
     )
     seed: IntProperty(
         name="Seed", description="Another seed gives another pattern of noise", min=0, max=2**31 - 1, default=0, update=tag_data

@@ -23,6 +23,17 @@ class GONIO_RENDER_PT_performance_threads(RenderPanel, Panel):
         number.prop(render, "threads")
 
 
+class GONIO_RENDER_PT_performance_textures(RenderPanel, Panel):
+    bl_label = "Textures"
+    bl_parent_id = "GONIO_RENDER_PT_performance"
+
+    def draw_settings(self, layout, scene):
+        layout.prop(scene.gonio, "texture_memory")
+        folder = layout.column()
+        folder.enabled = scene.gonio.texture_memory > 0
+        folder.prop(scene.gonio, "texture_cache")
+
+
 class GONIO_RENDER_PT_performance_final(RenderPanel, Panel):
     bl_label = "Final Render"
     bl_parent_id = "GONIO_RENDER_PT_performance"
@@ -43,6 +54,7 @@ class GONIO_RENDER_PT_performance_viewport(RenderPanel, Panel):
 PANELS = (
     GONIO_RENDER_PT_performance,
     GONIO_RENDER_PT_performance_threads,
+    GONIO_RENDER_PT_performance_textures,
     GONIO_RENDER_PT_performance_final,
     GONIO_RENDER_PT_performance_viewport,
 )

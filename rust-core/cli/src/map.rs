@@ -73,6 +73,7 @@ fn run(
     };
     complete(&mut loaded, &Python::attach(camera::primary_camera_name), &camera)?;
     options.work.apply(&mut loaded.scene.settings);
+    options.textures.apply(&mut loaded.scene.settings);
     if !options.quiet {
         list(&loaded.diagnostics, most);
     }

@@ -111,6 +111,7 @@ fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
     settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
     settings.integrator = options.integrator.into();
     options.work.apply(settings);
+    options.textures.apply(settings);
 }
 
 /// The meters of `--at`.

@@ -19,6 +19,7 @@ use gonio::{
     film::{Film, Image, Layer},
     render::Render,
     scene::{Aov, Crop, Filter, Scene, Settings},
+    texture::TextureStatistics,
 };
 use gonio_simd::Execution;
 use gonio_usd::{
@@ -253,6 +254,7 @@ impl Job<'_> {
         };
         settings.filter_width = options.filter_width;
         options.work.apply(settings);
+        options.textures.apply(settings);
         settings.clamp_direct = options.clamp_direct;
         settings.clamp_indirect = options.clamp_indirect;
         settings.time_limit_s = options.time_limit;
@@ -342,6 +344,9 @@ impl Job<'_> {
             let samples = samples_of(&scene.settings, &render, &image);
             say(&format!("{samples} in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
         }
+        if let (false, Some(statistics)) = (self.options.quiet, compiled.tables.textures.statistics()) {
+            tell_textures(&statistics, self.options.stage.verbose);
+        }
         if result.is_err() {
             // The process ends next, which gives everything back at once; somebody waits.
             std::mem::forget((render, image));
@@ -402,6 +407,26 @@ pub(super) fn write_cropped(writer: &Writer, paths: &[PathBuf], image: &Image, n
     let mut part = image.clone();
     autocrop::crop(&mut part, &options.autocrop)?;
     writer.write_all(&owned(to_crop), &part, notes, quiet)
+}
+
+/// What textures within a memory limit took, and what went wrong with them.
+fn tell_textures(statistics: &TextureStatistics, verbose: bool) {
+    let megabytes = |bytes: u64| bytes as f64 / 1e6;
+    for note in &statistics.notes {
+        say(&format!("warning: {note}"));
+    }
+    if verbose {
+        let (most, limit, total) = (megabytes(statistics.most), megabytes(statistics.limit), megabytes(statistics.total));
+        say(&format!("texture memory: {most:.1} MB at most within {limit:.1} MB, {total:.1} MB of textures"));
+        say(&format!(
+            "texture tiles: {} looked up, {:.3} % of them in memory; {} read ({:.1} MB), {} given up",
+            statistics.lookups,
+            100.0 * statistics.hit_rate(),
+            statistics.tiles_read,
+            megabytes(statistics.bytes_read),
+            statistics.evicted
+        ));
+    }
 }
 
 /// Makes the layers of a picture those of the stage's render variables, unless there are none or the command line asks for others.

@@ -8,7 +8,7 @@ use gonio::{
     render,
 };
 use gonio_simd::Execution;
-use pyo3::{exceptions::PyRuntimeError, prelude::*};
+use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyDict};
 use std::{
     path::{Path, PathBuf},
     sync::{
@@ -245,6 +245,28 @@ impl Render {
     fn diagnostics(&self) -> Vec<(String, String)> {
         let all = self.compiled.iter().flat_map(|compiled| &compiled.diagnostics);
         all.map(|d| (d.origin.to_string(), d.message.clone())).collect()
+    }
+    /// What textures within a memory limit took and read so far, bytes and counts; None where all are in memory.
+    #[getter]
+    fn texture_statistics<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(found) = self.compiled.as_ref().and_then(|compiled| compiled.tables.textures.statistics()) else { return Ok(None) };
+        let statistics = PyDict::new(py);
+        let numbers = [
+            ("limit", found.limit),
+            ("used", found.used),
+            ("most", found.most),
+            ("total", found.total),
+            ("lookups", found.lookups),
+            ("tiles_read", found.tiles_read),
+            ("bytes_read", found.bytes_read),
+            ("evicted", found.evicted),
+        ];
+        for (name, number) in numbers {
+            statistics.set_item(name, number)?;
+        }
+        statistics.set_item("hit_rate", found.hit_rate())?;
+        statistics.set_item("notes", found.notes)?;
+        Ok(Some(statistics))
     }
     /// The film so far.
     fn film(&self, py: Python<'_>) -> PyResult<Film> {

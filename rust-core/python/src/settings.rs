@@ -1,8 +1,9 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, Mist, Settings, parse_bytes};
 use pyo3::{prelude::*, types::PyDict};
+use std::path::PathBuf;
 
 fn wrong(name: &str, problem: String) -> PyErr {
     exception(gonio::Error::Setting { name: name.into(), problem })
@@ -78,6 +79,11 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             }
             s.time_limit_s = limit;
         }
+        "texture_memory" => s.texture_memory = texture_memory(value)?,
+        "texture_cache" => {
+            let folder: PathBuf = value.extract()?;
+            s.texture_cache = (!folder.as_os_str().is_empty()).then_some(folder);
+        }
         "passes" => {
             let names: Vec<String> = value.extract()?;
             s.set_passes(&names).map_err(|name| wrong(key, format!("there is no pass '{name}'")))?;
@@ -90,6 +96,14 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
 fn within(key: &str, value: &Bound<'_, PyAny>, least: f64, most: f64) -> PyResult<f64> {
     let found: f64 = value.extract()?;
     if (least..=most).contains(&found) { Ok(found) } else { Err(wrong(key, format!("{found} was found, expected {least} or more"))) }
+}
+
+/// Bytes, or a text with a unit.
+fn texture_memory(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    match value.extract::<String>() {
+        Ok(text) => parse_bytes(&text).map_err(|problem| wrong("texture_memory", problem)),
+        Err(_) => value.extract(),
+    }
 }
 
 fn crop(value: &Bound<'_, PyAny>) -> PyResult<Option<Crop>> {

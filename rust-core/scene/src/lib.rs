@@ -52,7 +52,7 @@ pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointShape, Points};
-pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings};
+pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings, parse_bytes};
 pub use shutter::{Shutter, key_problem};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;

@@ -4,7 +4,7 @@ use super::antialiasing::Antialiasing;
 use super::aov::{Aov, LIGHT_GROUP, ShaderValue};
 use super::shutter::Shutter;
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
+use std::{ops::Range, path::PathBuf};
 
 /// A rectangle of pixels: `[min, max)`, rows counted from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -176,6 +176,25 @@ pub struct Settings {
     pub light_groups: Vec<String>,
     /// Stop after this many seconds; 0 is off.
     pub time_limit_s: f64,
+    /// Bytes that textures of materials may take at once; 0 is no limit.
+    #[serde(default)]
+    pub texture_memory: u64,
+    /// Folder for the tiles of textures, which are made where there is a limit; `None` is the user's folder for caches.
+    #[serde(default)]
+    pub texture_cache: Option<PathBuf>,
+}
+
+/// Bytes by a number and a unit of powers of 1024: `64M`, `1.5G`, `2 GiB`, `800 MB`; without a unit bytes.
+pub fn parse_bytes(text: &str) -> Result<u64, String> {
+    let expected = || format!("'{text}' was found, expected a size such as 512M or 1.5G");
+    let text = text.trim();
+    let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let number: f64 = text[..end].parse().map_err(|_| expected())?;
+    let unit = text[end..].trim().to_ascii_uppercase();
+    let unit = unit.strip_suffix("IB").or_else(|| unit.strip_suffix('B')).unwrap_or(&unit);
+    let power = ["", "K", "M", "G", "T"].iter().position(|known| *known == unit).ok_or_else(expected)?;
+    let bytes = number * 1024_f64.powi(power as i32);
+    if bytes.is_finite() && bytes < 1e18 { Ok(bytes.ceil() as u64) } else { Err(expected()) }
 }
 
 /// Most samples of one light.
@@ -229,6 +248,8 @@ impl Default for Settings {
             shader_passes: Vec::new(),
             light_groups: Vec::new(),
             time_limit_s: 0.0,
+            texture_memory: 0,
+            texture_cache: None,
         }
     }
 }

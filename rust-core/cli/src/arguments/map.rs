@@ -1,6 +1,6 @@
 //! What `gonio map` takes.
 
-use super::{DaylightArguments, ScaleArguments, StageArguments, WorkArguments};
+use super::{DaylightArguments, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -71,6 +71,8 @@ pub(crate) struct MapArguments {
     pub(crate) scale: ScaleArguments,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

@@ -1,6 +1,6 @@
 //! What `gonio measure` takes, and the grids that it shares with `gonio report`.
 
-use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, WorkArguments};
+use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -71,6 +71,8 @@ pub(crate) struct MeasureOptions {
     pub(crate) integrator: IntegratorArgument,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

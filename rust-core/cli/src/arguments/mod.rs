@@ -18,6 +18,7 @@ mod picture;
 mod render;
 mod report;
 mod stage;
+mod texture;
 mod work;
 
 pub(super) use bench::BenchOptions;
@@ -38,6 +39,7 @@ pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
+pub(super) use texture::TextureArguments;
 pub(super) use work::WorkArguments;
 
 use bsdf::BSDF_EXAMPLES;

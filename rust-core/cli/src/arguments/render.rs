@@ -1,6 +1,9 @@
 //! What `gonio render` takes.
 
-use super::{CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, WorkArguments};
+use super::{
+    CheckpointArguments, DaylightArguments, FarmArguments, IntegratorArgument, OutputArguments, StageArguments, TextureArguments,
+    WorkArguments,
+};
 use clap::{Args, ValueEnum};
 use gonio::scene::{Antialiasing, Caustics, MOST_LIGHT_SAMPLES};
 use std::path::PathBuf;
@@ -85,6 +88,8 @@ pub(crate) struct RenderOptions {
     pub(crate) time_limit: f64,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
     /// Limit of a direct sample in nits, as the mean of its components; 0 is off.
     #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_direct: f32,

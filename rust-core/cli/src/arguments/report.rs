@@ -1,6 +1,6 @@
 //! What `gonio report` takes.
 
-use super::{DaylightArguments, GridArguments, StageArguments, WorkArguments};
+use super::{DaylightArguments, GridArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -81,6 +81,8 @@ pub(crate) struct ReportOptions {
     pub(crate) max_bounces: Option<u32>,
     #[command(flatten)]
     pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
     /// Write nothing but errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

@@ -129,6 +129,7 @@ fn measured(
     settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
     settings.integrator = Integrator::Path;
     options.work.apply(settings);
+    options.textures.apply(settings);
     let found = evaluated(scene, previous, Reporter::new(options.quiet), interrupted)?;
     diagnostics.extend(found.diagnostics.iter().filter(|new| !diagnostics.contains(new)).cloned().collect::<Vec<_>>());
     Ok(found)

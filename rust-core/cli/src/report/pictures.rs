@@ -76,6 +76,7 @@ fn apply_settings(options: &ReportOptions, loaded: &mut Loaded) {
     settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
     settings.integrator = Integrator::Path;
     options.work.apply(settings);
+    options.textures.apply(settings);
     (settings.crop, settings.time_limit_s) = (None, 0.0);
     settings.aovs = vec![Aov::Color, Aov::Luminance];
 }

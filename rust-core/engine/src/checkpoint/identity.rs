@@ -17,7 +17,7 @@ use std::{
 const PROGRAM: &str = concat!("gonio ", env!("CARGO_PKG_VERSION"));
 
 /// Settings that do not change a sample.
-const HARMLESS: [&str; 2] = ["threads", "time_limit_s"];
+const HARMLESS: [&str; 4] = ["threads", "time_limit_s", "texture_memory", "texture_cache"];
 
 /// What a checkpoint is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -13,6 +13,8 @@ pub(super) type Tiles = Vec<(u32, Arc<MipMap>)>;
 /// Images as they were loaded.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptImages {
+    /// The limit of texture memory that the images of materials were loaded within.
+    limit: u64,
     materials: Vec<(Stamp, Tiles)>,
     lights: Vec<(Stamp, DomeFormat, Arc<LightTexture>)>,
 }
@@ -48,6 +50,14 @@ impl Stamp {
 }
 
 impl KeptImages {
+    /// Nothing yet of images loaded within a limit.
+    pub(super) fn within(limit: u64) -> Self {
+        Self { limit, ..Self::default() }
+    }
+    /// Whether images of materials can be taken over one by one. Within a limit all images share its memory, so that it is all or none.
+    pub(super) fn lends<'a>(&self, limit: u64, mut stamps: impl Iterator<Item = &'a Stamp>) -> bool {
+        self.limit == limit && (limit == 0 || stamps.all(|stamp| self.tiles(stamp).is_some()))
+    }
     /// The tiles of an image that has not changed.
     pub(super) fn tiles(&self, stamp: &Stamp) -> Option<&Tiles> {
         self.materials.iter().find(|(known, _)| known.is(stamp)).map(|(_, tiles)| tiles)

@@ -7,7 +7,11 @@ use crate::{
     error::{Diagnostic, Result},
     light::LightTexture,
     scene::{Operation, Scene, Texture, TextureId, TextureSource, Tile},
-    texture::{self, Image, MipMap, Source, Texels, TextureError, TextureRequest, TextureTable, find_tiles, is_udim, tile_path},
+    texture::{
+        self, CacheFolder, Image, MipMap, Source, Texels, TextureError, TextureMemory, TextureRequest, TextureTable, find_tiles, is_udim,
+        tile_path,
+    },
+    threads::available_threads,
 };
 use rayon::prelude::*;
 use std::{
@@ -55,20 +59,27 @@ pub(super) fn compile(
     let (mut wanted, mut pixels) = (Vec::new(), Vec::new());
     let mut maps: Vec<Tiles> = vec![Vec::new(); scene.textures.len()];
     let stamps: Vec<Stamp> = scene.textures.iter().map(Stamp::of).collect();
+    let limit = scene.settings.texture_memory;
+    let of_used = stamps.iter().zip(&used).filter(|(_, used)| **used).map(|(stamp, _)| stamp);
+    let lends = previous.lends(limit, of_used);
     for (number, texture) in scene.textures.iter().enumerate().filter(|(number, _)| used[*number]) {
-        match (previous.tiles(&stamps[number]), &texture.source) {
+        match (previous.tiles(&stamps[number]).filter(|_| lends), &texture.source) {
             (Some(tiles), _) => maps[number].clone_from(tiles),
-            (None, TextureSource::Pixels { .. }) => pixels.push(number),
+            (None, TextureSource::Pixels { .. }) if limit == 0 => pixels.push(number),
             (None, _) => wanted.extend(requests(number, texture, diagnostics)),
         }
     }
     let requests: Vec<TextureRequest> = wanted.iter().map(|w| w.request.clone()).collect();
     let build = |number: &usize| build(&scene.textures[*number], cancel);
     let (loaded, (built, lights)) = rayon::join(
-        || texture::load_set(&requests, cancel),
+        || load(&requests, scene, cancel),
         || rayon::join(|| pixels.par_iter().map(build).collect::<Vec<_>>(), || light_images(scene, &stamps, previous)),
     );
     super::check(cancel)?;
+    let (loaded, trouble) = loaded;
+    if let (Some(trouble), Some(first)) = (trouble, wanted.first()) {
+        diagnostics.push(Diagnostic::warning(&scene.textures[first.texture].origin, trouble));
+    }
     let loaded = wanted.iter().map(|w| (w.texture, w.tile.unwrap_or(0))).zip(loaded);
     for ((number, tile), result) in loaded.chain(pixels.iter().map(|number| (*number, 0)).zip(built)) {
         let texture = &scene.textures[number];
@@ -80,7 +91,7 @@ pub(super) fn compile(
             Err(error) => report(texture, &error.to_string(), diagnostics),
         }
     }
-    let mut kept = KeptImages::default();
+    let mut kept = KeptImages::within(limit);
     for (number, tiles) in maps.iter().enumerate().filter(|(_, tiles)| !tiles.is_empty()) {
         kept.keep_tiles(stamps[number].clone(), tiles.clone());
     }
@@ -88,6 +99,22 @@ pub(super) fn compile(
     let numbers = maps.into_iter().map(|tiles| push(&mut table, tiles)).collect();
     let LightImages { images, numbers: light_numbers } = lights.finish(scene, &stamps, &mut kept, diagnostics);
     Ok(CompiledTextures { table, numbers, of_lights: images, light_numbers, kept, seconds: start.elapsed().as_secs_f64() })
+}
+
+/// What comes of requests.
+type Loaded = Vec<std::result::Result<Arc<MipMap>, TextureError>>;
+
+/// Loads images, within a memory limit tile by tile; what could not be written of the texture cache comes along.
+fn load(requests: &[TextureRequest], scene: &Scene, cancel: &AtomicBool) -> (Loaded, Option<String>) {
+    let settings = &scene.settings;
+    if settings.texture_memory == 0 {
+        return (texture::load_set(requests, cancel), None);
+    }
+    let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
+    let memory = TextureMemory::new(settings.texture_memory, threads);
+    let folder = Arc::new(CacheFolder::new(settings.texture_cache.as_deref()));
+    let loaded = texture::load_paged(requests, &memory, &folder, cancel);
+    (loaded, folder.take_trouble())
 }
 
 fn push(table: &mut TextureTable, mut tiles: Tiles) -> Option<u32> {
@@ -141,7 +168,11 @@ fn requests(number: usize, texture: &Texture, diagnostics: &mut Vec<Diagnostic>)
     let colour_space = colour_space(texture, diagnostics);
     let wanted = |tile: Option<u32>, source: Source| Wanted { texture: number, tile, request: TextureRequest { source, colour_space } };
     match &texture.source {
-        TextureSource::Pixels { .. } => Vec::new(),
+        TextureSource::Pixels { width, height, rgba } => {
+            let name = Arc::from(texture.origin.to_string());
+            let source = Source::Pixels { name, width: *width, height: *height, rgba: rgba.clone() };
+            vec![Wanted { texture: number, tile: None, request: TextureRequest { source, colour_space: ColourSpace::Raw } }]
+        }
         TextureSource::Encoded { name, bytes } => {
             vec![wanted(None, Source::Bytes { name: name.as_str().into(), bytes: bytes.clone() })]
         }

@@ -2,10 +2,10 @@
 
 use super::error::{TextureError, TextureErrorKind};
 use super::format::decode;
-use super::image::Image;
+use super::image::{Image, Texels};
 use super::limits::MAX_BYTES;
 use super::mip_map::MipMap;
-use crate::colour::ColourSpace;
+use crate::colour::{ColourSpace, Stated};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where an image's bytes are.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub enum Source {
     /// A file.
     Path(PathBuf),
@@ -24,13 +24,24 @@ pub enum Source {
         /// The file's contents.
         bytes: Arc<[u8]>,
     },
+    /// Linear float RGBA, rows from the top.
+    Pixels {
+        /// What messages call it.
+        name: Arc<str>,
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// RGBA.
+        rgba: Arc<[f32]>,
+    },
 }
 
 impl Source {
-    fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Self::Path(path) => path.display().to_string(),
-            Self::Bytes { name, .. } => name.to_string(),
+            Self::Bytes { name, .. } | Self::Pixels { name, .. } => name.to_string(),
         }
     }
 
@@ -38,6 +49,7 @@ impl Source {
         match (self, other) {
             (Self::Path(a), Self::Path(b)) => a == b,
             (Self::Bytes { name: a, bytes: x }, Self::Bytes { name: b, bytes: y }) => a == b && (Arc::ptr_eq(x, y) || x == y),
+            (Self::Pixels { width: a, rgba: x, .. }, Self::Pixels { width: b, rgba: y, .. }) => a == b && Arc::ptr_eq(x, y),
             _ => false,
         }
     }
@@ -69,6 +81,10 @@ pub fn load_image(source: &Source) -> Result<Image, TextureError> {
     let image = match source {
         Source::Path(path) => read_file(path).and_then(|bytes| decode(&bytes)),
         Source::Bytes { bytes, .. } => decode(bytes),
+        Source::Pixels { width, height, rgba, .. } => {
+            let texels = Texels::Float(rgba.to_vec());
+            Ok(Image { width: *width, height: *height, channels: 4, texels, stated: Stated::Nothing })
+        }
     };
     image.map_err(|error| error.at(&source.name()))
 }
@@ -90,7 +106,7 @@ pub fn load_set(requests: &[TextureRequest], cancel: &AtomicBool) -> Vec<Result<
 }
 
 /// The distinct requests, and each request's place among them.
-fn deduplicate(requests: &[TextureRequest]) -> (Vec<&TextureRequest>, Vec<usize>) {
+pub(crate) fn deduplicate(requests: &[TextureRequest]) -> (Vec<&TextureRequest>, Vec<usize>) {
     let mut unique: Vec<&TextureRequest> = Vec::new();
     let mut known: HashMap<(String, ColourSpace), Vec<usize>> = HashMap::new();
     let places = requests.iter().map(|request| {

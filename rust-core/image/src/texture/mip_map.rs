@@ -3,11 +3,13 @@
 use super::encoder::Encoder;
 use super::error::{TextureError, TextureErrorKind};
 use super::image::{Image, Texels};
+use super::paged::{PagedTexels, TextureFacts};
 use super::pyramid::{half_size, shrink};
 use super::resolve::Conversion;
 use super::texel::{TexelFormat, pack_bytes, pack_halves, unpack_halves};
 use crate::colour::{ColourSpace, Stated, Transfer};
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Sizes and places of the levels in tables that lanes look up; places behind the last level repeat it.
@@ -49,7 +51,10 @@ pub struct MipMap {
     /// The linear values of 8-bit colour codes.
     pub(crate) table: Box<[f32; 256]>,
     pub(crate) levels: Levels,
+    /// Empty where the texels are paged.
     pub(crate) words: Vec<f32>,
+    /// The texels of a texture that is read tile by tile.
+    pub(crate) paged: Option<Arc<PagedTexels>>,
     note: Option<String>,
 }
 
@@ -79,7 +84,7 @@ impl MipMap {
             Stated::Unusable(what) if space == ColourSpace::Auto => Some(what.clone()),
             _ => None,
         };
-        let mut map = Self { format, transfer, table: Box::new(transfer.table()), levels, words: vec![0.0; words], note };
+        let mut map = Self { format, transfer, table: Box::new(transfer.table()), levels, words: vec![0.0; words], paged: None, note };
         map.fill_finest(image, &conversion);
         map.fill_coarser(cancel)?;
         Ok(map)
@@ -105,15 +110,55 @@ impl MipMap {
         self.note.as_deref()
     }
 
-    /// Bytes held.
+    /// Bytes of all texels, whether or not they are in memory.
     pub fn bytes(&self) -> usize {
-        self.words.len() * 4
+        self.paged.as_ref().map_or(self.words.len() * 4, |paged| paged.layout.bytes())
+    }
+
+    /// Whether its texels are read tile by tile.
+    pub fn is_paged(&self) -> bool {
+        self.paged.is_some()
+    }
+
+    /// What it is, and its words level by level.
+    pub(crate) fn into_parts(self) -> (TextureFacts, Vec<f32>) {
+        let [width, height] = self.resolution();
+        (TextureFacts { format: self.format, transfer: self.transfer, width, height, note: self.note }, self.words)
+    }
+
+    /// A texture whose texels are read tile by tile.
+    pub(crate) fn paged(facts: &TextureFacts, texels: Arc<PagedTexels>) -> Self {
+        Self {
+            format: facts.format,
+            transfer: facts.transfer,
+            table: Box::new(facts.transfer.table()),
+            levels: Levels::new(facts.width as usize, facts.height as usize),
+            words: Vec::new(),
+            paged: Some(texels),
+            note: facts.note.clone(),
+        }
+    }
+
+    /// The same with all texels in memory; `None` where they are already.
+    pub(crate) fn held_whole(&self) -> Option<Self> {
+        let paged = self.paged.as_ref()?;
+        let mut words = vec![0.0; (self.levels.texels + 1) * self.format.words()];
+        for tile in 0..paged.layout.tiles() {
+            paged.layout.paste(tile, &paged.read(tile), &mut words);
+        }
+        Some(Self { words, paged: None, ..self.clone() })
     }
 
     /// One texel of a level as linear RGBA; `y` counts from the image's top. Nothing outside the level.
     pub fn texel(&self, level: usize, x: usize, y: usize) -> Option<[f32; 4]> {
         let (width, height, offset) = self.level(level)?;
-        (x < width && y < height).then(|| self.read(offset + y * width + x))
+        (x < width && y < height).then(|| match &self.paged {
+            None => self.read(&self.words, offset + y * width + x),
+            Some(paged) => {
+                let (tile, texel) = paged.layout.place(level as u32, x as u32, y as u32);
+                self.read(&paged.read(tile), texel)
+            }
+        })
     }
 
     fn level(&self, level: usize) -> Option<(usize, usize, usize)> {
@@ -121,17 +166,17 @@ impl MipMap {
         (level < *count).then(|| (widths[level] as usize, heights[level] as usize, offsets[level].to_bits() as usize))
     }
 
-    fn read(&self, texel: usize) -> [f32; 4] {
+    fn read(&self, words: &[f32], texel: usize) -> [f32; 4] {
         let at = texel * self.format.words();
         match self.format {
             TexelFormat::Byte => {
-                let [r, g, b, a] = self.words[at].to_bits().to_le_bytes();
+                let [r, g, b, a] = words[at].to_bits().to_le_bytes();
                 let [r, g, b] = [r, g, b].map(|code| self.table[usize::from(code)]);
                 [r, g, b, f32::from(a) / 255.0]
             }
-            TexelFormat::Grey => [self.words[at], self.words[at], self.words[at], 1.0],
-            TexelFormat::Half => unpack_halves([self.words[at], self.words[at + 1]]),
-            TexelFormat::Float => [self.words[at], self.words[at + 1], self.words[at + 2], self.words[at + 3]],
+            TexelFormat::Grey => [words[at], words[at], words[at], 1.0],
+            TexelFormat::Half => unpack_halves([words[at], words[at + 1]]),
+            TexelFormat::Float => [words[at], words[at + 1], words[at + 2], words[at + 3]],
         }
     }
 
@@ -166,7 +211,7 @@ impl MipMap {
             }
             let (width, height, offset) = self.level(level - 1).expect("the level above exists");
             let texels = match &above {
-                None => shrink([width, height], |x, y| self.read(offset + y * width + x)),
+                None => shrink([width, height], |x, y| self.read(&self.words, offset + y * width + x)),
                 Some(texels) => shrink([width, height], |x, y| texels[y * width + x]),
             };
             let (format, first) = (self.format, (offset + width * height) * self.format.words());

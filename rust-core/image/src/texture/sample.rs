@@ -1,25 +1,32 @@
 //! Filtered lookups in one mip map.
 
 use super::mip_map::{Levels, MipMap};
+use super::paged::TileReader;
 use super::texel::{Byte, Float, Grey, Half, LinearCode, Rgba, SrgbCode, TableCode, Texel, TexelFormat};
+use super::texels::{InMemory, InTiles, Level, Quad, Texels};
 use super::wrap::{Filter, Wrap};
 use crate::colour::Transfer;
-use gonio_simd::{F, Lanes, U, Vec2};
+use gonio_simd::{F, Lanes, M, Vec2};
 
-/// The levels that lanes read from.
+/// What lies beyond the image, along each axis.
+pub(crate) type Wraps = [Wrap; 2];
+
+/// Where lanes look.
 #[derive(Clone, Copy)]
-struct Level<L: Lanes> {
+struct Place<L: Lanes> {
+    /// In the unit square, from the image's top left.
+    position: Vec2<L>,
+    /// The footprint.
     width: F<L>,
-    height: F<L>,
-    /// The level's first texel.
-    offset: U<L>,
+    /// Lanes whose texels count.
+    wanted: M<L>,
 }
 
 impl Levels {
     /// Level 0 in every lane.
     #[inline(always)]
     fn finest<L: Lanes>(&self, l: L) -> Level<L> {
-        Level { width: l.f(self.widths[0]), height: l.f(self.heights[0]), offset: l.u(0) }
+        Level { number: l.u(0), width: l.f(self.widths[0]), height: l.f(self.heights[0]), offset: l.u(0) }
     }
 
     /// A level for each lane.
@@ -27,6 +34,7 @@ impl Levels {
     fn at<L: Lanes>(&self, l: L, level: F<L>) -> Level<L> {
         let index = level.to_i32();
         Level {
+            number: index,
             width: l.lookup32(&self.widths, index),
             height: l.lookup32(&self.heights, index),
             offset: l.lookup32(&self.offsets, index).to_bits(),
@@ -52,34 +60,65 @@ impl MipMap {
     /// Any `uv` and `width` are safe, NaN included.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, uv: Vec2<L>, width: F<L>, wrap: [Wrap; 2], filter: Filter) -> [F<L>; 4] {
+        self.look_up(l, &mut InMemory { words: &self.words }, uv, width, (wrap, filter), l.m(true))
+    }
+
+    /// The same for a texture that is paged, in the lanes of `wanted`; the others get numbers without meaning.
+    #[inline(always)]
+    pub(crate) fn sample_tiles<L: Lanes>(
+        &self,
+        l: L,
+        reader: &mut TileReader,
+        uv: Vec2<L>,
+        width: F<L>,
+        how: (Wraps, Filter),
+        wanted: M<L>,
+    ) -> [F<L>; 4] {
+        let Some(paged) = &self.paged else { return [l.f(0.0); 4] };
+        reader.attach(paged.memory());
+        self.look_up(l, &mut InTiles { paged, reader }, uv, width, how, wanted)
+    }
+
+    #[inline(always)]
+    fn look_up<L: Lanes>(
+        &self,
+        l: L,
+        texels: &mut impl Texels<L>,
+        uv: Vec2<L>,
+        width: F<L>,
+        (wrap, filter): (Wraps, Filter),
+        wanted: M<L>,
+    ) -> [F<L>; 4] {
         // Splines reach over the edge, so that how far beyond it a place lies counts.
         let along = wrap.map(|wrap| if (wrap, filter) == (Wrap::Clamp, Filter::Cubic) { Wrap::Black } else { wrap });
         let position = Vec2 { x: along[0].position(uv.x), y: 1.0 - along[1].position(uv.y) };
+        let place = Place { position, width, wanted };
         match (self.format, self.transfer) {
-            (TexelFormat::Byte, Transfer::Linear) => self.filtered::<L, Byte<LinearCode>>(l, position, width, wrap, filter),
-            (TexelFormat::Byte, Transfer::Srgb) => self.filtered::<L, Byte<SrgbCode>>(l, position, width, wrap, filter),
-            (TexelFormat::Byte, _) => self.filtered::<L, Byte<TableCode>>(l, position, width, wrap, filter),
-            (TexelFormat::Grey, _) => self.filtered::<L, Grey>(l, position, width, wrap, filter),
-            (TexelFormat::Half, _) => self.filtered::<L, Half>(l, position, width, wrap, filter),
-            (TexelFormat::Float, _) => self.filtered::<L, Float>(l, position, width, wrap, filter),
+            (TexelFormat::Byte, Transfer::Linear) => self.filtered::<L, Byte<LinearCode>>(l, texels, place, wrap, filter),
+            (TexelFormat::Byte, Transfer::Srgb) => self.filtered::<L, Byte<SrgbCode>>(l, texels, place, wrap, filter),
+            (TexelFormat::Byte, _) => self.filtered::<L, Byte<TableCode>>(l, texels, place, wrap, filter),
+            (TexelFormat::Grey, _) => self.filtered::<L, Grey>(l, texels, place, wrap, filter),
+            (TexelFormat::Half, _) => self.filtered::<L, Half>(l, texels, place, wrap, filter),
+            (TexelFormat::Float, _) => self.filtered::<L, Float>(l, texels, place, wrap, filter),
         }
     }
 
     #[inline(always)]
-    fn filtered<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, width: F<L>, wrap: [Wrap; 2], filter: Filter) -> Rgba<L> {
+    fn filtered<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps, filter: Filter) -> Rgba<L> {
         match filter {
-            Filter::Nearest => self.nearest::<L, T>(l, position, wrap),
-            Filter::Trilinear => self.trilinear::<L, T>(l, position, width, wrap, false),
-            Filter::Cubic => self.trilinear::<L, T>(l, position, width, wrap, true),
+            Filter::Nearest => self.nearest::<L, T>(l, texels, place, wrap),
+            Filter::Trilinear => self.trilinear::<L, T>(l, texels, place, wrap, false),
+            Filter::Cubic => self.trilinear::<L, T>(l, texels, place, wrap, true),
         }
     }
 
     #[inline(always)]
-    fn nearest<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, wrap: [Wrap; 2]) -> Rgba<L> {
+    fn nearest<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps) -> Rgba<L> {
         let level = self.levels.finest(l);
-        let (x, inside_x) = wrap[0].nearest(position.x, level.width);
-        let (y, inside_y) = wrap[1].nearest(position.y, level.height);
-        let mut texel = T::one(l, &self.words, &self.table, y * level.width.to_i32() + x);
+        let (x, inside_x) = wrap[0].nearest(place.position.x, level.width);
+        let (y, inside_y) = wrap[1].nearest(place.position.y, level.height);
+        texels.prepare(&level, &Quad { x: [x, x], y: [y, y] }, place.wanted);
+        let mut texel = texels.one::<T>(l, &self.table, &level, x, y);
         for channel in &mut texel {
             *channel = channel.keep_if(inside_x & inside_y);
         }
@@ -87,8 +126,8 @@ impl MipMap {
     }
 
     #[inline(always)]
-    fn trilinear<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, width: F<L>, wrap: [Wrap; 2], cubic: bool) -> Rgba<L> {
-        let level = self.levels.level_of(l, width);
+    fn trilinear<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps, cubic: bool) -> Rgba<L> {
+        let level = self.levels.level_of(l, place.width);
         let is_finest = !level.gt(0.0).any();
         let finer = level.floor();
         let fraction = level - finer;
@@ -99,7 +138,12 @@ impl MipMap {
                 continue;
             }
             let level = if is_finest { self.levels.finest(l) } else { self.levels.at(l, finer + step) };
-            let texel = if cubic { self.cubic::<L, T>(l, position, level, wrap) } else { self.bilinear::<L, T>(l, position, level, wrap) };
+            let place = Place { wanted: place.wanted & weight.gt(0.0), ..place };
+            let texel = if cubic {
+                self.cubic::<L, T>(l, texels, place, level, wrap)
+            } else {
+                self.bilinear::<L, T>(l, texels, place, level, wrap)
+            };
             for (channel, value) in sum.iter_mut().zip(texel) {
                 *channel = value.mul_add(weight, *channel);
             }
@@ -109,14 +153,15 @@ impl MipMap {
 
     /// Sixteen texels by four lookups between texels, each at the place that gives two texels their weights (Sigg and Hadwiger, 2005).
     #[inline(always)]
-    fn cubic<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, level: Level<L>, wrap: [Wrap; 2]) -> Rgba<L> {
-        let (x, y) = (cubic_places(position.x, level.width), cubic_places(position.y, level.height));
+    fn cubic<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, at: Place<L>, level: Level<L>, wrap: Wraps) -> Rgba<L> {
+        let (x, y) = (cubic_places(at.position.x, level.width), cubic_places(at.position.y, level.height));
         let mut sum = [l.f(0.0); 4];
         for (row, row_weight) in y {
             for (column, column_weight) in x {
-                let place = Vec2 { x: wrap[0].position(column), y: wrap[1].position(row) };
+                let position = Vec2 { x: wrap[0].position(column), y: wrap[1].position(row) };
                 let weight = row_weight * column_weight;
-                for (channel, value) in sum.iter_mut().zip(self.bilinear::<L, T>(l, place, level, wrap)) {
+                let place = Place { position, ..at };
+                for (channel, value) in sum.iter_mut().zip(self.bilinear::<L, T>(l, texels, place, level, wrap)) {
                     *channel = value.mul_add(weight, *channel);
                 }
             }
@@ -125,18 +170,13 @@ impl MipMap {
     }
 
     #[inline(always)]
-    fn bilinear<L: Lanes, T: Texel>(&self, l: L, position: Vec2<L>, level: Level<L>, wrap: [Wrap; 2]) -> Rgba<L> {
-        let (x, y) = (wrap[0].taps(position.x, level.width), wrap[1].taps(position.y, level.height));
-        let width = level.width.to_i32();
+    fn bilinear<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, level: Level<L>, wrap: Wraps) -> Rgba<L> {
+        let (x, y) = (wrap[0].taps(place.position.x, level.width), wrap[1].taps(place.position.y, level.height));
         let adjacent = x.high.eq(x.low + 1).all();
+        texels.prepare(&level, &Quad { x: [x.low, x.high], y: [y.low, y.high] }, place.wanted);
         let mut sum = [l.f(0.0); 4];
-        for (row, row_weight) in [(y.low, y.weights[0]), (y.high, y.weights[1])] {
-            let start = row * width + level.offset;
-            let [a, mut b] = T::pair(l, &self.words, &self.table, start + x.low);
-            // Only at the image's edge is the right neighbour not the next texel.
-            if !adjacent {
-                b = T::one(l, &self.words, &self.table, start + x.high);
-            }
+        for (row, (at, row_weight)) in [(y.low, y.weights[0]), (y.high, y.weights[1])].into_iter().enumerate() {
+            let [a, b] = texels.pair::<T>(l, &self.table, &level, (row, at), [x.low, x.high], adjacent);
             let (weight_a, weight_b) = (x.weights[0] * row_weight, x.weights[1] * row_weight);
             for (channel, value) in sum.iter_mut().enumerate() {
                 *value = a[channel].mul_add(weight_a, b[channel].mul_add(weight_b, *value));

@@ -1,6 +1,7 @@
 //! All textures of a scene, as kernels see them.
 
 use super::mip_map::MipMap;
+use super::paged::{TextureStatistics, TileReader};
 use super::wrap::{Filter, Wrap};
 use gonio_simd::{F, Lanes, M, U, Vec2};
 use std::sync::Arc;
@@ -75,7 +76,7 @@ impl TextureTable {
         self.textures.is_empty()
     }
 
-    /// Bytes held by all textures.
+    /// Bytes of the texels of all textures.
     pub fn bytes(&self) -> usize {
         self.maps().map(|map| map.bytes()).sum()
     }
@@ -101,10 +102,7 @@ impl TextureTable {
     /// answer is zero, and `wrap` does not count. NaN in any argument is safe.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, texture: TextureId, uv: Vec2<L>, width: F<L>, wrap: [Wrap; 2], filter: Filter) -> [F<L>; 4] {
-        let part = match &self.textures[texture as usize] {
-            Texture::Image(map) => Part { maps: std::slice::from_ref(map), map: l.u(0), inside: l.m(true), uv, wrap },
-            Texture::Tiles(tiles) => tiles.part(l, uv),
-        };
+        let part = self.part(l, texture, uv, wrap);
         let mut texel = [l.f(0.0); 4];
         let (maps, mut remaining) = (part.map.to_array(), part.inside.bits());
         // A batch seldom spans more than one tile, so that one pass does.
@@ -118,6 +116,57 @@ impl TextureTable {
             }
         }
         texel
+    }
+
+    /// Whether a texture is read tile by tile, by [`Self::sample_tiles`].
+    #[inline]
+    pub fn is_paged(&self, texture: TextureId) -> bool {
+        match &self.textures[texture as usize] {
+            Texture::Image(map) => map.is_paged(),
+            Texture::Tiles(tiles) => tiles.maps.first().is_some_and(|map| map.is_paged()),
+        }
+    }
+
+    /// What was looked up and read of textures within a memory limit; `None` where all are held whole.
+    pub fn statistics(&self) -> Option<TextureStatistics> {
+        self.maps().find_map(|map| map.paged.as_ref()).map(|paged| paged.memory().statistics())
+    }
+
+    /// [`Self::sample`] for a texture that is paged, in the first `count` lanes; it waits for tiles that are not in memory.
+    #[inline(always)]
+    pub fn sample_tiles<L: Lanes>(
+        &self,
+        l: L,
+        (reader, count): (&mut TileReader, usize),
+        texture: TextureId,
+        uv: Vec2<L>,
+        width: F<L>,
+        (wrap, filter): ([Wrap; 2], Filter),
+    ) -> [F<L>; 4] {
+        let part = self.part(l, texture, uv, wrap);
+        let inside = part.inside & l.first(count);
+        let mut texel = [l.f(0.0); 4];
+        let (maps, mut remaining) = (part.map.to_array(), inside.bits());
+        while remaining != 0 {
+            let chosen = maps[remaining.trailing_zeros() as usize];
+            let here = part.map.eq(chosen) & inside;
+            remaining &= !here.bits();
+            let Some(map) = part.maps.get(chosen as usize) else { continue };
+            let values = map.sample_tiles(l, reader, part.uv, width, (part.wrap, filter), here);
+            for (channel, value) in texel.iter_mut().zip(values) {
+                *channel = here.select(value, *channel);
+            }
+        }
+        texel
+    }
+
+    /// Which images of a texture lanes look into.
+    #[inline(always)]
+    fn part<L: Lanes>(&self, l: L, texture: TextureId, uv: Vec2<L>, wrap: [Wrap; 2]) -> Part<'_, L> {
+        match &self.textures[texture as usize] {
+            Texture::Image(map) => Part { maps: std::slice::from_ref(map), map: l.u(0), inside: l.m(true), uv, wrap },
+            Texture::Tiles(tiles) => tiles.part(l, uv),
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a program reads and writes: surface points, registers and computed parameters, in columns.
 
 use super::{CHUNK, nearby_rays::NearbyRays};
+use gonio_image::texture::TileReader;
 use gonio_nodes::Registers;
 use gonio_simd::{Column, Lanes, Vec3};
 
@@ -106,4 +107,6 @@ pub struct GraphScratch {
     pub(super) registers: Registers,
     /// Rays of steps that look around hits, once there were any.
     pub(super) nearby: Option<Box<NearbyRays>>,
+    /// Tiles of textures within a memory limit.
+    pub(super) tiles: TileReader,
 }

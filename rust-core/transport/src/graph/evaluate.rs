@@ -34,7 +34,7 @@ pub fn evaluate<L: Lanes>(
             len,
             &mut scratch.registers,
             #[inline(always)]
-            |step, io| run_hit_step(l, step, &tables, (around, &mut scratch.nearby), io),
+            |step, io| run_hit_step(l, step, &tables, (around, &mut scratch.nearby, &mut scratch.tiles), io),
         );
         let sources = program.outputs.iter().flat_map(|output| &output.sources);
         for (place, source) in sources.enumerate() {

@@ -8,7 +8,7 @@ use super::{
     shading::{Place, instance_transform, point_value},
 };
 use crate::geometry::GeometryTable;
-use gonio_image::texture::{Filter, TextureTable, Wrap};
+use gonio_image::texture::{Filter, TextureTable, TileReader, Wrap};
 use gonio_nodes::{Io, Operation, Quantity};
 use gonio_simd::{F, Lanes, Vec2};
 
@@ -109,10 +109,11 @@ pub(super) fn run_hit_step<L: Lanes>(
     l: L,
     step: &HitStep,
     points: &Points<'_>,
-    (around, near): (&Around<'_>, &mut Option<Box<NearbyRays>>),
+    (around, near, tiles): (&Around<'_>, &mut Option<Box<NearbyRays>>, &mut TileReader),
     io: &mut Io<'_>,
 ) {
     match step {
+        HitStep::Image { texture, .. } if points.textures.is_paged(*texture) => image_in_tiles(l, step, points, tiles, io),
         HitStep::Image { .. } => image(l, step, points, io),
         HitStep::Primvar { column, fallback } => primvar(l, *column, fallback, points, io),
         HitStep::PrimvarStep { .. } | HitStep::UvTangent { .. } | HitStep::NormalMap { .. } | HitStep::Transform { .. } => {
@@ -134,6 +135,28 @@ fn image<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, io: &mut Io<'_>) {
                 let [x, y] = io.load(l, at);
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
                 let texel = points.textures.sample(l, *texture, Vec2 { x, y }, width, *wrap, *filter);
+                let mut value = texel;
+                for (i, component) in value.iter_mut().enumerate() {
+                    *component = texel[i].mul_add(scale[i], bias[i]);
+                }
+                io.store(at, value);
+            }
+        },
+    );
+}
+
+/// [`image`] for a texture of which not all is in memory.
+#[inline(never)]
+fn image_in_tiles<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, tiles: &mut TileReader, io: &mut Io<'_>) {
+    l.vectorize(
+        #[inline(always)]
+        || {
+            let HitStep::Image { texture, wrap, filter, scale, bias, footprint } = step else { return };
+            for at in (0..io.count).step_by(L::COUNT) {
+                let [x, y] = io.load(l, at);
+                let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
+                let reader = (&mut *tiles, io.count - at);
+                let texel = points.textures.sample_tiles(l, reader, *texture, Vec2 { x, y }, width, (*wrap, *filter));
                 let mut value = texel;
                 for (i, component) in value.iter_mut().enumerate() {
                     *component = texel[i].mul_add(scale[i], bias[i]);

@@ -4,6 +4,7 @@ mod formats;
 mod loading;
 mod lookup;
 mod made;
+mod paged;
 mod profiles;
 mod pyramid;
 mod shared;
