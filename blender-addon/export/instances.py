@@ -26,6 +26,7 @@ class Entry:
     visibility: dict
     pass_index: int
     light_group: str
+    asset: str
     wanted: frozenset
     transforms: np.ndarray
     values: dict
@@ -39,6 +40,7 @@ class Entry:
             and self.visibility == other.visibility
             and self.pass_index == other.pass_index
             and self.light_group == other.light_group
+            and self.asset == other.asset
             and _same(self.transforms, other.transforms)
             and self.values.keys() == other.values.keys()
             and all(_same(self.values[name], other.values[name]) for name in self.values)
@@ -76,7 +78,7 @@ class Instances:
         if group.kept is not None and not self._leave_out(group):
             return 0
         values = _values(group, wanted) if wanted else NO_VALUES
-        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
+        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup, group.asset)
         self._put(number, Entry(mesh, materials, *of_group, wanted, group.matrices, values))
         if is_single:
             self._single[group.object_uid] = number
@@ -133,6 +135,7 @@ class Instances:
             primvars=entry.values or None,
             pass_index=entry.pass_index,
             light_group=entry.light_group,
+            asset=entry.asset,
             index=number if known else None,
         )
         if known:

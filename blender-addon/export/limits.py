@@ -43,8 +43,8 @@ MATERIAL = (
     ("opaque shadows", "use_transparent_shadow", (True,), ""),
     ("bump correction", "cycles.use_bump_map_correction", (True,), ""),
 )
-# Switches of passes that mean no pass that could be missing.
-NO_PASSES = {"use_pass_cryptomatte_accurate"}
+# Switches of passes that mean no pass that could be missing: subsurface light is part of the diffuse passes, as in Cycles.
+NO_PASSES = {"use_pass_cryptomatte_accurate"} | {f"use_pass_subsurface_{part}" for part in ("direct", "indirect", "color")}
 # Passes whose switches are named otherwise.
 OTHER_PASSES = {"pass_render_time"}
 

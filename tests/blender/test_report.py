@@ -15,9 +15,9 @@ def test_settings_and_passes_that_are_not_followed_leave_a_line(tmp_path):
     latest = module("report").latest
     assert not latest().diagnostics, [line.text for line in latest().diagnostics]
     scene.render.use_motion_blur = scene.render.use_multiview = True
-    layer.use_pass_vector = layer.use_pass_cryptomatte_object = layer.use_pass_ambient_occlusion = True
-    layer.use_pass_normal = True
-    wanted = {"Motion blur", "Stereoscopy", "Pass Vector", "Pass Cryptomatte Object", "Pass Ambient Occlusion"}
+    layer.use_pass_vector = layer.use_pass_shadow = True
+    layer.use_pass_normal = layer.use_pass_cryptomatte_object = layer.use_pass_ambient_occlusion = True
+    wanted = {"Motion blur", "Stereoscopy", "Pass Vector", "Pass Shadow"}
     if hasattr(scene, "cycles"):
         scene.cycles.film_transparent_glass = scene.cycles.use_fast_gi = True
         scene.cycles.caustics_refractive = False

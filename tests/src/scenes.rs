@@ -35,6 +35,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        matte_names: Vec::new(),
     });
 }
 

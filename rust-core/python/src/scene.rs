@@ -12,7 +12,7 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{self, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform},
+    scene::{self, Instances, MaterialId, MatteName, MeshId, Origin, Primvar, PrimvarInterpolation, Transform},
 };
 use pyo3::{
     prelude::*,
@@ -39,6 +39,12 @@ impl Scene {
         *scene.borrow_mut() = self;
         Ok(scene)
     }
+}
+
+/// What placements are called in mattes, where an asset is told apart from them.
+fn matte_names(name: &str, asset: &str) -> Vec<MatteName> {
+    let named = || MatteName { first: 0, object: name.into(), asset: asset.into() };
+    if asset.is_empty() { Vec::new() } else { vec![named()] }
 }
 
 #[pymethods]
@@ -78,8 +84,8 @@ impl Scene {
     /// Places a mesh many times, or replaces the placements `index`; gives their number.
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
-    /// shadow), all by default, and `holdout` and `shadow_catcher`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
-    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", index = None))]
+    /// shadow), all by default, and `holdout` and `shadow_catcher`; asset: what the asset matte calls them, their name if empty; primvars: values by name, one a placement, for materials where the mesh has none of the name.
+    #[pyo3(signature = (mesh, materials, transforms, *, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", asset = "", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -91,6 +97,7 @@ impl Scene {
         primvars: Option<&Bound<'_, PyDict>>,
         pass_index: u32,
         light_group: &str,
+        asset: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
         if mesh as usize >= self.scene.meshes.len() {
@@ -120,6 +127,7 @@ impl Scene {
             shadow_catcher,
             pass_index,
             light_group: light_group.to_owned(),
+            matte_names: matte_names(name, asset),
         };
         description::put(&mut self.scene.instances, "instances", instances, index)
     }

@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, Mist, Settings};
+use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, MOST_MATTE_RANKS, Mist, Settings};
 use pyo3::{prelude::*, types::PyDict};
 
 fn wrong(name: &str, problem: String) -> PyErr {
@@ -57,6 +57,11 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             s.mist = Mist { start, depth, falloff };
         }
         "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
+        "cryptomatte_depth" => match value.extract()? {
+            ranks if (2..=MOST_MATTE_RANKS).contains(&ranks) && ranks % 2 == 0 => s.set_cryptomatte_depth(ranks),
+            ranks => return Err(wrong(key, format!("{ranks} was found, expected an even number from 2 to {MOST_MATTE_RANKS}"))),
+        },
+        "occlusion_distance" => s.occlusion_distance = within(key, value, 0.0, f64::from(f32::MAX))? as f32,
         "time_limit" => {
             let limit: f64 = value.extract()?;
             if !(limit.is_finite() && limit >= 0.0) {

@@ -1,6 +1,6 @@
 //! Placed meshes.
 
-use super::{MaterialId, MeshId, Origin, Primvar, Transform};
+use super::{MaterialId, MatteName, MeshId, Origin, Primvar, Transform};
 use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
@@ -59,4 +59,7 @@ pub struct Instances {
     /// The light group that what they emit belongs to.
     #[serde(default)]
     pub light_group: String,
+    /// What the placements are called in mattes, first placements rising from 0; empty where all are called after the origin.
+    #[serde(default)]
+    pub matte_names: Vec<MatteName>,
 }

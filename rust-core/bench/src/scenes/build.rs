@@ -21,6 +21,7 @@ pub(crate) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        matte_names: Vec::new(),
     });
 }
 

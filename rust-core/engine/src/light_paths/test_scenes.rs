@@ -18,5 +18,6 @@ pub(crate) fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]]
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        matte_names: Vec::new(),
     });
 }

@@ -4,7 +4,7 @@ use super::write_atomically;
 use crate::{
     error::{Error, Result},
     film::{Image, Layer, channel_names, is_absolute},
-    scene::Aov,
+    scene::{Aov, matte_key},
 };
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, ImageAttributes, IntegerBounds, Layer as ExrLayer, LayerAttributes,
@@ -61,6 +61,9 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     for (key, value) in &options.attributes {
         note(key, value);
     }
+    for (key, text) in matte_notes(image, "") {
+        attributes.other.insert(Text::from(key.as_str()), AttributeValue::Text(Text::from_slice_unchecked(text.as_bytes())));
+    }
     let encoding = if options.hasty { Encoding::UNCOMPRESSED } else { Encoding::FAST_LOSSLESS };
     let layer = ExrLayer::new((width, height), attributes, encoding, AnyChannels::sort(channels));
     // The picture proper begins at 0; overscan lies outside it.
@@ -69,6 +72,23 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     let mut out = exr::image::Image::from_layer(layer);
     out.attributes = ImageAttributes { display_window: display, pixel_aspect: image.frame.pixel_aspect as f32, ..out.attributes };
     out
+}
+
+/// What headers say about mattes, by key (Cryptomatte specification 1.2, "Metadata"); `prefix` comes before the layers' names. Names of things
+/// may be any UTF-8.
+pub fn matte_notes(image: &Image, prefix: &str) -> Vec<(String, String)> {
+    let mut notes = Vec::new();
+    for layer in &image.layers {
+        // The first layer of a matte speaks for all; their names end with two digits.
+        let Aov::Cryptomatte(kind, 0) = layer.aov else { continue };
+        let base = format!("{prefix}{}", layer.name.strip_suffix("00").unwrap_or(&layer.name));
+        let key = |what: &str| format!("cryptomatte/{}/{what}", matte_key(&base));
+        notes.push((key("name"), base.clone()));
+        notes.push((key("hash"), "MurmurHash3_32".to_owned()));
+        notes.push((key("conversion"), "uint32_to_float32".to_owned()));
+        notes.push((key("manifest"), image.manifests.json(kind)));
+    }
+    notes
 }
 
 fn signed(x: u32) -> i32 {
@@ -89,7 +109,8 @@ fn unit(aov: Aov) -> Option<&'static str> {
         Aov::Luminance => Some("cd/m2"),
         Aov::Illuminance => Some("lx"),
         Aov::Depth | Aov::P => Some("m"),
-        Aov::Color | Aov::LightGroup(_) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
+        Aov::Cost => Some("s"),
+        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
         _ => None,
     }
 }

@@ -30,6 +30,7 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let Workspace { paths, nearest, deposits, statistics, .. } = ws;
     statistics.rays += paths.count as u64;
+    deposits.sums.effort.count(paths);
     intersect::intersect(tables, transport, depth, paths, nearest, deposits);
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);

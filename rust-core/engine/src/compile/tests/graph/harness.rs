@@ -86,6 +86,7 @@ fn scene(nodes: &Value) -> Scene {
         shadow_catcher: false,
         pass_index: 0,
         light_group: String::new(),
+        matte_names: Vec::new(),
     });
     scene
 }
