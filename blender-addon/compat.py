@@ -20,6 +20,7 @@ _SHORT_PASS_NAMES = {
     "Transmission Color": "TransCol",
     "Emission": "Emit",
     "Environment": "Env",
+    "Ambient Occlusion": "AO",
 }
 
 

@@ -51,9 +51,7 @@ SCENES = {
         "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
-    "pass": Limit(
-        "Passes: Vector, Ambient Occlusion, Shadow, Cryptomatte, Render Time, subsurface and volume passes, Shadow Catcher", "absent"
-    ),
+    "pass": Limit("Passes: Vector, Shadow, volume passes", "absent"),
     "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
     "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
     "kind of camera": Limit("Cameras of custom types", "a perspective one"),

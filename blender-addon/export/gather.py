@@ -30,6 +30,8 @@ class Group:
     source: object
     visibility: dict
     pass_index: int
+    # Name of the topmost parent, by which asset mattes go.
+    asset: str
     # The materials' session_uids, 0 for none.
     slots: tuple
     # Whether the first row is the object itself.
@@ -107,6 +109,7 @@ class Walk:
             original.evaluated_get(self._depsgraph) if is_instance else thing,
             seen if parent is None else combined(seen, parent),
             thing.pass_index,
+            _topmost(original).name,
             self._slots(thing, data),
             not is_instance,
             [row],
@@ -119,6 +122,13 @@ class Walk:
             self.materials[uid] = material
             uids.append(uid)
         return tuple(uids)
+
+
+def _topmost(thing):
+    """The object at the top of an object's parents."""
+    while thing.parent is not None:
+        thing = thing.parent
+    return thing
 
 
 def _once(groups):

@@ -29,6 +29,7 @@ class Entry:
     visibility: dict
     pass_index: int
     light_group: str
+    asset: str
     wanted: frozenset
     transforms: np.ndarray
     values: dict
@@ -47,6 +48,7 @@ class Entry:
             and self.pass_index == other.pass_index
             and self.light_group == other.light_group
             and self.linking == other.linking
+            and self.asset == other.asset
             and _same(self.transforms, other.transforms)
             and (self.motion is None) == (other.motion is None)
             and (self.motion is None or _same(self.motion, other.motion))
@@ -102,7 +104,7 @@ class Instances:
         if group.kept is not None and not self._leave_out(group):
             return
         values = _values(group, wanted) if wanted else NO_VALUES
-        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup)
+        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup, group.asset)
         if is_single:
             self._single[group.object_uid] = len(made)
         if group.is_itself and (group.kept is None or group.kept[0]):
@@ -181,6 +183,7 @@ class Instances:
             pass_index=entry.pass_index,
             light_group=entry.light_group,
             linking=None if entry.linking is ALL else entry.linking,
+            asset=entry.asset,
             index=number if known else None,
             **({} if kind == "mesh" else {kind: shown}),
         )

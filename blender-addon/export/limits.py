@@ -34,8 +34,8 @@ MATERIAL = (
 )
 # Kinds of objects that are shown, beside those that become meshes.
 SHOWN = {"MESH", "CURVES", "POINTCLOUD"}
-# Switches of passes that mean no pass that could be missing.
-NO_PASSES = {"use_pass_cryptomatte_accurate"}
+# Switches of passes that mean no pass that could be missing: subsurface light is part of the diffuse passes, as in Cycles.
+NO_PASSES = {"use_pass_cryptomatte_accurate"} | {f"use_pass_subsurface_{part}" for part in ("direct", "indirect", "color")}
 # Passes whose switches are named otherwise.
 OTHER_PASSES = {"pass_render_time"}
 

@@ -68,6 +68,8 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         arguments["noise_threshold"] = 0.0
     if preview and ask("use_preview_direct_light", False):
         arguments.update(max_diffuse_bounces=0, max_glossy_bounces=0)
+    if scene.world is not None and "ambient_occlusion" in passes:
+        arguments["occlusion_distance"] = float(scene.world.light_settings.distance)
     mist = scene.world.mist_settings if scene.world is not None else None
     if mist is not None and "mist" in passes:
         arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])

@@ -109,7 +109,9 @@ class FinalSession:
                 engine.update_stats("", status.text(render.progress, samples))
             layer.report.add_render(render.diagnostics)
             if done or render.progress.samples > 0:
-                passes.write_passes(result, render.film(), kinds, settings, samples)
+                film = render.film()
+                passes.write_passes(result, film, kinds, settings, samples)
+                passes.note_mattes(engine, film, depsgraph.view_layer.name)
 
     def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool, eye: Eye) -> int:
         """Puts the settings into the scene; returns the samples of a pixel."""

@@ -24,6 +24,12 @@ class Scale(Enum):
     SAMPLES = 2
     # Nothing: the values become colours.
     FALSE_COLOR = 3
+    # Nothing: the bits are names.
+    BITS = 4
+    # Seconds, in thousandths.
+    SECONDS = 5
+    # Nothing: numbers become greys.
+    GREY = 6
 
 
 @dataclass(frozen=True)
@@ -40,6 +46,8 @@ class Pass:
         """What the renderer's values are multiplied by."""
         if self.scale is Scale.RADIANCE:
             return exposure / LUMENS_PER_WATT
+        if self.scale is Scale.SECONDS:
+            return 1e3
         return 1.0 / max(1, samples) if self.scale is Scale.SAMPLES else 1.0
 
 
@@ -56,12 +64,19 @@ _LAYER_PASSES = {
     "use_pass_material_index": Pass("Material Index", "X", "VALUE", "material_index"),
     "use_pass_emit": Pass("Emission", "RGB", "COLOR", "emission", Scale.RADIANCE),
     "use_pass_environment": Pass("Environment", "RGB", "COLOR", "environment", Scale.RADIANCE),
+    "use_pass_ambient_occlusion": Pass("Ambient Occlusion", "RGB", "COLOR", "ambient_occlusion", Scale.GREY),
 } | {
     f"use_pass_{lobe}_{part}": Pass(
         f"{lobe.title()} {part.title()}", "RGB", "COLOR", f"{lobe}_{part}", Scale.NONE if part == "color" else Scale.RADIANCE
     )
     for lobe in ("diffuse", "glossy", "transmission")
     for part in ("direct", "indirect", "color")
+}
+
+# By the property of `view_layer.cycles`, which is there while Cycles is.
+_CYCLES_PASSES = {
+    "use_pass_shadow_catcher": Pass("Shadow Catcher", "RGB", "COLOR", "shadow_catcher"),
+    "pass_render_time": Pass("Render Time", "X", "VALUE", "cost", Scale.SECONDS),
 }
 
 # By the property of `view_layer.gonio`.
@@ -78,8 +93,15 @@ _OWN_PASSES = {
     "pass_debug_sample_count": (Pass("Debug Sample Count", "X", "VALUE", "sample_count", Scale.SAMPLES),),
 }
 
+# By the property of the view layer that switches the cryptomatte on, what the names of its layers start with.
+_MATTES = {
+    "use_pass_cryptomatte_object": "CryptoObject",
+    "use_pass_cryptomatte_material": "CryptoMaterial",
+    "use_pass_cryptomatte_asset": "CryptoAsset",
+}
+
 # Properties of a view layer that ask for passes which there are.
-SWITCHES = {"use_pass_combined", *_LAYER_PASSES}
+SWITCHES = {"use_pass_combined", *_LAYER_PASSES, *_CYCLES_PASSES, *_MATTES}
 
 
 def enabled_passes(layer) -> Iterator[Pass]:
@@ -88,9 +110,17 @@ def enabled_passes(layer) -> Iterator[Pass]:
     for switch, kind in _LAYER_PASSES.items():
         if getattr(layer, switch, False):
             yield Pass(compat.pass_name(kind.name), kind.channels, kind.type, kind.source, kind.scale)
+    for switch, kind in _CYCLES_PASSES.items():
+        if getattr(getattr(layer, "cycles", None), switch, False):
+            yield kind
     for switch, kinds in _OWN_PASSES.items():
         if getattr(layer.gonio, switch):
             yield from kinds
+    for switch, name in _MATTES.items():
+        if getattr(layer, switch):
+            # Two ranks a layer.
+            for number in range((layer.pass_cryptomatte_depth + 1) // 2):
+                yield Pass(f"{name}{number:02}", "RGBA", "COLOR", f"{name}{number:02}", Scale.BITS)
     for group in layer.lightgroups:
         # The name that Cycles gives the pass too.
         yield Pass(f"Combined_{group.name}", "RGB", "COLOR", f"lightgroup:{group.name}", Scale.RADIANCE)
@@ -138,6 +168,12 @@ def write_passes(result, film, kinds: list[Pass], settings, samples: int) -> Non
             targets[kind.name].rect.foreach_set(_pixels(film, kind, settings, samples))
 
 
+def note_mattes(engine, film, layer: str) -> None:
+    """Tells Blender the names in the cryptomattes of a view layer, by which its node and its files know them."""
+    for key, text in film.matte_notes(f"{layer}.").items():
+        engine.get_result().stamp_data_add_field(key, text)
+
+
 def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     """A pass of a film as Blender takes pixels."""
     if kind.scale is Scale.FALSE_COLOR:
@@ -145,7 +181,9 @@ def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     if kind == COMBINED:
         return read_combined(film, settings.film_exposure, ToneMap.of(settings))
     flat = read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
-    return to_working(flat, len(kind.channels)) if kind.type == "COLOR" else flat
+    if kind.scale is Scale.GREY:
+        return numpy.repeat(flat, len(kind.channels))
+    return to_working(flat, len(kind.channels)) if kind.type == "COLOR" and kind.scale is not Scale.BITS else flat
 
 
 def read_combined(film, exposure: float, tone_map: ToneMap | None) -> numpy.ndarray:

@@ -78,6 +78,8 @@ class GONIO_VIEWLAYER_PT_passes_data(LayerPanel, Panel):
         column.prop(layer.gonio, "denoising_store_passes")
         column = layout.column(heading="Debug")
         column.prop(layer.gonio, "pass_debug_sample_count")
+        if hasattr(layer, "cycles") and hasattr(layer.cycles, "pass_render_time"):
+            column.prop(layer.cycles, "pass_render_time")
 
 
 class GONIO_VIEWLAYER_PT_passes_light(LayerPanel, Panel):
@@ -91,6 +93,21 @@ class GONIO_VIEWLAYER_PT_passes_light(LayerPanel, Panel):
         column = layout.column(heading="Other")
         column.prop(layer, "use_pass_emit", text="Emission")
         column.prop(layer, "use_pass_environment")
+        column.prop(layer, "use_pass_ambient_occlusion", text="Ambient Occlusion")
+        if hasattr(layer, "cycles"):
+            column.prop(layer.cycles, "use_pass_shadow_catcher")
+
+
+class GONIO_VIEWLAYER_PT_passes_cryptomatte(LayerPanel, Panel):
+    bl_label = "Cryptomatte"
+
+    def draw_passes(self, layout, layer):
+        column = layout.column(heading="Include")
+        for kind in ("object", "material", "asset"):
+            column.prop(layer, f"use_pass_cryptomatte_{kind}", text=kind.title())
+        column = layout.column()
+        column.active = any(getattr(layer, f"use_pass_cryptomatte_{kind}") for kind in ("object", "material", "asset"))
+        column.prop(layer, "pass_cryptomatte_depth", text="Levels")
 
 
 class GONIO_VIEWLAYER_PT_passes_aov(LayerPanel, Panel):
@@ -118,5 +135,6 @@ PANELS = (
     GONIO_VIEWLAYER_PT_passes_data,
     GONIO_VIEWLAYER_PT_passes_light,
     GONIO_VIEWLAYER_PT_passes_photometry,
+    GONIO_VIEWLAYER_PT_passes_cryptomatte,
     GONIO_VIEWLAYER_PT_passes_aov,
 )

@@ -15,9 +15,9 @@ def test_settings_and_passes_that_are_not_followed_leave_a_line(tmp_path):
     latest = module("report").latest
     assert not latest().diagnostics, [line.text for line in latest().diagnostics]
     scene.render.use_motion_blur = True
-    layer.use_pass_vector = layer.use_pass_cryptomatte_object = layer.use_pass_ambient_occlusion = True
-    layer.use_pass_normal = True
-    wanted = {"Motion blur", "Pass Vector", "Pass Cryptomatte Object", "Pass Ambient Occlusion"}
+    layer.use_pass_vector = layer.use_pass_shadow = True
+    layer.use_pass_normal = layer.use_pass_cryptomatte_object = layer.use_pass_ambient_occlusion = True
+    wanted = {"Pass Vector", "Pass Shadow"}
     if hasattr(scene, "cycles"):
         scene.cycles.use_fast_gi = True
         wanted.add("Fast GI Approximation")

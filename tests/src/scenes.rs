@@ -37,6 +37,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
         pass_index: 0,
         light_group: String::new(),
         linking: Default::default(),
+        matte_names: Vec::new(),
     });
 }
 

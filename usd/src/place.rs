@@ -1,5 +1,6 @@
 //! From models to the scene: groups multiplied out, shapes of equal mesh and materials gathered into one set of instances.
 
+mod matte_name;
 mod rebound;
 
 use crate::context::Context;
@@ -73,6 +74,8 @@ pub struct Placer<'w, 'a, 'py> {
     gathered: Vec<Gathered>,
     placement_count: usize,
     geometry_lights: HashMap<(String, MaterialId), MaterialId>,
+    /// Paths of prims whose kind is that of assets.
+    assets: HashSet<String>,
 }
 
 /// Places the world. `failed` are the meshes that could not be built; they are removed from the scene.
@@ -89,6 +92,7 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         role: None,
     };
     let rebound = rebound::materials(context, world, &placement);
+    let assets = matte_name::assets(context);
     let mut placer = Placer {
         context,
         failed,
@@ -97,6 +101,7 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         gathered: Vec::new(),
         placement_count: 0,
         geometry_lights: HashMap::new(),
+        assets,
     };
     placer.place(world, &placement)?;
     placer.finish();
@@ -174,7 +179,11 @@ impl<'py> Placer<'_, '_, 'py> {
             let repeats = if primvar.is_varying { 1 } else { transforms.len() };
             (0..repeats).for_each(|_| values.extend_from_slice(&primvar.values));
         }
-        gathered.instances.transforms.extend(transforms);
+        let instances = &mut gathered.instances;
+        let path = placement.path(&element.path);
+        let instance = placement.renamed.as_ref().map(|(_, instance)| instance.as_str());
+        instances.matte_names.push(matte_name::of(path, instance, instances.transforms.len(), &self.assets));
+        instances.transforms.extend(transforms);
         Ok(())
     }
 
@@ -209,6 +218,7 @@ impl<'py> Placer<'_, '_, 'py> {
             pass_index: 0,
             light_group: key.3.clone(),
             linking: gonio::scene::Linking::default(),
+            matte_names: Vec::new(),
         };
         self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
         self.places.insert(key.clone(), place);

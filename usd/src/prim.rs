@@ -70,6 +70,12 @@ impl<'py> Prim<'py> {
         *self.is_instance.get_or_init(|| self.flag(intern!(self.py(), "IsInstance")))
     }
 
+    /// The kind in the model hierarchy, such as `component`; empty for none.
+    pub fn kind(&self) -> String {
+        let kind = self.object.call_method1(intern!(self.py(), "GetMetadata"), (intern!(self.py(), "kind"),));
+        kind.and_then(|kind| kind.extract()).unwrap_or_default()
+    }
+
     /// The prototype of a native instance.
     pub fn prototype(&self) -> Option<Self> {
         let prototype = Self::new(self.object.call_method0(intern!(self.py(), "GetPrototype")).ok()?);

@@ -3,23 +3,19 @@
 use crate::context::Context;
 use crate::prim::Prim;
 use gonio::film::{Image, Layer};
-use gonio::scene::{
-    Aov, Camera, Channel, Graph, Input, LightPart, Material, Operation, ScatteringKind, Scene, Settings, ShaderOutput, ShaderValue,
-};
+use gonio::scene::{AMBIENT_OCCLUSION, Aov, EYE_NORMAL, EYE_POSITION, LightPath, MatteKind, PRIMVARS, Settings, ShaderValue};
 
 /// What a variable shows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// A pass.
     Pass(Aov),
-    /// Light by the kind of its first scattering, the colour of the surface included: the sum of these parts.
-    Light(ScatteringKind, Vec<LightPart>),
-    /// A primvar of the first surface.
-    Primvar(ShaderValue, String),
-    /// The shading normal in the camera's space (+z towards the eye).
-    EyeNormal,
-    /// The position in the camera's space, metres.
-    EyePosition,
+    /// Light of an expression that gonio can show.
+    LightPath(String),
+    /// A value of the first surface that shading nodes compute: a primvar, or a vector in the camera's space.
+    Shader(ShaderValue, String),
+    /// All layers of a cryptomatte.
+    Cryptomatte(MatteKind),
 }
 
 /// A `RenderVar` prim.
@@ -41,11 +37,9 @@ pub(crate) fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Opt
     let stated = if stated.is_empty() { name.clone() } else { stated };
     let source = match kind.as_str() {
         "lpe" => light_path(&stated),
-        "primvar" => Some(Source::Primvar(value_kind(context, prim), stated.clone())),
-        _ => match stated.strip_prefix("primvars:") {
-            Some(primvar) => Some(Source::Primvar(value_kind(context, prim), primvar.to_owned())),
-            None => raw(&stated),
-        },
+        "primvar" => Some(Source::Shader(value_kind(context, prim), format!("{PRIMVARS}{}", stated.trim_start_matches(PRIMVARS)))),
+        _ if stated.starts_with(PRIMVARS) => Some(Source::Shader(value_kind(context, prim), stated.clone())),
+        _ => raw(&stated),
     };
     if source.is_none() {
         context.unsupported(&format!("the render variable '{stated}' ({})", if kind.is_empty() { "raw" } else { &kind }), &prim.origin());
@@ -66,9 +60,10 @@ fn value_kind<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> ShaderVa
 
 fn raw(name: &str) -> Option<Source> {
     match name {
-        "Neye" | "Ncam" => Some(Source::EyeNormal),
-        "Peye" | "Pcam" => Some(Source::EyePosition),
-        name => aov_by_name(name).map(Source::Pass),
+        "Neye" | "Ncam" => Some(Source::Shader(ShaderValue::Color, EYE_NORMAL.to_owned())),
+        "Peye" | "Pcam" => Some(Source::Shader(ShaderValue::Color, EYE_POSITION.to_owned())),
+        AMBIENT_OCCLUSION => Some(Source::Shader(ShaderValue::Number, name.to_owned())),
+        name => MatteKind::by_name(name).map(Source::Cryptomatte).or_else(|| aov_by_name(name).map(Source::Pass)),
     }
 }
 
@@ -85,31 +80,13 @@ pub fn aov_by_name(name: &str) -> Option<Aov> {
     })
 }
 
-/// Light path expressions of one scattering kind: `C<RD>` and its like, then whether light comes straight, from other surfaces, or both.
+/// The pass of a light path expression, if gonio can show it.
 fn light_path(expression: &str) -> Option<Source> {
-    use LightPart::{Direct, Indirect};
-    let path: String = expression.trim().trim_start_matches("lpe:").split_whitespace().collect();
-    if matches!(path.as_str(), "C.*" | "C.*[LO]" | "C.*[<L.>O]" | "C.*<L.>" | "C.*L" | "C[LO]|C.*[LO]") {
-        return Some(Source::Pass(Aov::Color));
+    match gonio::scene::light_path(expression)? {
+        // With coverage.
+        LightPath::Classes(LightPath::ALL) => Some(Source::Pass(Aov::Color)),
+        _ => Some(Source::LightPath(expression.to_owned())),
     }
-    if matches!(path.as_str(), "CO" | "C[O]" | "C<O>" | "C<O.>") {
-        return Some(Source::Pass(Aov::Emission));
-    }
-    const KINDS: [(ScatteringKind, &[&str]); 3] = [
-        (ScatteringKind::Diffuse, &["<RD>", "<.D>", "D"]),
-        (ScatteringKind::Glossy, &["<R[SG]>", "<R[GS]>", "<RS>", "<RG>", "<.S>", "<.G>", "[SG]", "[GS]", "S", "G"]),
-        (ScatteringKind::Transmission, &["<T[SG]>", "<T[GS]>", "<T.>", "<TS>", "<TG>", "<TD>"]),
-    ];
-    let path = path.strip_prefix('C')?;
-    let found = KINDS.iter().find_map(|(kind, names)| names.iter().find_map(|name| Some((*kind, path.strip_prefix(name)?))));
-    let (kind, rest) = found?;
-    let parts = match rest {
-        "L" | "<L.>" | "[<L.>]" | "[LO]" | "[OL]" | "[<L.>O]" | "[O<L.>]" => vec![Direct],
-        ".+L" | ".+<L.>" | ".+[LO]" | ".+[<L.>O]" | "..*L" | "..*<L.>" | "..*[<L.>O]" => vec![Indirect],
-        ".*L" | ".*<L.>" | ".*[LO]" | ".*[<L.>O]" => vec![Direct, Indirect],
-        _ => return None,
-    };
-    Some(Source::Light(kind, parts))
 }
 
 /// Asks for the passes of variables in place of those that are set. Where there are none, the settings stay.
@@ -127,66 +104,14 @@ pub fn ask_for_passes(settings: &mut Settings, variables: &[RenderVariable]) {
     }
 }
 
-/// The passes that a variable's layer is made of; shader passes are entered in the settings.
+/// The passes that a variable's layers are, entered in the settings.
 fn passes(settings: &mut Settings, variable: &RenderVariable) -> Vec<Aov> {
-    let mut shader = |kind, name: &str| {
-        let names = &mut settings.shader_passes;
-        let number = names.iter().position(|known| known == name).unwrap_or(names.len());
-        if number == names.len() {
-            names.push(name.to_owned());
-        }
-        vec![Aov::Shader(kind, number as u16)]
-    };
     match &variable.source {
         Source::Pass(aov) => vec![*aov],
-        Source::Light(kind, parts) => parts.iter().chain([&LightPart::Color]).map(|part| Aov::Light(*kind, *part)).collect(),
-        Source::Primvar(kind, name) => shader(*kind, name),
-        Source::EyeNormal => shader(ShaderValue::Color, EYE_NORMAL),
-        Source::EyePosition => shader(ShaderValue::Color, EYE_POSITION),
+        Source::LightPath(expression) => settings.light_path_pass(expression).into_iter().collect(),
+        Source::Shader(kind, name) => settings.shader_pass(*kind, name).into_iter().collect(),
+        Source::Cryptomatte(kind) => settings.matte_layers(*kind).collect(),
     }
-}
-
-/// Names of the shader passes in the camera's space.
-const EYE_NORMAL: &str = "Neye";
-const EYE_POSITION: &str = "Peye";
-
-/// Gives all materials the outputs that variables show; to be called when the camera is chosen.
-pub fn add_shader_outputs(scene: &mut Scene, variables: &[RenderVariable]) {
-    let camera = scene.cameras.get(scene.settings.camera as usize).cloned().unwrap_or_default();
-    for variable in variables {
-        for material in &mut scene.materials {
-            let graph = &mut material.graph;
-            let (name, output) = match &variable.source {
-                Source::Primvar(_, name) => {
-                    (name.as_str(), graph.add(Operation::Primvar { name: name.clone(), fallback: [0.0; 4] }, Vec::new()))
-                }
-                Source::EyeNormal => (EYE_NORMAL, to_eye(graph, Operation::Normal, &camera, false)),
-                Source::EyePosition => (EYE_POSITION, to_eye(graph, Operation::Position, &camera, true)),
-                Source::Pass(_) | Source::Light(..) => continue,
-            };
-            set_output(material, name, output);
-        }
-    }
-}
-
-fn set_output(material: &mut Material, name: &str, node: gonio::scene::NodeId) {
-    // Scenes that are looked at by one camera after the other have earlier ones.
-    material.shader_outputs.retain(|output| output.name != name);
-    let (color, value) = (Input::Node(node, Channel::Rgb), Input::Node(node, Channel::R));
-    material.shader_outputs.push(ShaderOutput { name: name.to_owned(), color, value });
-}
-
-/// A node's value carried from the world to the camera's space.
-fn to_eye(graph: &mut Graph, operation: Operation, camera: &Camera, is_point: bool) -> gonio::scene::NodeId {
-    let columns = camera.transform.columns;
-    let rows = std::array::from_fn(|axis| {
-        let length = columns[axis].iter().map(|x| x * x).sum::<f64>().sqrt();
-        let unit = columns[axis].map(|x| if length > 0.0 { x / length } else { 0.0 });
-        let offset: f64 = if is_point { -(0..3).map(|i| unit[i] * columns[3][i]).sum::<f64>() } else { 0.0 };
-        [unit[0] as f32, unit[1] as f32, unit[2] as f32, offset as f32]
-    });
-    let world = graph.add(operation, Vec::new());
-    graph.add(Operation::Transform3d { rows }, vec![Input::Node(world, Channel::Rgb)])
 }
 
 /// The layers of a picture that variables name, in their order, with their names.
@@ -194,7 +119,16 @@ pub fn layers(image: &Image, settings: &Settings, variables: &[RenderVariable]) 
     let mut settings = settings.clone();
     let mut layers: Vec<Layer> = Vec::with_capacity(variables.len());
     for variable in variables {
-        let found = layer(image, &passes(&mut settings, variable), variable);
+        let passes = passes(&mut settings, variable);
+        if let Source::Cryptomatte(_) = variable.source {
+            layers.extend(
+                passes.iter().enumerate().filter_map(|(number, aov)| {
+                    Some(Layer { name: format!("{}{number:02}", variable.name), ..image.layer(*aov)?.clone() })
+                }),
+            );
+            continue;
+        }
+        let found = layer(image, &passes, variable);
         // These have one name in files, whatever the variable is called.
         let is_there =
             |new: &Layer| matches!(new.aov, Aov::Color | Aov::Luminance | Aov::Illuminance) && layers.iter().any(|l| l.aov == new.aov);
@@ -204,17 +138,10 @@ pub fn layers(image: &Image, settings: &Settings, variables: &[RenderVariable]) 
 }
 
 fn layer(image: &Image, passes: &[Aov], variable: &RenderVariable) -> Option<Layer> {
-    let parts: Vec<&Layer> = passes.iter().filter_map(|aov| image.layer(*aov)).collect();
-    let Source::Light(..) = variable.source else {
-        let pass = *parts.first()?;
-        // A lone channel must not be called as one of the colour's.
-        let is_taken = pass.channels == 1 && ["R", "G", "B", "A"].contains(&variable.name.as_str());
-        return Some(if is_taken { pass.clone() } else { Layer { name: variable.name.clone(), ..pass.clone() } });
-    };
-    // Light passes are divided by the colour, which is the last.
-    let (colour, lights) = parts.split_last()?;
-    let values = colour.values.iter().enumerate().map(|(at, colour)| colour * lights.iter().map(|light| light.values[at]).sum::<f32>());
-    Some(Layer { aov: passes[0], name: variable.name.clone(), values: values.collect(), channels: colour.channels })
+    let pass = image.layer(*passes.first()?)?;
+    // A lone channel must not be called as one of the colour's.
+    let is_taken = pass.channels == 1 && ["R", "G", "B", "A"].contains(&variable.name.as_str());
+    Some(if is_taken { pass.clone() } else { Layer { name: variable.name.clone(), ..pass.clone() } })
 }
 
 #[cfg(test)]
@@ -225,19 +152,17 @@ mod tests {
     fn passes_have_the_names_of_other_renderers() {
         assert_eq!(aov_by_name("Ci"), Some(Aov::Color));
         assert_eq!(aov_by_name("cameraDepth"), Some(Aov::Depth));
-        assert_eq!(raw("Neye"), Some(Source::EyeNormal));
+        assert_eq!(raw("Neye"), Some(Source::Shader(ShaderValue::Color, EYE_NORMAL.into())));
+        assert_eq!(raw("crypto_object"), Some(Source::Cryptomatte(MatteKind::Object)));
         assert_eq!(raw("something else"), None);
     }
 
     #[test]
-    fn light_paths_are_of_one_kind() {
-        use LightPart::{Direct, Indirect};
+    fn light_paths_that_part_a_class_are_unknown() {
         assert_eq!(light_path("lpe:C.*[LO]"), Some(Source::Pass(Aov::Color)));
-        assert_eq!(light_path("C<RD>[<L.>O]"), Some(Source::Light(ScatteringKind::Diffuse, vec![Direct])));
-        assert_eq!(light_path("C<RD>.+[<L.>O]"), Some(Source::Light(ScatteringKind::Diffuse, vec![Indirect])));
-        assert_eq!(light_path("C<R[SG]> .* L"), Some(Source::Light(ScatteringKind::Glossy, vec![Direct, Indirect])));
-        assert_eq!(light_path("C<TS>[LO]"), Some(Source::Light(ScatteringKind::Transmission, vec![Direct])));
-        for other in ["C<RD><RD>L", "C<RD>", "", "C<L.'key'>", "CDDL"] {
+        assert_eq!(light_path("C<RD>[<L.>O]"), Some(Source::LightPath("C<RD>[<L.>O]".into())));
+        assert_eq!(light_path("C.*<L.'key'>"), Some(Source::LightPath("C.*<L.'key'>".into())));
+        for other in ["C<RD><RD>L", "C<RD>", "", "CDDL"] {
             assert_eq!(light_path(other), None, "{other}");
         }
     }

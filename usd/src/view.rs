@@ -116,7 +116,6 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
         notes.push(note(&format!("there is no light; {words} lights it (--disable-camera-light takes it away)")));
         scene.lights.push(light);
     }
-    render_variable::add_shader_outputs(scene, &variables);
     conform_cameras(scene, framing.as_ref().map_or(ConformPolicy::default(), |framing| framing.conform));
     let window = framing.filter(|_| options.data_window).and_then(|Framing { data_window, .. }| data_window::apply(scene, data_window));
     notes.extend(window.map(|problem| Diagnostic::warning(&Origin::new("render settings"), problem)));

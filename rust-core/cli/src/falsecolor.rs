@@ -71,6 +71,7 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
         layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
         samples: 1,
         mean_samples: 1.0,
+        manifests: Default::default(),
     };
     Ok(Canvas { rgba: display(&image, &Look::default(), Execution::detect()), size: picture.size })
 }

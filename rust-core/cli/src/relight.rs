@@ -103,7 +103,15 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
     }
     layers.insert(0, Layer { aov: Aov::Color, name: "color".into(), values: colour, channels: 4 });
     let resolution = [width as u32, height as u32];
-    Image { resolution, window: Crop { min: [0, 0], max: resolution }, frame: Frame::default(), layers, samples: 0, mean_samples: 0.0 }
+    Image {
+        resolution,
+        window: Crop { min: [0, 0], max: resolution },
+        frame: Frame::default(),
+        layers,
+        samples: 0,
+        mean_samples: 0.0,
+        manifests: Default::default(),
+    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     film::{Film, Image, Layer},
     render::Render,
-    scene::{Aov, Crop, Filter, Scene, Settings},
+    scene::{AMBIENT_OCCLUSION, Aov, Crop, EYE_NORMAL, EYE_POSITION, Filter, MatteKind, Scene, Settings},
     texture::TextureStatistics,
 };
 use gonio_simd::Execution;
@@ -258,8 +258,11 @@ impl Job<'_> {
         settings.clamp_direct = options.clamp_direct;
         settings.clamp_indirect = options.clamp_indirect;
         settings.time_limit_s = options.time_limit;
+        if let Some(ranks) = options.cryptomatte_depth {
+            settings.set_cryptomatte_depth(ranks.next_multiple_of(2));
+        }
         if !options.aov.is_empty() {
-            settings.aovs = aovs(&options.aov)?;
+            set_aovs(settings, &options.aov)?;
         }
         if !settings.aovs.contains(&Aov::Color) {
             // Pictures for looking at are made of it, and it costs nothing.
@@ -470,13 +473,26 @@ fn samples_of(settings: &Settings, render: &Render, image: &Image) -> String {
     format!("{samples} samples a pixel")
 }
 
-fn aovs(names: &[String]) -> Result<Vec<Aov>> {
-    let known = Aov::NAMES.map(|(_, name)| name).join(", ");
-    let one = |name: &String| {
-        let problem = || Error::Setting { name: "aov".into(), problem: format!("'{name}' was found, expected one of {known}") };
-        aov_by_name(name.trim()).ok_or_else(problem)
-    };
-    names.iter().map(one).collect()
+/// Asks for passes by their names.
+fn set_aovs(settings: &mut Settings, names: &[String]) -> Result<()> {
+    settings.aovs.clear();
+    for name in names.iter().map(|name| name.trim()) {
+        let found = aov_by_name(name).map(|aov| vec![aov]).or_else(|| settings.named_passes(name));
+        let found = found.ok_or_else(|| Error::setting("aov", unknown_aov(name)))?;
+        settings.aovs.extend(found);
+    }
+    Ok(())
+}
+
+fn unknown_aov(name: &str) -> String {
+    if name.starts_with("lpe:") {
+        return format!(
+            "'{name}' was found, expected an expression that asks for whole kinds of light, such as lpe:C<RD>L or lpe:C<RS>.*L"
+        );
+    }
+    let standard = [EYE_NORMAL, EYE_POSITION, AMBIENT_OCCLUSION, "primvars:NAME", "lightgroup:NAME", "lpe:EXPRESSION"];
+    let known = Aov::NAMES.iter().map(|(_, name)| *name).chain(MatteKind::NAMES.iter().map(|(_, name, _)| *name)).chain(standard);
+    format!("'{name}' was found, expected one of {}", known.collect::<Vec<_>>().join(", "))
 }
 
 /// Pixels, or parts of the picture where a number has a decimal point.

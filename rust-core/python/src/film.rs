@@ -3,7 +3,7 @@
 use crate::{error::exception, pass::Pass, picture::flat};
 use gonio::{
     film::{Image, Layer, channel_names, edge_aware},
-    output::{DisplaySpace, ExrOptions, Look, ToneMap, display_linear, log_average, write_exr, write_picture},
+    output::{DisplaySpace, ExrOptions, Look, ToneMap, display_linear, log_average, matte_notes, write_exr, write_picture},
     scene::Aov,
 };
 use gonio_simd::Execution;
@@ -11,7 +11,7 @@ use pyo3::{
     exceptions::{PyKeyError, PyValueError},
     prelude::*,
 };
-use std::path::PathBuf;
+use std::{collections::HashMap, path::PathBuf};
 
 /// A developed image: passes as float32 arrays, rows from the top.
 #[pyclass(frozen, module = "gonio")]
@@ -31,8 +31,9 @@ impl Film {
     /// A film of other values of the colour pass alone.
     fn with_colour(&self, values: Vec<f32>) -> Self {
         let Image { resolution, window, frame, samples, mean_samples, .. } = self.image;
+        let manifests = self.image.manifests.clone();
         let layers = vec![Layer { aov: Aov::Color, name: Aov::Color.name().to_owned(), values, channels: 4 }];
-        Self { image: Image { resolution, window, frame, layers, samples, mean_samples }, exposure: self.exposure }
+        Self { image: Image { resolution, window, frame, layers, samples, mean_samples, manifests }, exposure: self.exposure }
     }
 }
 
@@ -120,6 +121,11 @@ impl Film {
     fn write_exr(&self, py: Python<'_>, path: PathBuf, half: bool) -> PyResult<()> {
         let options = ExrOptions { half, exposure: self.exposure, ..ExrOptions::default() };
         py.detach(|| write_exr(&path, &self.image, &options)).map_err(exception)
+    }
+    /// What headers of files say about the film's cryptomattes (name, hash, conversion, manifest), by key; `prefix` comes before the layers' names.
+    #[pyo3(signature = (prefix = ""))]
+    fn matte_notes(&self, py: Python<'_>, prefix: &str) -> HashMap<String, String> {
+        py.detach(|| matte_notes(&self.image, prefix).into_iter().collect())
     }
     /// The log-average luminance of the colour pass, which the photographic operators adapt to.
     fn log_average(&self, py: Python<'_>) -> f32 {

@@ -13,7 +13,7 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
+    scene::{self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
 };
 use pyo3::{
     prelude::*,
@@ -57,6 +57,12 @@ impl Scene {
         }
         Ok(geometry)
     }
+}
+
+/// What placements are called in mattes, where an asset is told apart from them.
+fn matte_names(name: &str, asset: &str) -> Vec<MatteName> {
+    let named = || MatteName { first: 0, object: name.into(), asset: asset.into() };
+    if asset.is_empty() { Vec::new() } else { vec![named()] }
 }
 
 #[pymethods]
@@ -145,9 +151,10 @@ impl Scene {
     ///
     /// transforms: float buffer (N, 4, 4) of matrices for column vectors; visibility: which rays see them (camera, diffuse, glossy, transmission,
     /// shadow), all by default, and `holdout` and `shadow_catcher`; linking: what is lit by what they emit, and what casts shadows of it, described
-    /// as in `to_dict`; primvars: values by name, one a placement, for materials where the mesh has none of the name.
+    /// as in `to_dict`; asset: what the asset matte calls them, their name if empty; primvars: values by name, one a placement, for materials where
+    /// the mesh has none of the name.
     /// motion: float buffer (K, N, 4, 4), the same at K evenly spaced times over the shutter.
-    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", linking = None, index = None))]
+    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", linking = None, asset = "", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -163,6 +170,7 @@ impl Scene {
         pass_index: u32,
         light_group: &str,
         linking: Option<&Bound<'_, PyAny>>,
+        asset: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
         let geometry = self.geometry(mesh, curves, points)?;
@@ -200,6 +208,7 @@ impl Scene {
             pass_index,
             light_group: light_group.to_owned(),
             linking: linking.map(|linking| description::read(linking, "linking")).transpose()?.unwrap_or_default(),
+            matte_names: matte_names(name, asset),
         };
         description::put(&mut self.scene.instances, "instances", instances, index)
     }

@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, Mist, Settings, parse_bytes};
+use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, MOST_MATTE_RANKS, Mist, Settings, parse_bytes};
 use pyo3::{prelude::*, types::PyDict};
 use std::path::PathBuf;
 
@@ -72,6 +72,11 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "row_exposure" => s.shutter.row_exposure = within(key, value, 0.0, 1.0)? as f32,
         "motion_interpolation" => s.shutter.linear = named(key, value, &[(false, "decomposed"), (true, "linear")])?,
         "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
+        "cryptomatte_depth" => match value.extract()? {
+            ranks if (2..=MOST_MATTE_RANKS).contains(&ranks) && ranks % 2 == 0 => s.set_cryptomatte_depth(ranks),
+            ranks => return Err(wrong(key, format!("{ranks} was found, expected an even number from 2 to {MOST_MATTE_RANKS}"))),
+        },
+        "occlusion_distance" => s.occlusion_distance = within(key, value, 0.0, f64::from(f32::MAX))? as f32,
         "time_limit" => {
             let limit: f64 = value.extract()?;
             if !(limit.is_finite() && limit >= 0.0) {

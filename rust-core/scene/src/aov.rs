@@ -1,5 +1,6 @@
 //! Output variables: what passes show.
 
+use super::cryptomatte::MatteKind;
 use serde::{Deserialize, Serialize};
 
 /// An output variable.
@@ -50,6 +51,39 @@ pub enum Aov {
     Shader(ShaderValue, u16),
     /// The colour that a group of lights brings; its name is an entry of [`Settings::light_groups`]. All groups of a scene sum up to the colour.
     LightGroup(u16),
+    /// Two ranks of a cryptomatte: the value of a name and its share of the pixel, twice. The second number is that of the layer.
+    Cryptomatte(MatteKind, u8),
+    /// Light of the classes whose bits are set, see [`super::LightPath`], times the camera's exposure; what it is called is an entry of
+    /// [`super::Settings::light_paths`].
+    LightPaths(u8, u16),
+    /// How much of the light that shadow catchers would send is there in spite of the objects; 1 where there are no catchers.
+    ShadowCatcher,
+    /// Seconds spent on the pixel: those of its tile, shared out by rays.
+    Cost,
+    /// Number of the placement in its set.
+    InstanceId,
+    /// Number of the triangle in its mesh.
+    ElementId,
+}
+
+/// What stands before an expression in the name of its pass.
+pub(super) const LIGHT_PATH: &str = "lpe:";
+/// What stands before the name of a primvar in the name of its pass.
+pub const PRIMVARS: &str = "primvars:";
+/// The pass of normals in the camera's space, +z towards the eye.
+pub const EYE_NORMAL: &str = "Neye";
+/// The pass of positions in the camera's space, metres.
+pub const EYE_POSITION: &str = "Peye";
+/// The pass of ambient occlusion: how open surfaces are to their surroundings.
+pub const AMBIENT_OCCLUSION: &str = "ambient_occlusion";
+
+/// The kind of a shader pass whose output no material has to state.
+pub(super) fn standard_pass(name: &str) -> Option<ShaderValue> {
+    match name {
+        EYE_NORMAL | EYE_POSITION => Some(ShaderValue::Color),
+        AMBIENT_OCCLUSION => Some(ShaderValue::Number),
+        name => name.starts_with(PRIMVARS).then_some(ShaderValue::Color),
+    }
 }
 
 /// What stands before the name of a light group in the name of its pass.
@@ -95,8 +129,8 @@ pub enum LightPart {
 }
 
 impl Aov {
-    /// All passes with their names, but for shader passes and light groups.
-    pub const NAMES: [(Self, &'static str); 28] = {
+    /// All passes with their names, but for shader passes, light groups, mattes and light paths.
+    pub const NAMES: [(Self, &'static str); 32] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
         [
@@ -119,6 +153,10 @@ impl Aov {
             (Self::ObjectIndex, "object_index"),
             (Self::MaterialIndex, "material_index"),
             (Self::SampleCount, "sample_count"),
+            (Self::ShadowCatcher, "shadow_catcher"),
+            (Self::Cost, "cost"),
+            (Self::InstanceId, "instanceId"),
+            (Self::ElementId, "elementId"),
             (Self::Light(Diffuse, Direct), "diffuse_direct"),
             (Self::Light(Diffuse, Indirect), "diffuse_indirect"),
             (Self::Light(Diffuse, Color), "diffuse_color"),
@@ -131,7 +169,7 @@ impl Aov {
         ]
     };
 
-    /// The pass's name; empty for shader passes and light groups, whose names [`super::Settings::pass_name`] knows.
+    /// The pass's name; empty for those with names of their own, which [`super::Settings::pass_name`] knows.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
     }

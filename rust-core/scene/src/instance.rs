@@ -1,6 +1,6 @@
 //! Placed geometry.
 
-use super::{CurvesId, Linking, MaterialId, MeshId, Origin, PointsId, Primvar, Transform};
+use super::{CurvesId, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar, Transform};
 use serde::{Deserialize, Serialize};
 
 /// Which rays see an element.
@@ -112,4 +112,7 @@ pub struct Instances {
     /// What is lit by what they emit, and what casts shadows of it.
     #[serde(default, skip_serializing_if = "Linking::is_whole")]
     pub linking: Linking,
+    /// What the placements are called in mattes, first placements rising from 0; empty where all are called after the origin.
+    #[serde(default)]
+    pub matte_names: Vec<MatteName>,
 }

@@ -1,7 +1,9 @@
 //! How a scene is rendered.
 
 use super::antialiasing::Antialiasing;
-use super::aov::{Aov, LIGHT_GROUP, ShaderValue};
+use super::aov::{Aov, LIGHT_GROUP, LIGHT_PATH, ShaderValue, standard_pass};
+use super::cryptomatte::{MATTE_RANKS, MOST_MATTE_RANKS, MatteKind};
+use super::light_path::{LightPath, light_path};
 use super::shutter::Shutter;
 use serde::{Deserialize, Serialize};
 use std::{ops::Range, path::PathBuf};
@@ -174,6 +176,15 @@ pub struct Settings {
     /// Names of the light groups that passes show.
     #[serde(default)]
     pub light_groups: Vec<String>,
+    /// What the passes of light paths are called: their expressions.
+    #[serde(default)]
+    pub light_paths: Vec<String>,
+    /// Metres up to which surfaces count for ambient occlusion.
+    #[serde(default = "occlusion_distance")]
+    pub occlusion_distance: f32,
+    /// Ranks of the cryptomattes that are asked for as a whole: 2 to [`MOST_MATTE_RANKS`], even.
+    #[serde(default = "matte_ranks")]
+    pub cryptomatte_depth: u32,
     /// Stop after this many seconds; 0 is off.
     pub time_limit_s: f64,
     /// Bytes that textures of materials may take at once; 0 is no limit.
@@ -206,6 +217,14 @@ fn light_samples() -> u32 {
 
 fn all_caustics() -> [bool; 2] {
     [true; 2]
+}
+
+fn occlusion_distance() -> f32 {
+    10.0
+}
+
+fn matte_ranks() -> u32 {
+    MATTE_RANKS
 }
 
 /// No other limit than that of all bounces.
@@ -247,11 +266,24 @@ impl Default for Settings {
             aovs: vec![Aov::Color],
             shader_passes: Vec::new(),
             light_groups: Vec::new(),
+            light_paths: Vec::new(),
+            occlusion_distance: occlusion_distance(),
+            cryptomatte_depth: matte_ranks(),
             time_limit_s: 0.0,
             texture_memory: 0,
             texture_cache: None,
         }
     }
+}
+
+/// The place of a name in a list, to which it is added if it is new.
+fn entered(list: &mut Vec<String>, name: &str) -> Option<u16> {
+    let known = list.iter().position(|known| known == name);
+    let number = known.unwrap_or(list.len());
+    if known.is_none() {
+        list.push(name.to_owned());
+    }
+    u16::try_from(number).ok()
 }
 
 impl Settings {
@@ -275,30 +307,50 @@ impl Settings {
         (self.noise_threshold > 0.0).then_some(wanted.max(4))
     }
     /// Sets the passes by their names, in any case of letters but for those with names of their own: shader passes, which are called `aov:`
-    /// (colours) or `aov_value:` (numbers) and the name of the output, and `lightgroup:` with the name of the group. Gives the first name
-    /// that no pass has.
+    /// (colours) or `aov_value:` (numbers) and the name of the output, and `lightgroup:` with the name of the group; and mattes, as a
+    /// whole (`cryptomatte_object`) or layer by layer (`CryptoObject00`). Expressions
+    /// of light paths follow `lpe:`, primvars `primvars:`. Gives the first name that no pass has.
     pub fn set_passes(&mut self, names: &[String]) -> Result<(), String> {
-        let (mut shader_passes, mut light_groups): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
-        let number = |list: &mut Vec<String>, name: &str| {
-            let known = list.iter().position(|known| known == name);
-            let number = known.unwrap_or(list.len());
-            if known.is_none() {
-                list.push(name.to_owned());
-            }
-            u16::try_from(number).ok()
-        };
-        let mut aovs = Vec::new();
+        let mut next =
+            Self { aovs: Vec::new(), shader_passes: Vec::new(), light_groups: Vec::new(), light_paths: Vec::new(), ..self.clone() };
         for name in names {
-            let shader = ShaderValue::PREFIXES.iter().find_map(|(kind, prefix)| Some((*kind, name.strip_prefix(prefix)?)));
-            let aov = match (shader, name.strip_prefix(LIGHT_GROUP)) {
-                (Some((kind, output)), _) => number(&mut shader_passes, output).map(|number| Aov::Shader(kind, number)),
-                (None, Some(group)) => number(&mut light_groups, group).map(Aov::LightGroup),
-                (None, None) => Aov::by_name(name),
-            };
-            aovs.push(aov.ok_or_else(|| name.clone())?);
+            let aovs = next.named_passes(name).ok_or_else(|| name.clone())?;
+            next.aovs.extend(aovs);
         }
-        (self.aovs, self.shader_passes, self.light_groups) = (aovs, shader_passes, light_groups);
+        *self = next;
         Ok(())
+    }
+    /// The passes that a name stands for, entered where they have names of their own; `None` for names that no pass has.
+    pub fn named_passes(&mut self, name: &str) -> Option<Vec<Aov>> {
+        if let Some(kind) = MatteKind::by_name(name) {
+            return Some(self.matte_layers(kind).collect());
+        }
+        if let Some((kind, output)) = ShaderValue::PREFIXES.iter().find_map(|(kind, prefix)| Some((*kind, name.strip_prefix(prefix)?))) {
+            return self.shader_pass(kind, output).map(|aov| vec![aov]);
+        }
+        let one = if let Some(kind) = standard_pass(name) {
+            self.shader_pass(kind, name)?
+        } else if let Some(group) = name.strip_prefix(LIGHT_GROUP) {
+            Aov::LightGroup(entered(&mut self.light_groups, group)?)
+        } else if let Some(expression) = name.strip_prefix(LIGHT_PATH) {
+            self.light_path_pass(expression)?
+        } else if let Some((kind, layer)) = MatteKind::by_layer(name) {
+            Aov::Cryptomatte(kind, layer)
+        } else {
+            Aov::by_name(name)?
+        };
+        Some(vec![one])
+    }
+    /// The pass of a shader output.
+    pub fn shader_pass(&mut self, kind: ShaderValue, name: &str) -> Option<Aov> {
+        entered(&mut self.shader_passes, name).map(|number| Aov::Shader(kind, number))
+    }
+    /// The pass of a light path expression; `None` for those that cannot be shown.
+    pub fn light_path_pass(&mut self, expression: &str) -> Option<Aov> {
+        match light_path(expression)? {
+            LightPath::Classes(classes) => entered(&mut self.light_paths, expression).map(|number| Aov::LightPaths(classes, number)),
+            LightPath::Group(name) => entered(&mut self.light_groups, &name).map(Aov::LightGroup),
+        }
     }
     /// Adds passes of the named light groups to those that are set.
     pub fn add_light_groups(&mut self, names: Vec<String>) {
@@ -309,14 +361,42 @@ impl Settings {
             }
         }
     }
+    /// The layers of a matte.
+    pub fn matte_layers(&self, kind: MatteKind) -> impl Iterator<Item = Aov> + use<> {
+        (0..self.cryptomatte_depth.clamp(2, MOST_MATTE_RANKS).div_ceil(2) as u8).map(move |layer| Aov::Cryptomatte(kind, layer))
+    }
+    /// Sets the ranks of mattes, those that are asked for already among them.
+    pub fn set_cryptomatte_depth(&mut self, ranks: u32) {
+        self.cryptomatte_depth = ranks;
+        let mut aovs: Vec<Aov> = Vec::with_capacity(self.aovs.len());
+        for aov in std::mem::take(&mut self.aovs) {
+            match aov {
+                Aov::Cryptomatte(kind, 0) => aovs.extend(self.matte_layers(kind)),
+                Aov::Cryptomatte(..) => {}
+                other => aovs.push(other),
+            }
+        }
+        self.aovs = aovs;
+    }
+    /// The kinds of mattes that passes show, each once.
+    pub fn matte_kinds(&self) -> Vec<MatteKind> {
+        let asked = |kind: &MatteKind| self.aovs.iter().any(|aov| matches!(aov, Aov::Cryptomatte(known, _) if known == kind));
+        MatteKind::NAMES.iter().map(|(kind, ..)| *kind).filter(asked).collect()
+    }
     /// A pass's name, those with names of their own among them.
     pub fn pass_name(&self, aov: Aov) -> String {
         match aov {
+            Aov::LightPaths(_, number) => format!("{LIGHT_PATH}{}", self.light_paths.get(usize::from(number)).map_or("", String::as_str)),
             Aov::Shader(kind, number) => {
+                let name = self.shader_passes.get(usize::from(number)).map_or("", String::as_str);
+                if standard_pass(name) == Some(kind) {
+                    return name.to_owned();
+                }
                 let prefix = ShaderValue::PREFIXES.iter().find(|(known, _)| *known == kind).map_or("", |(_, prefix)| prefix);
-                format!("{prefix}{}", self.shader_passes.get(usize::from(number)).map_or("", String::as_str))
+                format!("{prefix}{name}")
             }
             Aov::LightGroup(number) => format!("{LIGHT_GROUP}{}", self.light_groups.get(usize::from(number)).map_or("", String::as_str)),
+            Aov::Cryptomatte(kind, layer) => format!("{}{layer:02}", kind.layers()),
             other => other.name().to_owned(),
         }
     }

@@ -19,7 +19,9 @@ mod tables;
 
 pub use accumulate::catcher_sums::CatcherSums;
 pub use accumulate::deposit::Deposits;
+pub use accumulate::effort::Effort;
 pub use accumulate::light_sums::{LightSums, code};
+pub use accumulate::matte_sums::{MatteSums, Met};
 pub use accumulate::shader_sums::ShaderSums;
 pub use accumulate::tile_sums::TileSums;
 pub use schedule::light::{BatchFlux, LIGHT_BATCH, LightTracer, Receiver};
@@ -39,6 +41,7 @@ pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
+pub use tables::matte_names::{MatteNames, NameRun};
 pub use tables::photons::{Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
 pub use tables::shutter::{Rolling, Shutter};

@@ -23,6 +23,7 @@ pub(crate) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform
         pass_index: 0,
         light_group: String::new(),
         linking: Default::default(),
+        matte_names: Vec::new(),
     });
 }
 

@@ -34,8 +34,15 @@ pub(super) fn cases() -> Vec<Case> {
     let pixels = (SIZE[0] * SIZE[1]) as usize;
     let values = (0..pixels).flat_map(|i| [radiance[0][i % BATCH], radiance[1][i % BATCH], radiance[2][i % BATCH], 1.0]).collect();
     let layers = vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }];
-    let image =
-        Image { resolution: SIZE, window: Crop { min: [0; 2], max: SIZE }, frame: Frame::default(), layers, samples: 1, mean_samples: 1.0 };
+    let image = Image {
+        resolution: SIZE,
+        window: Crop { min: [0; 2], max: SIZE },
+        frame: Frame::default(),
+        layers,
+        samples: 1,
+        mean_samples: 1.0,
+        manifests: Default::default(),
+    };
     vec![
         Case::new("photographic curve", "pixel", BATCH, Curve { radiance, out: columns3() }),
         Case::new("film to bytes", "pixel", pixels, Display { image, bytes: Vec::new() }),

@@ -13,7 +13,7 @@ mod sobol;
 
 pub use batch::{BATCH, CAPACITY, TILE, pixel};
 pub use morton::{morton_even, tile_code, tile_place};
-pub use runs::{RUN, RUNS, Runs, unpack};
+pub use runs::{RUN, RUNS, Runs, codes, unpack};
 pub use sobol::{Sampler, hash};
 
 /// The dimensions a path uses, by name: a pair each, `BOUNCE` times the depth apart.

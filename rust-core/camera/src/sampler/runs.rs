@@ -105,6 +105,15 @@ pub fn unpack(zones: u64, sums: &mut [f32], numbers: bool) {
     }
 }
 
+/// The Morton numbers of the pixels that a batch's slots belong to, where it was packed for some zones; slots without a sample are missing.
+pub fn codes(zones: u64) -> Vec<u32> {
+    let runs = (0..samples_together(zones)).flat_map(|_| bits(zones));
+    match samples_together(zones) {
+        1 => (0..(RUNS * RUN) as u32).collect(),
+        _ => runs.flat_map(|zone| (0..RUN).map(move |at| (zone * RUN + at) as u32)).collect(),
+    }
+}
+
 /// Samples of some zones that a batch has room for.
 fn samples_together(zones: u64) -> usize {
     RUNS / zones.count_ones().max(1) as usize

@@ -74,9 +74,12 @@ pub(crate) struct RenderOptions {
     /// Width of the pixel filter in pixels.
     #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
     pub(crate) filter_width: f32,
-    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, denoising_light, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct).
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, denoising_light, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct); shadow_catcher, ambient_occlusion, cost (seconds), instanceId, elementId; normal and position in the camera's space (Neye, Peye); cryptomatte_object, cryptomatte_material, cryptomatte_asset; primvars:NAME, lightgroup:NAME, and light path expressions such as lpe:C<RD>L.
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(crate) aov: Vec<String>,
+    /// Ranks of the cryptomattes: how many names of a pixel are told apart. Odd numbers are rounded up.
+    #[arg(long, value_name = "RANKS", value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub(crate) cryptomatte_depth: Option<u32>,
     /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
     #[arg(long = "light-groups")]
     pub(crate) light_groups: bool,

@@ -16,7 +16,7 @@ use std::{
 
 const MAGIC: &[u8] = b"gonio checkpoint 2\n";
 /// Longest description.
-const MOST_DESCRIPTION: u32 = 1 << 24;
+const MOST_DESCRIPTION: u32 = 1 << 28;
 
 /// Writes a film as it is at the moment, whole or not at all; what an earlier kill left of one is overwritten.
 pub fn write_checkpoint(path: &Path, identity: &Identity, film: &Film) -> Result<()> {
@@ -47,7 +47,8 @@ impl Checkpoint {
         if tiles.saturating_mul(LEAST_TILE) > length {
             return Err(broken("the checkpoint is shorter than its picture".into()));
         }
-        let mut film = Film::new(&identity.settings, window, identity.exposure, identity.catchers);
+        let mut film =
+            Film::new(&identity.settings, window, identity.exposure, identity.catchers).with_manifests(identity.manifests.clone());
         film.fill(&mut input).map_err(damaged)?;
         let expected = input.digest.value();
         let mut found = [0; 8];

@@ -2,7 +2,7 @@
 
 use crate::{
     error::{Error, Result},
-    scene::{Digest, Scene, Settings, TextureSource, digest_scene},
+    scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene},
     texture::{find_tiles, is_udim},
 };
 use gonio_simd::Execution;
@@ -11,6 +11,7 @@ use std::{
     fs::File,
     io::{BufReader, Read},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 /// This program.
@@ -34,6 +35,9 @@ pub struct Identity {
     pub exposure: f32,
     /// Whether there are shadow catchers.
     pub(super) catchers: bool,
+    /// The names in its mattes.
+    #[serde(default)]
+    pub(super) manifests: Arc<Manifests>,
     /// Text for the header of EXR files.
     pub notes: Vec<(String, String)>,
 }
@@ -48,6 +52,7 @@ impl Identity {
             scene: digest(scene),
             exposure: scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0),
             catchers: scene.instances.iter().any(|instances| instances.shadow_catcher),
+            manifests: Arc::new(Manifests::of(scene)),
             settings,
             notes,
         }

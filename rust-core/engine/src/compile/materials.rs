@@ -2,7 +2,7 @@
 
 mod program;
 
-use super::{measured::CompiledMeasured, textures::CompiledTextures};
+use super::{measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
@@ -24,7 +24,8 @@ pub(super) fn compile(
     names: &[String],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<MaterialTable> {
-    let default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
+    let mut default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
+    standard_passes::add_outputs(scene, &mut default);
     let mut table = MaterialTable::default();
     for material in scene.materials.iter().chain([&default]) {
         let first = table.surfaces.len() as u32;
@@ -156,6 +157,7 @@ fn surface(
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
+        matte_id: scene::matte_id(&material.origin.name),
         surface,
         program,
         opacity_threshold: closure.opacity_threshold,

@@ -27,6 +27,7 @@ mod samples;
 mod shader_passes;
 mod smooth;
 mod smooth_primvars;
+mod standard_passes;
 mod strand_materials;
 mod textures;
 mod trees;
@@ -45,8 +46,8 @@ pub(crate) use view::{check_tiles, transport, window};
 use crate::{
     accel::{Blas, Tlas},
     error::{Diagnostic, Error, Result},
-    scene::{Camera, Scene},
-    transport::{Tables, Workspaces},
+    scene::{Camera, Manifests, MatteName, Scene, matte_id},
+    transport::{MatteNames, NameRun, Tables, Workspaces},
 };
 use std::{
     sync::{
@@ -69,6 +70,8 @@ pub struct CompiledScene {
     pub diagnostics: Vec<Diagnostic>,
     /// Sizes and times.
     pub statistics: CompileStatistics,
+    /// The names in the mattes that the scene's passes show.
+    pub(crate) manifests: Arc<Manifests>,
     /// What casts caustics.
     pub(crate) casters: Casters,
     /// What renders leave for the next.
@@ -110,6 +113,8 @@ pub struct CompileStatistics {
 /// Lays a scene out; `previous` lends what did not change. Cancelling gives [`Error::Cancelled`] within a tenth of a second or so.
 pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
     let start = Instant::now();
+    let complete = standard_passes::complete(scene);
+    let scene = complete.as_ref();
     let mut diagnostics = Vec::new();
     let adapted = strand_materials::without_subsurface(scene, &mut diagnostics);
     let scene = adapted.as_ref().unwrap_or(scene);
@@ -177,6 +182,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         object_lights,
         groups: lights.groups,
         links: lights.linking.tables,
+        matte_names: matte_names(scene),
         any_transparent,
         any_absorbing,
         origin,
@@ -187,6 +193,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         bounds,
         diagnostics,
         statistics,
+        manifests: Arc::new(Manifests::of(scene)),
         casters,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
@@ -195,6 +202,12 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         kept_lights: lights.kept,
         measured,
     })
+}
+
+/// What placements are called in cryptomattes.
+fn matte_names(scene: &Scene) -> MatteNames {
+    let run = |name: &MatteName| NameRun { first: name.first, object: matte_id(&name.object), asset: matte_id(&name.asset) };
+    MatteNames::new(scene.instances.iter().map(|set| set.names_in_mattes().iter().map(run).collect()))
 }
 
 fn instanced_triangles(scene: &Scene) -> u64 {

@@ -3,7 +3,7 @@
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Closure, Input, Model, Operation, Primvar, PrimvarInterpolation, Scene},
+    scene::{Closure, Input, Model, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
 };
 
 /// What texture coordinates are called, the likeliest first.
@@ -24,6 +24,8 @@ pub(super) fn used_names(scene: &Scene, measured: &CompiledMeasured) -> Vec<Stri
             _ => {}
         }
     }
+    // Surfaces without a material show them too.
+    scene.settings.shader_passes.iter().filter_map(|name| name.strip_prefix(PRIMVARS)).for_each(&mut add);
     let closures = || scene.materials.iter().flat_map(|material| &material.closures);
     if closures().any(|closure| lies_along_coordinates(closure, measured)) {
         let there = |name: &str| {

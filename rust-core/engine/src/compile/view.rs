@@ -92,7 +92,11 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
             guides,
             specular: guides && matches!(estimator, Estimator::Trees(_)),
             illuminance: settings.aovs.contains(&Aov::Illuminance),
-            numbers: [Aov::PrimId, Aov::ObjectIndex, Aov::MaterialIndex].iter().any(|aov| settings.aovs.contains(aov)),
+            effort: settings.aovs.contains(&Aov::Cost),
+            mattes: !settings.matte_kinds().is_empty(),
+            numbers: [Aov::PrimId, Aov::InstanceId, Aov::ElementId, Aov::ObjectIndex, Aov::MaterialIndex]
+                .iter()
+                .any(|aov| settings.aovs.contains(aov)),
         },
         eye,
         forward,

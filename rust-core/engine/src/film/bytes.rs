@@ -2,6 +2,7 @@
 
 use super::{
     Film, block_at,
+    matte::Matte,
     noise::Halves,
     raw::{array, number},
     splats::SplatFilm,
@@ -56,7 +57,8 @@ impl TileFilm {
         [leading.len(), groups.len(), usize::from(!open.is_empty())].iter().try_for_each(|n| out.write_all(&(*n as u32).to_le_bytes()))?;
         leading.iter().try_for_each(|block| out.write_all(bytemuck::cast_slice(block)))?;
         groups.iter().chain(Some(open)).try_for_each(|group| out.write_all(bytemuck::cast_slice(group)))?;
-        self.halves.as_ref().map_or(Ok(()), |halves| halves.write(out))
+        self.halves.as_ref().map_or(Ok(()), |halves| halves.write(out))?;
+        self.mattes.iter().try_for_each(|matte| matte.write(out))
     }
 
     fn fill(&mut self, input: &mut impl Read, values: usize) -> Result<()> {
@@ -71,6 +73,9 @@ impl TileFilm {
         self.sums.open = if open == 0 { Vec::new() } else { array(input, values)? };
         if let Some(halves) = &mut self.halves {
             *halves = Halves::read(input)?;
+        }
+        for matte in &mut self.mattes {
+            *matte = Matte::read(input)?;
         }
         Ok(())
     }

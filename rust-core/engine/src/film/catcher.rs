@@ -13,6 +13,9 @@ pub(super) fn fill(channels: &mut [f32], gathered: &TileSums) {
 
 /// Adds to the pixels of a tile what catchers show there; `first` is the first of their channels.
 pub(super) fn show(aov: Aov, tile: &Developing<'_>, first: usize, exposure: f32, part: &mut Part<'_>) {
+    if aov == Aov::ShadowCatcher {
+        return show_shadow(tile, first, part);
+    }
     if !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance) {
         return;
     }
@@ -30,6 +33,16 @@ pub(super) fn show(aov: Aov, tile: &Developing<'_>, first: usize, exposure: f32,
             }
             Aov::Alpha => values[0] += alpha as f32,
             _ => values[0] += luminance(behind) as f32,
+        }
+    });
+}
+
+/// Shows what of the light the objects leave, channel by channel.
+fn show_shadow(tile: &Developing<'_>, first: usize, part: &mut Part<'_>) {
+    part.for_each(|code, values| {
+        for (channel, value) in values.iter_mut().enumerate() {
+            let [with, without] = [0, 3].map(|half| tile.sums[(first + half + channel) * BATCH + code]);
+            *value = if without > 0.0 { (with / without) as f32 } else { 1.0 };
         }
     });
 }

@@ -1,6 +1,6 @@
 //! Which passes a film keeps, and where their channels lie.
 
-use crate::scene::{Aov, LightPart, ShaderValue};
+use crate::scene::{Aov, LightPart, MatteKind, ShaderValue};
 
 /// Radiance of catchers with all objects, and without them; what is behind; coverage.
 const CATCHER_CHANNELS: usize = 10;
@@ -8,7 +8,7 @@ const CATCHER_CHANNELS: usize = 10;
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ChannelLayout {
-    /// Passes in the order of their channels.
+    /// Passes in the order of their channels; mattes have none, and are kept in another way.
     pub aovs: Vec<Aov>,
     /// First channel of each pass.
     pub offsets: Vec<usize>,
@@ -26,7 +26,7 @@ impl ChannelLayout {
             if !layout.aovs.contains(aov) {
                 layout.aovs.push(*aov);
                 layout.offsets.push(layout.channels);
-                layout.channels += channel_names(*aov).len();
+                layout.channels += summed_channels(*aov);
             }
         }
         layout
@@ -46,7 +46,7 @@ impl ChannelLayout {
 
     /// Whether a pass shows light by where it comes from.
     pub fn shows_lights(&self) -> bool {
-        self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::Emission | Aov::Environment))
+        self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::LightPaths(..) | Aov::Emission | Aov::Environment))
     }
 
     /// Channels of all shader passes.
@@ -60,16 +60,29 @@ impl ChannelLayout {
         before.filter(|known| matches!(known, Aov::Shader(..))).map(|known| channel_names(*known).len()).sum()
     }
 
+    /// The kinds of mattes that passes show, each once.
+    pub fn mattes(&self) -> Vec<MatteKind> {
+        let shown = |kind: &MatteKind| self.aovs.iter().any(|aov| matches!(aov, Aov::Cryptomatte(known, _) if known == kind));
+        MatteKind::NAMES.iter().map(|(kind, ..)| *kind).filter(shown).collect()
+    }
+
     /// First channel of a pass.
     pub fn offset(&self, aov: Aov) -> Option<usize> {
         self.aovs.iter().position(|known| *known == aov).map(|i| self.offsets[i])
     }
 }
 
+/// How many sums a pixel a pass is kept as.
+pub(super) fn summed_channels(aov: Aov) -> usize {
+    if matches!(aov, Aov::Cryptomatte(..) | Aov::ShadowCatcher) { 0 } else { channel_names(aov).len() }
+}
+
 /// The channels of a pass.
 pub fn channel_names(aov: Aov) -> &'static [&'static str] {
     match aov {
         Aov::Color | Aov::Shader(ShaderValue::Color, _) => &["R", "G", "B", "A"],
+        // As compositors look for them: value and share, twice.
+        Aov::Cryptomatte(..) => &["r", "g", "b", "a"],
         Aov::Alpha => &["A"],
         Aov::Depth => &["Z"],
         Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
@@ -80,9 +93,11 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
         | Aov::Emission
         | Aov::Environment
         | Aov::Light(..)
+        | Aov::LightPaths(..)
+        | Aov::ShadowCatcher
         | Aov::LightGroup(_) => &["R", "G", "B"],
-        Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
-        Aov::Mist | Aov::SampleCount | Aov::Shader(ShaderValue::Number, _) => &["value"],
+        Aov::PrimId | Aov::InstanceId | Aov::ElementId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
+        Aov::Mist | Aov::SampleCount | Aov::Cost | Aov::Shader(ShaderValue::Number, _) => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
     }
 }
@@ -90,13 +105,14 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
 /// Whether a pass holds absolute values, which files keep as 32-bit floats.
 pub fn is_absolute(aov: Aov) -> bool {
     use Aov::{Albedo, Alpha, Color, DenoisingAlbedo, DenoisingLight, DenoisingNormal, Light, LightGroup, Normal};
+    // The values of names are bits.
     let relative = matches!(aov, Color | Alpha | Albedo | Normal | DenoisingNormal | DenoisingAlbedo | DenoisingLight);
-    !relative && !matches!(aov, Light(_, LightPart::Color) | LightGroup(_))
+    !relative && !matches!(aov, Light(_, LightPart::Color) | LightGroup(_) | Aov::LightPaths(..) | Aov::ShadowCatcher)
 }
 
 /// Whether values are numbers of things, of which the first that is met counts.
 pub fn is_index(aov: Aov) -> bool {
-    matches!(aov, Aov::PrimId | Aov::ObjectIndex | Aov::MaterialIndex)
+    matches!(aov, Aov::PrimId | Aov::InstanceId | Aov::ElementId | Aov::ObjectIndex | Aov::MaterialIndex)
 }
 
 /// The pass that a pass of light is divided by.

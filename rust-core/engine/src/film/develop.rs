@@ -5,12 +5,12 @@ use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
 use crate::{
     camera::sampler::{BATCH, TILE, tile_code, tile_place},
     colour::luminance,
-    scene::{Aov, Crop},
+    scene::{Aov, Crop, Manifests},
     threads::available_threads,
 };
 use std::{
     borrow::Cow,
-    sync::{Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError},
 };
 
 /// A named group of channels, pixel by pixel.
@@ -56,6 +56,8 @@ pub struct Image {
     pub samples: u32,
     /// Samples a pixel in the mean.
     pub mean_samples: f64,
+    /// The names in its mattes.
+    pub manifests: Arc<Manifests>,
 }
 
 impl Image {
@@ -95,7 +97,8 @@ impl Film {
         });
         let (samples, total) = samples.unwrap_or((0, 0));
         let mean_samples = total as f64 / (width * height).max(1) as f64;
-        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples }
+        let manifests = self.manifests.clone();
+        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples, manifests }
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {
@@ -111,6 +114,7 @@ impl Film {
 
     /// Develops a row of tiles; gives the least number of samples of any pixel, and those of all.
     fn develop_band(&self, mut band: Band<'_>, aovs: &[Aov], width: usize) -> (u32, u64) {
+        let (mattes, mut ranked) = (self.layout.mattes(), Vec::new());
         let (mut least, mut total) = (u32::MAX, 0);
         for tile in band.first_tile..band.first_tile + self.columns as usize {
             let area = self.tile_area(tile);
@@ -122,12 +126,21 @@ impl Film {
                 least = least.min(film.least_samples());
                 total += film.total_samples();
                 let sums = film.sums.total(self.plan.rules());
-                if sums.is_empty() {
+                if film.total_samples() == 0 {
                     return;
                 }
                 let developing = Developing { sums, samples: film.samples };
                 for (aov, rows) in aovs.iter().zip(&mut band.layers) {
                     let mut part = Part { rows, left, width, size, channels: channel_names(*aov).len() };
+                    if let Aov::Cryptomatte(kind, layer) = aov {
+                        let number = mattes.iter().position(|known| known == kind);
+                        if let Some(matte) = number.and_then(|number| film.mattes.get(number)) {
+                            part.for_each(|code, values| {
+                                values.copy_from_slice(&matte.ranks(code, *layer, developing.scale(code), &mut ranked));
+                            });
+                        }
+                        continue;
+                    }
                     self.develop_tile(*aov, &developing, &mut part);
                     if let Some(first) = self.layout.catchers {
                         catcher::show(*aov, &developing, first, self.exposure, &mut part);
@@ -144,7 +157,7 @@ impl Film {
     /// Adds to the pixels of a tile what light paths brought there; `corner` is the tile's first pixel in the window.
     fn show_splats(&self, aov: Aov, splats: &SplatFilm, tile: &Developing<'_>, corner: [usize; 2], out: &mut Part<'_>) {
         let Some(shown) = splats.shown(aov) else { return };
-        let factor = if matches!(aov, Aov::Color | Aov::LightGroup(_)) { f64::from(self.exposure) } else { 1.0 };
+        let factor = if matches!(aov, Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..)) { f64::from(self.exposure) } else { 1.0 };
         let divisor = divisor(aov).and_then(|aov| self.layout.offset(aov));
         out.for_each_at(|code, [x, y], values| {
             let light = shown.at([corner[0] + x, corner[1] + y]).map(|x| x * factor);
@@ -168,7 +181,10 @@ impl Film {
         match (aov, divisor) {
             (_, Some(divisor)) => part.fill(|channel, code| share(sum(channel, code), tile.sums[(divisor + channel) * BATCH + code])),
             // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
-            (Aov::PrimId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
+            (Aov::ShadowCatcher, _) => part.fill(|_, _| 1.0),
+            // Blocks bring their seconds; pixels' own, which are not means.
+            (Aov::Cost, _) => part.fill(sum),
+            (Aov::PrimId | Aov::InstanceId | Aov::ElementId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),
             (_, None) if is_index(aov) => part.fill(|channel, code| (sum(channel, code) - 1.0).max(0.0)),
             (Aov::Mist, _) => part.fill(|channel, code| 1.0 - sum(channel, code) * tile.scale(code)),
             // Pixels that counted their rays themselves know better.

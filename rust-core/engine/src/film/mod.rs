@@ -7,6 +7,7 @@ mod channels;
 mod develop;
 mod edge_aware;
 mod filter;
+mod matte;
 mod noise;
 mod raw;
 mod splats;
@@ -29,11 +30,11 @@ pub use zones::{ZONE, ZONES, zone_of};
 
 use crate::{
     camera::sampler::TILE,
-    scene::{Crop, Settings},
+    scene::{Crop, Manifests, Settings},
 };
 use std::{
     ops::Range,
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 use tile::Plan;
 
@@ -56,6 +57,8 @@ pub struct Film {
     tiles: Vec<Mutex<TileFilm>>,
     /// What light paths bring, where some are traced. Locked before a tile.
     splats: Option<Mutex<SplatFilm>>,
+    /// The names in its mattes.
+    manifests: Arc<Manifests>,
     columns: u32,
 }
 
@@ -69,7 +72,19 @@ impl Film {
         let plan = Plan::new(settings, &layout, across(0) * across(1));
         let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect };
         let (resolution, columns) = (settings.resolution, across(0));
-        let mut film = Self { resolution, window, frame, layout, names, exposure, plan, tiles: Vec::new(), splats: None, columns };
+        let mut film = Self {
+            resolution,
+            window,
+            frame,
+            layout,
+            names,
+            exposure,
+            plan,
+            tiles: Vec::new(),
+            splats: None,
+            manifests: Arc::default(),
+            columns,
+        };
         let tile = |tile: u32| {
             // Tiles of other parts of the render have no pixels here, so that nobody waits for them.
             let size = if film.plan.tiles.contains(&tile) { film.tile_size(tile as usize) } else { [0; 2] };
@@ -77,6 +92,11 @@ impl Film {
         };
         film.tiles = (0..across(0) * across(1)).map(tile).collect();
         film
+    }
+
+    /// Takes the names in its mattes, which files say.
+    pub(crate) fn with_manifests(self, manifests: Arc<Manifests>) -> Self {
+        Self { manifests, ..self }
     }
 
     /// Makes room for what light paths bring; `power` is that of their lights.

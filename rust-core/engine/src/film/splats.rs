@@ -22,6 +22,8 @@ enum Share {
     Kind(ScatteringKind),
     /// What the lights of a group send.
     Group(u16),
+    /// What the lobes of some kinds scatter: a bit for each.
+    Kinds(u8),
 }
 
 /// What is summed, and in which units.
@@ -85,6 +87,10 @@ impl SplatLayout {
                     let share = match part {
                         Share::Radiance => 1.0,
                         Share::Kind(kind) => kind_share(splat, *kind, channel),
+                        Share::Kinds(kinds) => {
+                            let asked = KINDS.iter().filter(|kind| kinds >> **kind as u8 & 1 == 1);
+                            asked.map(|kind| kind_share(splat, *kind, channel)).sum()
+                        }
                         Share::Group(number) => f64::from(u8::from(groups.of_light.get(splat.light as usize) == Some(&u32::from(*number)))),
                     };
                     block.values.push((value * share * clamp * self.scale).clamp(-MOST, MOST).round() as i64);
@@ -107,6 +113,7 @@ impl SplatFilm {
         let of_aov = |aov: &Aov| match aov {
             Aov::Light(kind, LightPart::Indirect) => Some(Share::Kind(*kind)),
             Aov::LightGroup(number) => Some(Share::Group(*number)),
+            Aov::LightPaths(classes, _) => kinds_of(*classes),
             _ => None,
         };
         let parts: Vec<Share> = [Share::Radiance].into_iter().chain(layout.aovs.iter().filter_map(of_aov)).collect();
@@ -144,6 +151,7 @@ impl SplatFilm {
             Aov::Color | Aov::Luminance => Share::Radiance,
             Aov::Light(kind, LightPart::Indirect) => Share::Kind(kind),
             Aov::LightGroup(number) => Share::Group(number),
+            Aov::LightPaths(classes, _) => kinds_of(classes)?,
             _ => return None,
         };
         let first = self.layout.parts.iter().position(|known| *known == share)? * 3;
@@ -174,6 +182,13 @@ impl SplatFilm {
 }
 
 /// The share of a kind in what the first surface scatters.
+const KINDS: [ScatteringKind; 3] = [ScatteringKind::Diffuse, ScatteringKind::Glossy, ScatteringKind::Transmission];
+
+/// What light paths bring of some classes of light: it is indirect.
+fn kinds_of(classes: u8) -> Option<Share> {
+    Some(classes >> 3 & 7).filter(|kinds| *kinds != 0).map(Share::Kinds)
+}
+
 fn kind_share(splat: &Splat, kind: ScatteringKind, channel: usize) -> f64 {
     let [diffuse, glossy] = splat.shares.map(|share| f64::from(share[channel]));
     match kind {

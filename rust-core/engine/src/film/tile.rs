@@ -3,7 +3,10 @@
 use super::{
     ChannelLayout, Film,
     blocks::{self, GROUP, block_at},
-    catcher, is_index,
+    catcher,
+    channels::summed_channels,
+    is_index,
+    matte::{self, Matte},
     noise::{Halves, decides},
     splats::SplatBlock,
     sums::{Place, Rules, Sums},
@@ -28,6 +31,8 @@ pub struct Block {
     pub luminance: Vec<f32>,
     /// What its light paths brought.
     pub(crate) splats: SplatBlock,
+    /// Its mattes, by kind.
+    pub(crate) mattes: Vec<Matte>,
 }
 
 /// Sums over all blocks so far.
@@ -44,6 +49,8 @@ pub struct TileFilm {
     pub(super) sums: Sums,
     /// What tells the noise, if zones may have enough samples before the end.
     pub(super) halves: Option<Halves>,
+    /// By kind of matte.
+    pub(super) mattes: Vec<Matte>,
     waiting: BTreeMap<u32, Block>,
 }
 
@@ -67,6 +74,8 @@ pub(super) struct Plan {
     /// The tiles that are rendered.
     pub(super) tiles: Range<u32>,
     pub(super) index_channels: Vec<usize>,
+    /// Kinds of mattes.
+    pub(super) mattes: usize,
     /// Error and least samples at which a zone has enough.
     pub(super) enough: Option<(f32, u32)>,
 }
@@ -78,6 +87,7 @@ impl Plan {
             samples: settings.samples,
             tiles: settings.tiles(tiles),
             index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
+            mattes: layout.mattes().len(),
             enough: settings.least_samples().map(|least| (settings.noise_threshold, least)),
         }
     }
@@ -112,7 +122,16 @@ impl TileFilm {
         }
         let zones = (0..ZONES).filter(|zone| pixels[*zone] > 0).fold(0, |bits, zone| bits | 1 << zone);
         let halves = plan.enough.map(|_| Halves::new());
-        Self { samples: [0; ZONES], next: plan.first(), pixels, zones, sums: Sums::default(), halves, waiting: BTreeMap::new() }
+        Self {
+            samples: [0; ZONES],
+            next: plan.first(),
+            pixels,
+            zones,
+            sums: Sums::default(),
+            halves,
+            mattes: vec![Matte::default(); plan.mattes],
+            waiting: BTreeMap::new(),
+        }
     }
 
     /// Adds block `number`; one that comes early waits. `white` is the value that is shown as white. Gives the splats of the blocks that were added.
@@ -134,6 +153,7 @@ impl TileFilm {
                 self.zones = halves.noisy(self.zones, &self.pixels, threshold, white);
             }
         }
+        self.mattes.iter_mut().zip(&block.mattes).for_each(|(matte, more)| matte.add(more));
         self.sums.add_block(Cow::Owned(block.sums), plan.place(&samples), plan.rules());
         self.count(samples.end - samples.start, block.zones);
         self.next += 1;
@@ -155,6 +175,7 @@ impl TileFilm {
         if !later.sums.open.is_empty() {
             self.sums.open = later.sums.open;
         }
+        self.mattes.iter_mut().zip(&later.mattes).for_each(|(matte, more)| matte.add(more));
         self.samples.iter_mut().zip(later.samples).for_each(|(samples, more)| *samples += more);
         self.next = later.next;
     }
@@ -182,7 +203,7 @@ impl Block {
         let (layout, exposure) = (&film.layout, film.exposure);
         let mut sums = vec![0.0; layout.channels * BATCH];
         for (aov, offset) in layout.aovs.iter().zip(&layout.offsets) {
-            let channels = &mut sums[offset * BATCH..(offset + super::channel_names(*aov).len()) * BATCH];
+            let channels = &mut sums[offset * BATCH..(offset + summed_channels(*aov)) * BATCH];
             fill(*aov, channels, layout, gathered, exposure, origin);
         }
         if let Some(first) = layout.catchers {
@@ -193,7 +214,16 @@ impl Block {
         }
         let mut luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
         unpack(packed, &mut luminance, false);
-        Self { sums, zones, luminance, splats: SplatBlock::default() }
+        let mattes = matte::of_block(&layout.mattes(), &gathered.mattes, packed);
+        Self { sums, zones, luminance, splats: SplatBlock::default(), mattes }
+    }
+
+    /// Shares the seconds that the block took out among its pixels, where a pass shows them.
+    pub(crate) fn share_out(&mut self, film: &Film, seconds: f64) {
+        let Some(offset) = film.layout.offset(Aov::Cost) else { return };
+        let rays = &mut self.sums[offset * BATCH..(offset + 1) * BATCH];
+        let all: f64 = rays.iter().map(|rays| f64::from(*rays)).sum();
+        rays.iter_mut().for_each(|rays| *rays *= (seconds / all.max(1.0)) as f32);
     }
 }
 
@@ -231,6 +261,11 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
                 out.copy_from_slice(&column[..BATCH]);
             }
         }
+        // These are kept in other ways.
+        Aov::Cryptomatte(..) | Aov::ShadowCatcher => {}
+        Aov::LightPaths(classes, _) => fill_light_paths(classes, channels, gathered, exposure),
+        // Shares of the block's rays; its seconds come when they are known.
+        Aov::Cost => channels.copy_from_slice(&gathered.effort.rays[..BATCH]),
         Aov::Mist => channels.copy_from_slice(&gathered.clearness[..BATCH]),
         Aov::Emission => copy3(channels, gathered.lights.part(code::EMISSION)),
         Aov::Environment => copy3(channels, gathered.lights.part(code::ENVIRONMENT)),
@@ -248,9 +283,20 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
                 }
             }
         }
+        Aov::InstanceId => channels.iter_mut().zip(&gathered.instance_id[..]).for_each(|(out, id)| *out = *id as f32),
+        Aov::ElementId => channels.iter_mut().zip(&gathered.element_id[..]).for_each(|(out, id)| *out = *id as f32),
         Aov::PrimId => channels.iter_mut().zip(&gathered.prim_id[..]).for_each(|(out, id)| *out = *id as f32),
         Aov::Luminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(i)),
         Aov::Illuminance => channels.iter_mut().enumerate().for_each(|(i, out)| *out = luminance(BATCH + i)),
+    }
+}
+
+/// The sum of classes of light; their codes are the bits' numbers.
+fn fill_light_paths(classes: u8, channels: &mut [f32], gathered: &TileSums, exposure: f32) {
+    for class in (0..8).filter(|class| classes >> class & 1 == 1) {
+        for (out, column) in channels.chunks_exact_mut(BATCH).zip(gathered.lights.part(class)) {
+            out.iter_mut().zip(&column[..BATCH]).for_each(|(out, value)| *out += value * exposure);
+        }
     }
 }
 

@@ -20,5 +20,6 @@ pub(crate) fn add(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]]
         pass_index: 0,
         light_group: String::new(),
         linking: Default::default(),
+        matte_names: Vec::new(),
     });
 }

@@ -5,7 +5,7 @@ use crate::{
     colour::{Gamut, Primaries, apply, inverse},
     error::{Error, Result},
     film::{Image, Layer, channel_names, is_absolute},
-    scene::Aov,
+    scene::{Aov, matte_key},
 };
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
@@ -68,6 +68,9 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
     for (key, value) in &options.attributes {
         note(key, value);
     }
+    for (key, text) in matte_notes(image, "") {
+        attributes.other.insert(Text::from(key.as_str()), AttributeValue::Text(Text::from_slice_unchecked(text.as_bytes())));
+    }
     let encoding = if options.hasty { Encoding::UNCOMPRESSED } else { Encoding::FAST_LOSSLESS };
     let layer = ExrLayer::new((width, height), attributes, encoding, AnyChannels::sort(channels));
     // The picture proper begins at 0; overscan lies outside it.
@@ -101,8 +104,25 @@ fn in_gamut(image: &Image, gamut: Option<Gamut>) -> Cow<'_, Image> {
 
 /// Whether a pass is of light or of what colours it.
 fn is_colour(aov: Aov) -> bool {
-    use Aov::{Albedo, Color, DenoisingAlbedo, DenoisingLight, Emission, Environment, Light, LightGroup};
-    matches!(aov, Color | LightGroup(_) | Light(..) | Emission | Environment | Albedo | DenoisingAlbedo | DenoisingLight)
+    use Aov::{Albedo, Color, DenoisingAlbedo, DenoisingLight, Emission, Environment, Light, LightGroup, LightPaths};
+    matches!(aov, Color | LightGroup(_) | LightPaths(..) | Light(..) | Emission | Environment | Albedo | DenoisingAlbedo | DenoisingLight)
+}
+
+/// What headers say about mattes, by key (Cryptomatte specification 1.2, "Metadata"); `prefix` comes before the layers' names. Names of things
+/// may be any UTF-8.
+pub fn matte_notes(image: &Image, prefix: &str) -> Vec<(String, String)> {
+    let mut notes = Vec::new();
+    for layer in &image.layers {
+        // The first layer of a matte speaks for all; their names end with two digits.
+        let Aov::Cryptomatte(kind, 0) = layer.aov else { continue };
+        let base = format!("{prefix}{}", layer.name.strip_suffix("00").unwrap_or(&layer.name));
+        let key = |what: &str| format!("cryptomatte/{}/{what}", matte_key(&base));
+        notes.push((key("name"), base.clone()));
+        notes.push((key("hash"), "MurmurHash3_32".to_owned()));
+        notes.push((key("conversion"), "uint32_to_float32".to_owned()));
+        notes.push((key("manifest"), image.manifests.json(kind)));
+    }
+    notes
 }
 
 fn signed(x: u32) -> i32 {
@@ -123,10 +143,11 @@ fn unit(aov: Aov, gamut: Option<Gamut>) -> Option<&'static str> {
         Aov::Luminance => Some("cd/m2"),
         Aov::Illuminance => Some("lx"),
         Aov::Depth | Aov::P => Some("m"),
-        Aov::Color | Aov::LightGroup(_) if gamut.is_some() => {
+        Aov::Cost => Some("s"),
+        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) if gamut.is_some() => {
             Some("linear, of the header's chromaticities, luminance in cd/m2 times exposure")
         }
-        Aov::Color | Aov::LightGroup(_) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
+        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
         _ => None,
     }
 }

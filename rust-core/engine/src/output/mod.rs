@@ -8,7 +8,7 @@ mod tone_map;
 
 pub use crate::scene::{write_atomically, write_through};
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
-pub use exr::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr};
+pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, log_average};

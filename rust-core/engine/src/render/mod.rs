@@ -210,7 +210,8 @@ fn view(scene: &CompiledScene, settings: &Settings, execution: gonio_simd::Execu
 }
 
 fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {
-    Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty())
+    let film = Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty());
+    film.with_manifests(scene.manifests.clone())
 }
 
 impl Drop for Render {

@@ -13,6 +13,7 @@ use crossbeam_channel::Sender;
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{Arc, PoisonError, atomic::Ordering},
+    time::Instant,
 };
 
 /// Camera rays a pixel that show denoisers enough of what is seen in mirrors and smooth glass.
@@ -44,7 +45,7 @@ pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
 
 /// Traces a block, adds it and tells the host; nothing of it remains if it was cancelled on the way.
 fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usize>) {
-    let tables = &shared.scene.tables;
+    let (tables, start) = (&shared.scene.tables, Instant::now());
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
     let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let specular_rays = specular_rays(shared);
@@ -81,7 +82,8 @@ fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usi
     let origin = shared.scene.tables.origin;
     // Where samples follow discontinuities every pixel has its own slot.
     let packed = if rule.is_some() { u64::MAX } else { zones };
-    let block = Block { splats, ..Block::new(&shared.film, &workspace.deposits.sums, zones, packed, origin) };
+    let mut block = Block { splats, ..Block::new(&shared.film, &workspace.deposits.sums, zones, packed, origin) };
+    block.share_out(&shared.film, start.elapsed().as_secs_f64());
     // Counted first, so that the last tile's news finds the progress complete.
     shared.schedule.finished(work);
     let state = shared.film.add(work.tile, work.block, block, white, || {

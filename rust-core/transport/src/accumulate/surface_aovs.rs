@@ -15,8 +15,8 @@ pub(crate) struct FirstSurface<L: Lanes> {
     /// Whether it hides what is behind it.
     pub(crate) covers: M<L>,
     pub(crate) look: Option<SurfaceLook<L>>,
-    /// Instance set, and the pass indices of the instance and of the material.
-    pub(crate) numbers: Option<[U<L>; 3]>,
+    /// Instance set, the pass indices of the instance and of the material, number in the set, and triangle.
+    pub(crate) numbers: Option<[U<L>; 5]>,
     pub(crate) clearness: Option<F<L>>,
     pub(crate) uv: Option<[F<L>; 2]>,
     /// Albedos of the kinds of scattering.
@@ -58,7 +58,9 @@ impl TileSums {
                 self.lights.add(l.u(code::COLOUR + kind as u32), slot, to_film(albedo * share), chosen);
             }
         }
-        if let Some([set, object, material]) = surface.numbers {
+        if let Some([set, object, material, instance, element]) = surface.numbers {
+            keep_first(&mut self.instance_id, slot, instance, chosen);
+            keep_first(&mut self.element_id, slot, element, chosen);
             keep_first(&mut self.prim_id, slot, set, chosen);
             keep_first(&mut self.object_index, slot, object, chosen);
             keep_first(&mut self.material_index, slot, material, chosen);

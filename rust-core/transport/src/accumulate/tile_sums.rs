@@ -1,7 +1,9 @@
 //! The sums of a sample block by slot: radiance, coverage, AOVs, light passes, light groups, shader AOVs, shadow catchers.
 
 use crate::accumulate::catcher_sums::CatcherSums;
+use crate::accumulate::effort::Effort;
 use crate::accumulate::light_sums::LightSums;
+use crate::accumulate::matte_sums::MatteSums;
 use crate::accumulate::shader_sums::ShaderSums;
 use crate::state::columns::{Columns3, add_scaled, columns3};
 use crate::tables::transport::Passes;
@@ -27,6 +29,10 @@ pub struct TileSums {
     pub guides: [Columns3; 2],
     /// Instance sets (Hydra's primId, not triangles); of the block's first sample that met one, plus one, zero for none.
     pub prim_id: Column<u32>,
+    /// Numbers of placements in their sets and of triangles in their meshes, kept like `prim_id`.
+    pub instance_id: Column<u32>,
+    /// See `instance_id`.
+    pub element_id: Column<u32>,
     /// Pass indices of instances and of materials, kept like `prim_id`.
     pub object_index: Column<u32>,
     /// See `object_index`.
@@ -45,6 +51,10 @@ pub struct TileSums {
     pub groups: LightSums,
     /// What materials show in passes of their own.
     pub shader: ShaderSums,
+    /// Work by pixel.
+    pub effort: Effort,
+    /// What camera rays met, for cryptomattes.
+    pub mattes: MatteSums,
     /// What shadow catchers hide; empty where there are none.
     pub catchers: CatcherSums,
 }
@@ -60,6 +70,8 @@ impl Default for TileSums {
             albedo: Columns3::default(),
             guides: Default::default(),
             prim_id: Column::new(BATCH),
+            instance_id: Column::new(BATCH),
+            element_id: Column::new(BATCH),
             object_index: Column::new(BATCH),
             material_index: Column::new(BATCH),
             uv: Columns3::default(),
@@ -69,6 +81,8 @@ impl Default for TileSums {
             lights: LightSums::default(),
             groups: LightSums::default(),
             shader: ShaderSums::default(),
+            effort: Effort::default(),
+            mattes: MatteSums::default(),
             catchers: CatcherSums::default(),
         }
     }
@@ -77,6 +91,7 @@ impl Default for TileSums {
 impl TileSums {
     /// Makes room for what passes want, and for nothing else.
     pub(crate) fn prepare_passes(&mut self, passes: &Passes) {
+        self.effort.prepare(passes.effort);
         let [albedo, normal] = &mut self.guides;
         for (columns, wanted) in [
             (&mut self.normal, passes.surface),
@@ -127,7 +142,7 @@ impl TileSums {
     /// Empties all sums.
     pub fn clear(&mut self) {
         let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.specular];
-        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays];
+        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays, &mut self.effort.rays];
         threes
             .into_iter()
             .chain(&mut self.guides)
@@ -136,8 +151,11 @@ impl TileSums {
             .chain(&mut self.shader.columns)
             .chain(self.catchers.columns())
             .for_each(|column| column.fill(0.0));
-        [&mut self.prim_id, &mut self.object_index, &mut self.material_index].into_iter().for_each(|column| column.fill(0));
+        [&mut self.prim_id, &mut self.instance_id, &mut self.element_id, &mut self.object_index, &mut self.material_index]
+            .into_iter()
+            .for_each(|column| column.fill(0));
         self.lights.clear();
         self.groups.clear();
+        self.mattes.met.clear();
     }
 }

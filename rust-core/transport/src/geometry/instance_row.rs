@@ -71,7 +71,7 @@ impl GeometryTable {
 
     /// The instances' numbers in their sets.
     #[inline(always)]
-    pub(super) fn number_lanes<L: Lanes>(&self, l: L, instance: U<L>) -> U<L> {
+    pub fn number_lanes<L: Lanes>(&self, l: L, instance: U<L>) -> U<L> {
         self.look_lanes(l, instance).number
     }
 

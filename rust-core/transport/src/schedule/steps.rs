@@ -35,6 +35,7 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
         nearest.escaped.clear();
     } else {
         statistics.rays += paths.count as u64;
+        deposits.sums.effort.count(paths);
         intersect::intersect(tables, transport, depth, paths, nearest, deposits);
     }
     let escaped = nearest.escaped.len();

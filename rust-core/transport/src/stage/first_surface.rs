@@ -54,7 +54,7 @@ pub(crate) fn add_first_surface<L: Lanes>(
         share: point.share,
         covers: catcher::covers(point.slot),
         look: if transport.passes.surface { Some(look(chunk, point, lobes, eye)) } else { None },
-        numbers: if transport.passes.numbers { Some(numbers(chunk, material, point)) } else { None },
+        numbers: if transport.passes.numbers { Some(numbers(chunk, material, point, at)) } else { None },
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         clearness: match &transport.passes.mist {
             Some(mist) => Some(clearness(mist, point.at.position - eye)),
@@ -64,6 +64,10 @@ pub(crate) fn add_first_surface<L: Lanes>(
         kinds: if deposits.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
     };
     deposits.sums.add_first_surface(l, &surface, seen);
+    if transport.passes.mattes {
+        let of = (&chunk.tables.matte_names, &chunk.tables.geometry);
+        deposits.sums.mattes.add(of, material.matte_id, (surface.slot, point.instance), point.share, seen);
+    }
     if let Some(program) = chunk.shader {
         add_shader_passes(program, &chunk.columns.shader_outputs, point, seen, at, &mut deposits.sums);
     }
@@ -80,12 +84,13 @@ fn look<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, lobes: &Lobes<
     }
 }
 
-/// The instance set, and the pass indices of the instance and of the material.
+/// The instance set, the pass indices of the instance and of the material, the instance's number in its set, and the triangle.
 #[inline(always)]
-fn numbers<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>) -> [U<L>; 3] {
-    let ChunkContext { l, tables, .. } = *chunk;
+fn numbers<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>, at: usize) -> [U<L>; 5] {
+    let ChunkContext { l, tables, columns, .. } = *chunk;
     let set = tables.geometry.set_lanes(l, point.instance);
-    [set, l.gather_integers(&tables.geometry.set_pass_index, set), l.u(material.pass_index)]
+    let (number, triangle) = (tables.geometry.number_lanes(l, point.instance), l.load_integers(&columns.surface.primitive, at));
+    [set, l.gather_integers(&tables.geometry.set_pass_index, set), l.u(material.pass_index), number, triangle]
 }
 
 /// What the mist leaves of a point this far from the camera.

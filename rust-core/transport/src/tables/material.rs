@@ -25,6 +25,8 @@ pub struct SurfaceMaterial {
     pub holdout: bool,
     /// What the material index pass shows.
     pub pass_index: u32,
+    /// Value of its name in cryptomattes.
+    pub matte_id: u32,
 }
 
 impl SurfaceMaterial {

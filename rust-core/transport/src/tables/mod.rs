@@ -3,6 +3,7 @@
 pub(crate) mod light_groups;
 pub(crate) mod links;
 pub(crate) mod material;
+pub(crate) mod matte_names;
 pub(crate) mod photons;
 pub mod ray_mask;
 pub(crate) mod shader_passes;
@@ -16,6 +17,7 @@ use gonio_accel::Tlas;
 use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
 use material::MaterialTable;
+use matte_names::MatteNames;
 use std::sync::Arc;
 
 /// The tables of a compiled scene.
@@ -43,6 +45,8 @@ pub struct Tables {
     pub groups: LightGroups,
     /// Which lights light which instances, and which cast their shadows.
     pub links: Links,
+    /// What placements are called in cryptomattes.
+    pub matte_names: MatteNames,
     /// Whether any material lets straight light pass.
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.

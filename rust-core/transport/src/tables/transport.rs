@@ -145,6 +145,10 @@ pub struct Passes {
     pub illuminance: bool,
     /// Numbers and pass indices of instances and materials.
     pub numbers: bool,
+    /// Rays by pixel.
+    pub effort: bool,
+    /// Names of instances and materials, for cryptomattes.
+    pub mattes: bool,
     /// What materials compute for passes of their own.
     pub shader: ShaderPasses,
     /// Which groups of lights are summed apart.

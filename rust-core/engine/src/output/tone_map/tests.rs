@@ -13,7 +13,15 @@ fn picture(pixels: &[[f32; 3]], width: u32) -> Image {
     let values = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
     let resolution = [width, pixels.len() as u32 / width];
     let layers = vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }];
-    Image { resolution, window: Crop { min: [0, 0], max: resolution }, frame: Frame::default(), layers, samples: 1, mean_samples: 1.0 }
+    Image {
+        resolution,
+        window: Crop { min: [0, 0], max: resolution },
+        frame: Frame::default(),
+        layers,
+        samples: 1,
+        mean_samples: 1.0,
+        manifests: Default::default(),
+    }
 }
 
 fn grey(values: &[f32]) -> Image {

@@ -88,6 +88,7 @@ fn scene(nodes: &Value) -> Scene {
         pass_index: 0,
         light_group: String::new(),
         linking: Default::default(),
+        matte_names: Vec::new(),
     });
     scene
 }
