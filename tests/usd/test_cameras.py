@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+import pictures
 import pytest
 
 gonio = pytest.importorskip("gonio")
@@ -110,3 +112,20 @@ def test_stages_without_light_get_one_at_the_camera(tmp_path):
     (light,) = scene["lights"]
     assert list(light["shape"]) == ["Distant"] and not light["casts_shadow"]
     assert light["transform"] == scene["cameras"][scene["settings"]["camera"]]["transform"]
+
+
+def test_clipping_planes_cut_in_the_camera_s_space(picture, tmp_path):
+    planes = "    float4[] clippingPlanes = [(1, 0, 0, 0), (0, 0, 1, 0.07)]\n"
+    wall = 'def Cube "Far"\n{\n    double size = 2\n    double3 xformOp:translate = (0, 0, -900)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    wall += 'def Cube "Near"\n{\n    double size = 2\n    double3 xformOp:translate = (0, 0, -5)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    view = 'def Camera "Cam"\n{\n    float2 clippingRange = (0.01, 10000)\n    float focalLength = 50\n    float horizontalAperture = 10\n    float verticalAperture = 10\nPLANES}\n'
+    options = ["--aov", "color,depth", "--filter", "box", "--filter-width", 0.01]
+    plain = picture(pictures.stage(tmp_path / "a.usda", wall, view.replace("PLANES", ""), metres=0.01), *options, name="a.exr")
+    cut = picture(pictures.stage(tmp_path / "b.usda", wall, view.replace("PLANES", planes), metres=0.01), *options, name="b.exr")
+    assert plain["A"].min() == 1
+    # Nothing to the left of the axis, and on the right nothing beyond 0.07 of the stage's units along the axis: both cubes are gone.
+    assert cut["A"].max() == 0
+    half = picture(pictures.stage(tmp_path / "c.usda", wall, view.replace("PLANES", planes.replace(", (0, 0, 1, 0.07)", "")), metres=0.01), *options, name="c.exr")
+    assert half["A"][:, :16].max() == 0 and half["A"][:, 16:].min() == 1
+    kept = picture(pictures.stage(tmp_path / "d.usda", wall, view.replace("PLANES", planes.replace("0.07", "7").replace("(1, 0, 0, 0), ", "")), metres=0.01), *options, name="d.exr")
+    assert np.array_equal(kept["depth.Z"], plain["depth.Z"])

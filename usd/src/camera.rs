@@ -37,15 +37,14 @@ pub fn camera<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: 
     };
     let (lens_radius, focus_distance) = lens(context, prim, focal_length);
     let [near, far] = context.get::<[f64; 2]>(prim, "clippingRange").unwrap_or([1.0, 1e6]);
-    if context.get_authored::<crate::vt::FloatArray>(prim, "clippingPlanes").is_some_and(|planes| !planes.is_empty()) {
-        context.unsupported("clippingPlanes of cameras", &origin);
-    }
+    let planes: Vec<[f32; 4]> = context.get_authored(prim, "clippingPlanes").unwrap_or_default();
     Camera {
         projection,
         aperture,
         aperture_offset,
         lens_radius,
         focus_distance,
+        clipping_planes: planes.iter().map(|plane| plane.map(f64::from)).map(|[a, b, c, d]| [a, b, c, d * metres]).collect(),
         clipping: clipping(context, &origin, [near * metres, far * metres]),
         transform: *transform,
         exposure: CameraExposure(exposure(context, prim)),

@@ -1,7 +1,7 @@
 //! Cameras that receive: where a point is seen and how much light that arrives there counts. The inverse of ray generation.
 
 use crate::chief::chief_ray;
-use crate::{CameraTable, Lens, panorama};
+use crate::{CameraTable, Lens, panorama, planes};
 use gonio_simd::{F, Lanes, M, One, Vec3};
 use std::f32::consts::TAU;
 
@@ -84,7 +84,10 @@ impl CameraTable {
         let depth = if flat { -found.path.z * stretch } else { distance };
         let importance = found.density * stretch * (volume * (self.pixel[0] * self.pixel[1])).abs().recip();
         let [x, y] = self.raster(found.plane);
-        let inside = depth.gt(0.0) & depth.ge(self.clipping[0]) & depth.le(self.clipping[1]);
+        let mut inside = depth.gt(0.0) & depth.ge(self.clipping[0]) & depth.le(self.clipping[1]);
+        for plane in &self.planes {
+            inside &= planes::shows(l, *plane, local);
+        }
         let finite = importance.is_finite() & x.is_finite() & y.is_finite() & squared.is_finite();
         let valid = found.mapped & inside & finite & importance.gt(0.0);
         Seen {

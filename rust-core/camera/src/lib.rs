@@ -6,6 +6,7 @@ mod filter;
 mod importance;
 mod moving;
 mod panorama;
+mod planes;
 pub mod sampler;
 #[cfg(test)]
 mod tests;
@@ -61,6 +62,8 @@ pub struct CameraTable {
     pub aperture: Aperture,
     /// Distance of what is sharp in metres: along the axis, or around the camera for panoramas.
     pub focus_distance: f32,
+    /// Planes in the camera's own space: what lies where the plane's `a x + b y + c z + d` is below zero is not seen.
+    pub planes: Vec<[f32; 4]>,
     /// Limits in metres: along the axis, or around the camera for panoramas.
     pub clipping: [f32; 2],
     /// How it moves while the shutter is open; `axes` and `position` are where it rests.
@@ -123,11 +126,15 @@ impl CameraTable {
         // Aside of the axis pixels are seen from farther off and aslant, by either side: the mean of the two angles, as Cycles has it.
         let sides = [x.mul_add(x, 1.0).sqrt(), y.mul_add(y, 1.0).sqrt()];
         let aslant = if self.lens == Lens::Perspective { (sides[0] + sides[1]) * 0.5 } else { l.f(1.0) };
+        let mut limits = [l.f(self.clipping[0]) / along, (l.f(self.clipping[1]) / along).min(f32::MAX)];
+        for plane in &self.planes {
+            limits = planes::within(l, *plane, start, local, limits);
+        }
         CameraRay {
             origin: position + start.transform(axes),
             direction: local.transform(axes).normalize(),
-            t_min: l.f(self.clipping[0]) / along,
-            t_max: (l.f(self.clipping[1]) / along).min(f32::MAX),
+            t_min: limits[0],
+            t_max: limits[1],
             spread: l.f(if parallel { 0.0 } else { pixel * self.angle_per_step() }) * along * along * aslant,
             width: l.f(if parallel { pixel } else { 0.0 }),
             mapped: aimed.mapped,

@@ -15,6 +15,7 @@ pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f
         lens_radius: 0.0,
         aperture: Aperture::default(),
         focus_distance: 5.0,
+        planes: Vec::new(),
         clipping: [0.1, 100.0],
         motion: None,
     }
@@ -156,6 +157,27 @@ fn parallel_rays_are_parallel_and_evenly_spaced() {
     assert_eq!(last.direction, first.direction);
     assert_eq!((first.origin, last.origin), ([-1.25, 0.75, 0.0], [2.25, -0.75, 0.0]));
     assert_eq!(first.limits, camera.clipping);
+}
+
+#[test]
+fn planes_hide_what_lies_behind_them() {
+    let camera = table(Lens::Perspective, [8.0, 8.0], [2.0, 2.0], [0.0, 0.0]);
+    let ray = |planes: Vec<[f32; 4]>, x: f32| {
+        let camera = CameraTable { planes, clipping: [0.0, 100.0], ..camera.clone() };
+        let ray = camera.ray(One, [One.f(x), One.f(4.0)], [One.f(0.5); 2]);
+        (ray.t_min.0, ray.t_max.0)
+    };
+    // Nothing to the left is seen, and nothing nearer than 3 m along the axis.
+    let (near, far) = ray(vec![[1.0, 0.0, 0.0, 0.0]], 2.0);
+    assert!(near >= far || far <= 0.0, "{near} to {far}");
+    assert_eq!(ray(vec![[1.0, 0.0, 0.0, 0.0]], 6.0).0, 0.0);
+    let (near, far) = ray(vec![[0.0, 0.0, -1.0, -3.0]], 4.0);
+    assert!((near - 3.0).abs() < 1e-5 && far > 99.0, "{near} to {far}");
+    // Along a plane rays lie on one of its sides.
+    assert!(ray(vec![[0.0, 1.0, 0.0, -0.5]], 4.0).1 < 0.0 && ray(vec![[0.0, 1.0, 0.0, 0.5]], 4.0).1 > 0.0);
+    let seen = CameraTable { planes: vec![[1.0, 0.0, 0.0, 0.0]], ..camera };
+    let valid = |x: f32| seen.importance(One, Vec3::splat(One, [x, 0.0, -5.0]), [One.f(0.5); 2]).valid.any();
+    assert!(valid(0.5) && !valid(-0.5));
 }
 
 #[test]

@@ -70,6 +70,9 @@ pub struct Camera {
     /// Anamorphic ratio: the opening's width is divided by it.
     #[serde(default = "one")]
     pub lens_ratio: f64,
+    /// Planes in the camera's own space, metres: what lies where a plane's `a x + b y + c z + d` is below zero is not seen.
+    #[serde(default)]
+    pub clipping_planes: Vec<[f64; 4]>,
     /// Near and far limits of what is seen in metres: along −z, for panoramas in every direction.
     pub clipping: [f64; 2],
     /// Camera to world, metres; the axes' lengths are left out.
@@ -98,6 +101,7 @@ impl Default for Camera {
             blades: 0,
             blade_rotation_deg: 0.0,
             lens_ratio: 1.0,
+            clipping_planes: Vec::new(),
             clipping: [0.0, f64::MAX],
             transform: Transform::IDENTITY,
             motion: Vec::new(),

@@ -164,9 +164,11 @@ fn what_is_not_seen_is_not_valid_and_nothing_is_nan() {
         }
     };
     for camera in cameras() {
-        for camera in
-            [camera.clone(), CameraTable { clipping: [0.0, f32::MAX], ..camera.clone() }, CameraTable { lens_radius: 0.01, ..camera }]
-        {
+        for camera in [
+            camera.clone(),
+            CameraTable { clipping: [0.0, f32::MAX], ..camera.clone() },
+            CameraTable { lens_radius: 0.01, ..camera.clone() },
+        ] {
             let flat = matches!(camera.lens, Lens::Perspective | Lens::Orthographic);
             for nowhere in [[f32::NAN, 0.0, -1.0], [0.0, f32::INFINITY, -1.0], [1e30; 3], [0.0, 0.0, 1e-30]] {
                 seen(&camera, nowhere, [0.5; 2]);
@@ -186,7 +188,7 @@ fn what_is_not_seen_is_not_valid_and_nothing_is_nan() {
                 check(&camera, [0.0, 2.0, 0.0], matches!(camera.lens, Lens::Equidistant { .. }));
             }
         }
-        let flattened = CameraTable { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], ..camera };
+        let flattened = CameraTable { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], ..camera.clone() };
         check(&flattened, [0.2, 0.1, -3.0], false);
     }
 }

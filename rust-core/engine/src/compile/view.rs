@@ -213,6 +213,12 @@ fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Resul
         lens_radius: if camera.lens_radius.is_finite() { camera.lens_radius.max(0.0) as f32 } else { 0.0 },
         aperture: aperture(camera),
         focus_distance: if camera.focus_distance > 0.0 { camera.focus_distance as f32 } else { 1.0 },
+        planes: camera
+            .clipping_planes
+            .iter()
+            .map(|plane| plane.map(|x| x as f32))
+            .filter(|plane| plane.iter().all(|x| x.is_finite()))
+            .collect(),
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
         motion: None,
     })
