@@ -74,24 +74,3 @@ def test_particle_hair_stands_on_its_emitter():
     ball.show_instancer_for_viewport = False
     scene, _ = exported()
     assert [each["mesh"] for each in scene["instances"]] == [{"curves": 0}]
-
-
-@pytest.mark.blender
-def test_strands_know_what_cycles_knows(tmp_path):
-    import bpy
-    import numpy as np
-    from beside_cycles import both, scene
-    from test_info_nodes import shown
-
-    outputs = ("Is Strand", "Intercept", "Length", "Thickness", "Tangent Normal", "Random")
-    scene(len(outputs))
-    bpy.context.scene.cycles_curves.shape = "RIBBONS"
-    for number, output in enumerate(outputs):
-        # As wide as the picture is high, so that the middle is seen whatever the filter.
-        x = number - 0.5 * len(outputs) + 0.5
-        along = np.linspace(-2.0, 3.0, 6)
-        points = np.stack([np.full_like(along, x), along, np.zeros_like(along)], axis=1)
-        curves_of([points], output, shown("HairInfo", output), radius=0.45)
-    cycles, gonio = (picture for picture in both(tmp_path))
-    middle = slice(cycles.shape[0] // 2, cycles.shape[0] // 2 + 1)
-    assert np.abs(cycles[middle] - gonio[middle]).max() < 0.02 * max(1.0, float(cycles[middle].max())), (cycles[middle], gonio[middle])

@@ -58,8 +58,4 @@ SCENES = [
     Scene("camera", "panoramic"),
     Scene("camera", "fisheye"),
     Scene("camera", "instances"),
-    Scene("hair", "hair_shaders", 384, 384),
-    Scene("hair", "hair_curves", 256, 256),
-    Scene("hair", "hair_ribbons", 256, 256),
-    Scene("hair", "fur", 256, 256),
 ]

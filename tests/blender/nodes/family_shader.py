@@ -60,7 +60,7 @@ NODES = {
     ),
     "ShaderNodeBsdfHair": _lit("Hair BSDF", *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component")),
     "ShaderNodeBsdfHairPrincipled": _lit(
-        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model"), remark="strands are left out"
+        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model")
     ),
     "ShaderNodeBsdfRayPortal": _lit(
         "Ray Portal BSDF",
