@@ -33,8 +33,8 @@ def identifier(name):
     return value ^ (1 << 23) if exponent in (0, 255) else value
 
 
-def checked_manifests(header):
-    """By layer's name, the names and their identifiers, from a header's texts; wrong metadata fails."""
+def checked_manifests(header, are_ids=True):
+    """By layer's name, the names and their identifiers, from a header's texts; wrong metadata fails. Cycles lists hashes, not `are_ids`."""
     manifests = {}
     for key, name in header.items():
         if not (key.startswith("cryptomatte/") and key.endswith("/name")):
@@ -45,8 +45,8 @@ def checked_manifests(header):
         assert header[f"cryptomatte/{code}/conversion"] == "uint32_to_float32"
         manifest = json.loads(header[f"cryptomatte/{code}/manifest"])
         for thing, digits in manifest.items():
-            assert digits == f"{identifier(thing):08x}"
-        manifests[name] = {thing: int(digits, 16) for thing, digits in manifest.items()}
+            assert digits == f"{identifier(thing) if are_ids else murmur3(thing):08x}"
+        manifests[name] = {thing: identifier(thing) for thing in manifest}
     return manifests
 
 
