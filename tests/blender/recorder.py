@@ -41,7 +41,9 @@ class Recorder:
             check(array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key)
         return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
 
-    def put_instances(self, mesh, materials, transforms, *, name, visibility=None, primvars=None, pass_index=0, light_group="", index=None):
+    def put_instances(
+        self, mesh, materials, transforms, *, name, visibility=None, primvars=None, pass_index=0, light_group="", asset="", index=None
+    ):
         check(transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all(), name)
         check(0 <= mesh < len(self.meshes) and all(0 <= m < len(self.materials) for m in materials), name)
         fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
