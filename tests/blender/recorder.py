@@ -42,13 +42,28 @@ class Recorder:
         return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
 
     def put_instances(
-        self, mesh, materials, transforms, *, name, visibility=None, primvars=None, pass_index=0, light_group="", linking=None, index=None
+        self,
+        mesh,
+        materials,
+        transforms,
+        *,
+        name,
+        visibility=None,
+        primvars=None,
+        pass_index=0,
+        light_group="",
+        linking=None,
+        asset="",
+        motion=None,
+        index=None,
+        **fibres,
     ):
         check(transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all(), name)
-        check(0 <= mesh < len(self.meshes) and all(0 <= m < len(self.materials) for m in materials), name)
+        check(motion is None or (motion.shape[1:] == transforms.shape and motion.flags.c_contiguous), name)
+        check((0 <= mesh < len(self.meshes) if mesh is not None else len(fibres) == 1) and all(0 <= m < len(self.materials) for m in materials), name)
         fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
-        given = {"primvars": primvars or {}, "pass_index": pass_index, "light_group": light_group, "linking": linking}
-        return self._put("instances", {**fields, **given}, index)
+        given = {"primvars": primvars or {}, "pass_index": pass_index, "light_group": light_group, "linking": linking, "asset": asset}
+        return self._put("instances", {**fields, **given, "motion": motion, **fibres}, index)
 
     def put_material(self, description, index=None):
         return self._put("materials", description, index)

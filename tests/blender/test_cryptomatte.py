@@ -35,7 +35,7 @@ def scene_of_sheets(samples=64):
     return scene
 
 
-def mattes(path):
+def mattes(path, are_ids=True):
     """By the matte's name, the coverage of each name in its manifest."""
     import bpy
     import numpy
@@ -49,7 +49,7 @@ def mattes(path):
     texts = {attribute.name: attribute.value for attribute in image.spec().extra_attribs if isinstance(attribute.value, str)}
     channels = scenes.read(path)
     found = {}
-    for matte, names in checked_manifests(texts).items():
+    for matte, names in checked_manifests(texts, are_ids).items():
         count = sum(channel.startswith(matte) and channel.lower().endswith(".r") for channel in channels)
         by_letter = {channel.lower(): pixels for channel, pixels in channels.items()}
         layers = [numpy.stack([by_letter[f"{matte}{number:02}.{c}".lower()] for c in "rgba"], axis=-1) for number in range(count)]
@@ -79,7 +79,7 @@ def test_mattes_are_those_of_cycles(tmp_path):
     scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 64, False
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", 1.5
     scenes.render(tmp_path / "cycles.exr")
-    theirs = mattes(tmp_path / "cycles.exr")
+    theirs = mattes(tmp_path / "cycles.exr", are_ids=False)
     assert set(mine) == set(theirs)
     for matte, covers in mine.items():
         for name, cover in covers.items():
@@ -159,7 +159,7 @@ def test_blenders_node_pulls_the_matte_of_a_file_of_gonio(tmp_path):
     scene.camera = bpy.context.object
     matte_node(scene, "CryptoObject", "/World/wire", bpy.data.images.load(str(tmp_path / "mattes.exr")))
     found = composited(tmp_path / "matte.exr")
-    assert expected.max() > 0.9 and abs(found - expected).max() <= 1 / 255
+    assert expected.max() > 0.8 and abs(found - expected).max() <= 1 / 255
 
 
 @pytest.mark.blender

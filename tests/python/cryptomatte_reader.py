@@ -28,13 +28,19 @@ def murmur3(text):
 
 def identifier(name):
     """The 32 bits that pixels hold for a name."""
-    value = murmur3(name)
+    return ordinary(murmur3(name))
+
+
+def ordinary(value):
+    """A hash as the bits of a float that is neither denormal nor infinite nor NaN."""
     exponent = value >> 23 & 255
     return value ^ (1 << 23) if exponent in (0, 255) else value
 
 
-def checked_manifests(header):
-    """By layer's name, the names and their identifiers, from a header's texts; wrong metadata fails."""
+def checked_manifests(header, are_ids=True):
+    """By layer's name, the names and their identifiers, from a header's texts; wrong metadata fails. Cycles lists hashes in place of
+    identifiers, and before 5.0 others for letters beyond ASCII: not `are_ids`.
+    """
     manifests = {}
     for key, name in header.items():
         if not (key.startswith("cryptomatte/") and key.endswith("/name")):
@@ -45,8 +51,8 @@ def checked_manifests(header):
         assert header[f"cryptomatte/{code}/conversion"] == "uint32_to_float32"
         manifest = json.loads(header[f"cryptomatte/{code}/manifest"])
         for thing, digits in manifest.items():
-            assert digits == f"{identifier(thing):08x}"
-        manifests[name] = {thing: int(digits, 16) for thing, digits in manifest.items()}
+            assert digits == f"{identifier(thing):08x}" or not are_ids
+        manifests[name] = {thing: ordinary(int(digits, 16)) for thing, digits in manifest.items()}
     return manifests
 
 

@@ -29,7 +29,7 @@ def test_mattes_are_the_masks_that_are_rendered_alone(tmp_path, settings):
             alone = mask(lambda *names, place=place, thing=thing: names[place] == thing, **settings)
             found = reader.coverage(layers[layer], wanted)
             assert abs(found - alone).max() <= 1 / 255, (layer, thing)
-            assert found.max() > 0.5, thing
+            assert found.max() > 0.3, thing
             total += found
         assert abs(total - np.asarray(film["color"])[..., 3]).max() < 1e-5
 
