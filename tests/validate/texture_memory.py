@@ -1,0 +1,177 @@
+"""Many large textures within a memory limit against the same scene without one: the same picture, the time and the memory it takes.
+
+`python tests/validate/texture_memory.py` renders 64 textures of 2048 × 2048 within 64 MB; `--full` 64 of 8192 × 8192 within 1 GB, which wants
+23 GB of disk for the tiles, 8 GB for the pictures, and for the render without a limit 24 GB of memory (`--no-whole` leaves that out).
+Each render is a process of its own, so that its memory can be told.
+"""
+
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+SIDE_BY_SIDE = 8
+RESOLUTION = (640, 360)
+
+
+def write_png(path, side, seed):
+    """A picture of soft colours with fine detail, quick to write: rows of a wave with a grain that repeats."""
+    rng = np.random.default_rng(seed)
+    x = np.arange(side) / side
+    waves = rng.integers(1, 9, 3)
+    grain = rng.integers(0, 40, (64, 64, 3), dtype=np.uint8)
+    compress = zlib.compressobj(1)
+    parts = []
+    for y in range(side):
+        row = 105 + 80 * np.sin(2 * np.pi * (waves[None, :] * x[:, None] + np.arange(3) * 0.2 + 3.0 * y / side))
+        row = row.astype(np.uint8) + np.tile(grain[y % 64], (side // 64, 1))
+        parts.append(compress.compress(b"\0" + row.tobytes()))
+    parts.append(compress.flush())
+
+    def chunk(name, data):
+        return len(data).to_bytes(4, "big") + name + data + zlib.crc32(name + data).to_bytes(4, "big")
+
+    header = side.to_bytes(4, "big") * 2 + bytes([8, 2, 0, 0, 0])
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", b"".join(parts)) + chunk(b"IEND", b""))
+
+
+def make_pictures(folder, count, side):
+    folder.mkdir(parents=True, exist_ok=True)
+    for number in range(count):
+        path = folder / f"{number:02}.png"
+        if not path.exists():
+            write_png(path, side, number)
+
+
+def textured(scene, path):
+    """A matt material of a picture."""
+    number = scene.put_texture({"origin": {"name": path.name}, "source": {"File": str(path)}, "colour_space": "auto"})
+    lookup = {"texture": number, "wrap": ["Repeat"] * 2, "filter": "Linear", "scale": [1.0] * 4, "bias": [0.0] * 4, "fallback": [1.0] * 4}
+    nodes = [
+        {"operation": {"Primvar": {"name": "st", "fallback": [0.0] * 4}}, "inputs": []},
+        {"operation": {"Image": lookup}, "inputs": [{"Node": [0, "Rgb"]}]},
+    ]
+    grey = {"Constant": [0.0, 0.0, 0.0, 1.0]}
+    parameters = [["base_color", {"Node": [1, "Rgb"]}], ["specular_weight", grey]]
+    closure = {"weight": {"Constant": [1.0] * 4}, "model": "OpenPbr", "parameters": parameters}
+    return scene.put_material({"closures": [closure], "graph": {"nodes": nodes}, "shader_outputs": []})
+
+
+def tiled_floor(folder, count, samples):
+    """A field of textured squares seen at a slant, each picture once, and a wall of them behind; light from all around and one lamp."""
+    import gonio
+
+    scene = gonio.Scene()
+    width, height = RESOLUTION
+    scene.set(width=width, height=height, samples=samples, max_bounces=4)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 0, -1], [0, 0, -1]], "f4")
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], "f4")
+    square = scene.add_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], "i4"), uvs=uvs)
+    for number in range(count):
+        x, z = number % SIDE_BY_SIDE - SIDE_BY_SIDE / 2, -(number // SIDE_BY_SIDE)
+        flat = [[1, 0, 0, x], [0, 1, 0, 0], [0, 0, 1, z], [0, 0, 0, 1]]
+        upright = [[1, 0, 0, x], [0, 0, -1, -z / 2], [0, 1, 0, -SIDE_BY_SIDE], [0, 0, 0, 1]]
+        material = textured(scene, folder / f"{number:02}.png")
+        scene.add_instance(square, [material], transform=flat)
+        scene.add_instance(square, [material], transform=upright)
+    scene.add_light("sphere", (2000.0, 2000.0, 2000.0), radius=0.3, transform=[[1, 0, 0, 0], [0, 1, 0, 4], [0, 0, 1, -3], [0, 0, 0, 1]])
+    # Near the floor, so that footprints are of every size.
+    tilt = np.deg2rad(-14)
+    c, s = np.cos(tilt), np.sin(tilt)
+    scene.add_camera([[1, 0, 0, 0.1], [0, c, -s, 0.8], [0, s, c, 0.4], [0, 0, 0, 1]], fov=70)
+    return scene
+
+
+def render(options):
+    """One render; what it took as JSON."""
+    import gonio
+
+    scene = tiled_floor(options.pictures, options.count, options.samples)
+    if options.limit != "0":
+        scene.set(texture_memory=options.limit, texture_cache=options.cache)
+    start = time.perf_counter()
+    with gonio.Render(scene) as running:
+        compiled = time.perf_counter()
+        assert running.wait()
+        end = time.perf_counter()
+        np.save(options.picture, np.asarray(running.film()["color"]))
+        statistics = running.texture_statistics
+        problems = running.diagnostics
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    found = {"load": compiled - start, "render": end - compiled, "peak_mb": peak, "statistics": statistics, "problems": problems}
+    print(json.dumps(found))
+
+
+def run(options, folder, name, limit):
+    """A render in a process of its own."""
+    picture = folder / f"{name}.npy"
+    arguments = [str(Path(__file__).resolve()), "--child", "--limit", limit, "--picture", str(picture), "--pictures", str(options.pictures)]
+    arguments += ["--cache", str(options.cache), "--count", str(options.count), "--samples", str(options.samples)]
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout.splitlines()[-1])
+    print(f"{name}: loaded in {found['load']:.2f} s, rendered in {found['render']:.2f} s, {found['peak_mb']:.0f} MB at most", flush=True)
+    if found["statistics"]:
+        of = found["statistics"]
+        print(
+            f"    tiles: {of['lookups']} looked up, {100 * of['hit_rate']:.4f} % in memory, {of['tiles_read']} read "
+            f"({of['bytes_read'] / 2**20:.0f} MB), {of['evicted']} given up; {of['most'] / 2**20:.1f} MB at most within "
+            f"{of['limit'] / 2**20:.0f} MB of {of['total'] / 2**20:.0f} MB",
+            flush=True,
+        )
+    assert not found["problems"], found["problems"]
+    return found, np.load(picture)
+
+
+def measure(options, folder):
+    """Renders with and without a limit, and says how they compare."""
+    start = time.perf_counter()
+    make_pictures(options.pictures, options.count, options.side)
+    print(f"{options.count} pictures of {options.side} × {options.side} made in {time.perf_counter() - start:.1f} s", flush=True)
+    first, with_limit = run(options, folder, "first with limit", options.limit)
+    again, with_limit_again = run(options, folder, "again with limit", options.limit)
+    assert np.array_equal(with_limit, with_limit_again)
+    disk = sum(path.stat().st_size for path in options.cache.rglob("*") if path.is_file())
+    print(f"{disk / 2**20:.0f} MB of tiles on disk")
+    if options.no_whole:
+        return
+    whole, without = run(options, folder, "without limit", "0")
+    assert np.array_equal(with_limit, without), "the pictures differ"
+    ratio = (again["load"] + again["render"]) / (whole["load"] + whole["render"])
+    print(f"the same picture; {ratio:.2f} × the time in all, {again['render'] / whole['render']:.2f} × that of rendering alone")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--full", action="store_true", help="64 of 8192 within 1 GB")
+    parser.add_argument("--count", type=int, default=SIDE_BY_SIDE**2)
+    parser.add_argument("--side", type=int, default=2048)
+    parser.add_argument("--limit", default="64M")
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--folder", type=Path, help="where pictures and tiles are kept; by default a temporary folder")
+    parser.add_argument("--no-whole", action="store_true", help="leave the render without a limit out")
+    for name in ("--pictures", "--cache", "--picture"):
+        parser.add_argument(name, type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.child:
+        return render(options)
+    if options.full:
+        options.side, options.limit = 8192, "1G"
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR")) as temporary:
+        folder = options.folder or Path(temporary)
+        options.pictures, options.cache = folder / f"pictures{options.side}", folder / f"tiles{options.side}"
+        measure(options, Path(temporary))
+    return None
+
+
+if __name__ == "__main__":
+    main()
