@@ -13,7 +13,10 @@ use crate::{
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
-    scene::{self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation, Transform},
+    scene::{
+        self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation,
+        Transform,
+    },
 };
 use pyo3::{
     prelude::*,

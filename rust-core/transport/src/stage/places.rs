@@ -153,15 +153,7 @@ fn pair<L: Lanes>(l: L, columns: &[Column; 2], number: U<L>) -> [F<L>; 2] {
 
 /// Writes paths and hits, and measured points.
 #[inline(always)]
-fn append<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    table: &PlaceTable,
-    place: &PlaceLanes<L>,
-    slot: U<L>,
-    inside: M<L>,
-    started: &mut Started<'_>,
-) {
+fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLanes<L>, slot: U<L>, inside: M<L>, started: &mut Started<'_>) {
     let PlaceLanes { instance, triangle, uv: [u, v], .. } = *place;
     let hit = tables.geometry.hit_lanes(l, instance, triangle, u, v);
     let point = tables.geometry.surface_point(l, &hit);
