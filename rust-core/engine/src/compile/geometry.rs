@@ -6,7 +6,7 @@ use super::{
     instances::{append_instances, report_unplaceable},
     numbers::{geometry_number, named},
     primvars::{Elements, append, problem},
-    smooth,
+    smooth_tables,
 };
 use crate::{
     accel::Instance,
@@ -36,7 +36,7 @@ pub(super) fn tables(
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
-    meshes.extend(smooth::append(scene, cuts, names, &mut table, diagnostics)?);
+    meshes.extend(smooth_tables::append(scene, cuts, names, &mut table, diagnostics)?);
     // Curves and points have one material.
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).chain(cuts.iter().map(|_| 1)).collect();
     let mut instances = Vec::new();

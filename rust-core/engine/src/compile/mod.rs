@@ -25,6 +25,7 @@ mod samples;
 mod shader_passes;
 mod smooth;
 mod smooth_primvars;
+mod smooth_tables;
 mod strand_materials;
 mod textures;
 mod trees;
