@@ -7,7 +7,7 @@ use super::{
     motion,
     numbers::{geometry_number, named},
     primvars::{Elements, append, problem},
-    smooth,
+    smooth_tables,
 };
 use crate::{
     accel::{Instance, MovingInstance},
@@ -40,7 +40,7 @@ pub(super) fn tables(
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
     motion::report_meshes(scene, diagnostics);
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
-    meshes.extend(smooth::append(scene, cuts, names, &mut table, diagnostics)?);
+    meshes.extend(smooth_tables::append(scene, cuts, names, &mut table, diagnostics)?);
     motion::fill_keys(scene, &mut table);
     // Curves and points have one material.
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).chain(cuts.iter().map(|_| 1)).collect();

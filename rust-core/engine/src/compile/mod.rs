@@ -27,6 +27,7 @@ mod samples;
 mod shader_passes;
 mod smooth;
 mod smooth_primvars;
+mod smooth_tables;
 mod standard_passes;
 mod strand_materials;
 mod textures;
