@@ -90,6 +90,6 @@ fn widened(bounds: &Bounds, by: f32) -> Bounds {
 }
 
 /// How some instance moves.
-pub(crate) fn motion_of<'a>(moving: &'a [MovingInstance], instance: u32) -> Option<&'a Motion> {
+pub(crate) fn motion_of(moving: &[MovingInstance], instance: u32) -> Option<&Motion> {
     moving.binary_search_by_key(&instance, |one| one.instance).ok().map(|place| &moving[place].motion)
 }

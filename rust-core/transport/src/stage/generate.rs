@@ -23,6 +23,7 @@ pub struct TileArea {
 ///
 /// `times` are those of the slots, empty where nothing moves.
 #[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a view's camera, the batch and where its paths go")]
 pub fn generate<L: Lanes>(
     l: L,
     camera: &CameraTable,
