@@ -47,7 +47,8 @@ fn primvar(name: &str, interpolation: PrimvarInterpolation, components: u8, valu
     Primvar { name: name.to_owned(), interpolation, components, values: Arc::from(values), indices: None }
 }
 
-fn scene(nodes: &Value) -> Scene {
+/// The instance with a material of nodes, and a texture of one texel.
+pub(super) fn scene(nodes: &Value) -> Scene {
     let mut scene = Scene::default();
     scene.add_texture(Texture {
         origin: Origin::new("test"),
@@ -121,7 +122,11 @@ fn place<L: Lanes>(l: L, geometry: &GeometryTable, points: &mut SurfaceColumns) 
 impl Bench {
     /// Compiles nodes, given as JSON, and places hits on all triangles, seen from both sides.
     pub(super) fn new(nodes: &Value) -> Self {
-        let compiled = compile(&scene(nodes), None, &AtomicBool::new(false)).expect("a scene that compiles");
+        Self::of(compile(&scene(nodes), None, &AtomicBool::new(false)).expect("a scene that compiles"))
+    }
+
+    /// The same of a scene that was compiled.
+    pub(super) fn of(compiled: CompiledScene) -> Self {
         let mut points = SurfaceColumns { origin: compiled.tables.origin.map(|x| x as f32), ..SurfaceColumns::default() };
         for i in 0..CHUNK {
             let (a, b) = (uniform(1, i).sqrt(), uniform(2, i));

@@ -6,4 +6,5 @@ mod harness;
 mod pruning;
 mod shading;
 mod steps;
+mod texture_memory;
 mod vector;
