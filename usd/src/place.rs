@@ -1,5 +1,6 @@
 //! From models to the scene: groups multiplied out, shapes of equal mesh and materials gathered into one set of instances.
 
+mod linking;
 mod rebound;
 
 use crate::context::Context;
@@ -7,8 +8,9 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
-use gonio::scene::{GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
+use gonio::scene::{GridArea, Instances, Linking, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Transform, Visibility};
 use gonio::{Error, Result};
+use linking::{Collections, LinkTable};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -27,6 +29,8 @@ struct Placement {
     renamed: Option<(String, String)>,
     /// Whether a material binding outside the model may count inside.
     is_rebound: bool,
+    /// The path that collections of links are asked for, where that is not the prim's.
+    stand_in: Option<String>,
 }
 
 impl Placement {
@@ -37,7 +41,8 @@ impl Placement {
             None => self.renamed.clone(),
         };
         let is_rebound = self.is_rebound || group.instance.is_some() && element.is_bound;
-        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound }
+        let stand_in = linking::stand_in(self, element, group);
+        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound, stand_in }
     }
 
     fn path(&self, path: &str) -> String {
@@ -46,8 +51,11 @@ impl Placement {
     }
 }
 
-/// Instances that share a mesh, materials, the names of their values and a light group.
-type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>, String);
+/// Instances that share a mesh, materials, the names of their values, a light group and links.
+type Key = (MeshId, Vec<MaterialId>, Vec<(String, usize)>, String, Links);
+
+/// The collections of links that name a shape, and its own as a light.
+type Links = (Vec<u32>, Collections);
 
 /// Instances under construction: the values of all placements, one after the other, for each name of the key.
 #[derive(Debug)]
@@ -55,6 +63,7 @@ struct Gathered {
     instances: Instances,
     names: Vec<(String, usize)>,
     values: Vec<Vec<f32>>,
+    links: Links,
 }
 
 /// Fills the scene's instances, lights and cameras.
@@ -68,6 +77,9 @@ pub struct Placer<'w, 'a, 'py> {
     gathered: Vec<Gathered>,
     placement_count: usize,
     geometry_lights: HashMap<(String, MaterialId), MaterialId>,
+    links: LinkTable<'py>,
+    /// The scene's lights that have links, by their numbers.
+    linked_lights: Vec<(usize, Collections)>,
 }
 
 /// Places the world. `failed` are the meshes that could not be built; they are removed from the scene.
@@ -81,7 +93,9 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         purpose: None,
         renamed: None,
         is_rebound: false,
+        stand_in: None,
     };
+    let links = LinkTable::new(context, world, &placement);
     let rebound = rebound::materials(context, world, &placement);
     let mut placer = Placer {
         context,
@@ -91,6 +105,8 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         gathered: Vec::new(),
         placement_count: 0,
         geometry_lights: HashMap::new(),
+        links,
+        linked_lights: Vec::new(),
     };
     placer.place(world, &placement)?;
     placer.finish();
@@ -156,7 +172,8 @@ impl<'py> Placer<'_, '_, 'py> {
         let materials = self.materials(element, shape, placement, &primvars, &transforms);
         let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
         let group = self.light_group(element, placement, &materials);
-        let key = (shape.mesh, materials, names, group);
+        let links = self.links_of(element, shape, placement);
+        let key = (shape.mesh, materials, names, group, links);
         let place = match self.places.get(&key) {
             Some(place) => *place,
             None => self.new_set(element, &key, placement),
@@ -168,6 +185,16 @@ impl<'py> Placer<'_, '_, 'py> {
         }
         gathered.instances.transforms.extend(transforms);
         Ok(())
+    }
+
+    /// The links of a shape, as what is lit and as what shines.
+    fn links_of(&self, element: &Element, shape: &Shape, placement: &Placement) -> Links {
+        if self.links.is_empty() {
+            return Links::default();
+        }
+        let path = placement.path(&element.path);
+        let own = if shape.is_light { self.links.of_light(&path) } else { Collections::default() };
+        (self.links.naming(placement.stand_in.as_ref().unwrap_or(&path)), own)
     }
 
     /// The light group that the prim names, for what shines.
@@ -193,8 +220,10 @@ impl<'py> Placer<'_, '_, 'py> {
             shadow_catcher: false,
             pass_index: 0,
             light_group: key.3.clone(),
+            linking: Linking::default(),
         };
-        self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
+        let values = vec![Vec::new(); key.2.len()];
+        self.gathered.push(Gathered { instances, names: key.2.clone(), values, links: key.4.clone() });
         self.places.insert(key.clone(), place);
         place
     }
@@ -247,12 +276,17 @@ impl<'py> Placer<'_, '_, 'py> {
     fn lights(&mut self, element: &Element, placement: &Placement) {
         let path = placement.path(&element.path);
         let Some(prim) = self.context.prim_at(&path) else { return };
+        let first = self.context.scene.lights.len();
         for transform in self.transforms(element, placement) {
             if daylight::is_daylight(&prim) {
                 daylight::add_lights(self.context, &prim, &transform);
             } else if let Some(light) = light::light(self.context, &prim, &transform) {
                 self.context.scene.lights.push(light);
             }
+        }
+        let links = self.links.of_light(&path);
+        if links != Collections::default() {
+            self.linked_lights.extend((first..self.context.scene.lights.len()).map(|light| (light, links)));
         }
     }
 
@@ -274,8 +308,13 @@ impl<'py> Placer<'_, '_, 'py> {
     }
 
     fn finish(self) {
-        let Self { context, failed, gathered, .. } = self;
-        let instances = gathered.into_iter().map(|Gathered { mut instances, names, values }| {
+        let Self { context, failed, gathered, links, linked_lights, .. } = self;
+        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).collect();
+        for (light, own) in linked_lights {
+            context.scene.lights[light].linking = links.linking(own, &naming);
+        }
+        let instances = gathered.into_iter().map(|Gathered { mut instances, names, values, links: (_, own) }| {
+            instances.linking = links.linking(own, &naming);
             let primvars = names.iter().zip(values);
             instances.primvars = primvars.map(|((name, components), values)| gathered_primvar(name, *components, values)).collect();
             instances
