@@ -271,26 +271,25 @@ pub(crate) fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'
             context.unsupported(&format!("the {name} multiplier of lights"), &origin);
         }
     }
-    for (relationship, feature) in [("light:filters", "light filters"), ("filters", "light filters"), ("portals", "portals of dome lights")]
-    {
-        if prim.has_authored(relationship) && !prim.targets(relationship).is_empty() {
-            context.unsupported(feature, &origin);
+    for relationship in ["light:filters", "filters"] {
+        if prim.has_authored(relationship) {
+            for target in prim.targets(relationship) {
+                let kind = context.prim_at(&target).map(|filter| filter.type_name()).filter(|kind| !kind.is_empty());
+                context.unsupported(&format!("a light filter of type {}", kind.as_deref().unwrap_or("unknown")), &origin);
+            }
         }
     }
-    for (collection, feature) in [("lightLink", "light linking"), ("shadowLink", "shadow linking")] {
-        let prefix = format!("collection:{collection}");
-        let has_targets = ["includes", "excludes"].iter().any(|name| {
-            let name = format!("{prefix}:{name}");
-            prim.has_authored(&name) && !prim.targets(&name).is_empty()
-        });
-        let is_rootless = context.get_authored::<bool>(prim, &format!("{prefix}:includeRoot")) == Some(false);
-        if has_targets || is_rootless {
-            context.unsupported(feature, &origin);
-        }
+    if prim.has_authored("portals") && !prim.targets("portals").is_empty() {
+        context.unsupported("portals of dome lights", &origin);
     }
     if ["inputs:color", "inputs:intensity"].iter().any(|name| is_connected(prim, name)) {
         context.unsupported("shader networks on lights", &origin);
     }
+}
+
+/// Whether a light's collection of links, `lightLink` or `shadowLink`, may hold anything but all.
+pub(crate) fn is_link_authored(prim: &Prim<'_>, collection: &str) -> bool {
+    prim.has_authored_prefix(&format!("collection:{collection}"))
 }
 
 fn is_connected(prim: &Prim<'_>, name: &str) -> bool {

@@ -1,5 +1,6 @@
 //! From models to the scene: groups multiplied out, shapes of equal mesh and materials gathered into one set of instances.
 
+mod linking;
 mod matte_name;
 mod rebound;
 
@@ -10,9 +11,10 @@ use crate::render_pass::Role;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
 use gonio::scene::{
-    Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+    Geometry, GridArea, Instances, Linking, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
 use gonio::{Error, Result};
+use linking::{Collections, LinkTable};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -33,6 +35,8 @@ struct Placement {
     is_rebound: bool,
     /// What all of a point instancer's prototypes are in the render pass: that which the instancer is.
     role: Option<Role>,
+    /// The path that collections of links are asked for, where that is not the prim's.
+    stand_in: Option<String>,
 }
 
 impl Placement {
@@ -43,7 +47,8 @@ impl Placement {
             None => self.renamed.clone(),
         };
         let is_rebound = self.is_rebound || group.instance.is_some() && element.is_bound;
-        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound, role: self.role }
+        let stand_in = linking::stand_in(self, element, group);
+        Self { transforms: Vec::new(), primvars: Rc::from([]), purpose: None, renamed, is_rebound, role: self.role, stand_in }
     }
 
     fn path(&self, path: &str) -> String {
@@ -52,8 +57,11 @@ impl Placement {
     }
 }
 
-/// Instances that share geometry, materials, the names of their values, a light group and what they are in the render pass.
-type Key = (Geometry, Vec<MaterialId>, Vec<(String, usize)>, String, Role);
+/// Instances that share geometry, materials, the names of their values, a light group, what they are in the render pass, and links.
+type Key = (Geometry, Vec<MaterialId>, Vec<(String, usize)>, String, Role, Links);
+
+/// The collections of links that name a shape, and its own as a light.
+type Links = (Vec<u32>, Collections);
 
 /// Instances under construction: the values of all placements, one after the other, for each name of the key.
 #[derive(Debug)]
@@ -61,6 +69,7 @@ struct Gathered {
     instances: Instances,
     names: Vec<(String, usize)>,
     values: Vec<Vec<f32>>,
+    links: Links,
 }
 
 /// Fills the scene's instances, lights and cameras.
@@ -76,6 +85,9 @@ pub struct Placer<'w, 'a, 'py> {
     geometry_lights: HashMap<(String, MaterialId), MaterialId>,
     /// Paths of prims whose kind is that of assets.
     assets: HashSet<String>,
+    links: LinkTable<'py>,
+    /// The scene's lights that have links, by their numbers.
+    linked_lights: Vec<(usize, Collections)>,
 }
 
 /// Places the world. `failed` are the meshes that could not be built; they are removed from the scene.
@@ -90,7 +102,9 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         renamed: None,
         is_rebound: false,
         role: None,
+        stand_in: None,
     };
+    let links = LinkTable::new(context, world, &placement);
     let rebound = rebound::materials(context, world, &placement);
     let assets = matte_name::assets(context);
     let mut placer = Placer {
@@ -102,6 +116,8 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         placement_count: 0,
         geometry_lights: HashMap::new(),
         assets,
+        links,
+        linked_lights: Vec::new(),
     };
     placer.place(world, &placement)?;
     placer.finish();
@@ -169,7 +185,8 @@ impl<'py> Placer<'_, '_, 'py> {
         let materials = self.materials(element, shape, placement, &primvars, &transforms);
         let names: Vec<(String, usize)> = primvars.iter().map(|value| (value.name.clone(), value.components)).collect();
         let group = self.light_group(element, placement, &materials);
-        let key = (shape.geometry, materials, names, group, role);
+        let links = self.links_of(element, shape, placement);
+        let key = (shape.geometry, materials, names, group, role, links);
         let place = match self.places.get(&key) {
             Some(place) => *place,
             None => self.new_set(element, &key, placement),
@@ -191,6 +208,16 @@ impl<'py> Placer<'_, '_, 'py> {
     fn role(&self, element: &Element, placement: &Placement) -> Role {
         let roles = &self.context.roles;
         if roles.are_plain() { Role::default() } else { placement.role.unwrap_or_else(|| roles.role(&placement.path(&element.path))) }
+    }
+
+    /// The links of a shape, as what is lit and as what shines.
+    fn links_of(&self, element: &Element, shape: &Shape, placement: &Placement) -> Links {
+        if self.links.is_empty() {
+            return Links::default();
+        }
+        let path = placement.path(&element.path);
+        let own = if shape.is_light { self.links.of_light(&path) } else { Collections::default() };
+        (self.links.naming(placement.stand_in.as_ref().unwrap_or(&path)), own)
     }
 
     /// The light group that the prim names, for what shines.
@@ -217,10 +244,11 @@ impl<'py> Placer<'_, '_, 'py> {
             shadow_catcher: false,
             pass_index: 0,
             light_group: key.3.clone(),
-            linking: gonio::scene::Linking::default(),
+            linking: Linking::default(),
             matte_names: Vec::new(),
         };
-        self.gathered.push(Gathered { instances, names: key.2.clone(), values: vec![Vec::new(); key.2.len()] });
+        let values = vec![Vec::new(); key.2.len()];
+        self.gathered.push(Gathered { instances, names: key.2.clone(), values, links: key.5.clone() });
         self.places.insert(key.clone(), place);
         place
     }
@@ -285,6 +313,10 @@ impl<'py> Placer<'_, '_, 'py> {
         if !role.camera {
             self.context.scene.lights[first..].iter_mut().for_each(|light| light.visibility.camera = false);
         }
+        let links = self.links.of_light(&path);
+        if links != Collections::default() {
+            self.linked_lights.extend((first..self.context.scene.lights.len()).map(|light| (light, links)));
+        }
     }
 
     fn cameras(&mut self, element: &Element, placement: &Placement) {
@@ -305,8 +337,13 @@ impl<'py> Placer<'_, '_, 'py> {
     }
 
     fn finish(self) {
-        let Self { context, failed, gathered, .. } = self;
-        let instances = gathered.into_iter().map(|Gathered { mut instances, names, values }| {
+        let Self { context, failed, gathered, links, linked_lights, .. } = self;
+        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).collect();
+        for (light, own) in linked_lights {
+            context.scene.lights[light].linking = links.linking(own, &naming);
+        }
+        let instances = gathered.into_iter().map(|Gathered { mut instances, names, values, links: (_, own) }| {
+            instances.linking = links.linking(own, &naming);
             let primvars = names.iter().zip(values);
             instances.primvars = primvars.map(|((name, components), values)| gathered_primvar(name, *components, values)).collect();
             instances

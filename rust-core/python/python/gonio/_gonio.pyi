@@ -616,9 +616,20 @@ class Scene:
         primvars: Mapping[str, Buffer] | None = None,
         pass_index: int = 0,
         light_group: str = "",
+        linking: Mapping[str, Any] | None = None,
         asset: str = "",
         index: int | None = None,
     ) -> int: ...
+    def link(
+        self,
+        *,
+        light: int | None = None,
+        instances: int | None = None,
+        receivers: Sequence[int] | None = None,
+        receivers_except: Sequence[int] | None = None,
+        blockers: Sequence[int] | None = None,
+        blockers_except: Sequence[int] | None = None,
+    ) -> None: ...
     def put_material(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
     def put_light(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
     def put_camera(self, description: Mapping[str, Any], index: int | None = None, *, fixed_aperture: bool = True) -> int: ...
