@@ -1,7 +1,7 @@
 """A thousand lamps, each linked to its own room, against one lamp in one room: seconds of the same picture of one room.
 
-Run with the Python that has gonio: `python tests/peers/linking/rooms.py [ROOMS]`. Rooms are open boxes side by side without walls between lamps and
-other rooms' floors, so that without links every lamp would light every room.
+Run with the Python that has gonio: `python tests/peers/linking/rooms.py [ROOMS]`. Rooms are closed boxes side by side, so that paths stay in the room
+that the camera stands in, whose picture is the same however many others there are.
 """
 
 import sys
@@ -14,10 +14,10 @@ ROOM, SAMPLES, SIDE = 3.0, 64, 256
 
 
 def box() -> tuple[np.ndarray, np.ndarray]:
-    """Floor and walls of a room, without its front and its ceiling."""
-    x, y, z = 0.45 * ROOM, 0.45 * ROOM, 1.2
+    """A closed room."""
+    x, y, z = 0.45 * ROOM, 0.45 * ROOM, 2.4
     corners = np.array([[i * x, j * y, k] for k in (0.0, z) for j in (-1, 1) for i in (-1, 1)], np.float32)
-    quads = [(0, 1, 3, 2), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    quads = [(0, 1, 3, 2), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3), (0, 4, 5, 1), (4, 6, 7, 5)]
     triangles = [[(a, b, c), (a, c, d)] for a, b, c, d in quads]
     return corners, np.array(triangles, np.int32).reshape(-1, 3)
 
@@ -31,11 +31,11 @@ def scene(rooms: int, linked: bool) -> gonio.Scene:
     for room in range(rooms):
         x, y = ROOM * (room % across), ROOM * (room // across)
         made.put_instances(mesh, [material], np.array([[[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, 0], [0, 0, 0, 1]]], float))
-        place = [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, 1.6], [0, 0, 0, 1]]
+        place = [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, 2.3], [0, 0, 0, 1]]
         lamp = made.add_light("rectangle", (20.0, 20.0, 20.0), width=0.6, height=0.6, transform=place, visible=False)
         if linked:
             made.link(light=lamp, receivers=[room])
-    made.add_camera([[1, 0, 0, 0], [0, 0.45, -0.89, -2.6], [0, 0.89, 0.45, 2.4], [0, 0, 0, 1]], fov=45)
+    made.add_camera([[1, 0, 0, 0], [0, 0, -1, -1.2], [0, 1, 0, 1.2], [0, 0, 0, 1]], fov=60)
     made.set(width=SIDE, height=SIDE, samples=SAMPLES, threads=1, max_bounces=4, passes=["color"])
     return made
 
