@@ -133,7 +133,7 @@ def test_lists_are_cut(kind):
 
 
 def test_lists_that_no_scene_has():
-    with pytest.raises(gonio.SettingError, match="kind: 'lamps' was found, expected meshes, instances"):
+    with pytest.raises(gonio.SettingError, match="kind: 'lamps' was found, expected meshes, curves, points, instances"):
         gonio.Scene().truncate("lamps", 0)
 
 

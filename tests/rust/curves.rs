@@ -5,14 +5,14 @@ use gonio::{
     compile::compile,
     film::Image,
     scene::{
-        Aov, Closure, CurveBasis, CurveShape, CurveWrap, Curves, Geometry, Instances, LightShape, Material, Mesh, Origin, PointShape,
-        Points, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+        Aov, Closure, CurveBasis, CurveShape, CurveWrap, Curves, Geometry, LightShape, Material, Mesh, Origin, PointShape, Points, Primvar,
+        PrimvarInterpolation, Scene,
     },
 };
 use gonio_simd::Execution;
 use gonio_tests::{
     picture::{compiled, mean, render, settings},
-    scenes::{camera_from_above, facing_down, floor, layered, light},
+    scenes::{camera_from_above, facing_down, floor, layered, light, place},
 };
 use serde_json::json;
 use std::sync::{Arc, atomic::AtomicBool};
@@ -20,22 +20,6 @@ use std::sync::{Arc, atomic::AtomicBool};
 const PIXELS: u32 = 64;
 /// Side of the blocks whose means are compared, pixels.
 const BLOCK: usize = 8;
-
-fn place(scene: &mut Scene, geometry: impl Into<Geometry>, material: Material) {
-    let material = scene.add_material(material);
-    scene.instances.push(Instances {
-        origin: Origin::new("test"),
-        geometry: geometry.into(),
-        materials: vec![material],
-        transforms: vec![Transform::IDENTITY],
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-    });
-}
 
 /// A floor under a panel and a small lamp, seen from above.
 fn stage() -> Scene {
@@ -203,7 +187,7 @@ fn blocks(image: &Image, aov: Aov, channel: usize) -> Vec<f64> {
 
 /// The largest difference of two pictures' block means, over the mean of all.
 fn difference(a: &Image, b: &Image, aov: &Aov, channel: usize) -> f64 {
-    let [a, b] = [a, b].map(|image| blocks(image, aov.clone(), channel));
+    let [a, b] = [a, b].map(|image| blocks(image, aov, channel));
     let mean = a.iter().map(|x| x.abs()).sum::<f64>() / a.len() as f64;
     a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / mean
 }

@@ -1,6 +1,8 @@
 //! Small scenes built by hand.
 
-use gonio::scene::{Camera, Closure, Emission, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Transform, Visibility};
+use gonio::scene::{
+    Camera, Closure, Emission, Geometry, Instances, Light, LightShape, Material, Mesh, Origin, Scene, Transform, Visibility,
+};
 use std::sync::Arc;
 
 /// Adds a parallelogram from a corner and two edges, seen counter-clockwise from `u × v`.
@@ -23,10 +25,15 @@ pub fn cut_out(opacity: f32) -> Scene {
 /// Adds a mesh with one material at the world's origin.
 pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 3]], material: Material) {
     let mesh = scene.add_mesh(Mesh { points: Arc::from(points), triangles: Arc::from(triangles), ..Mesh::default() });
+    place(scene, mesh, material);
+}
+
+/// Places geometry as it is.
+pub fn place(scene: &mut Scene, geometry: impl Into<Geometry>, material: Material) {
     let material = scene.add_material(material);
     scene.instances.push(Instances {
         origin: Origin::new("test"),
-        geometry: mesh.into(),
+        geometry: geometry.into(),
         materials: vec![material],
         transforms: vec![Transform::IDENTITY],
         motion: Vec::new(),

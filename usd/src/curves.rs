@@ -83,20 +83,22 @@ fn hermite<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, lines: Lines) 
         context.warn(&prim.origin(), format!("{found} tangents, expected {}; the curves are left out", lines.points.len()));
         return None;
     }
-    let (mut points, mut counts, mut first) = (Vec::new(), Vec::new(), 0);
-    for count in lines.counts.iter().map(|count| *count as usize) {
-        for at in first..first + count {
-            let third = |sign: f32| std::array::from_fn(|axis| lines.points[at][axis] + tangents[at][axis] * sign / 3.0);
-            if at > first {
+    let joints: Vec<_> = lines.points.iter().zip(&tangents).collect();
+    let (mut points, mut counts, mut rest) = (Vec::new(), Vec::new(), joints.as_slice());
+    for count in &lines.counts {
+        let (curve, after) = rest.split_at((*count as usize).min(rest.len()));
+        for (at, (point, tangent)) in curve.iter().enumerate() {
+            let third = |sign: f32| std::array::from_fn(|axis| point[axis] + tangent[axis] * sign / 3.0);
+            if at > 0 {
                 points.push(third(-1.0));
             }
-            points.push(lines.points[at]);
-            if at + 1 < first + count {
+            points.push(**point);
+            if at + 1 < curve.len() {
                 points.push(third(1.0));
             }
         }
-        counts.push(if count > 0 { 3 * count as u32 - 2 } else { 0 });
-        first += count;
+        counts.push((3 * curve.len() as u32).saturating_sub(2));
+        rest = after;
     }
     let mut lines = Lines { points, counts, basis: CurveBasis::Bezier, ..lines };
     for primvar in lines.primvars.iter_mut().chain(&mut lines.widths).filter(|primvar| primvar.interpolation == Interpolation::Vertex) {
