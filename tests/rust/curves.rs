@@ -187,7 +187,7 @@ fn blocks(image: &Image, aov: Aov, channel: usize) -> Vec<f64> {
 
 /// The largest difference of two pictures' block means, over the mean of all.
 fn difference(a: &Image, b: &Image, aov: &Aov, channel: usize) -> f64 {
-    let [a, b] = [a, b].map(|image| blocks(image, aov, channel));
+    let [a, b] = [a, b].map(|image| blocks(image, *aov, channel));
     let mean = a.iter().map(|x| x.abs()).sum::<f64>() / a.len() as f64;
     a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / mean
 }
