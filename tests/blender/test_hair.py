@@ -74,3 +74,39 @@ def test_particle_hair_stands_on_its_emitter():
     ball.show_instancer_for_viewport = False
     scene, _ = exported()
     assert [each["mesh"] for each in scene["instances"]] == [{"curves": 0}]
+
+
+@pytest.mark.blender
+def test_scales_lean_as_in_cycles(tmp_path):
+    import beside_cycles
+    import bpy
+    import numpy as np
+
+    kinds = [("ShaderNodeBsdfHairPrincipled", {"model": "CHIANG"})]
+    kinds += [("ShaderNodeBsdfHair", {"component": part}) for part in ("Reflection", "Transmission")]
+    for kind, named in kinds:
+        made = beside_cycles.scene(4, samples=256)
+        made.render.resolution_x = made.render.resolution_y = 48
+        made.cycles_curves.shape, made.cycles.max_bounces = "RIBBONS", 0
+        made.camera.location, made.camera.rotation_euler = (0.0, -6.0, 0.0), (np.pi / 2, 0.0, 0.0)
+        # Lit from before and from behind; leaning towards the camera and away from it.
+        for angle in (70.0, 250.0):
+            lamp = bpy.data.lights.new("Sun", "SUN")
+            lamp.energy, lamp.angle = 3.0, np.radians(5.0)
+            sun = bpy.data.objects.new("Sun", lamp)
+            sun.rotation_euler = (np.radians(angle), 0.0, 0.0)
+            made.collection.objects.link(sun)
+        cover, tree, end = beside_cycles.material("Strand")
+        shader = tree.nodes.new(kind)
+        for name, value in named.items():
+            setattr(shader, name, value)
+        shader.inputs["Offset"].default_value = 0.25
+        for name in ("RoughnessV", "Radial Roughness"):
+            if name in shader.inputs:
+                shader.inputs[name].default_value = 0.8
+        tree.links.new(shader.outputs[0], end.inputs["Surface"])
+        ends = [(-1.5, -1.2), (-0.75, -0.6), (0.0, 0.0), (0.75, 0.6), (1.5, 1.2)]
+        curves_of([np.array([(x, y * t, 1.6 * t) for t in np.linspace(-1.0, 1.0, 5)]) for x, y in ends], "Strands", cover, radius=0.2)
+        # The mean of each strand; the other way round they are as far apart as they are bright.
+        cycles, gonio = (np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path))
+        assert np.allclose(gonio, cycles, rtol=0.05, atol=0.01 * cycles.max()), (kind, named, cycles, gonio)

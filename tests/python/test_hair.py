@@ -45,12 +45,35 @@ def means(image):
     return image.reshape(SIZE // 8, 8, SIZE // 8, 8, 3).mean((1, 3, 4))
 
 
-@pytest.mark.parametrize("shape", ["round", "ribbon"])
-def test_white_fibres_vanish_before_a_white_world(shape):
-    image = picture(tuft([closure("Hair", hair_absorption=0.0)], shape))
+@pytest.mark.parametrize(("shape", "tilt"), [("round", 0.0), ("ribbon", 0.0), ("round", 0.1), ("ribbon", 0.1), ("ribbon", -0.1)])
+def test_white_fibres_vanish_before_a_white_world(shape, tilt):
+    image = picture(tuft([closure("Hair", hair_absorption=0.0, hair_tilt=tilt)], shape))
     # Every path keeps its weight; what bounces on for ever is lost with Russian roulette's noise.
     assert np.abs(means(image) - 1.0).max() < 0.02, means(image)
     assert abs(image.mean() - 1.0) < 0.003
+
+
+def lit_by_a_sun(shape):
+    """Dark strands under a sun of 10° and an even world."""
+    scene = tuft([closure("Hair", hair_absorption=[0.25, 0.5, 1.4], hair_variance=[0.02, 0.005, 0.08], hair_scale=0.3)], shape)
+    scene.truncate("lights", 0)
+    scene.add_light("dome", [0.2] * 3)
+    place = np.eye(4)
+    # Light comes along −z; the other axes do not matter.
+    place[:3, 2] = 0.8, 0.36, 0.48
+    place[:3, 1] = -0.36 / 0.877268, 0.8 / 0.877268, 0.0
+    place[:3, 0] = np.cross(place[:3, 1], place[:3, 2])
+    scene.add_light("distant", [3] * 3, angle=10, transform=place.tolist())
+    return picture(scene)
+
+
+def test_ribbons_are_as_bright_as_tubes():
+    tubes, ribbons = lit_by_a_sun("round"), lit_by_a_sun("ribbon")
+    assert abs(ribbons.mean() / tubes.mean() - 1.0) < 0.02
+    # No pixel shines out of all others: where R alone is left, at the edges, all light is reflected.
+    assert ribbons.max() < 1.5 * tubes.max() and ribbons.max() < 2.0, (tubes.max(), ribbons.max())
+    apart = np.abs(means(ribbons) - means(tubes)) / means(tubes)
+    assert np.median(apart) < 0.05 and apart.max() < 0.3, apart
 
 
 @pytest.mark.parametrize("model", ["HairReflection", "HairTransmission"])

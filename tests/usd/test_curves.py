@@ -60,6 +60,19 @@ def test_nurbs_curves_follow_their_basis(tmp_path):
     assert np.allclose(curves["widths"]["values"], sum(w * p for w, p in zip(weights, (0.1, 0.1, 0.3, 0.3), strict=True))[:, 0])
 
 
+def test_nurbs_curves_pass_knots_between_their_ends(tmp_path):
+    control = np.array([(0, 0, 0), (0.3, 0.9, 0.1), (0.7, -0.3, 0), (1, 0.8, 0), (1.3, 0.2, 0)])
+    for knots, joints in (
+        ("0, 0, 0, 0, 0.5, 1, 1, 1, 1", [(1, 0, 0, 0, 0), (0, 1 / 4, 1 / 2, 1 / 4, 0), (0, 0, 0, 0, 1)]),
+        ("0, 1, 2, 3, 4, 5, 6, 7, 8", [(1 / 6, 2 / 3, 1 / 6, 0, 0), (0, 1 / 6, 2 / 3, 1 / 6, 0), (0, 0, 1 / 6, 2 / 3, 1 / 6)]),
+    ):
+        body = f"int[] curveVertexCounts = [5]\nint[] order = [4]\ndouble[] knots = [{knots}]\n"
+        points = f"point3f[] points = {[tuple(point) for point in control.tolist()]}\nfloat[] widths = [0.1, 0.1, 0.1, 0.1, 0.1]\n"
+        scene, _ = read(tmp_path, f'def NurbsCurves "a"\n{{\n{body}{points}}}\n')
+        found = np.array(scene["curves"][0]["points"])[[0, 8, 16]]
+        assert np.allclose(found, np.array(joints) @ control, atol=1e-6), knots
+
+
 def test_points_have_widths_and_values(tmp_path):
     body = f"{POINTS}\nfloat[] widths = [1, 2, 3, 4, 5, 6, 7, 8]\nint64[] ids = [1, 2, 3, 4, 5, 6, 7, 8]\n"
     colour = 'color3f[] primvars:displayColor = [(1, 0, 0)] (interpolation = "constant")\n'

@@ -35,8 +35,7 @@ def principled_hair(t, node, context):
             hair_absorption=_absorption(t, node, context, random, around),
             hair_variance=t.graph.combine(*variances),
             hair_scale=t.graph.combine(*(widths.component(1),) * 3),
-            # The sign with which pictures of curves are nearest to those of Cycles.
-            hair_tilt=-t.input(node, "Offset", context),
+            hair_tilt=t.input(node, "Offset", context),
             specular_ior=t.input(node, "IOR", context, 1.55),
             **tints,
         )
@@ -88,7 +87,8 @@ def hair(t, node, context):
             hair_widths=t.graph.combine(
                 t.input(node, "RoughnessU", context, 0.1), t.input(node, "RoughnessV", context, 1.0), t.graph.scalar(0.0)
             ),
-            hair_tilt=t.input(node, "Offset", context),
+            # The middle of the half angle; Cycles' scales lean towards the root too.
+            hair_tilt=-t.input(node, "Offset", context),
             tangent=t.input(node, "Tangent", context).node if t.linked(node, "Tangent", context) else None,
         )
     ]

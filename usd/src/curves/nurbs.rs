@@ -75,7 +75,9 @@ impl Spline<'_> {
     /// The value at a parameter in the range (de Boor's algorithm).
     fn at(&self, control: &[[f64; 5]], t: f64) -> [f64; 5] {
         let degree = self.order - 1;
-        let span = (degree..control.len() - 1).rev().find(|&span| self.knots[span] <= t).unwrap_or(degree);
+        // The last span that begins before t and is not empty; the range's end belongs to the last one.
+        let begins = |span: usize| self.knots[span] <= t && self.knots[span] < self.knots[span + 1];
+        let span = (degree..control.len()).rev().find(|&span| begins(span)).unwrap_or(degree);
         let mut values: Vec<[f64; 5]> = control[span - degree..=span].to_vec();
         for level in 1..=degree {
             for at in (level..=degree).rev() {
