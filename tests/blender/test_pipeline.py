@@ -50,7 +50,9 @@ def save(scene, path):
 
 
 @pytest.mark.blender
-@pytest.mark.parametrize(("mode", "moves"), [("OFFAXIS", 0), ("PARALLEL", 0), ("TOE", 0), ("MULTIVIEW", 0), ("OFFAXIS", 1), ("MULTIVIEW", 1)])
+@pytest.mark.parametrize(
+    ("mode", "moves"), [("OFFAXIS", 0), ("PARALLEL", 0), ("TOE", 0), ("MULTIVIEW", 0), ("OFFAXIS", 1), ("MULTIVIEW", 1)]
+)
 def test_each_eye_sees_what_it_sees_in_cycles(mode, moves, tmp_path: Path):
     import bpy
 

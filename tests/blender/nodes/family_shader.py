@@ -26,9 +26,7 @@ ON_MESHES = "on meshes, where Cycles lays fibres along the first edge of each tr
 PHASES = ["HENYEY_GREENSTEIN", "FOURNIER_FORAND", "DRAINE", "RAYLEIGH", "MIE"]
 
 NODES = {
-    "ShaderNodeBsdfDiffuse": _lit(
-        "Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})
-    ),
+    "ShaderNodeBsdfDiffuse": _lit("Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})),
     "ShaderNodeBsdfAnisotropic": _lit(
         "Glossy BSDF",
         *_distributions(["GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY", "MULTI_GGX"], ROUGH),
