@@ -20,7 +20,7 @@ from .measured import Measurements
 from .meshes import Meshes
 from .slots import Slots
 from .surroundings import Surroundings
-from .transforms import columns, without_scale
+from .transforms import columns
 
 __all__ = ["Changes", "Exporter"]
 
@@ -40,8 +40,8 @@ class Exporter:
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
         self._camera, self._follows_view, self._synced = None, False, False
-        # Where the camera is at even times of the shutter, where it moves.
-        self._camera_motion = []
+        # Where cameras that move are at even times of the shutter, by session_uid.
+        self._camera_motion = {}
         # Values that materials want of meshes, by the keys of groups.
         self._primvars = {}
 
@@ -59,20 +59,18 @@ class Exporter:
 
     def blur(self, engine, depsgraph):
         """Exports where things are while the shutter is open; what was exported before stays at the frame."""
-        scene, self._camera_motion = depsgraph.scene, []
+        scene, self._camera_motion = depsgraph.scene, {}
         self.scene.set(**motion.settings_of(scene))
         shutter = motion.shutter_of(scene)
         if shutter is None:
             return
-        source = scene.camera
-        seen = () if source is None else motion.shares_of(source)
+        cameras = motion.cameras_of(scene)
+        seen = {share for camera in cameras for share in motion.shares_of(camera)}
         shares = {*self._instances.shares(), *self._lights.shares(), *seen}
         places = motion.places_at(engine, depsgraph, shutter, shares, self._part)
         self._instances.blur(places, self._forms(depsgraph, places))
         self._lights.blur(places)
-        keys = [places[share].camera for share in seen]
-        if keys and all(key is not None for key in keys) and not all((key == keys[0]).all() for key in keys):
-            self._camera_motion = [columns(without_scale(key)) for key in keys]
+        self._camera_motion = {camera.session_uid: motion.camera_keys(camera, places) for camera in cameras}
 
     def _forms(self, depsgraph, places):
         """Numbers of the meshes that change their form, by the keys of their groups."""
@@ -238,11 +236,13 @@ class Exporter:
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
         aspect = (render.pixel_aspect_x, render.pixel_aspect_y)
-        description = camera.describe(source.evaluated_get(depsgraph), width, height, aspect, self.report, depsgraph, eye)
-        return self._put_camera(description, depsgraph)
+        seen_by = source.evaluated_get(depsgraph)
+        description = camera.describe(seen_by, width, height, aspect, self.report, depsgraph, eye)
+        keys = motion.seen_keys(self._camera_motion.get(source.session_uid, []), seen_by.matrix_world, eye and eye.matrix)
+        return self._put_camera({**description, "motion": [columns(key) for key in keys]}, depsgraph)
 
     def _put_camera(self, description, depsgraph):
-        description = {**description, "motion": self._camera_motion}
+        description = {"motion": [], **description}
         if description == self._camera:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)

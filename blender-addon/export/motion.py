@@ -8,6 +8,7 @@ import numpy as np
 
 from .deforming import form_of, may_change
 from .gather import Walk
+from .transforms import without_scale
 
 # Frames from the shutter's opening to the frame that is rendered, as a share of the time that it is open.
 POSITIONS = {"START": 0.0, "CENTER": 0.5, "END": 1.0}
@@ -32,9 +33,9 @@ class Shutter:
 
 @dataclass(slots=True)
 class Places:
-    """Matrices at one time: those of the camera, and of placements by their key."""
+    """Matrices at one time: those of cameras by session_uid, and of placements by their key."""
 
-    camera: np.ndarray | None = None
+    cameras: dict = field(default_factory=dict)
     groups: dict = field(default_factory=dict)
     # Forms of the meshes that may change.
     forms: dict = field(default_factory=dict)
@@ -102,6 +103,25 @@ def shares_of(thing):
     return tuple(part / parts for part in range(parts + 1))
 
 
+def cameras_of(scene):
+    """The cameras that a render may see through: the scene's, and with several views all that there are."""
+    others = [thing for thing in scene.objects if thing.type == "CAMERA"] if scene.render.use_multiview else []
+    return ([] if scene.camera is None else [scene.camera]) + [thing for thing in others if thing != scene.camera]
+
+
+def camera_keys(camera, places):
+    """The matrices of a camera at its times of the shutter; nothing where it stands still."""
+    keys = [places[share].cameras.get(camera.session_uid) for share in shares_of(camera)]
+    if not keys or any(key is None or not np.isfinite(key).all() for key in keys) or all((key == keys[0]).all() for key in keys):
+        return []
+    return [without_scale(key) for key in keys]
+
+
+def seen_keys(keys, rest, matrix):
+    """Keys of a camera as those of an eye beside it, which has its own matrix while the camera's is `rest`."""
+    return keys if matrix is None else [key @ np.linalg.inv(without_scale(rest)) @ without_scale(matrix) for key in keys]
+
+
 def keys_of(groups):
     """Names of groups that hold from frame to frame, in the order of the groups."""
     counted, keys = {}, []
@@ -121,10 +141,10 @@ def places_at(engine, depsgraph, shutter, shares, part):
             whole = floor(frame)
             engine.frame_set(whole, subframe=frame - whole)
             walk = Walk(depsgraph, _Silent(), part)
-            camera = depsgraph.scene.camera
-            matrix = None if camera is None else np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float)
+            cameras = cameras_of(depsgraph.scene)
+            seen = {camera.session_uid: np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float) for camera in cameras}
             groups = {key: np.array(group.matrices) for key, group in zip(keys_of(walk.groups), walk.groups, strict=True)}
-            found[share] = Places(matrix, groups, _forms(walk, share))
+            found[share] = Places(seen, groups, _forms(walk, share))
     finally:
         whole = floor(shutter.rests)
         engine.frame_set(whole, subframe=shutter.rests - whole)

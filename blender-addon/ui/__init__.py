@@ -5,12 +5,14 @@ import bpy
 
 from . import (
     bake,
+    curves,
     film,
     light,
     light_group,
     light_paths,
     material,
     measure,
+    motion_blur,
     object_visibility,
     passes,
     performance,
@@ -26,6 +28,8 @@ from . import (
 PANELS = (
     *sampling.PANELS,
     *light_paths.PANELS,
+    *curves.PANELS,
+    *motion_blur.PANELS[:2],
     *film.PANELS,
     *simplify.PANELS,
     *performance.PANELS,
@@ -39,6 +43,7 @@ PANELS = (
     *light_group.PANELS,
     *material.PANELS,
     *object_visibility.PANELS,
+    *motion_blur.PANELS[2:],
     *measure.PANELS,
 )
 

@@ -21,8 +21,9 @@ class GONIO_VIEWLAYER_PT_passes_lightgroups(LayerPanel, Panel):
 
 
 class GONIO_OBJECT_PT_lightgroup(GonioPanel, Panel):
-    bl_label = "Shading"
+    bl_label = "Light Group"
     bl_context = "object"
+    bl_parent_id = "OBJECT_PT_shading"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):

@@ -17,8 +17,6 @@ EXCLUDED = (
     "EEVEE_MATERIAL_PT_viewport_settings",
     "NODE_DATA_PT_light",
     "NODE_DATA_PT_spot",
-    "PARTICLE_PT_hair_shape",
-    "PARTICLE_PT_render_path",
     "PHYSICS_PT_fluid_domain_render",
     "RENDER_PT_bake",
     "RENDER_PT_freestyle",

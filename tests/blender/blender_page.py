@@ -10,10 +10,9 @@ HEADING = "## What Cycles' users find\n\n"
 
 # Why a setting of Cycles has no line in the report, by its pattern; the rest are of noise and speed alone.
 REASONS = (
-    (("use_pass_*", "pass_render_time"), "passes: those that there are stand in *Passes*, the others leave a line"),
-    (("sample_offset", "sample_subset_length", "film_transparent_roughness"), "followed"),
+    (("sample_offset", "sample_subset_length", "film_transparent_roughness", "rolling_shutter_*", "*motion*"), "followed"),
+    (("use_pass_*",), "not followed: the pass is absent, and leaves a line"),
     (("fast_gi_method", "ao_bounces*", "ao_distance"), "of Fast GI, which leaves a line"),
-    (("rolling_shutter_*", "*motion*"), "of motion blur"),
     (("*_cull_margin", "*_cull"), "of culling, which leaves a line"),
     (("volume_*", "homogeneous_volume"), "of volumes"),
     (("*dicing*", "max_subdivisions"), "of adaptive subdivision, which leaves a line"),
@@ -75,7 +74,7 @@ def _settings() -> list[str]:
 
 
 def _state(name: str, followed, instead) -> str:
-    if name in followed.values():
+    if name in followed.values() or name in part("session.passes").SWITCHES:
         return "followed"
     if name in instead:
         return f"not followed: {instead[name]}"

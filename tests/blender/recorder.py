@@ -23,6 +23,7 @@ class Recorder:
 
     def __init__(self):
         self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras, self.measured = ([] for _ in range(7))
+        self.curves, self.points = [], []
         self.settings, self.calls = {}, []
 
     def _put(self, what, thing, index):
@@ -40,6 +41,17 @@ class Recorder:
         for key, array in {**arrays, **(primvars or {})}.items():
             check(array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key)
         return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
+
+    def put_curves(self, points, counts, widths, *, index=None, **fields):
+        check(counts.sum() == len(points), fields["name"])
+        return self._put_fibres("curves", points, widths, {**fields, "counts": counts}, index)
+
+    def put_points(self, points, widths, *, index=None, **fields):
+        return self._put_fibres("points", points, widths, fields, index)
+
+    def _put_fibres(self, what, points, widths, fields, index):
+        check(points.shape[1:] == (3,) and np.size(widths) in (1, len(points)), fields["name"])
+        return self._put(what, {**fields, "points": points, "widths": widths}, index)
 
     def put_instances(
         self,
@@ -60,10 +72,18 @@ class Recorder:
     ):
         check(transforms.shape[1:] == (4, 4) and transforms.flags.c_contiguous and np.isfinite(transforms).all(), name)
         check(motion is None or (motion.shape[1:] == transforms.shape and motion.flags.c_contiguous), name)
-        check((0 <= mesh < len(self.meshes) if mesh is not None else len(fibres) == 1) and all(0 <= m < len(self.materials) for m in materials), name)
+        check(
+            (0 <= mesh < len(self.meshes) if mesh is not None else self._has(**fibres))
+            and all(0 <= m < len(self.materials) for m in materials),
+            name,
+        )
         fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
         given = {"primvars": primvars or {}, "pass_index": pass_index, "light_group": light_group, "linking": linking, "asset": asset}
         return self._put("instances", {**fields, **given, "motion": motion, **fibres}, index)
+
+    def _has(self, **fibres):
+        """Whether curves or points of one number are there."""
+        return len(fibres) == 1 and all(0 <= number < len(getattr(self, kind)) for kind, number in fibres.items())
 
     def put_material(self, description, index=None):
         return self._put("materials", description, index)

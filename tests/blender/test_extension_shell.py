@@ -85,10 +85,55 @@ def test_blenders_own_panels_show():
         "DATA_PT_lens",
         "DATA_PT_camera_dof",
         "EEVEE_MATERIAL_PT_context_material",
+        "OBJECT_PT_shading",
+        "PARTICLE_PT_hair_shape",
     ):
         assert _has_engine(getattr(bpy.types, name)), name
     for name in ("DATA_PT_light", "RENDER_PT_simplify", "RENDER_PT_freestyle", "VIEWLAYER_PT_layer_passes"):
         assert not _has_engine(getattr(bpy.types, name, None)), name
+
+
+class _Layout:
+    """A layout that only looks whether the settings that it is to show exist."""
+
+    def __init__(self):
+        self.shown = []
+
+    def prop(self, owner, name, **_):
+        assert name in owner.bl_rna.properties, name
+        self.shown.append(name)
+
+    def template_curve_mapping(self, owner, name):
+        self.prop(owner, name)
+
+    def row(self, **_):
+        return self
+
+    def operator(self, *_, **__):
+        return self
+
+
+@pytest.mark.blender
+def test_panels_of_motion_and_hair_show_what_there_is():
+    import unittest
+    from types import SimpleNamespace
+
+    import bpy
+
+    bpy.context.scene.render.engine = "GONIO"
+    if not hasattr(bpy.context.scene, "cycles"):
+        raise unittest.SkipTest("this bpy has no Cycles")
+    layout = _Layout()
+    for panel in (*part("ui.motion_blur").PANELS, *part("ui.curves").PANELS):
+        assert panel.poll(bpy.context), panel.__name__
+        drawn = SimpleNamespace(layout=layout, draw_settings=getattr(panel, "draw_settings", None))
+        if drawn.draw_settings is not None:
+            drawn.draw_settings = drawn.draw_settings.__get__(drawn)
+        if hasattr(panel, "draw_header"):
+            panel.draw_header(drawn, bpy.context)
+        panel.draw(drawn, bpy.context)
+    blurred = {"use_motion_blur", "motion_blur_position", "motion_blur_shutter", "motion_blur_shutter_curve", "rolling_shutter_type"}
+    assert blurred | {"motion_steps", "use_deform_motion", "shape"} <= set(layout.shown)
 
 
 @pytest.mark.blender

@@ -50,8 +50,10 @@ def save(scene, path):
 
 
 @pytest.mark.blender
-@pytest.mark.parametrize("mode", ["OFFAXIS", "PARALLEL", "TOE", "MULTIVIEW"])
-def test_each_eye_sees_what_it_sees_in_cycles(mode, tmp_path: Path):
+@pytest.mark.parametrize(
+    ("mode", "moves"), [("OFFAXIS", 0), ("PARALLEL", 0), ("TOE", 0), ("MULTIVIEW", 0), ("OFFAXIS", 1), ("MULTIVIEW", 1)]
+)
+def test_each_eye_sees_what_it_sees_in_cycles(mode, moves, tmp_path: Path):
     import bpy
 
     scene = shining_bar()
@@ -65,6 +67,12 @@ def test_each_eye_sees_what_it_sees_in_cycles(mode, tmp_path: Path):
         bpy.context.object.name = "Camera_R"
     else:
         scene.camera.data.stereo.convergence_mode = mode
+    if moves:
+        scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
+        for camera in (thing for thing in scene.objects if thing.type == "CAMERA"):
+            for frame, by in ((0, -0.1), (2, 0.1)):
+                camera.delta_location.y = by
+                camera.keyframe_insert("delta_location", frame=frame)
     scene.render.image_settings.views_format = "INDIVIDUAL"
     found = {}
     for engine in ("GONIO", "CYCLES") if hasattr(scene, "cycles") else ("GONIO",):

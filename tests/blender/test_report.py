@@ -32,11 +32,11 @@ def test_equal_messages_are_counted(tmp_path):
 
     report = module("report").Report()
     for name in ("A", "B", "C"):
-        report.tell("motion blur", "Object", name)
+        report.tell("adaptive subdivision", "Object", name)
     report.add("Object", "D", "dark", severity="ERROR")
     assert [(line.text, line.count) for line in report.counted] == [
         ("D: dark", 1),
-        ("A and 2 more: Motion blur: not supported; everything stands still at the frame", 3),
+        ("A and 2 more: Adaptive subdivision: not supported; as many levels as the modifier states", 3),
     ]
     assert report.summary() == "D: dark, and 1 more in the Gonio Report panel"
     report.forget("Object", "A")
@@ -47,7 +47,7 @@ def test_equal_messages_are_counted(tmp_path):
 def test_no_panel_is_offered_in_vain(tmp_path):
     import bpy
 
-    words = ("render_path", "freestyle", "gpencil")
+    words = ("freestyle", "gpencil")
     for panel in bpy.types.Panel.__subclasses__():
         if "GONIO" in getattr(panel, "COMPAT_ENGINES", ()):
             assert not any(word in panel.__name__ for word in words), panel.__name__
@@ -70,20 +70,20 @@ def test_what_is_gone_is_told_no_more(tmp_path):
     falloff, output = (lamp.node_tree.nodes.new(f"ShaderNode{name}") for name in ("LightFalloff", "OutputLight"))
     lamp.node_tree.links.new(falloff.outputs["Constant"], output.inputs[0])
     link(bpy.data.objects.new("Lamp", lamp))
-    scene.render.use_motion_blur = True
+    scene.render.use_freestyle = True
     exported, report = exporter()
     exported.sync(depsgraph())
 
     def told():
         return {line.message.partition(":")[0] for line in report.diagnostics}
 
-    assert told() == {"Volume", "Light Falloff", "Motion blur"}
+    assert told() == {"Volume", "Light Falloff", "Freestyle lines"}
     bpy.app.handlers.depsgraph_update_post.append(lambda _, graph: exported.update(graph))
     thing.data.materials[0] = bpy.data.materials.new("Plain")
     bpy.context.view_layer.update()
-    assert told() == {"Light Falloff", "Motion blur"}
+    assert told() == {"Light Falloff", "Freestyle lines"}
     bpy.data.objects.remove(bpy.data.objects["Lamp"])
-    scene.render.use_motion_blur = False
+    scene.render.use_freestyle = False
     scene.update_tag()
     bpy.context.view_layer.update()
     bpy.app.handlers.depsgraph_update_post.clear()

@@ -22,12 +22,11 @@ def _distributions(names: list[str], inputs: dict, field: str = "distribution") 
 
 ROUGH = {"Color": COLOUR, "Roughness": 0.35}
 METAL = {"Base Color": COLOUR, "Edge Tint": (0.9, 0.7, 0.5), "Roughness": 0.3}
+ON_MESHES = "on meshes, where Cycles lays fibres along the first edge of each triangle; strands are told of in [Hair](hair.md)"
 PHASES = ["HENYEY_GREENSTEIN", "FOURNIER_FORAND", "DRAINE", "RAYLEIGH", "MIE"]
 
 NODES = {
-    "ShaderNodeBsdfDiffuse": _lit(
-        "Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})
-    ),
+    "ShaderNodeBsdfDiffuse": _lit("Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})),
     "ShaderNodeBsdfAnisotropic": _lit(
         "Glossy BSDF",
         *_distributions(["GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY", "MULTI_GGX"], ROUGH),
@@ -58,9 +57,11 @@ NODES = {
         _case("DIFFUSE, smooth", {"Color": COLOUR, "Size": 0.3, "Smooth": 0.4}, fields={"component": "DIFFUSE"}),
         _case("GLOSSY, smooth", {"Color": COLOUR, "Size": 0.2, "Smooth": 0.5}, fields={"component": "GLOSSY"}),
     ),
-    "ShaderNodeBsdfHair": _lit("Hair BSDF", *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component")),
+    "ShaderNodeBsdfHair": _lit(
+        "Hair BSDF", *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component"), remark=ON_MESHES
+    ),
     "ShaderNodeBsdfHairPrincipled": _lit(
-        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model")
+        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model"), remark=ON_MESHES
     ),
     "ShaderNodeBsdfRayPortal": _lit(
         "Ray Portal BSDF",
