@@ -101,3 +101,26 @@ def test_light_behind_a_fibre_shines_through():
     scene.add_camera([[1, 0, 0, 0], [0, 0, 1, 6], [0, -1, 0, 0], [0, 0, 0, 1]], fov=4)
     behind = picture(scene).mean()
     assert behind > 0.0 and np.isfinite(behind)
+
+
+def reflected_towards(side, tilt):
+    """What a strand along x reflects to a view across it, of light that is 0.4 from across it towards x times `side`."""
+    scene = gonio.Scene()
+    scene.set(width=8, height=8, samples=64, max_bounces=0)
+    curves = scene.add_curves(np.array([[-3, 0, 0], [3, 0, 0]], "f4"), np.array([2], "i4"), 0.5)
+    lobes = closure("Hair", hair_tilt=tilt, hair_variance=0.02, hair_scale=0.5, hair_tint_tt=0.0, hair_tint_trt=0.0)
+    scene.add_instance(None, [scene.put_material({"origin": "hair", "closures": [lobes]})], curves=curves)
+    place = np.eye(4)
+    place[:3, 2] = side * np.sin(0.4), -np.cos(0.4), 0.0
+    place[:3, 1] = 0.0, 0.0, 1.0
+    place[:3, 0] = np.cross(place[:3, 1], place[:3, 2])
+    scene.add_light("distant", [1] * 3, angle=2, transform=place.tolist())
+    scene.add_camera([[1, 0, 0, 0], [0, 0, -1, -6], [0, 1, 0, 0], [0, 0, 0, 1]], fov=3)
+    return float(picture(scene).mean())
+
+
+def test_scales_that_lean_to_the_root_reflect_light_from_there():
+    # θi + θo is −2 tilts.
+    root, tip = reflected_towards(-1.0, 0.2), reflected_towards(1.0, 0.2)
+    assert root > 20.0 * tip > 0.0, (root, tip)
+    assert reflected_towards(1.0, -0.2) == pytest.approx(root, rel=0.02)
