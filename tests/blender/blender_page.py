@@ -32,8 +32,9 @@ def page() -> str:
 
 
 def _panels() -> list[str]:
-    own = {(panel.bl_context, panel.bl_label) for panel in part("ui").PANELS if hasattr(panel, "bl_context")}
-    stock = {panel.__name__ for panel in bpy.types.Panel.__subclasses__() if "GONIO" in getattr(panel, "COMPAT_ENGINES", ())}
+    # Blender's own panels and Gonio's.
+    stock = [panel for panel in bpy.types.Panel.__subclasses__() if "GONIO" in getattr(panel, "COMPAT_ENGINES", ())]
+    shown = {(panel.bl_context, panel.bl_label) for panel in (*stock, *part("ui").PANELS) if hasattr(panel, "bl_context")}
     rows = {}
     for panel in importlib.import_module("cycles.ui").classes:
         if (
@@ -44,7 +45,7 @@ def _panels() -> list[str]:
             continue
         key = (panel.bl_context, panel.bl_label)
         if key[1]:
-            rows[key] = key in own or panel.__name__ in stock or rows.get(key, False)
+            rows[key] = key in shown or panel in stock or rows.get(key, False)
     lines = ["### Panels", "", "| tab | panel of Cycles | here |", "| --- | --- | --- |"]
     tab = {"data": "object data", "view_layer": "view layer"}
     return lines + [
