@@ -76,6 +76,7 @@ fn basis<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, lines: Lines) ->
 }
 
 /// Hermite curves as Bézier spans: points are their joints.
+#[allow(clippy::needless_range_loop, reason = "a range of two arrays side by side")]
 fn hermite<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, lines: Lines) -> Option<Lines> {
     let tangents = context.get_authored::<Vec<[f32; 3]>>(prim, "tangents").unwrap_or_default();
     if tangents.len() != lines.points.len() {
