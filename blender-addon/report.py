@@ -5,6 +5,7 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 from .unsupported import LIMITS
 
@@ -102,6 +103,11 @@ class Report:
         self.forget_all("Render")
         for origin, message in diagnostics:
             self.add("Render", origin, message)
+
+    def add_texture_notes(self, statistics: dict[str, Any] | None) -> None:
+        """What came up while textures were read within a memory limit; to be called when the render has ended."""
+        for note in statistics["notes"] if statistics else ():
+            self.add("Render", "texture cache", note)
 
     def forget(self, kind: str, name: str) -> None:
         """Drops the lines of a data-block that is exported again."""

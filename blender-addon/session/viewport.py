@@ -180,6 +180,7 @@ class ViewportSession:
         self._is_running = False
         if stage.is_last:
             self.report.add_render(stage.render.diagnostics)
+            self.report.add_texture_notes(stage.render.texture_statistics)
         elif not self._is_stale:
             finer = self._pixel_size if stage.factor <= self._pixel_size else max(self._pixel_size, stage.factor // 2)
             self._finer = (finer, self._now() + (REST if stage.is_first else 0.0))

@@ -49,7 +49,7 @@ class Render:
     """A render that does `rate` samples of pixels a second of the clock's time."""
 
     rate = 1e6
-    diagnostics = ()
+    diagnostics, texture_statistics = (), None
     made = []
 
     def __init__(self, clock, settings):

@@ -49,3 +49,33 @@ def test_the_picture_is_the_same_within_the_limit(tmp_path):
     assert np.array_equal(whole, limited) and whole.any()
     arguments = settings.settings(bpy.context.evaluated_depsgraph_get(), width=8, height=8, crop=None, preview=False, passes=[])
     assert (arguments["texture_memory"], arguments["texture_cache"]) == (1 << 20, str(cache))
+
+
+@pytest.mark.blender
+def test_tiles_that_cannot_be_made_anew_are_in_the_report(tmp_path):
+    import os
+
+    import scenes
+    from recorder import module
+    from texture_memory import spoil_tiles
+
+    picture, cache = tmp_path / "picture.png", tmp_path / "tiles"
+    scene = pictured_plane(picture)
+    scene.render.use_persistent_data = True
+    # The last levels, which lie beside the checksums, stay sound.
+    scene.render.resolution_x = scene.render.resolution_y = 200
+    scene.gonio.texture_memory, scene.gonio.texture_cache = 1, str(cache)
+    # First nothing of it is seen.
+    scene.camera.rotation_euler = (3.1, 0, 0)
+    scenes.render(tmp_path / "away.exr")
+    latest = module("report").latest
+    assert not any("damaged" in line.message for line in latest().diagnostics)
+    spoil_tiles(cache)
+    about = picture.stat()
+    # Its head stays: of an unknown kind Blender would hand over the pixels that it holds.
+    picture.write_bytes(picture.read_bytes()[:64] + bytes(about.st_size - 64))
+    os.utime(picture, ns=(about.st_atime_ns, about.st_mtime_ns))
+    scene.camera.rotation_euler = (0.3, 0, 0)
+    scenes.render(tmp_path / "seen.exr")
+    told = [line.message for line in latest().diagnostics if "damaged" in line.message]
+    assert len(told) == 1 and "picture.png" in told[0] and "black" in told[0], told

@@ -51,10 +51,21 @@ def make_pictures(folder, count, side):
             write_png(path, side, number)
 
 
-def textured(scene, path):
+def spoil_tiles(folder):
+    """Overwrites the tiles of all files of a cache, whose heads stay sound."""
+    for path in folder.glob("*.gtiles"):
+        size = path.stat().st_size
+        with path.open("r+b") as file:
+            file.seek(64)
+            # Checksums, 4 bytes a tile, stand behind the tiles.
+            file.write(b"\x5a" * (size - 64 - max(200, size // 1000)))
+
+
+def textured(scene, path, filter):
     """A matt material of a picture."""
     number = scene.put_texture({"origin": {"name": path.name}, "source": {"File": str(path)}, "colour_space": "auto"})
-    lookup = {"texture": number, "wrap": ["Repeat"] * 2, "filter": "Linear", "scale": [1.0] * 4, "bias": [0.0] * 4, "fallback": [1.0] * 4}
+    lookup = {"texture": number, "wrap": ["Repeat"] * 2, "filter": filter}
+    lookup |= {"scale": [1.0] * 4, "bias": [0.0] * 4, "fallback": [1.0] * 4}
     nodes = [
         {"operation": {"Primvar": {"name": "st", "fallback": [0.0] * 4}}, "inputs": []},
         {"operation": {"Image": lookup}, "inputs": [{"Node": [0, "Rgb"]}]},
@@ -65,12 +76,12 @@ def textured(scene, path):
     return scene.put_material({"closures": [closure], "graph": {"nodes": nodes}, "shader_outputs": []})
 
 
-def tiled_floor(folder, count, samples):
+def tiled_floor(folder, count, samples, *, resolution=RESOLUTION, filter="Linear"):
     """A field of textured squares seen at a slant, each picture once, and a wall of them behind; light from all around and one lamp."""
     import gonio
 
     scene = gonio.Scene()
-    width, height = RESOLUTION
+    width, height = resolution
     scene.set(width=width, height=height, samples=samples, max_bounces=4)
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 0, -1], [0, 0, -1]], "f4")
     uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], "f4")
@@ -79,7 +90,7 @@ def tiled_floor(folder, count, samples):
         x, z = number % SIDE_BY_SIDE - SIDE_BY_SIDE / 2, -(number // SIDE_BY_SIDE)
         flat = [[1, 0, 0, x], [0, 1, 0, 0], [0, 0, 1, z], [0, 0, 0, 1]]
         upright = [[1, 0, 0, x], [0, 0, -1, -z / 2], [0, 1, 0, -SIDE_BY_SIDE], [0, 0, 0, 1]]
-        material = textured(scene, folder / f"{number:02}.png")
+        material = textured(scene, folder / f"{number:02}.png", filter)
         scene.add_instance(square, [material], transform=flat)
         scene.add_instance(square, [material], transform=upright)
     scene.add_light("sphere", (2000.0, 2000.0, 2000.0), radius=0.3, transform=[[1, 0, 0, 0], [0, 1, 0, 4], [0, 0, 1, -3], [0, 0, 0, 1]])
@@ -94,19 +105,20 @@ def render(options):
     """One render; what it took as JSON."""
     import gonio
 
-    scene = tiled_floor(options.pictures, options.count, options.samples)
+    scene = tiled_floor(options.pictures, options.count, options.samples, resolution=options.resolution, filter=options.filter)
     if options.limit != "0":
         scene.set(texture_memory=options.limit, texture_cache=options.cache)
     start = time.perf_counter()
     with gonio.Render(scene) as running:
-        compiled = time.perf_counter()
+        compiled, before = time.perf_counter(), time.process_time()
         assert running.wait()
-        end = time.perf_counter()
+        end, processor = time.perf_counter(), time.process_time() - before
         np.save(options.picture, np.asarray(running.film()["color"]))
         statistics = running.texture_statistics
         problems = running.diagnostics
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    found = {"load": compiled - start, "render": end - compiled, "peak_mb": peak, "statistics": statistics, "problems": problems}
+    found = {"load": compiled - start, "render": end - compiled, "processor": processor, "peak_mb": peak}
+    found |= {"statistics": statistics, "problems": problems}
     print(json.dumps(found))
 
 
@@ -115,10 +127,12 @@ def run(options, folder, name, limit):
     picture = folder / f"{name}.npy"
     arguments = [str(Path(__file__).resolve()), "--child", "--limit", limit, "--picture", str(picture), "--pictures", str(options.pictures)]
     arguments += ["--cache", str(options.cache), "--count", str(options.count), "--samples", str(options.samples)]
+    arguments += ["--resolution", *map(str, options.resolution), "--filter", options.filter]
     done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout.splitlines()[-1])
-    print(f"{name}: loaded in {found['load']:.2f} s, rendered in {found['render']:.2f} s, {found['peak_mb']:.0f} MB at most", flush=True)
+    times = f"loaded in {found['load']:.2f} s, rendered in {found['render']:.2f} s ({found['processor']:.2f} s of processors)"
+    print(f"{name}: {times}, {found['peak_mb']:.0f} MB at most", flush=True)
     if found["statistics"]:
         of = found["statistics"]
         print(
@@ -146,7 +160,8 @@ def measure(options, folder):
     whole, without = run(options, folder, "without limit", "0")
     assert np.array_equal(with_limit, without), "the pictures differ"
     ratio = (again["load"] + again["render"]) / (whole["load"] + whole["render"])
-    print(f"the same picture; {ratio:.2f} × the time in all, {again['render'] / whole['render']:.2f} × that of rendering alone")
+    alone, work = (again[what] / whole[what] for what in ("render", "processor"))
+    print(f"the same picture; {ratio:.2f} × the time in all, {alone:.2f} × that of rendering alone ({work:.2f} × that of processors)")
 
 
 def main():
@@ -156,6 +171,8 @@ def main():
     parser.add_argument("--side", type=int, default=2048)
     parser.add_argument("--limit", default="64M")
     parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--resolution", type=int, nargs=2, default=RESOLUTION)
+    parser.add_argument("--filter", choices=["Linear", "Closest", "Cubic"], default="Linear")
     parser.add_argument("--folder", type=Path, help="where pictures and tiles are kept; by default a temporary folder")
     parser.add_argument("--no-whole", action="store_true", help="leave the render without a limit out")
     for name in ("--pictures", "--cache", "--picture"):

@@ -6,7 +6,7 @@ use crate::{
     colour::{ColourSpace, Stated},
     error::{Diagnostic, Result},
     light::LightTexture,
-    scene::{Operation, Scene, Texture, TextureId, TextureSource, Tile},
+    scene::{Operation, Origin, Scene, Texture, TextureId, TextureSource, Tile},
     texture::{
         self, CacheFolder, Image, MipMap, Source, Texels, TextureError, TextureMemory, TextureRequest, TextureTable, find_tiles, is_udim,
         tile_path,
@@ -77,9 +77,7 @@ pub(super) fn compile(
     );
     super::check(cancel)?;
     let (loaded, trouble) = loaded;
-    if let (Some(trouble), Some(first)) = (trouble, wanted.first()) {
-        diagnostics.push(Diagnostic::warning(&scene.textures[first.texture].origin, trouble));
-    }
+    diagnostics.extend(trouble.map(|trouble| Diagnostic::warning(&Origin::new("texture cache"), trouble)));
     let loaded = wanted.iter().map(|w| (w.texture, w.tile.unwrap_or(0))).zip(loaded);
     for ((number, tile), result) in loaded.chain(pixels.iter().map(|number| (*number, 0)).zip(built)) {
         let texture = &scene.textures[number];
@@ -97,6 +95,8 @@ pub(super) fn compile(
     }
     let mut table = TextureTable::new();
     let numbers = maps.into_iter().map(|tiles| push(&mut table, tiles)).collect();
+    let shortage = table.memory().and_then(|memory| memory.shortage());
+    diagnostics.extend(shortage.map(|shortage| Diagnostic::warning(&Origin::new("texture memory"), shortage)));
     let LightImages { images, numbers: light_numbers } = lights.finish(scene, &stamps, &mut kept, diagnostics);
     Ok(CompiledTextures { table, numbers, of_lights: images, light_numbers, kept, seconds: start.elapsed().as_secs_f64() })
 }

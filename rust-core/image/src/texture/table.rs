@@ -1,7 +1,7 @@
 //! All textures of a scene, as kernels see them.
 
 use super::mip_map::MipMap;
-use super::paged::{TextureStatistics, TileReader};
+use super::paged::{TextureMemory, TextureStatistics, TileReader};
 use super::wrap::{Filter, Wrap};
 use gonio_simd::{F, Lanes, M, U, Vec2};
 use std::sync::Arc;
@@ -129,7 +129,12 @@ impl TextureTable {
 
     /// What was looked up and read of textures within a memory limit; `None` where all are held whole.
     pub fn statistics(&self) -> Option<TextureStatistics> {
-        self.maps().find_map(|map| map.paged.as_ref()).map(|paged| paged.memory().statistics())
+        self.memory().map(|memory| memory.statistics())
+    }
+
+    /// The memory of textures within a limit; `None` where all are held whole.
+    pub fn memory(&self) -> Option<&Arc<TextureMemory>> {
+        self.maps().find_map(|map| map.paged.as_ref()).map(|paged| paged.memory())
     }
 
     /// [`Self::sample`] for a texture that is paged, in the first `count` lanes; it waits for tiles that are not in memory.

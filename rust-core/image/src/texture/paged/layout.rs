@@ -92,12 +92,24 @@ impl TileLayout {
     /// The tile of a texel, and the texel's number in it; places beyond the level count as its last.
     #[inline]
     pub(crate) fn place(&self, level: u32, x: u32, y: u32) -> (u32, usize) {
+        let (tile, [texel, ..]) = self.quad(level, [x, x], [y, y]).unwrap_or_default();
+        (tile, texel)
+    }
+
+    /// The tile of the texels in two columns and two rows, and their numbers in it, row by row; `None` where they are in several.
+    #[inline]
+    pub(crate) fn quad(&self, level: u32, x: [u32; 2], y: [u32; 2]) -> Option<(u32, [usize; 4])> {
         let of = &self.levels[(level as usize).min(self.levels.len() - 1)];
-        let (x, y) = (x.min(of.width - 1), y.min(of.height - 1));
-        let (column, row) = (x >> self.shift, y >> self.shift);
+        let (x, y) = (x.map(|x| x.min(of.width - 1)), y.map(|y| y.min(of.height - 1)));
+        let (column, row) = (x[0] >> self.shift, y[0] >> self.shift);
+        if x[1] >> self.shift != column || y[1] >> self.shift != row {
+            return None;
+        }
         let (left, top) = (column << self.shift, row << self.shift);
         let width = (1 << self.shift).min(of.width - left);
-        (of.first_tile + row * of.columns + column, ((y - top) * width + (x - left)) as usize)
+        let texel = |x: u32, y: u32| ((y - top) * width + (x - left)) as usize;
+        let texels = [texel(x[0], y[0]), texel(x[1], y[0]), texel(x[0], y[1]), texel(x[1], y[1])];
+        Some((of.first_tile + row * of.columns + column, texels))
     }
 
     /// The words of a tile, out of those of a level-by-level pyramid.

@@ -109,8 +109,9 @@ pub struct TextureMemory {
     limit: u64,
     /// Bytes of the tiles that the ring may hold.
     ring_bytes: usize,
-    /// Tiles that each worker holds for itself.
+    /// Tiles that each worker holds for itself, a power of two.
     own_tiles: usize,
+    threads: usize,
     number: u64,
     usage: Arc<Usage>,
     ring: Mutex<Ring>,
@@ -145,11 +146,12 @@ impl TextureMemory {
         static NUMBERS: AtomicU64 = AtomicU64::new(1);
         let (bytes, threads) = (usize::try_from(limit).unwrap_or(usize::MAX), threads.max(1));
         let [least, most] = OWN_TILES;
-        let own_tiles = (bytes / 4 / threads / LARGEST_TILE).clamp(least, most);
+        let own_tiles = 1 << (bytes / 4 / threads / LARGEST_TILE).clamp(least, most).ilog2();
         Arc::new(Self {
             limit,
             ring_bytes: bytes.saturating_sub(threads.saturating_mul(own_tiles * LARGEST_TILE)),
-            own_tiles: 1 << own_tiles.ilog2(),
+            own_tiles,
+            threads,
             number: NUMBERS.fetch_add(1, Ordering::Relaxed),
             usage: Arc::default(),
             ring: Mutex::default(),
@@ -165,6 +167,15 @@ impl TextureMemory {
     /// The limit, bytes.
     pub fn limit(&self) -> u64 {
         self.limit
+    }
+
+    /// What the workers hold at the least where the limit is less, in one sentence.
+    pub fn shortage(&self) -> Option<String> {
+        let (threads, kilobytes) = (self.threads, (self.threads as u64).saturating_mul((self.own_tiles * LARGEST_TILE / 1024) as u64));
+        (kilobytes.saturating_mul(1024) > self.limit).then(|| {
+            let limit = self.limit;
+            format!("{limit} bytes are less than what {threads} worker threads hold at the least; textures may take {kilobytes}K")
+        })
     }
 
     /// What was looked up and read so far.

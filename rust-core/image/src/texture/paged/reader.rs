@@ -56,34 +56,54 @@ impl TileReader {
     /// Gets the texels at the corners of a rectangle between `low` and `high` for every lane of `wanted` (a bit each): those of the row
     /// `low[1]` first.
     pub(crate) fn fetch(&mut self, texels: &Arc<PagedTexels>, wanted: u64, level: &[u32; 16], low: [&[u32; 16]; 2], high: [&[u32; 16]; 2]) {
+        // So that a texel is copied by a move and not by a call.
+        match texels.layout.words() {
+            1 => self.fetch_words::<1>(texels, wanted, level, low, high),
+            2 => self.fetch_words::<2>(texels, wanted, level, low, high),
+            _ => self.fetch_words::<MOST_WORDS>(texels, wanted, level, low, high),
+        }
+    }
+
+    fn fetch_words<const WORDS: usize>(
+        &mut self,
+        texels: &Arc<PagedTexels>,
+        wanted: u64,
+        level: &[u32; 16],
+        low: [&[u32; 16]; 2],
+        high: [&[u32; 16]; 2],
+    ) {
         let mut remaining = wanted & 0xffff;
         while remaining != 0 {
             let lane = remaining.trailing_zeros() as usize;
             remaining &= remaining - 1;
             let ([x, y], [right, below]) = (low.map(|column| column[lane]), high.map(|column| column[lane]));
-            let corners = [(x, y), (right, y), (x, below), (right, below)];
-            let mut places = [(0, 0); CORNERS];
-            for (place, (x, y)) in places.iter_mut().zip(corners) {
-                *place = texels.layout.place(level[lane], x, y);
+            let corner = lane * CORNERS;
+            // Nearly always all four lie in one tile.
+            if let Some((number, places)) = texels.layout.quad(level[lane], [x, right], [y, below]) {
+                self.copy::<WORDS, CORNERS>(texels, number, places, corner);
+                continue;
             }
-            self.fetch_lane(texels, lane, &places);
+            for (next, (x, y)) in [(x, y), (right, y), (x, below), (right, below)].into_iter().enumerate() {
+                let (number, place) = texels.layout.place(level[lane], x, y);
+                self.copy::<WORDS, 1>(texels, number, [place], corner + next);
+            }
         }
     }
 
-    fn fetch_lane(&mut self, texels: &Arc<PagedTexels>, lane: usize, places: &[(u32, usize); CORNERS]) {
-        let words = texels.layout.words();
-        let mut corner = 0;
-        while corner < CORNERS {
-            let number = places[corner].0;
-            let slot = self.slot(texels, number);
-            let (own, out) = (&self.own[slot], &mut self.texels);
-            let Some(tile) = &own.tile else { return };
-            // Nearly always all four lie in one tile.
-            while corner < CORNERS && places[corner].0 == number {
-                let (to, from) = ((lane * CORNERS + corner) * words, places[corner].1 * words);
-                out[to..to + words].copy_from_slice(&tile.words[from..from + words]);
-                corner += 1;
-            }
+    /// Copies texels of one tile to the corners from `corner` on.
+    #[inline(always)]
+    fn copy<const WORDS: usize, const COUNT: usize>(
+        &mut self,
+        texels: &Arc<PagedTexels>,
+        number: u32,
+        places: [usize; COUNT],
+        corner: usize,
+    ) {
+        let slot = self.slot(texels, number);
+        let Some(tile) = &self.own[slot].tile else { return };
+        for (next, place) in places.into_iter().enumerate() {
+            let (to, from) = ((corner + next) * WORDS, place * WORDS);
+            self.texels[to..to + WORDS].copy_from_slice(&tile.words[from..from + WORDS]);
         }
     }
 

@@ -235,6 +235,15 @@ fn tiles_that_cannot_be_made_anew_are_black_and_told() {
 }
 
 #[test]
+fn a_limit_below_what_workers_hold_is_told() {
+    for (limit, threads, is_short) in
+        [(1, 1, true), (512 << 10, 1, false), (512 << 10, 2, true), (64 << 20, 8, false), (u64::MAX, 1, false)]
+    {
+        assert_eq!(TextureMemory::new(limit, threads).shortage().is_some(), is_short, "{limit} {threads}");
+    }
+}
+
+#[test]
 fn a_changed_picture_is_another() {
     let folder = Folder::new("changed");
     let memory = TextureMemory::new(1, 1);
