@@ -39,7 +39,9 @@ OBJECTS = {
 
 SCENES = {
     "motion blur": _untold(
-        "Motion blur of faces that change (velocity attributes), of lenses that zoom, of worlds, and in the viewport", "these stand still at the frame"
+        "Motion blur of faces that change without a velocity attribute, of the form of hair, curves and points, of lenses that zoom, of worlds, and in "
+        "the viewport",
+        "these stand still at the frame",
     ),
     "bake": _untold("Bakes of the kind Shadow", "refused by name"),
     "caustics in bakes": _untold("Caustics by light paths in bakes", "paths from the texels look for them"),

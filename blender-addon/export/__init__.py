@@ -68,21 +68,21 @@ class Exporter:
         seen = {share for camera in cameras for share in motion.shares_of(camera)}
         shares = {*self._instances.shares(), *self._lights.shares(), *seen}
         places = motion.places_at(engine, depsgraph, shutter, shares, self._part)
-        self._instances.blur(places, self._forms(depsgraph, places))
+        self._instances.blur(places, self._forms(depsgraph, places, shutter))
         self._lights.blur(places)
         self._camera_motion = {camera.session_uid: motion.camera_keys(camera, places) for camera in cameras}
 
-    def _forms(self, depsgraph, places):
+    def _forms(self, depsgraph, places, shutter):
         """Numbers of the meshes that change their form, by the keys of their groups."""
         numbers, walk = {}, Walk(depsgraph, self.report, self._part)
         for key, group in zip(motion.keys_of(walk.groups), walk.groups, strict=True):
-            shares = motion.shares_of(group.source.original)
-            forms = [places[share].forms.get(key) for share in shares if share in places]
-            if key in self._primvars and forms and all(form is not None for form in forms):
-                with self.report.guard("Object", group.name, "its form is not blurred"):
-                    number = self._meshes.blur(group, self._primvars[key], forms, self.report)
-                    if number is not None:
-                        numbers[key] = number
+            if key not in self._primvars:
+                continue
+            with self.report.guard("Object", group.name, "its form is not blurred"):
+                forms = motion.forms_of(key, group, places, shutter, depsgraph.scene)
+                number = self._meshes.blur(group, self._primvars[key], forms, self.report) if forms else None
+                if number is not None:
+                    numbers[key] = number
         return numbers
 
     def sync_world(self, depsgraph):

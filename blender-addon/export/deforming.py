@@ -5,7 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .material.inputs import PARAMETRIC, TRIANGLE
 from .mesh import mesh_arguments
+from .mesh_values import apart
+
+# The attribute of points that says where they go, metres a second.
+VELOCITY = "velocity"
 
 
 @dataclass(slots=True)
@@ -14,14 +19,14 @@ class Form:
 
     points: np.ndarray
     normals: np.ndarray | None
-    triangles: np.ndarray
+    faces: np.ndarray
     corners: np.ndarray | None
 
     def is_like(self, other):
-        """Whether another form has the same triangles over as many points."""
+        """Whether another form has the same faces over as many points. How they are cut into triangles may change as they bend."""
         return (
             self.points.shape == other.points.shape
-            and np.array_equal(self.triangles, other.triangles)
+            and np.array_equal(self.faces, other.faces)
             and (self.corners is None) == (other.corners is None)
             and (self.corners is None or np.array_equal(self.corners, other.corners))
             and bool(np.isfinite(other.points).all())
@@ -31,33 +36,62 @@ class Form:
 def may_change(group):
     """Whether a group's mesh may have another form at another time."""
     source = group.source.original
-    if group.kind != "MESH" or not getattr(getattr(source, "cycles", None), "use_deform_motion", True):
+    if not _is_to_be_blurred(group) or has_velocities(group):
         return False
     data = source.data
     return bool(source.modifiers) or getattr(data, "shape_keys", None) is not None or source.parent_type == "ARMATURE"
 
 
+def has_velocities(group):
+    """Whether a group's mesh says itself where its points go."""
+    if not _is_to_be_blurred(group):
+        return False
+    attribute = group.data.attributes.get(VELOCITY)
+    return attribute is not None and (attribute.domain, attribute.data_type) == ("POINT", "FLOAT_VECTOR")
+
+
+def _is_to_be_blurred(group):
+    cycles = getattr(group.source.original, "cycles", None)
+    return group.kind == "MESH" and getattr(cycles, "use_deform_motion", True)
+
+
+def _form(arguments):
+    return arguments and Form(arguments["points"], arguments["normals"], arguments["faces"], arguments["corners"])
+
+
 def form_of(group):
     """The form of a group's mesh; None for one without faces."""
-    arguments = mesh_arguments(group.data, frozenset())
-    return arguments and Form(arguments["points"], arguments["normals"], arguments["triangles"], arguments["corners"])
+    return _form(mesh_arguments(group.data, frozenset()))
 
 
-def with_motion(arguments, forms):
-    """The arguments of `put_mesh` with the forms at even times; None where nothing changes, or the triangles do."""
-    rest = Form(arguments["points"], arguments["normals"], arguments["triangles"], arguments["corners"])
-    if any(form is None or not rest.is_like(form) for form in forms):
-        return None
+def forms_by_velocities(group, seconds):
+    """The forms of a group's mesh so many seconds after the frame, its points going straight on; none for one without faces."""
+    arguments = mesh_arguments(group.data, frozenset({VELOCITY}))
+    if arguments is None:
+        return []
+    rest, velocities = _form(arguments), np.nan_to_num(arguments["primvars"][VELOCITY], posinf=0.0, neginf=0.0)
+    return [Form(rest.points + np.float32(after) * velocities, None, rest.faces, rest.corners) for after in seconds]
+
+
+def with_motion(group, primvars, forms):
+    """The arguments of `put_mesh` for a group with its forms at even times, and whether its faces are others at other times; None where
+    nothing changes."""
+    plain = mesh_arguments(group.data, frozenset())
+    rest = _form(plain)
+    if rest is None or any(form is None or not rest.is_like(form) for form in forms):
+        return None, rest is not None
     if all(np.array_equal(form.points, forms[0].points) for form in forms):
-        return None
-    arguments["motion"] = np.ascontiguousarray(np.stack([form.points for form in forms]))
-    normals = [form.normals for form in forms]
-    if rest.normals is not None and all(one is not None and one.shape == rest.normals.shape for one in normals):
-        arguments["motion_normals"] = np.ascontiguousarray(np.stack(normals))
-    return arguments
+        return None, False
+    arguments, forms = mesh_arguments(group.data, primvars), [_laid_out(plain, form, primvars) for form in forms]
+    arguments["motion"] = np.concatenate([form["points"] for form in forms])
+    rest, normals = arguments["normals"], [form["normals"] for form in forms]
+    if rest is not None and all(one is not None and one.shape == rest.shape for one in normals):
+        arguments["motion_normals"] = np.concatenate(normals)
+    return arguments, False
 
 
-def topology_differs(arguments, forms):
-    """Whether the triangles are others at other times."""
-    rest = Form(arguments["points"], arguments["normals"], arguments["triangles"], arguments["corners"])
-    return any(form is None or not rest.is_like(form) for form in forms)
+def _laid_out(plain, form, primvars):
+    """Points and normals of a form in the order in which the mesh is told: by triangles of the mesh at the frame, where each has values
+    of its own."""
+    arguments = {**plain, "points": form.points, "normals": form.normals, "primvars": {}}
+    return apart(arguments) if any(name in primvars for name in (PARAMETRIC, *TRIANGLE)) else arguments

@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..report import words_of
-from .deforming import topology_differs, with_motion
+from .deforming import with_motion
 from .gather import AS_MESH
 from .mesh import fingerprint, mesh_arguments
 from .mesh_attributes import present
@@ -83,13 +83,10 @@ class Meshes:
 
     def blur(self, group, primvars, forms, report):
         """The number of a group's mesh with its forms at even times of the shutter; None where it keeps its form."""
-        arguments = mesh_arguments(group.data, primvars)
-        if arguments is None or not forms:
-            return None
-        moving = with_motion(arguments, forms)
+        moving, faces_differ = with_motion(group, primvars, forms)
+        if faces_differ:
+            report.add("Object", group.name, "its faces are others at other times of the shutter; its form is not blurred")
         if moving is None:
-            if topology_differs(arguments, forms):
-                report.add("Object", group.name, "its faces are others at other times of the shutter; its form is not blurred")
             return None
         key = (fingerprint(group.data), frozenset(present(group.data, primvars)), hash(moving["motion"].tobytes()))
         number, is_new = self._slots.take(key)

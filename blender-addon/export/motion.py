@@ -6,7 +6,7 @@ from math import floor
 
 import numpy as np
 
-from .deforming import form_of, may_change
+from .deforming import form_of, forms_by_velocities, has_velocities, may_change
 from .gather import Walk
 from .transforms import without_scale
 
@@ -159,6 +159,17 @@ def _forms(walk, share):
             with _Ignored():
                 forms[key] = form_of(group)
     return forms
+
+
+def forms_of(key, group, places, shutter, scene):
+    """What a group's mesh looks like at even times of the shutter; nothing where it keeps its form."""
+    shares = shares_of(group.source.original)
+    if shares and has_velocities(group):
+        # Ways are straight: two times say all.
+        speed = scene.render.fps / scene.render.fps_base
+        return forms_by_velocities(group, [(shutter.frame(share) - shutter.rests) / speed for share in (0.0, 1.0)])
+    forms = [places[share].forms.get(key) for share in shares if share in places]
+    return [] if any(form is None for form in forms) else forms
 
 
 def moved(key, rest, shares, places):

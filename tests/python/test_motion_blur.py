@@ -64,7 +64,7 @@ def scene_of(kind, moment=None, samples=16, **settings):
     points, moved = CUBE, None
     if "points" in chosen:
         points = chosen["points"](0.5 if moment is None else moment)
-        moved = None if moment is not None else np.stack([chosen["points"](t) for t in times])
+        moved = None if moment is not None else np.concatenate([chosen["points"](t) for t in times])
     cube = made.add_mesh(points, SIDES, motion=moved, name="cube")
     made.add_instance(cube, [red], name="cube", **placed("cube", at(0.6, 0.8, 0.0)))
     made.add_light("sphere", (60.0, 60.0, 60.0), radius=0.3, visible=False, name="lamp", **placed("lamp", at(0.0, 4.0, 0.0)))
@@ -102,7 +102,7 @@ def sideways(motion, samples=1024, **settings):
     """A shining card of two by two metres over black, seen from above in parallel at four pixels a metre."""
     made = gonio.Scene()
     made.set(width=32, height=8, samples=samples, passes=["color"], filter="box", filter_width=1.0, **settings)
-    shining = made.add_material("shining", base_weight=0.0, specular_weight=0.0, emission_luminance=1.0)
+    shining = made.add_material("shining", base_color=(0.0, 0.0, 0.0), specular_weight=0.0, emission_color=(1.0, 1.0, 1.0))
     made.add_instance(made.add_mesh(FLAT, QUAD), [shining], motion=motion)
     camera = gonio.Scene()
     camera.add_camera(above(5.0))
@@ -146,7 +146,7 @@ def test_the_shutters_curve_weighs_times():
 def test_a_rolling_shutter_shows_rows_one_after_the_other():
     made = gonio.Scene()
     made.set(width=32, height=32, samples=16, passes=["color"], filter="box", filter_width=1.0, row_exposure=0.0)
-    shining = made.add_material("shining", base_weight=0.0, specular_weight=0.0, emission_luminance=1.0)
+    shining = made.add_material("shining", base_color=(0.0, 0.0, 0.0), specular_weight=0.0, emission_color=(1.0, 1.0, 1.0))
     tall = made.add_mesh(FLAT * np.array([0.5, 1.0, 20.0], "f4"), QUAD)
     made.add_instance(tall, [shining], motion=[at(-3.0, 0, 0), at(3.0, 0, 0)])
     made.add_camera(above(8.0), fov=53.13)
@@ -177,7 +177,7 @@ def test_an_instance_that_shines_and_moves_lights():
         scene = gonio.Scene()
         scene.set(width=8, height=8, samples=1024 if moment is None else 16, passes=["color"], max_bounces=1, seed=seed)
         grey = scene.add_material("grey", base_color=(0.6, 0.6, 0.6), specular_weight=0.0)
-        shining = scene.add_material("shining", base_weight=0.0, specular_weight=0.0, emission_luminance=5.0)
+        shining = scene.add_material("shining", base_color=(0.0, 0.0, 0.0), specular_weight=0.0, emission_color=(5.0, 5.0, 5.0))
         scene.add_instance(scene.add_mesh(FLOOR, QUAD), [grey])
         lamp = scene.add_mesh(FLAT, QUAD)
         place = {"motion": [at(-3, 2, 0), at(3, 2, 0)]} if moment is None else {"transform": at(6 * moment - 3, 2, 0)}
@@ -209,7 +209,7 @@ def test_keys_that_cannot_be_used_are_told(motion, problem):
 def test_other_numbers_of_matrices_are_refused():
     scene = gonio.Scene()
     mesh = scene.add_mesh(CUBE, SIDES)
-    with pytest.raises(ValueError, match="motion"):
+    with pytest.raises(gonio.SettingError, match="motion"):
         scene.put_instances(mesh, [], np.stack([np.eye(4)] * 2), motion=np.stack([np.eye(4)] * 3))
     with pytest.raises(ValueError, match="motion"):
         scene.add_mesh(CUBE, SIDES, motion=np.zeros((9, 3), "f4"))
