@@ -84,6 +84,17 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
             None => told.push(Diagnostic::warning(&mesh.origin, still)),
         }
     }
+    let bends = "its points move while the shutter is open; curves and points keep their shape";
+    for (number, curves) in scene.curves.iter().enumerate() {
+        if keys.iter().any(|key| key.curves.get(number).is_some_and(|other| other.points != curves.points)) {
+            told.push(Diagnostic::warning(&curves.origin, bends));
+        }
+    }
+    for (number, points) in scene.points.iter().enumerate() {
+        if keys.iter().any(|key| key.points.get(number).is_some_and(|other| other.points != points.points)) {
+            told.push(Diagnostic::warning(&points.origin, bends));
+        }
+    }
     told
 }
 
