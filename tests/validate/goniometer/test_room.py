@@ -21,7 +21,8 @@ FLOOR = f'''def Mesh "Floor" (prepend apiSchemas = ["MaterialBindingAPI"])
     int[] faceVertexCounts = [4]
     int[] faceVertexIndices = [0, 1, 2, 3]
     point3f[] points = [
-        ({-SIDE / 2}, {-SIDE / 2}, {-DEPTH}), ({SIDE / 2}, {-SIDE / 2}, {-DEPTH}), ({SIDE / 2}, {SIDE / 2}, {-DEPTH}), ({-SIDE / 2}, {SIDE / 2}, {-DEPTH})
+        ({-SIDE / 2}, {-SIDE / 2}, {-DEPTH}), ({SIDE / 2}, {-SIDE / 2}, {-DEPTH}),
+        ({SIDE / 2}, {SIDE / 2}, {-DEPTH}), ({-SIDE / 2}, {SIDE / 2}, {-DEPTH})
     ]
     texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
     rel material:binding = </Matt>
@@ -54,7 +55,8 @@ def lux(stage):
     """Illuminances of the floor's cells by light paths, and their standard errors over their mean."""
     scene = gonio.load_usd(str(stage))
     maps = gonio.illumination_map(scene, prims=["/Floor"], uv="st", resolution=(CELLS, CELLS), error=0, paths=PATHS, max_bounces=500)
-    found, errors = (numpy.asarray(values, float).reshape(CELLS, CELLS) for values in (maps.surfaces[0].illuminance(), maps.surfaces[0].standard_errors()))
+    of_floor = maps.surfaces[0].illuminance(), maps.surfaces[0].standard_errors()
+    found, errors = (numpy.asarray(values, float).reshape(CELLS, CELLS) for values in of_floor)
     return found, errors / found.mean()
 
 
@@ -62,7 +64,8 @@ def lux(stage):
 def test_the_file_lights_as_the_luminaire(name, run, tmp_path):
     whole = tmp_path / "whole.usda"
     whole.write_text(luminaires.STAGES[name]() + FLOOR)
-    told = run("goniometer", whole, "--luminaire", "/Lamp", "-o", tmp_path / "lamp.ldt", *CASES[name], "--rays", "50M", "--error", "0", timeout=900)
+    options = ("--luminaire", "/Lamp", "-o", tmp_path / "lamp.ldt", *CASES[name], "--rays", "50M", "--error", "0")
+    told = run("goniometer", whole, *options, timeout=900)
     assert told.returncode == 0, told.stderr
     (tmp_path / "file.usda").write_text(from_file("lamp.ldt") + FLOOR)
     luminaire, file = lux(whole), lux(tmp_path / "file.usda")

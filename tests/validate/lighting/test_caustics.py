@@ -99,7 +99,8 @@ def test_a_black_lamp_in_a_shell_of_glass():
     put_sphere(room, radius, True, room.matt(0.0))
     radius *= 1.003
     room.light({"Sphere": {"radius": radius}}, CANDELA / (math.pi * radius**2), (0, 0, HEIGHT))
-    hold("point lamp in the middle of a glass shell, what comes back absorbed", "I cos θ / d² · (1 − R) / (1 + R)", room, from_a_point() * (1 - R) / (1 + R))
+    case, reference = "point lamp in the middle of a glass shell, what comes back absorbed", "I cos θ / d² · (1 − R) / (1 + R)"
+    hold(case, reference, room, from_a_point() * (1 - R) / (1 + R))
 
 
 @pytest.mark.parametrize("degrees", [0, 50])
