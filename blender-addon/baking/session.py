@@ -1,22 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One bake: from Blender's pixels to the renderer's, and back."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 
 import gonio
 import numpy as np
 
 from ..export.colour_management import to_working
+from ..session.result import POLL, open_result
 from ..session.status import text
 from ..units import LUMENS_PER_WATT
 from . import stand_ins, wanted
 from .environment import seen_of_world
 from .kinds import FEW_SAMPLES, Kind, colour_of, kind_of
 from .places import Places, read_places, texture_coordinates
-
-# Seconds between two looks at ESC.
-POLL = 0.04
 
 
 def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tuple[int, int]) -> None:
@@ -26,7 +23,8 @@ def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tup
     entry = layer.exporter.own_entry(thing.original)
     if entry is None:
         raise ValueError(f"'{thing.name}' is not in the scene as a mesh that can be baked")
-    with _result(engine, size) as result:
+    # Blender tells images apart by the name of the layer, and takes none without one.
+    with open_result(engine, size, f"bake {wanted.number()}") as result:
         places = read_places(result, *size)
         if not places.known.any():
             return
@@ -36,18 +34,6 @@ def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tup
             pixels = _rendered(engine, depsgraph, layer, entry, kind, places)
         if pixels is not None:
             _write(result, pixels, is_colour=kind.meaning in ("light", "world"))
-
-
-@contextmanager
-def _result(engine, size: tuple[int, int]) -> Iterator:
-    """Blender tells images apart by the name of the layer, and takes none without one."""
-    result = engine.begin_result(0, 0, *size, layer=f"bake {wanted.number()}", view="")
-    whole = False
-    try:
-        yield result
-        whole = True
-    finally:
-        engine.end_result(result, cancel=not whole)
 
 
 def _rendered(engine, depsgraph, layer, entry, kind: Kind, places: Places) -> np.ndarray | None:

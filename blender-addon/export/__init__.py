@@ -189,10 +189,11 @@ class Exporter:
         # All objects are looked at anew.
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report, self._part)
+        keyed = list(zip(walk.groups, motion.keys_of(walk.groups), strict=True))
         layer = depsgraph.view_layer_eval
         override = layer.material_override
         entries, keys, self._primvars = [], [], {}
-        for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True):
+        for group, key in keyed:
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
                 if group.kind != "LIGHT" and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
@@ -209,8 +210,7 @@ class Exporter:
         fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
         self._instances.write(entries, keys)
         self._materials.sweep()
-        lamps = [(group, key) for group, key in zip(walk.groups, motion.keys_of(walk.groups), strict=True) if group.kind == "LIGHT"]
-        self._lights.lamps([group for group, _ in lamps], self._instances.numbers, [key for _, key in lamps])
+        self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.numbers)
         self._meshes.sweep()
         self._fibres.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written

@@ -76,12 +76,12 @@ class Instances:
         # The numbers of the entries of each object, by session_uid.
         self.numbers = {}
 
-    def write(self, entries, keys=()):
+    def write(self, entries, keys):
         """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
         name their groups."""
         self.any_written, self._single, self._own, self.numbers, self._sources = False, {}, {}, {}, []
         made, number = [], 0
-        for entry, key in zip(entries, keys or [None] * len(entries), strict=True):
+        for entry, key in zip(entries, keys, strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
                 self._make(made, key, *entry)
         for place, (group, _, _) in enumerate(made):

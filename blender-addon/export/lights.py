@@ -133,11 +133,11 @@ class Lights:
         self._sources = []
         self.any_written = False
 
-    def lamps(self, groups, numbers, keys=()):
-        """Describes the lamps anew; `numbers` are those of the instance sets that objects became, by session_uid, `keys` name the groups."""
+    def lamps(self, groups, numbers):
+        """Describes the lamps anew, of groups with their keys; `numbers` are those of the instance sets that objects became, by session_uid."""
         self._report.forget_all("Light")
         self._lamps, self._sources = [], []
-        for group, key in zip(groups, keys or [None] * len(groups), strict=True):
+        for group, key in groups:
             with self._report.guard("Object", group.name, "the lamp is left out"):
                 first = len(self._lamps)
                 self._described(group, key)

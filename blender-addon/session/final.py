@@ -12,9 +12,8 @@ from ..export import Exporter, limits
 from . import passes, status
 from .eyes import Eye, eyes
 from .frame import Frame, final_frame
+from .result import POLL, open_result
 
-# Seconds between two looks at ESC.
-POLL = 0.04
 # Seconds between two pictures, at least, and this many times what showing one takes.
 SHOW_EVERY = 0.3
 SHOW_SHARE = 10.0
@@ -92,7 +91,7 @@ class FinalSession:
         """Renders one view, the only one but for stereoscopy."""
         frame, settings = final_frame(depsgraph.scene.render), depsgraph.scene.gonio
         samples = self._settings(depsgraph, layer, frame, kinds, preview, eye)
-        with _result(engine, frame, depsgraph.view_layer.name, eye.name) as result, _started(layer, engine) as render:
+        with open_result(engine, frame.size, depsgraph.view_layer.name, eye.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
             while not (done := render.wait(POLL)):
@@ -126,19 +125,6 @@ class FinalSession:
         if own > 0:
             layer.exporter.scene.set(samples=own)
         return own or depsgraph.scene.gonio.samples
-
-
-@contextmanager
-def _result(engine, frame: Frame, layer: str, view: str) -> Iterator:
-    """A render result that is ended whatever happens: one left open crashes Blender later."""
-    width, height = frame.size
-    result = engine.begin_result(0, 0, width, height, layer=layer, **({"view": view} if view else {}))
-    whole = False
-    try:
-        yield result
-        whole = True
-    finally:
-        engine.end_result(result, cancel=not whole)
 
 
 @contextmanager

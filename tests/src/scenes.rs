@@ -31,21 +31,7 @@ pub fn add_triangles(scene: &mut Scene, points: &[[f32; 3]], triangles: &[[u32; 
 /// Places geometry as it is.
 pub fn place(scene: &mut Scene, geometry: impl Into<Geometry>, material: Material) {
     let material = scene.add_material(material);
-    scene.instances.push(Instances {
-        origin: Origin::new("test"),
-        geometry: geometry.into(),
-        materials: vec![material],
-        transforms: vec![Transform::IDENTITY],
-        motion: Vec::new(),
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-        linking: Default::default(),
-        matte_names: Vec::new(),
-    });
+    scene.instances.push(Instances::new(Origin::new("test"), geometry, vec![material], vec![Transform::IDENTITY]));
 }
 
 /// A light of a shape with radiance 1 that the camera does not see.

@@ -173,7 +173,7 @@ impl StageOptions {
     pub fn with_settings(&self, settings: Option<&RenderSettings>) -> Self {
         let mut options = self.clone();
         if let Some(settings) = settings {
-            options.disable_motion_blur |= settings.disable_motion_blur;
+            options.disable_motion_blur |= settings.framing.disable_motion_blur;
             options.purposes.get_or_insert_with(|| settings.purposes.clone());
             options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());
         }

@@ -11,7 +11,7 @@ use crate::render_pass::Role;
 use crate::view::shines;
 use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
 use gonio::scene::{
-    Geometry, GridArea, Instances, Linking, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+    Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
 use gonio::{Error, Result};
 use linking::{Collections, LinkTable};
@@ -232,20 +232,12 @@ impl<'py> Placer<'_, '_, 'py> {
 
     fn new_set(&mut self, element: &Element, key: &Key, placement: &Placement) -> usize {
         let place = self.gathered.len();
+        let origin = Origin::new(placement.path(&element.path));
         let instances = Instances {
-            origin: Origin::new(placement.path(&element.path)),
-            geometry: key.0,
-            materials: key.1.clone(),
-            transforms: Vec::new(),
-            motion: Vec::new(),
-            primvars: Vec::new(),
             visibility: Visibility { camera: key.4.camera, ..Visibility::default() },
             holdout: key.4.matte,
-            shadow_catcher: false,
-            pass_index: 0,
             light_group: key.3.clone(),
-            linking: Linking::default(),
-            matte_names: Vec::new(),
+            ..Instances::new(origin, key.0, key.1.clone(), Vec::new())
         };
         let values = vec![Vec::new(); key.2.len()];
         self.gathered.push(Gathered { instances, names: key.2.clone(), values, links: key.5.clone() });

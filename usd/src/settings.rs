@@ -56,8 +56,6 @@ pub struct RenderSettings {
     pub purposes: Vec<Purpose>,
     /// Purposes of material bindings in the order in which they are tried.
     pub material_binding_purposes: Vec<String>,
-    /// Whether nothing moves while the shutter is open.
-    pub disable_motion_blur: bool,
     /// The gamut in which EXR files have their colours; gonio itself renders in linear Rec.709.
     pub gamut: Gamut,
     /// The files wanted.
@@ -122,7 +120,6 @@ fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings
         framing: framing(context, prim, product_prims.first()),
         purposes: purposes(context, prim),
         material_binding_purposes: binding_purposes(context, prim),
-        disable_motion_blur: is_instantaneous(context, prim, None),
         gamut: gamut(context, prim),
         products: product_prims.iter().filter_map(|product| read_product(context, prim, product)).collect(),
         origin: prim.origin(),

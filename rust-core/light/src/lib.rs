@@ -25,6 +25,7 @@ mod goniogram;
 mod light_bounds;
 mod light_kind;
 mod light_sampler;
+mod linked_sampler;
 mod links;
 mod mis;
 mod portal;

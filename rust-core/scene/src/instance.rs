@@ -116,3 +116,24 @@ pub struct Instances {
     #[serde(default)]
     pub matte_names: Vec<MatteName>,
 }
+
+impl Instances {
+    /// Placements that stand still, that all rays see, and that nothing else is said of.
+    pub fn new(origin: Origin, geometry: impl Into<Geometry>, materials: Vec<MaterialId>, transforms: Vec<Transform>) -> Self {
+        Self {
+            origin,
+            geometry: geometry.into(),
+            materials,
+            transforms,
+            motion: Vec::new(),
+            primvars: Vec::new(),
+            visibility: Visibility::default(),
+            holdout: false,
+            shadow_catcher: false,
+            pass_index: 0,
+            light_group: String::new(),
+            linking: Linking::default(),
+            matte_names: Vec::new(),
+        }
+    }
+}

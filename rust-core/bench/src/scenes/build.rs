@@ -2,7 +2,7 @@
 
 use gonio::scene::{
     Camera, Channel, Closure, Emission, Graph, Input, Instances, Light, LightShape, Material, Mesh, Operation, Origin, Scene, Texture,
-    TextureFilter, TextureSource, Transform, Visibility, WrapMode,
+    TextureFilter, TextureSource, Transform, WrapMode,
 };
 use std::sync::Arc;
 
@@ -10,21 +10,7 @@ use std::sync::Arc;
 pub(crate) fn place(scene: &mut Scene, mesh: Mesh, material: Material, transform: Transform) {
     let mesh = scene.add_mesh(mesh);
     let material = scene.add_material(material);
-    scene.instances.push(Instances {
-        origin: Origin::new("bench"),
-        geometry: mesh.into(),
-        materials: vec![material],
-        transforms: vec![transform],
-        motion: Vec::new(),
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-        linking: Default::default(),
-        matte_names: Vec::new(),
-    });
+    scene.instances.push(Instances::new(Origin::new("bench"), mesh, vec![material], vec![transform]));
 }
 
 /// A layered surface with some parameters set.

@@ -135,14 +135,20 @@ fn image<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, io: &mut Io<'_>) {
                 let [x, y] = io.load(l, at);
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
                 let texel = points.textures.sample(l, *texture, Vec2 { x, y }, width, *wrap, *filter);
-                let mut value = texel;
-                for (i, component) in value.iter_mut().enumerate() {
-                    *component = texel[i].mul_add(scale[i], bias[i]);
-                }
-                io.store(at, value);
+                io.store(at, scaled(texel, scale, bias));
             }
         },
     );
+}
+
+/// A texel times a scale, plus a bias.
+#[inline(always)]
+fn scaled<L: Lanes>(texel: [F<L>; 4], scale: &[f32; 4], bias: &[f32; 4]) -> [F<L>; 4] {
+    let mut value = texel;
+    for (i, component) in value.iter_mut().enumerate() {
+        *component = texel[i].mul_add(scale[i], bias[i]);
+    }
+    value
 }
 
 /// [`image`] for a texture of which not all is in memory.
@@ -157,11 +163,7 @@ fn image_in_tiles<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, tiles: &m
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
                 let reader = (&mut *tiles, io.count - at);
                 let texel = points.textures.sample_tiles(l, reader, *texture, Vec2 { x, y }, width, (*wrap, *filter));
-                let mut value = texel;
-                for (i, component) in value.iter_mut().enumerate() {
-                    *component = texel[i].mul_add(scale[i], bias[i]);
-                }
-                io.store(at, value);
+                io.store(at, scaled(texel, scale, bias));
             }
         },
     );

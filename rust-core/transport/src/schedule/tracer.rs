@@ -92,7 +92,7 @@ impl Tracer<'_> {
 
     fn start_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
         // Antialiasing compares neighbours, all at one time.
-        ws.times.draw(self.transport.execution, None, &Sampler::new(0, [0; 2], 1), &Runs::whole(0), 0);
+        ws.times.clear();
         ws.paths.set_times(&ws.times);
         if let Start::Camera(camera, _) = self.start {
             dispatch!(self.transport.execution, l => generate_at(l, camera, places, slots, &mut ws.paths));

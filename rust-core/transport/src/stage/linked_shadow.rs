@@ -2,30 +2,14 @@
 //!
 //! One kind of such lights goes by a visibility bit, as all other shadow rays. Rays to others pass at the hit what does not block them.
 
-use crate::stage::shadow::{dim_by_surfaces, occlude};
-use crate::state::chunk::ChunkColumns;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::{LinkedTrace, ShadowTrace};
 use crate::tables::transport::Transport;
 use crate::tables::{Tables, ray_mask};
 
-/// [`occlude`] by what blocks each ray's light.
-pub(crate) fn occlude_linked(
-    tables: &Tables,
-    transport: &Transport,
-    coherent: bool,
-    shadows: &mut ShadowRays,
-    trace: &mut ShadowTrace,
-    chunk: &mut ChunkColumns,
-) {
-    if !part(tables, shadows, &mut trace.linked) {
-        return occlude(tables, transport, coherent, shadows, trace, chunk);
-    }
-    let n = shadows.count;
-    let ShadowTrace { blocked, passed, linked, .. } = &mut *trace;
-    blocked.clear();
-    blocked.resize(n + gonio_simd::PADDING, 1);
-    passed.clear();
+/// Finds which rays are blocked by what blocks their light, and what the others pass.
+pub(crate) fn occlude(tables: &Tables, transport: &Transport, coherent: bool, shadows: &ShadowRays, trace: &mut ShadowTrace) {
+    let ShadowTrace { blocked, passed, linked, .. } = trace;
     for which in [false, true] {
         let LinkedTrace { plain, filtered, rows, rays, blocked: own } = &mut *linked;
         let chosen = if which { &*filtered } else { &*plain };
@@ -42,13 +26,10 @@ pub(crate) fn occlude_linked(
         passed[first..].iter_mut().for_each(|hit| hit.ray = chosen[hit.ray as usize]);
         chosen.iter().zip(&*own).for_each(|(ray, is_blocked)| blocked[*ray as usize] = *is_blocked);
     }
-    if !trace.passed.is_empty() {
-        dim_by_surfaces(tables, transport, trace, shadows, chunk);
-    }
 }
 
 /// Sets visibility bits, and tells the rays apart that hits are filtered for; false if there is none.
-fn part(tables: &Tables, shadows: &mut ShadowRays, linked: &mut LinkedTrace) -> bool {
+pub(crate) fn part(tables: &Tables, shadows: &mut ShadowRays, linked: &mut LinkedTrace) -> bool {
     let links = &tables.links;
     linked.plain.clear();
     linked.filtered.clear();

@@ -6,7 +6,7 @@ use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::catcher;
-use crate::stage::linked_shadow::occlude_linked;
+use crate::stage::linked_shadow;
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
@@ -34,10 +34,12 @@ pub(crate) fn trace_shadows(
         return;
     }
     catcher::set_shadow_masks(tables, shadows);
-    if tables.links.shadows.is_empty() {
-        occlude(tables, transport, coherent, shadows, trace, chunk);
+    if !tables.links.shadows.is_empty() && linked_shadow::part(tables, shadows, &mut trace.linked) {
+        trace.begin(shadows.count);
+        linked_shadow::occlude(tables, transport, coherent, shadows, trace);
+        dim_by_surfaces(tables, transport, trace, shadows, chunk);
     } else {
-        occlude_linked(tables, transport, coherent, shadows, trace, chunk);
+        occlude(tables, transport, coherent, shadows, trace, chunk);
     }
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);
@@ -54,9 +56,7 @@ pub(crate) fn occlude(
     chunk: &mut ChunkColumns,
 ) {
     let n = shadows.count;
-    trace.blocked.clear();
-    trace.blocked.resize(n + gonio_simd::PADDING, 1);
-    trace.passed.clear();
+    trace.begin(n);
     let (rays, blocked) = (shadows.rays.batch(0..n), &mut trace.blocked[..n]);
     let packets = coherent && tables.bvh.has_shadow_packets(transport.execution);
     if tables.any_transparent {
@@ -66,9 +66,7 @@ pub(crate) fn occlude(
     } else {
         tables.bvh.occluded(transport.execution, &rays, packets, blocked);
     }
-    if !trace.passed.is_empty() {
-        dim_by_surfaces(tables, transport, trace, shadows, chunk);
-    }
+    dim_by_surfaces(tables, transport, trace, shadows, chunk);
 }
 
 #[inline(always)]
@@ -89,13 +87,7 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
 }
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
-pub(crate) fn dim_by_surfaces(
-    tables: &Tables,
-    transport: &Transport,
-    trace: &mut ShadowTrace,
-    shadows: &mut ShadowRays,
-    columns: &mut ChunkColumns,
-) {
+fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     let ShadowTrace { passed, weights, factors, .. } = trace;
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.

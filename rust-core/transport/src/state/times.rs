@@ -9,6 +9,11 @@ use gonio_simd::{Execution, Lanes, One, U, dispatch};
 pub(crate) struct SlotTimes(Vec<f32>);
 
 impl SlotTimes {
+    /// All is at one time.
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
     /// Draws the times of a batch whose first row of pixels is given.
     pub(crate) fn draw(&mut self, execution: Execution, shutter: Option<&Shutter>, sampler: &Sampler, runs: &Runs, first_row: u32) {
         let Some(shutter) = shutter else { return self.0.clear() };

@@ -36,6 +36,15 @@ pub(crate) struct LinkedTrace {
     pub(crate) blocked: Vec<u8>,
 }
 
+impl ShadowTrace {
+    /// Makes room for so many rays: none has passed anything, and beyond them all are blocked.
+    pub(crate) fn begin(&mut self, rays: usize) {
+        self.blocked.clear();
+        self.blocked.resize(rays + gonio_simd::PADDING, 1);
+        self.passed.clear();
+    }
+}
+
 impl Default for LinkedTrace {
     fn default() -> Self {
         let (rays, blocked) = (Rays::new(SHADOW_ROOM, ray_mask::SHADOW), vec![0; SHADOW_ROOM]);

@@ -6,7 +6,7 @@ use crate::{
     graph::{Around, CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, evaluate},
     scene::{
         Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, ShaderOutput, Texture,
-        TextureSource, Transform, Visibility,
+        TextureSource, Transform,
     },
 };
 use gonio_nodes::Code;
@@ -76,21 +76,7 @@ pub(super) fn scene(nodes: &Value) -> Scene {
     material.shader_outputs.push(ShaderOutput { name: "last".into(), color: last, value: last });
     let material = scene.add_material(Material { graph, ..material });
     let [x, y, z] = COLUMNS;
-    scene.instances.push(Instances {
-        origin: Origin::new("test"),
-        geometry: mesh.into(),
-        materials: vec![material],
-        transforms: vec![Transform { columns: [x, y, z, PLACE] }],
-        motion: Vec::new(),
-        primvars: Vec::new(),
-        visibility: Visibility::default(),
-        holdout: false,
-        shadow_catcher: false,
-        pass_index: 0,
-        light_group: String::new(),
-        linking: Default::default(),
-        matte_names: Vec::new(),
-    });
+    scene.instances.push(Instances::new(Origin::new("test"), mesh, vec![material], vec![Transform { columns: [x, y, z, PLACE] }]));
     scene
 }
 
