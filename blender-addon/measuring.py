@@ -24,10 +24,11 @@ class Readings:
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
     luminaire: tuple = ()
+    maps: tuple = ()
 
     def clear(self) -> None:
         """Forgets everything."""
-        self.grids, self.point, self.luminaire = {}, (), ()
+        self.grids, self.point, self.luminaire, self.maps = {}, (), (), ()
 
 
 latest = Readings()

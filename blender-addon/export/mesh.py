@@ -94,6 +94,11 @@ def _with_triangles_own(arguments, names):
     return arguments
 
 
+def triangle_loops(mesh):
+    """Corner numbers of each triangle (T, 3) of a mesh whose triangles were computed."""
+    return _triangles(mesh, len(mesh.loop_triangles))
+
+
 def _triangles(mesh, count):
     """Corner numbers of each triangle."""
     if count == len(mesh.polygons):

@@ -8,6 +8,7 @@ from ..baking import wanted
 from .bake_illuminance import GONIO_OT_bake_illuminance
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
+from .illumination_map import GONIO_OT_illumination_map
 from .measure_grids import GONIO_OT_measure_grids
 from .measure_luminaire import GONIO_OT_measure_luminaire
 from .point_meter import GONIO_OT_point_meter
@@ -19,6 +20,7 @@ CLASSES = (
     GONIO_OT_use_standard_view,
     GONIO_OT_bake_illuminance,
     GONIO_OT_expose_for_daylight,
+    GONIO_OT_illumination_map,
     GONIO_OT_measure_grids,
     GONIO_OT_measure_luminaire,
     GONIO_OT_point_meter,

@@ -27,6 +27,8 @@ class GONIO_VIEW3D_PT_measure(Panel):
             _lines(layout, measuring.grid_lines(reading))
         layout.operator("gonio.measure_luminaire", icon="OUTLINER_OB_LIGHT")
         _lines(layout, measuring.latest.luminaire)
+        layout.operator("gonio.illumination_map", icon="TEXTURE")
+        _lines(layout, measuring.latest.maps)
         column = layout.column(heading="False Color")
         column.prop(settings, "display", text="")
         scale = column.column()

@@ -35,6 +35,14 @@ def test_texels_and_triangles(floor, tmp_path):
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     assert areas.sum() == pytest.approx(4) and areas.max() <= 0.25
     assert (np.asarray(divided.illuminance()) * areas).sum() == pytest.approx(divided.flux())
+    assert divided.instances == 1
+    # The square's two triangles are of one size; corners lie further from the lamp than the middle does.
+    triangles = np.asarray(divided.of_triangles())
+    assert triangles.mean() == pytest.approx(divided.mean())
+    assert not np.asarray(divided.of_triangles(quantity="indirect")).any()
+    at_corners = np.asarray(divided.at_corners())
+    assert at_corners.shape == (2, 3) and (at_corners > 0).all() and at_corners[0, 0] == at_corners[1, 0]
+    assert not np.asarray(texels.of_triangles()).any() and np.asarray(texels.at_corners("back", quantity="error")).shape == (2, 3)
     with pytest.raises(gonio.SettingError, match="texture coordinates"):
         divided.write(tmp_path / "divided.exr")
 

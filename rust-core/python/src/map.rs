@@ -35,6 +35,7 @@ pub(crate) struct SurfaceMap {
     maps: Arc<map::IlluminationMaps>,
     scene: Arc<gonio::scene::Scene>,
     number: usize,
+    set: u32,
 }
 
 #[pymethods]
@@ -42,8 +43,12 @@ impl IlluminationMaps {
     /// The surfaces.
     #[getter]
     fn surfaces(&self) -> Vec<SurfaceMap> {
-        let of = |number| SurfaceMap { maps: self.maps.clone(), scene: self.scene.clone(), number };
-        (0..self.maps.surfaces.len()).map(of).collect()
+        let instances = &self.compiled.tables.geometry.instances;
+        let of = |(number, map): (usize, &map::SurfaceMap)| {
+            let set = instances[map.surface.instance as usize].set;
+            SurfaceMap { maps: self.maps.clone(), scene: self.scene.clone(), number, set }
+        };
+        self.maps.surfaces.iter().enumerate().map(of).collect()
     }
     /// Light paths that were traced.
     #[getter]
@@ -146,6 +151,11 @@ impl SurfaceMap {
     fn placement(&self) -> u32 {
         self.map().surface.placement[0]
     }
+    /// The number of its instances in the scene, as `add_instance` gave it.
+    #[getter]
+    fn instances(&self) -> u32 {
+        self.set
+    }
     /// Square metres of one side.
     #[getter]
     fn area(&self) -> f64 {
@@ -217,6 +227,21 @@ impl SurfaceMap {
             }
         }
         Some(Array::rows(out, 9))
+    }
+    /// Lux at the corners of the mesh's triangles, (triangles, 3), those of neighbours joined; 0 where nothing arrived. `quantity` is illuminance,
+    /// direct, indirect or error.
+    #[pyo3(signature = (side = "front", *, quantity = "illuminance"))]
+    fn at_corners(&self, side: &str, quantity: &str) -> PyResult<Array> {
+        let map = self.map();
+        let values = map.at_corners(&self.scene.meshes[map.surface.mesh.index()], side_of(side)?, quantity_of(quantity)?);
+        Ok(Array::rows(values.into_iter().flatten().map(f64::from).collect(), 3))
+    }
+    /// Mean lux of the mesh's triangles, where triangles were divided; 0 where nothing arrived. `quantity` is illuminance, direct or indirect.
+    #[pyo3(signature = (side = "front", *, quantity = "illuminance"))]
+    fn of_triangles(&self, side: &str, quantity: &str) -> PyResult<Array> {
+        let (map, side, quantity) = (self.map(), side_of(side)?, quantity_of(quantity)?);
+        let triangles = 0..map.surface.areas.len();
+        Ok(Array::flat(triangles.map(|triangle| map.mean_of(side, triangle, quantity)).collect()))
     }
     /// Writes texels as an OpenEXR texture: R, G, B, Illuminance, Direct and StandardError in lux, those of the back with Back. before.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

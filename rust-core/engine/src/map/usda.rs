@@ -99,7 +99,7 @@ fn by_face(map: &SurfaceMap, mesh: &Mesh, faces: &FaceTable, side: usize) -> Vec
     let mut sums = vec![[0.0; 2]; faces.counts.len()];
     for (triangle, area) in map.surface.areas.iter().enumerate() {
         if let Some(sum) = sums.get_mut(face_of(mesh, triangle) as usize) {
-            *sum = [sum[0] + area * map.mean_of(side, triangle), sum[1] + area];
+            *sum = [sum[0] + area * map.mean_of(side, triangle, Quantity::Illuminance), sum[1] + area];
         }
     }
     sums.iter().map(|[sum, area]| if *area > 0.0 { (sum / area) as f32 } else { 0.0 }).collect()
@@ -110,7 +110,7 @@ fn by_corner(map: &SurfaceMap, mesh: &Mesh, faces: &FaceTable, side: usize) -> O
     if mesh.points.len() != faces.points {
         return None;
     }
-    let values = at_corners(map, mesh, side);
+    let values = map.at_corners(mesh, side, Quantity::Illuminance);
     let mut found: HashMap<(u32, u32), f32> = HashMap::new();
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         for (corner, point) in corners.iter().enumerate() {
@@ -128,33 +128,6 @@ fn by_corner(map: &SurfaceMap, mesh: &Mesh, faces: &FaceTable, side: usize) -> O
     Some(out)
 }
 
-/// Values at the triangles' corners: those of neighbours that lie in the same surface are joined.
-fn at_corners(map: &SurfaceMap, mesh: &Mesh, side: usize) -> Vec<[f32; 3]> {
-    let normals: Vec<[f64; 3]> = mesh.triangles.iter().map(|corners| normal(mesh, *corners)).collect();
-    let mut around: Vec<Vec<(u32, f64)>> = vec![Vec::new(); mesh.points.len()];
-    const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        for (corner, point) in corners.iter().enumerate() {
-            let value = f64::from(map.at(side, triangle as u32, CORNERS[corner], Quantity::Illuminance));
-            if let (Some(list), true) = (around.get_mut(*point as usize), value.is_finite()) {
-                list.push((triangle as u32, value));
-            }
-        }
-    }
-    let mean = |triangle: usize, point: u32| {
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (other, value) in around.get(point as usize).into_iter().flatten() {
-            let cosine: f64 = (0..3).map(|k| normals[triangle][k] * normals[*other as usize][k]).sum();
-            if *other as usize == triangle || cosine >= SAME_SURFACE {
-                sum += value;
-                weights += 1.0;
-            }
-        }
-        if weights > 0.0 { (sum / weights) as f32 } else { 0.0 }
-    };
-    mesh.triangles.iter().enumerate().map(|(triangle, corners)| corners.map(|point| mean(triangle, point))).collect()
-}
-
 /// Unit normal of a triangle in the mesh's space; zero where it has none.
 fn normal(mesh: &Mesh, corners: [u32; 3]) -> [f64; 3] {
     let [Some(a), Some(b), Some(c)] = corners.map(|corner| mesh.points.get(corner as usize).map(|point| point.map(f64::from))) else {
@@ -167,11 +140,39 @@ fn normal(mesh: &Mesh, corners: [u32; 3]) -> [f64; 3] {
 }
 
 impl SurfaceMap {
-    /// Mean illuminance of a triangle of divided ones, lux.
-    fn mean_of(&self, side: usize, triangle: usize) -> f64 {
+    /// Lux at the corners of the mesh's triangles: those of neighbours that lie in the same surface are joined; 0 where nothing arrived.
+    pub fn at_corners(&self, mesh: &Mesh, side: usize, quantity: Quantity) -> Vec<[f32; 3]> {
+        let normals: Vec<[f64; 3]> = mesh.triangles.iter().map(|corners| normal(mesh, *corners)).collect();
+        let mut around: Vec<Vec<(u32, f64)>> = vec![Vec::new(); mesh.points.len()];
+        const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        for (triangle, corners) in mesh.triangles.iter().enumerate() {
+            for (corner, point) in corners.iter().enumerate() {
+                let value = f64::from(self.at(side, triangle as u32, CORNERS[corner], quantity));
+                if let (Some(list), true) = (around.get_mut(*point as usize), value.is_finite()) {
+                    list.push((triangle as u32, value));
+                }
+            }
+        }
+        let mean = |triangle: usize, point: u32| {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for (other, value) in around.get(point as usize).into_iter().flatten() {
+                let cosine: f64 = (0..3).map(|k| normals[triangle][k] * normals[*other as usize][k]).sum();
+                if *other as usize == triangle || cosine >= SAME_SURFACE {
+                    sum += value;
+                    weights += 1.0;
+                }
+            }
+            if weights > 0.0 { (sum / weights) as f32 } else { 0.0 }
+        };
+        mesh.triangles.iter().enumerate().map(|(triangle, corners)| corners.map(|point| mean(triangle, point))).collect()
+    }
+
+    /// Mean lux of a triangle of divided ones; 0 of texels, and where nothing arrived.
+    pub fn mean_of(&self, side: usize, triangle: usize, quantity: Quantity) -> f64 {
         let (Chart::Cells(chart), Some(map)) = (&self.chart, &self.sides[side]) else { return 0.0 };
-        let values = &map.illuminance[chart.cells(triangle)];
-        let sum: f64 = values.iter().filter(|lux| lux.is_finite()).map(|lux| f64::from(*lux)).sum();
-        sum / values.len() as f64
+        let cells = chart.cells(triangle);
+        let count = cells.len() as f64;
+        let values = cells.map(|cell| map.value(cell, quantity)).filter(|lux| lux.is_finite());
+        values.map(f64::from).sum::<f64>() / count
     }
 }

@@ -1,6 +1,9 @@
 //! A finished map as a camera sees it: one set of first hits, and values looked up where they are.
 
-use super::gather::{Chart, IlluminationMaps, SurfaceMap};
+use super::{
+    gather::{Chart, IlluminationMaps, SurfaceMap},
+    side::SideMap,
+};
 use crate::{
     accel::NONE,
     camera::{CameraTable, Lens, sampler::BATCH},
@@ -139,15 +142,22 @@ impl SurfaceMap {
     /// The value at barycentric coordinates of corners 1 and 2, between texels by their distances; 0 where nothing arrived.
     pub fn at(&self, side: usize, triangle: u32, place: [f32; 2], quantity: Quantity) -> f32 {
         let Some(map) = self.sides.get(side).and_then(Option::as_ref) else { return 0.0 };
-        let value = |cell: usize| match quantity {
-            Quantity::Illuminance => map.illuminance[cell],
-            Quantity::Direct => map.direct[cell],
-            Quantity::Indirect => map.illuminance[cell] - map.direct[cell],
-            Quantity::StandardError => map.standard_error[cell],
-        };
+        let value = |cell: usize| map.value(cell, quantity);
         match &self.chart {
             Chart::Cells(chart) => value(chart.cell(triangle, place)),
             Chart::Texels(chart) => between(chart.coordinates(triangle, place), chart.size(), value),
+        }
+    }
+}
+
+impl SideMap {
+    /// The value of a cell; not a number where it has no area.
+    pub(super) fn value(&self, cell: usize, quantity: Quantity) -> f32 {
+        match quantity {
+            Quantity::Illuminance => self.illuminance[cell],
+            Quantity::Direct => self.direct[cell],
+            Quantity::Indirect => self.illuminance[cell] - self.direct[cell],
+            Quantity::StandardError => self.standard_error[cell],
         }
     }
 }
