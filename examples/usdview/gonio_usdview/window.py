@@ -53,5 +53,6 @@ def render(api):
 
 def size(api):
     """Width and height of the view in pixels."""
-    width, height = api.viewportSize() if callable(getattr(api, "viewportSize", None)) else (960, 540)
-    return int(width), int(height)
+    width, height = api.viewportSize
+    # There is no view where usdview runs without its renderer.
+    return (int(width), int(height)) if width > 0 and height > 0 else (960, 540)
