@@ -176,11 +176,12 @@ def until(condition, seconds=60):
 def test_the_menu_opens_a_window_with_the_picture(container, room):
     from pxr import Usd
 
-    api = window_api(Usd.Stage.Open(str(room)), (48, 32))
+    api = window_api(Usd.Stage.Open(str(room)), (480, 320))
     window = clicked(container, api)
     assert window.isVisible() and "reads the stage" in window._label.text()
     until(lambda: not window._label.pixmap().isNull())
-    assert window._label.pixmap().size().toTuple() == (48, 32)
+    assert window._label.pixmap().size().toTuple() == (480, 320)
+    assert window._label.width() >= 480 and window._label.height() >= 320
     folder, process = pathlib.Path(window._folder.name), window._process
     window.close()
     assert process.poll() is not None and not folder.exists()

@@ -31,6 +31,8 @@ class PictureWindow(QtWidgets.QDialog):
         if self._picture.exists() and self._picture.stat().st_mtime_ns != self._shown:
             self._shown = self._picture.stat().st_mtime_ns
             self._label.setPixmap(QtGui.QPixmap(str(self._picture)))
+            # The window was made for a line of words.
+            self.resize(self.sizeHint())
         elif ended and self._shown is None:
             self._label.setText(self._process.stderr.read())
         if ended:
