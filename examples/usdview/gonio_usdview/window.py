@@ -31,6 +31,8 @@ class PictureWindow(QtWidgets.QDialog):
         if self._picture.exists() and self._picture.stat().st_mtime_ns != self._shown:
             self._shown = self._picture.stat().st_mtime_ns
             self._label.setPixmap(QtGui.QPixmap(str(self._picture)))
+            # The window was made for a line of words.
+            self.resize(self.sizeHint())
         elif ended and self._shown is None:
             self._label.setText(self._process.stderr.read())
         if ended:
@@ -53,5 +55,6 @@ def render(api):
 
 def size(api):
     """Width and height of the view in pixels."""
-    width, height = api.viewportSize() if callable(getattr(api, "viewportSize", None)) else (960, 540)
-    return int(width), int(height)
+    width, height = api.viewportSize
+    # There is no view where usdview runs without its renderer.
+    return (int(width), int(height)) if width > 0 and height > 0 else (960, 540)
