@@ -9,7 +9,8 @@ digits, so they should be many. `--sample` is a program of one's own around the 
 cover), also outside the project; it gets the number of photons and prints what it likes. What its housing looks like the page does not say: the stage
 that gonio gets has four walls 25 mm from the axis, 50 mm long, and a cover that scatters all it lets pass. Speeds compare, figures do not.
 
-`--gonio` has {stage}, {photons} and {out}: a stage of the same luminaire with the same cover in /World, how many light paths, and the .ldt to write.
+`--gonio` has {stage}, {photons} and {out}: a stage of the same luminaire with the same cover in /World, how many light paths, and the .ldt to write,
+as in `gonio goniometer {stage} --luminaire /World --rays {photons} --error 0 -o {out}`; without `--error 0` fewer are traced.
 The crate's own `compare` says how alike the two are.
 """
 

@@ -1,10 +1,11 @@
 """Light paths and rays a second of Mitsuba's `ptracer` where light alone is followed, and of a command of gonio's on the same stage.
 
-    rays.py [--scenes louvres.alone lens] [--seconds 10] [--gonio "gonio goniometer {stage} --rays {paths} -o {out}.ldt"]
+    rays.py [--scenes louvres.alone lens] [--seconds 10] [--gonio COMMAND]
 
 Run by a Python that has `mitsuba`. Mitsuba does not count rays: how many segments a light path has is counted by a walk of the same rules (depth,
 roulette from the fifth on), and `ptracer`'s connections to the camera, one a vertex, are not counted. gonio's command gets the stage, as many
-light paths as `ptracer` followed, and a file name; its seconds are those of the whole command, and what it prints is shown.
+light paths as `ptracer` followed, and a file name; its seconds are those of the whole command, and what it prints is shown. It has to trace them
+all: `gonio goniometer {stage} --luminaire /World --rays {paths} --error 0 -o {out}.ldt`.
 """
 
 import argparse

@@ -18,11 +18,16 @@ impl Tlas {
     /// The nearest hit of every ray. With `coherent` consecutive groups of sixteen rays go as packets where there is vector code; hits are the
     /// same either way.
     pub fn first_hit(&self, execution: Execution, rays: &RayBatch, coherent: bool, hits: &mut Hits) {
+        self.first_hit_in_tree(execution, rays, coherent, hits);
+        self.intersect_loose_lights(execution, rays, hits);
+    }
+
+    /// The same as if there were no loose lights.
+    pub fn first_hit_in_tree(&self, execution: Execution, rays: &RayBatch, coherent: bool, hits: &mut Hits) {
         match execution {
             Execution::Vector(level) if coherent => self.first_hit_packets(level, rays, hits),
             _ => self.ask(execution, rays, &mut NearestHits::new(hits, rays.len())),
         }
-        self.intersect_loose_lights(execution, rays, hits);
     }
 
     /// The nearest hit of every ray on the mesh of one instance, whatever else is in the way: `instances[i]` is that of ray `i`.

@@ -1,6 +1,7 @@
 //! C planes and γ angles, and the cells about their directions.
 
 use crate::error::{Error, Result};
+use super::division::{Division, diamond_angle};
 use std::f64::consts::{PI, TAU};
 
 /// Most directions.
@@ -70,6 +71,10 @@ pub(super) struct Cells {
     gammas: usize,
     /// Cosines of the borders, descending.
     borders: Vec<f64>,
+    /// The borders by their cosines' negatives.
+    by_gamma: Division,
+    /// The borders of the planes by their [`diamond_angle`].
+    by_plane: Division,
     /// Whether the first and the last are caps.
     caps: [bool; 2],
 }
@@ -82,10 +87,15 @@ impl Cells {
         let end = (gamma[last] + 0.5 * (gamma[last] - gamma[last - 1])).min(180.0);
         let between = gamma.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let borders = std::iter::once(first).chain(between).chain([end]);
+        let borders: Vec<f64> = borders.map(|angle| angle.to_radians().cos()).collect();
+        let planes = angles.c.len();
+        let beyond = (0..planes).map(|plane| sine_cosine((plane as f64 + 0.5) * 360.0 / planes as f64));
         Self {
-            planes: angles.c.len(),
+            planes,
             gammas: gamma.len(),
-            borders: borders.map(|angle| angle.to_radians().cos()).collect(),
+            by_gamma: Division::new(borders.iter().map(|cosine| -cosine).collect(), [-1.0, 1.0]),
+            by_plane: Division::new(beyond.map(|[sin, cos]| diamond_angle(cos, sin)).collect(), [0.0, 4.0]),
+            borders,
             caps: [gamma[0] < 1e-9, gamma[last] > 180.0 - 1e-9],
         }
     }
@@ -99,7 +109,7 @@ impl Cells {
     #[inline]
     pub(super) fn find(&self, [x, y, z]: [f64; 3]) -> Option<usize> {
         let cosine = (-z / (x * x + y * y + z * z).sqrt()).clamp(-1.0, 1.0);
-        let gamma = self.borders.partition_point(|border| *border >= cosine);
+        let gamma = self.by_gamma.find(-cosine);
         // The very pole of the zenith belongs to the last cell.
         let gamma = if gamma > self.gammas && cosine >= self.borders[self.gammas] { self.gammas } else { gamma };
         let gamma = gamma.checked_sub(1).filter(|gamma| *gamma < self.gammas)?;
@@ -108,9 +118,8 @@ impl Cells {
 
     #[inline]
     fn plane(&self, x: f64, y: f64) -> usize {
-        let turns = f64::from((y as f32).atan2(x as f32)) / TAU;
-        let plane = (turns * self.planes as f64).round() as i64;
-        plane.rem_euclid(self.planes as i64) as usize
+        let plane = self.by_plane.find(diamond_angle(x, y));
+        if plane == self.planes { 0 } else { plane }
     }
 
     /// The cell of a direction by its angles' numbers; a cap is the first plane's.

@@ -6,6 +6,7 @@
 mod angles;
 pub mod colour;
 mod csv;
+mod division;
 mod extent;
 mod frame;
 mod options;

@@ -38,8 +38,9 @@ pub(crate) fn intersect(
 
 /// Finds what every light path hits: lights are passed, and send nothing.
 pub(crate) fn find_surfaces(tables: &Tables, transport: &Transport, paths: &mut Paths, nearest: &mut NearestHits) {
-    find_first(tables, transport, false, paths, nearest);
+    tables.bvh.first_hit_in_tree(transport.execution, &paths.rays.batch(0..paths.count), false, &mut nearest.hits);
     dispatch!(transport.execution, l => classify(l, tables, nearest));
+    // Many lights stand in the tree.
     while !nearest.at_lights.is_empty() {
         pass_through_lights(tables, transport, paths, nearest);
     }
