@@ -33,7 +33,7 @@ def said(line: list[str]) -> str:
 def described(text: str) -> list[str]:
     """One command: its words, its usage, and a table for each heading."""
     head, *rest = re.split(r"^(?=[A-Z][A-Za-z ]*:(?:$| ))", text, flags=re.MULTILINE)
-    lines = [plain(head.strip()).replace("<br>", "\n"), ""]
+    lines = [plain(head.strip()).replace("<br>", "\n\n"), ""]
     for part in rest:
         first, *body = part.rstrip().splitlines()
         if first.startswith("Usage: "):
@@ -54,7 +54,7 @@ def table(heading: str, body: list[str]) -> list[str]:
             rows.append((entry[1], [entry[2] or ""]))
         elif rows:
             rows[-1][1].append(line.strip())
-    lines = [f"**{heading}**", "", "| | |", "| --- | --- |"]
+    lines = [f"**{heading}**", "", f"| {'argument' if heading == 'Arguments' else 'option'} | what |", "| --- | --- |"]
     return [*lines, *(f"| `{option.replace('|', chr(92) + '|')}` | {plain(chr(10).join(words).strip())} |" for option, words in rows), ""]
 
 

@@ -15,6 +15,7 @@ import command_line
 import gallery
 import links
 import python_page
+import usd_attributes
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -29,6 +30,7 @@ WRITTEN = {
     "gallery.md": gallery.page,
     "reference/command-line.md": lambda: command_line.page([PYTHON, "-m", "gonio.cli"]),
     "reference/python.md": lambda: python_page.page(PYTHON),
+    "reference/usd-attributes.md": lambda: usd_attributes.page(ROOT / "docs"),
 }
 COMMENT = re.compile(r"^(<!--.*-->)$", re.MULTILINE)
 # What the tests of the examples read, and readers do not.
@@ -81,7 +83,15 @@ def _linked(files: Files, config: MkDocsConfig, page: str, target: str) -> str:
 
 
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Links as the site has them; a table that follows a comment is a table."""
+    """Links as the site has them; a table that follows a comment is a table, and bars in code are bars."""
     text = FOR_TESTS.sub("", markdown).replace(accuracy.MARK, accuracy.summary(ROOT / "docs" / "validation.md"))
     text = links.rewrite(text, functools.partial(_linked, files, config, page.file.src_uri))
+    text = "\n".join(_bars(line) if line.startswith("|") else line for line in text.splitlines())
     return COMMENT.sub(r"\n\1\n", text)
+
+
+def _bars(row: str) -> str:
+    """A row of a table whose code has bars as they are: elsewhere they want a backslash there too."""
+    parts = row.split("`")
+    parts[1::2] = [code.replace("\\|", "|") for code in parts[1::2]]
+    return "`".join(parts)
