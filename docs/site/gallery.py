@@ -129,7 +129,13 @@ PICTURES = (
             " --polar out/gallery/downlight.svg",
         ),
     ),
-    Picture("room.png", "A room in Blender", "Made and rendered without a window.", "examples/blender/make_room.py", kept="examples/blender/room.png"),
+    Picture(
+        "room.png",
+        "A room in Blender",
+        "Made and rendered without a window.",
+        "examples/blender/make_room.py",
+        kept="examples/blender/room.png",
+    ),
     Picture(
         "measured_ball.png",
         "A measured ball in Blender",
@@ -171,7 +177,12 @@ def make(picture: Picture) -> None:
 
 def page() -> str:
     """The gallery as Markdown, with links from the repository's root."""
-    lines = ["# Gallery", "", "Each picture with the file that made it. They are small, and have few samples: `make docs` renders them.", ""]
+    lines = [
+        "# Gallery",
+        "",
+        "Each picture with the file that made it. They are small, and have few samples: `make docs` renders them.",
+        "",
+    ]
     lines += ["More about each stands in the [README of the examples](examples/README.md).", "", '<div class="gallery" markdown>', ""]
     for picture in PICTURES:
         lines += figure(picture)

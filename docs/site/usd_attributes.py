@@ -33,5 +33,14 @@ def page(docs: Path) -> str:
         rows = [row for row in text if ROW.match(row)]
         if rows and path.name != "unsupported.md":
             title = next(found[1] for line in text if (found := HEADING.match(line)))
-            lines += [f"## {title}", "", f"[The page](docs/{path.name}).", "", "| attribute | type | what |", "| --- | --- | --- |", *rows, ""]
+            lines += [
+                f"## {title}",
+                "",
+                f"[The page](docs/{path.name}).",
+                "",
+                "| attribute | type | what |",
+                "| --- | --- | --- |",
+                *rows,
+                "",
+            ]
     return "\n".join([*lines, OTHERS])
