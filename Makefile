@@ -139,14 +139,14 @@ bench-caustics: build $(CURDIR)/.venv-bpy50/ready
 DOCS := $(CURDIR)/.venv-docs
 $(DOCS)/ready:
 	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(@D) || python3 -m venv $(@D)
-	$(@D)/bin/python -m pip install --quiet "mkdocs-material>=9.6,<10" "pymdown-extensions>=10.14"
+	$(@D)/bin/python -m pip install --quiet "mkdocs-material>=9.6,<10"
 	touch $@
 
 # The site, out/site/index.html: guide, reference, and a gallery that is rendered. GONIO_PYTHON names another Python that has gonio.
 docs: export GONIO_PYTHON ?= $(BIN)/python
 docs: export NO_MKDOCS_2_WARNING := 1
 docs: $(DOCS)/ready
-	test -x $(GONIO_PYTHON) || $(MAKE) build
+	$(GONIO_PYTHON) -c "import gonio" 2>/dev/null || $(MAKE) build
 	$(GONIO_PYTHON) docs/site/gallery.py
 	$(DOCS)/bin/mkdocs build --strict -f docs/site/mkdocs.yml
 	@echo "The site is out/site/index.html."

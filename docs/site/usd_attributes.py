@@ -36,7 +36,7 @@ def page(docs: Path) -> str:
             lines += [
                 f"## {title}",
                 "",
-                f"[The page](docs/{path.name}).",
+                f"From [{title}](docs/{path.name}).",
                 "",
                 "| attribute | type | what |",
                 "| --- | --- | --- |",
