@@ -1,5 +1,5 @@
 # What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make same-bits`,
-# `make bench`, `make bench-peers`, `make bench-caustics`.
+# `make bench`, `make bench-peers`, `make bench-caustics`. `make docs` writes the site of the documentation.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -12,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics clean
+.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -73,7 +73,7 @@ test-rust: $(VENV)/ready
 	cargo test --release --quiet --workspace --exclude gonio-python
 
 test-python: build
-	$(BIN)/python -m pytest tests/python tests/usd
+	$(BIN)/python -m pytest tests/python tests/usd tests/docs
 
 # The extension for this machine alone, with the wheel of `build`, in both versions of Blender.
 blender: build $(addsuffix /ready,$(BPY))
@@ -136,6 +136,21 @@ bench-caustics: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/peers/caustics/bench.py $(CAUSTICS)
 	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/rays.py
 
+DOCS := $(CURDIR)/.venv-docs
+$(DOCS)/ready:
+	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(@D) || python3 -m venv $(@D)
+	$(@D)/bin/python -m pip install --quiet "mkdocs-material>=9.6,<10"
+	touch $@
+
+# The site, out/site/index.html: guide, reference, and a gallery that is rendered. GONIO_PYTHON names another Python that has gonio.
+docs: export GONIO_PYTHON ?= $(BIN)/python
+docs: export NO_MKDOCS_2_WARNING := 1
+docs: $(DOCS)/ready
+	$(GONIO_PYTHON) -c "import gonio" 2>/dev/null || $(MAKE) build
+	$(GONIO_PYTHON) docs/site/gallery.py
+	$(DOCS)/bin/mkdocs build --strict -f docs/site/mkdocs.yml
+	@echo "The site is out/site/index.html."
+
 clean:
 	cargo clean
-	rm -rf $(VENV) $(BPY) out dist
+	rm -rf $(VENV) $(BPY) $(DOCS) out dist

@@ -1,0 +1,30 @@
+"""The gallery's pictures have the files that are said to make them."""
+
+import importlib.util
+import pathlib
+import sys
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+
+
+def gallery():
+    place = REPOSITORY / "docs" / "site" / "gallery.py"
+    found = importlib.util.spec_from_file_location("gallery", place)
+    module = sys.modules["gallery"] = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_pictures_have_their_files():
+    pictures = gallery().PICTURES
+    assert len({picture.name for picture in pictures}) == len(pictures)
+    for picture in pictures:
+        assert (REPOSITORY / picture.source).is_file(), picture
+        assert (REPOSITORY / picture.kept).is_file() if picture.kept else f"out/gallery/{picture.name}" in picture.commands[-1], picture
+
+
+def test_a_changed_command_is_another_stamp():
+    module = gallery()
+    first = next(picture for picture in module.PICTURES if picture.commands)
+    other = module.Picture(first.name, first.title, first.words, first.source, ("gonio info x.usda",))
+    assert module.stamp(first) == module.stamp(first) != module.stamp(other)
