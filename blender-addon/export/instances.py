@@ -80,22 +80,29 @@ class Instances:
         """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
         name their groups."""
         self.any_written, self._single, self._own, self.numbers, self._sources = False, {}, {}, {}, []
-        made, number = [], 0
+        made = []
         for entry, key in zip(entries, keys, strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
                 self._make(made, key, *entry)
-        for place, (group, _, _) in enumerate(made):
-            self.numbers.setdefault(group.object_uid, []).append(place)
-        for group, key, entry in made:
-            with self._report.guard("Object", group.name, "it is left out"):
-                entry.linking = linking(group.source.original, self.numbers)
-                self._put(number, entry)
-                self._sources.append((key, shares_of(group.source.original) if group.kept is None else ()))
-                number += 1
-        if number < len(self._written):
+        for number, (group, _, _) in enumerate(made):
+            self.numbers.setdefault(group.object_uid, []).append(number)
+        for number, (group, key, entry) in enumerate(made):
+            shares = self._put_linked(number, group, entry)
+            self._sources.append((key, shares))
+        if len(made) < len(self._written):
             self.any_written = True
-            self._scene.truncate("instances", number)
-            del self._written[number:]
+            self._scene.truncate("instances", len(made))
+            del self._written[len(made) :]
+
+    def _put_linked(self, number, group, entry):
+        """Puts an entry with its links; gives the times of the shutter at which it wants to know where it is."""
+        with self._report.guard("Object", group.name, "it is left out"):
+            entry.linking = linking(group.source.original, self.numbers)
+            self._put(number, entry)
+            return shares_of(group.source.original) if group.kept is None else ()
+        # Nothing takes its place, for others are known by their numbers.
+        self._put(number, replace(entry, materials=[], transforms=entry.transforms[:0], values=NO_VALUES, linking=ALL))
+        return ()
 
     def _make(self, made, key, group, shown, materials, wanted):
         """Appends the entry of a group, if anything of it can be shown."""

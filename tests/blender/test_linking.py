@@ -96,3 +96,37 @@ def test_the_picture_of_links(tmp_path):
     linked = colour()
     assert plain[32, 8:24].max() > 0.0 and plain[32, 40:56].max() > 0.0
     assert linked[32, 8:24].max() > 0.0 and linked[32, 40:56].max() == 0.0
+
+
+@pytest.mark.blender
+def test_links_name_the_right_things_where_one_fails(tmp_path):
+    import sys
+
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    empty()
+    mesh = quad()
+    for name in "ABC":
+        link(bpy.data.objects.new(name, mesh))
+    lamp = link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
+    chosen = bpy.data.collections.new("Chosen")
+    chosen.objects.link(bpy.data.objects["C"])
+    lamp.light_linking.receiver_collection = chosen
+    exported, report = exporter()
+    module = sys.modules[type(exported._instances).__module__]
+    sound = module.linking
+
+    def failing(source, numbers):
+        if source.name == "A":
+            raise ValueError("no links")
+        return sound(source, numbers)
+
+    module.linking = failing
+    try:
+        scene = exported.sync(depsgraph())
+    finally:
+        module.linking = sound
+    only = scene.lights[0]["linking"]["receivers"]["Only"]
+    assert [scene.instances[number]["name"] for number in only] == ["C"]
+    assert any("no links" in line.text for line in report.diagnostics)
