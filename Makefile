@@ -119,7 +119,7 @@ bench:
 # Illuminances beside Radiance: out/peers/radiance.svg; RADIANCE=--write-docs puts the figures into docs/radiance.md.
 bench-peers: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
 bench-peers: build $(CURDIR)/.venv-bpy50/ready
-	cd tests/peers/embree && cargo run --release
+	cd tests/peers/embree && cargo run --release && cargo run --release -- curves
 	$(BIN)/python tests/validate/environments.py mitsuba radiance
 	$(BIN)/python tests/peers/render/bench.py $(PEERS)
 	$(BIN)/python tests/peers/render/scaling.py

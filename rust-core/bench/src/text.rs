@@ -13,14 +13,14 @@ pub fn heading() -> String {
     levels.reverse();
     let columns: String = levels.iter().map(|level| format!(" {:>20}", format!("{} x{}", level.name(), level.lanes()))).collect();
     format!(
-        "gonio {}, {processor}, {} threads{company}\n{:10} {:34} {:>8} {:>7} {:>11}{columns}",
+        "gonio {}, {processor}, {} threads{company}\n{:10} {:40} {:>8} {:>7} {:>11}{columns}",
         machine.version, machine.threads, "stage", "kernel", "unit", "over", "ns a unit"
     )
 }
 
 impl Display for Row {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{:10} {:34} {:>8} {:>7} {:>11.2}", self.stage, self.name, self.unit, self.baseline, self.baseline_ns)?;
+        write!(f, "{:10} {:40} {:>8} {:>7} {:>11.2}", self.stage, self.name, self.unit, self.baseline, self.baseline_ns)?;
         self.levels.iter().try_for_each(|figure| {
             let spread = format!("({:.2}-{:.2})", figure.ratio.low, figure.ratio.high);
             write!(f, " {:>6.2} {spread:>13}", figure.ratio.median)

@@ -92,6 +92,20 @@ double peer_new(Peer *peer, const Mesh *meshes, size_t mesh_count, const Placeme
   return commits + seconds(CLOCK_MONOTONIC) - start;
 }
 
+// Builds a scene of round linear curves, and returns the seconds of the commit. Points have radii; each index is a piece's first point.
+double peer_new_curves(Peer *peer, const float *points, size_t count, const uint32_t *pieces, const uint8_t *flags, size_t piece_count, int robust) {
+  peer->device = rtcNewDevice("threads=1");
+  peer->scene = new_scene(peer->device, robust);
+  RTCGeometry geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, count), points, 16 * count);
+  memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, piece_count), pieces, 4 * piece_count);
+  memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, 1, piece_count), flags, piece_count);
+  attach(peer->scene, geometry);
+  double start = seconds(CLOCK_MONOTONIC);
+  rtcCommitScene(peer->scene);
+  return seconds(CLOCK_MONOTONIC) - start;
+}
+
 void peer_free(Peer *peer) {
   rtcReleaseScene(peer->scene);
   rtcReleaseDevice(peer->device);

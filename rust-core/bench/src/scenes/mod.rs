@@ -6,9 +6,11 @@ mod glass;
 mod measured;
 mod room;
 mod shapes;
+mod strands;
 
 pub(super) use build::{aimed, light, place};
 pub(super) use car::{car, sky};
 pub(super) use glass::glass;
 pub(super) use measured::{glossy_room, measured_room, table};
 pub(super) use room::room;
+pub(super) use strands::strands;

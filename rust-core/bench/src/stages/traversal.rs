@@ -1,4 +1,4 @@
-//! Rays through the trees of the car, by class.
+//! Rays through the trees of the car, and of a head of hair, by class.
 
 use super::compiled;
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 use gonio::accel::Hits;
 use gonio::compile::{CompiledScene, View};
 use gonio::error::Result;
-use gonio::scene::Settings;
+use gonio::scene::{Scene, Settings};
 use gonio_simd::Execution;
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -38,7 +38,14 @@ struct Traversal {
 }
 
 pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
-    let scene = compiled(&scenes::car(), cancel)?;
+    let mut cases = of_scene("", &scenes::car(), cancel)?;
+    cases.extend(of_scene("hair: ", &scenes::strands(), cancel)?);
+    Ok(cases)
+}
+
+/// All classes of rays in a scene, whose name comes before theirs.
+fn of_scene(scene_name: &str, scene: &Scene, cancel: &AtomicBool) -> Result<Vec<Case>> {
+    let scene = compiled(scene, cancel)?;
     let settings = Settings { resolution: [SIDE as u32; 2], ..Settings::default() };
     let view = View::new(&scene, &settings, Execution::best())?;
     let (tables, mut random) = (&scene.tables, Random(1));
@@ -50,7 +57,7 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
         let count = rays.len();
         let (hits, blocked) = (Hits::default(), vec![0; BATCH]);
         let kernel = Traversal { scene: scene.clone(), rays, query, packets, hits, blocked, found: (0, 0.0) };
-        Case::new(name, "ray", count, kernel)
+        Case::new(&format!("{scene_name}{name}"), "ray", count, kernel)
     };
     Ok(vec![
         case("first bounce", first, Query::Nearest, false),

@@ -66,6 +66,15 @@ unsafe extern "C" {
         robust: c_int,
         config: *const c_char,
     ) -> f64;
+    fn peer_new_curves(
+        peer: *mut Peer,
+        points: *const [f32; 4],
+        count: usize,
+        pieces: *const u32,
+        flags: *const u8,
+        piece_count: usize,
+        robust: c_int,
+    ) -> f64;
     fn peer_free(peer: *mut Peer);
     fn peer_version(out: *mut c_char, size: usize);
     fn peer_first_hit(peer: *const Peer, rays: *const Columns, n: usize, coherent: c_int, t: *mut f32, primitive: *mut u32);
@@ -117,6 +126,19 @@ impl EmbreeScene {
         // SAFETY: the shim copies the arrays, whose lengths it is told; worlds have fewer meshes than it has places for.
         let build_seconds = unsafe {
             peer_new(&mut peer, meshes.as_ptr(), meshes.len(), placements.as_ptr(), placements.len(), robust.into(), config.as_ptr())
+        };
+        EmbreeScene { peer, build_seconds, build_processor_seconds: thread_seconds() - processor }
+    }
+
+    /// Round linear curves by points with radii, and each piece's first point. Pieces join where one begins at the other's end.
+    pub fn of_curves(points: &[[f32; 4]], pieces: &[u32], robust: bool) -> Self {
+        let mut peer = Peer { device: std::ptr::null_mut(), scene: std::ptr::null_mut() };
+        let neighbours = |i: usize| [i > 0 && pieces[i - 1] + 1 == pieces[i], i + 1 < pieces.len() && pieces[i] + 1 == pieces[i + 1]];
+        let flags: Vec<u8> = (0..pieces.len()).map(neighbours).map(|[left, right]| u8::from(left) | u8::from(right) << 1).collect();
+        let processor = thread_seconds();
+        // SAFETY: the shim copies the arrays, whose lengths it is told; each piece's two points are among them.
+        let build_seconds = unsafe {
+            peer_new_curves(&mut peer, points.as_ptr(), points.len(), pieces.as_ptr(), flags.as_ptr(), pieces.len(), robust.into())
         };
         EmbreeScene { peer, build_seconds, build_processor_seconds: thread_seconds() - processor }
     }

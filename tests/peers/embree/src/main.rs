@@ -1,8 +1,9 @@
 //! Rays a second of gonio and of Embree on the same rays: one thread, runs interleaved, medians of ratios.
 //!
 //! `cargo run --release [-- <detail> <runs> <plants>]`; detail 1 is a room of 280 thousand triangles, which grow with its square. With plants, a
-//! field of so many instances stands in the room's place.
+//! field of so many instances stands in the room's place. `cargo run --release -- curves <strands> <runs>`: a head of hair, ten pieces a strand.
 
+mod curves;
 mod embree;
 // What the Python module renders with: large pages, as Embree has them.
 #[path = "../../../../rust-core/python/src/memory.rs"]
@@ -24,6 +25,10 @@ use world::{Mesh, Placement, World};
 const BATCH: usize = 4096;
 
 fn main() {
+    if std::env::args().nth(1).as_deref() == Some("curves") {
+        let number = |place: usize, other: usize| std::env::args().nth(place).and_then(|a| a.parse().ok()).unwrap_or(other);
+        return curves::compare(number(2, 100_000), number(3, 7));
+    }
     let arguments: Vec<f32> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
     let detail = arguments.first().copied().unwrap_or(1.0);
     let runs = arguments.get(1).map_or(7, |&n| n as usize);

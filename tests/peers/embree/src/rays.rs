@@ -14,7 +14,7 @@ pub struct OwnedRays {
 }
 
 impl OwnedRays {
-    fn push(&mut self, origin: [f32; 3], direction: [f32; 3], t_min: f32, t_max: f32) {
+    pub fn push(&mut self, origin: [f32; 3], direction: [f32; 3], t_min: f32, t_max: f32) {
         for axis in 0..3 {
             self.origin[axis].push(origin[axis]);
             self.direction[axis].push(direction[axis]);
@@ -46,7 +46,7 @@ impl OwnedRays {
 pub struct Random(pub u64);
 
 impl Random {
-    fn unit(&mut self) -> f32 {
+    pub fn unit(&mut self) -> f32 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 40) as f32 / (1u64 << 24) as f32
     }
@@ -68,7 +68,7 @@ pub fn primary(world: &World, width: usize, height: usize) -> OwnedRays {
     rays
 }
 
-fn normalized(v: [f32; 3]) -> [f32; 3] {
+pub fn normalized(v: [f32; 3]) -> [f32; 3] {
     let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
     v.map(|x| x / length)
 }
