@@ -58,4 +58,6 @@ SCENES = [
     Scene("camera", "panoramic"),
     Scene("camera", "fisheye"),
     Scene("camera", "instances"),
+    Scene("hair", "hair_curves", 384, 384),
+    Scene("hair", "hair_ribbons"),
 ]

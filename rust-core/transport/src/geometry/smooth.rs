@@ -224,7 +224,6 @@ impl GeometryTable {
         let lean = end_cap.select(u - 2.0, start_cap.select(u + 2.0, axis.taper)).clamp(-1.0, 1.0);
         let upright = (1.0 - lean * lean).safe_sqrt();
         let tube = out * upright + axis.frame.z * lean;
-        let face = out.cross(axis.frame.z);
         // Shading follows the curve's tangent, which does not jump between pieces.
         let flat = (out - axis.tangent * axis.tangent.dot(out)).normalize_or(out);
         let bent = flat * upright + axis.tangent * lean;
@@ -232,7 +231,8 @@ impl GeometryTable {
         let bowed = flat.cross(axis.tangent) * high + flat * across;
         Local {
             position: ribbon.select(out * across, tube).mul_add(axis.radius, axis.centre),
-            normal: ribbon.select(face, tube),
+            // Light that comes along a ribbon lights the tube that it stands for, as in Cycles.
+            normal: ribbon.select(bowed, tube),
             shading: ribbon.select(bowed, (end_cap | start_cap).select(tube, bent)),
             tangent: axis.tangent,
             radius: axis.radius,
