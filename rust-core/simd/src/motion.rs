@@ -33,6 +33,8 @@ struct Segment {
     half_angle: f64,
     translation: [[f64; 3]; 2],
     stretch: [Matrix; 2],
+    /// The inverse of a stretch that does not change.
+    back: Option<Matrix>,
 }
 
 impl Motion {
@@ -59,8 +61,9 @@ impl Motion {
             let ((q, s), (q1, s1)) = (&parts[i], &parts[i + 1]);
             let (rotation, half_angle) = great_circle(q, q1);
             let (from, to) = (translation(&keys[i]), translation(&keys[i + 1]));
-            let change = std::array::from_fn(|row| std::array::from_fn(|column| s1[row][column] - s[row][column]));
-            Segment { rotation, half_angle, translation: [from, std::array::from_fn(|k| to[k] - from[k])], stretch: [*s, change] }
+            let change = change_of_stretch(s, s1);
+            let back = if change == [[0.0; 3]; 3] { inverse(s) } else { None };
+            Segment { rotation, half_angle, translation: [from, std::array::from_fn(|k| to[k] - from[k])], stretch: [*s, change], back }
         };
         Some(Self { segments: (0..keys.len() - 1).map(segment).collect() })
     }
@@ -75,6 +78,13 @@ impl Motion {
         let place = f64::from(time.clamp(0.0, 1.0)) * self.segments.len() as f64;
         let number = (place as usize).min(self.segments.len() - 1);
         self.segments[number].at(place - number as f64)
+    }
+
+    /// The inverse of the map at a time; `None` where it is flat then.
+    pub fn inverse_at(&self, time: f32) -> Option<Rows> {
+        let place = f64::from(time.clamp(0.0, 1.0)) * self.segments.len() as f64;
+        let number = (place as usize).min(self.segments.len() - 1);
+        self.segments[number].inverse_at(place - number as f64)
     }
 
     /// Radians that the thing turns by in a segment.
@@ -101,19 +111,55 @@ impl Motion {
 impl Segment {
     fn at(&self, t: f64) -> Rows {
         let stretch: Matrix = std::array::from_fn(|i| std::array::from_fn(|k| self.stretch[0][i][k] + t * self.stretch[1][i][k]));
-        let turned = if self.half_angle == 0.0 && self.rotation[0][0] == 1.0 {
-            stretch
-        } else {
-            let (sin, cos) = sin_cos(self.half_angle * t);
-            let q = std::array::from_fn(|k| self.rotation[0][k] * cos + self.rotation[1][k] * sin);
-            matrix_product(&rotation_matrix(&q), &stretch)
+        let turned = match self.rotation_at(t) {
+            Some(rotation) => matrix_product(&rotation, &stretch),
+            None => stretch,
         };
-        std::array::from_fn(|i| {
-            let [x, y, z] = turned[i];
-            [x, y, z, self.translation[0][i] + t * self.translation[1][i]]
-        })
+        with_translation(&turned, &self.translation_at(t))
+    }
+
+    fn inverse_at(&self, t: f64) -> Option<Rows> {
+        let linear = match (self.back, self.rotation_at(t)) {
+            (Some(back), Some(rotation)) => matrix_product(&back, &transposed(&rotation)),
+            (Some(back), None) => back,
+            _ => inverse(&linear_part(&self.at(t)))?,
+        };
+        let moved = product(&linear, &self.translation_at(t));
+        Some(with_translation(&linear, &moved.map(|x| -x)))
+    }
+
+    /// `None` for no rotation.
+    fn rotation_at(&self, t: f64) -> Option<Matrix> {
+        if self.half_angle == 0.0 && self.rotation[0][0] == 1.0 {
+            return None;
+        }
+        let (sin, cos) = sin_cos(self.half_angle * t);
+        Some(rotation_matrix(&std::array::from_fn(|k| self.rotation[0][k] * cos + self.rotation[1][k] * sin)))
+    }
+
+    fn translation_at(&self, t: f64) -> [f64; 3] {
+        std::array::from_fn(|i| self.translation[0][i] + t * self.translation[1][i])
     }
 }
+
+fn with_translation(linear: &Matrix, [x, y, z]: &[f64; 3]) -> Rows {
+    let row = |[a, b, c]: [f64; 3], moved: f64| [a, b, c, moved];
+    [row(linear[0], *x), row(linear[1], *y), row(linear[2], *z)]
+}
+
+fn transposed(m: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|k| m[k][i]))
+}
+
+/// What a stretch changes by; keys in single precision differ by their rounding, which is no change.
+fn change_of_stretch(from: &Matrix, to: &Matrix) -> Matrix {
+    let change: Matrix = std::array::from_fn(|row| std::array::from_fn(|column| to[row][column] - from[row][column]));
+    let most = |m: &Matrix| m.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    if most(&change) <= ROUNDING * most(from) { [[0.0; 3]; 3] } else { change }
+}
+
+/// A few roundings of single precision.
+const ROUNDING: f64 = 5e-7;
 
 /// Sine and cosine of an angle from 0 to π/2 by their series about the middle; the platform's own differ from one to the other.
 fn sin_cos(angle: f64) -> (f64, f64) {
@@ -187,8 +233,7 @@ fn decomposed(key: &Rows) -> Option<(Quaternion, Matrix)> {
     if determinant(&rotation) < 0.0 {
         rotation = rotation.map(|row| row.map(|x| -x));
     }
-    let back: Matrix = std::array::from_fn(|i| std::array::from_fn(|k| rotation[k][i]));
-    let stretch = matrix_product(&back, &linear);
+    let stretch = matrix_product(&transposed(&rotation), &linear);
     let q = quaternion(&rotation);
     q.iter().chain(stretch.iter().flatten()).all(|x| x.is_finite()).then_some((q, stretch))
 }
@@ -250,6 +295,26 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn inverses_lead_back() {
+        let rounded = |rows: Rows| rows.map(|row| row.map(|x| f64::from(x as f32)));
+        for (first, last) in [([2.0, 0.5, 3.0], [2.0, 0.5, 3.0]), ([1.0; 3], [2.0, 0.5, -3.0]), ([-1.0, 1.0, 2.0], [-1.0, 1.0, 2.0])] {
+            for angle in [0.0, 0.3, 2.0] {
+                let keys = [placed(1, 0.3, first, [1.0, 2.0, 3.0]), placed(1, 0.3 + angle, last, [-1.0, 2.0, 3.5])].map(rounded);
+                let motion = Motion::new(&keys, Interpolation::Decomposed).expect("it moves");
+                for time in [0.0, 0.3, 0.9, 1.0] {
+                    let (to, back) = (motion.at(time), motion.inverse_at(time).expect("it has a volume"));
+                    let p = [0.3, -2.0, 5.0];
+                    let image = |m: &Rows, p: &[f64; 3]| m.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
+                    let found = image(&back, &image(&to, &p));
+                    assert!((0..3).all(|k| (found[k] - p[k]).abs() < 1e-9), "{found:?}");
+                }
+            }
+        }
+        let flat = [[[0.0; 4]; 3], placed(0, 0.0, [1.0; 3], [1.0; 3])];
+        assert!(Motion::new(&flat, Interpolation::Decomposed).expect("it grows").inverse_at(0.0).is_none());
     }
 
     #[test]

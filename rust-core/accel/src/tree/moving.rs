@@ -2,7 +2,7 @@
 
 use super::node::Bounds;
 use crate::intersect::prepared::PreparedRay;
-use crate::intersect::transform::{Affine, inverse, transformed_bounds};
+use crate::intersect::transform::{Affine, transformed_bounds};
 use gonio_simd::motion::Motion;
 
 /// An instance by its number, and how it moves; its own map is where it rests.
@@ -46,7 +46,7 @@ impl MovingRecord {
 
     /// The map from the world to the instance's space at a time; `None` where it is flat then.
     pub(crate) fn world_to_object(&self, time: f32) -> Option<Affine> {
-        Affine::new(&inverse(&self.motion.at(time))?)
+        Affine::new(&self.motion.inverse_at(time)?)
     }
 
     /// Whether a ray of the world meets the box that the instance is in at a time.
