@@ -129,7 +129,7 @@ class Canvas(QWidget):
 
     def _draw_banner(self, painter: QPainter) -> None:
         room = self.rect().adjusted(BORDER, 8, -BORDER, 0)
-        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWrapAnywhere
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap | Qt.TextFlag.TextWrapAnywhere
         words = painter.boundingRect(room, flags, self._banner)
         painter.fillRect(QRect(0, 0, self.width(), words.height() + 16), BANNER)
         painter.setPen(Qt.GlobalColor.white)

@@ -39,14 +39,15 @@ DEEDS = (
 )
 
 MOUSE = (
-    ("Left", "turn about the middle, with and without Alt"),
-    ("Middle, or Shift and left", "move"),
-    ("Right, Ctrl and left, or the wheel", "nearer and further"),
+    ("Left button", "turn about the middle, with and without Alt"),
+    ("Middle button, or Shift and left", "move"),
+    ("Right button, Ctrl and left, or the wheel", "nearer and further"),
 )
 
 
 def list_of_keys() -> str:
     """All of them, as a table in HTML."""
-    rows = [*MOUSE, *((deed.keys, deed.words.replace("&", "").removesuffix(" …")) for deed in DEEDS)]
-    cells = "".join(f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{words}</td></tr>" for keys, words in rows)
+    arrows = {"Left": "Left arrow", "Right": "Right arrow"}
+    deeds = [(arrows.get(deed.keys, deed.keys), deed.words.replace("&", "").removesuffix(" …")) for deed in DEEDS]
+    cells = "".join(f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{words}</td></tr>" for keys, words in [*MOUSE, *deeds])
     return f"<table cellpadding=2>{cells}</table>"

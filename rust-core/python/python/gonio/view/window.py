@@ -23,6 +23,8 @@ from .stage import Seen
 # A change of size is over once nothing came for so many milliseconds.
 SETTLING = 60
 THIRD = 1.0 / 3.0
+# Height of the messages at first, pixels.
+MESSAGES = 90
 # Width and height of the screen that are left to what is around the window.
 AROUND = (40, 80)
 
@@ -35,6 +37,8 @@ class Window(QMainWindow):
         self.setWindowTitle(f"{name} – gonio")
         self._show, self._size = show, size
         self._at = (-1.0, -1.0)
+        # Whether the messages came by themselves, and may go so.
+        self._told_by_itself = False
         self._build()
         self._connect()
         self._fit(*(size or (960, 540)))
@@ -118,20 +122,29 @@ class Window(QMainWindow):
         self.messages.clear()
         self.messages.addItems([("⚠ " if warns else "") + text for warns, text in seen.messages])
         if any(warns for warns, _ in seen.messages):
-            self.messages_dock.show()
+            self._show_messages()
+        elif self._told_by_itself:
+            self.messages_dock.hide()
+            self._told_by_itself = False
         self.canvas.say(note="gonio renders …")
         self._show.resize(self.canvas.pixels)
+
+    def _show_messages(self) -> None:
+        if not self.messages_dock.isVisible():
+            self._told_by_itself = True
+            self.messages_dock.show()
+            self.resizeDocks([self.messages_dock], [MESSAGES], Qt.Orientation.Vertical)
 
     def _warn(self, warnings: list[tuple[str, str]]) -> None:
         self.messages.addItems([f"⚠ {origin}: {message}" for origin, message in warnings])
         if warnings:
-            self.messages_dock.show()
+            self._show_messages()
 
     def _fail(self, message: str) -> None:
         """Tells what is wrong; the picture stays."""
         self.canvas.say(banner=message)
         self.messages.insertItem(0, f"⚠ {message}")
-        self.messages_dock.show()
+        self._show_messages()
         self._progress.setText("")
 
     def _take(self, shot: Shot) -> None:
@@ -228,7 +241,11 @@ class Window(QMainWindow):
 
     def toggle_messages(self) -> None:
         """Shows or hides them."""
-        self.messages_dock.setVisible(not self.messages_dock.isVisible())
+        if self.messages_dock.isVisible():
+            self.messages_dock.hide()
+        else:
+            self._show_messages()
+        self._told_by_itself = False
 
     def frame_all(self) -> None:
         """Shows everything, from the same side."""
