@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QMessageLogContext, QTimer, QtMsgType, qInstallMessageHandler
 from PySide6.QtWidgets import QApplication
 
 from .session import Shot
@@ -25,6 +25,7 @@ DRAWING = 150
 
 def run(command: Sequence[str], folder: str | os.PathLike[str], choices: Mapping[str, Any]) -> int:
     """Opens the window and waits; gives the exit status."""
+    qInstallMessageHandler(_say)
     application = QApplication.instance() or QApplication([sys.argv[0]])
     show = Show(command, folder, choices)
     window = Window(show, Path(choices["stage"]).name, choices["resolution"])
@@ -44,6 +45,12 @@ def run(command: Sequence[str], folder: str | os.PathLike[str], choices: Mapping
         signal.signal(signal.SIGINT, before)
         del screenshot
         window.close()
+
+
+def _say(_kind: QtMsgType, _context: QMessageLogContext, text: str) -> None:
+    """What Qt has to say, but that windows nobody sees have no limits of their size."""
+    if "propagateSizeHints" not in text:
+        sys.stderr.write(f"gonio: Qt: {text}\n")
 
 
 class Screenshot:

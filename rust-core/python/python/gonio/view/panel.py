@@ -105,8 +105,8 @@ class Panel(QWidget):
         self._logarithmic.setChecked(look.decades is not None)
         self._contours.setChecked(look.contours)
         is_picture = look.show == "picture"
-        for part in (self._operator, self._stops, self._stops_text):
-            part.setEnabled(is_picture)
+        for shown in (self._operator, self._stops, self._stops_text):
+            shown.setEnabled(is_picture)
         self._automatic.setEnabled(is_picture and look.operator != "none")
         self._ev.setEnabled(is_picture and look.operator == "ev100" and not look.is_automatic)
         for part in (self._max, self._logarithmic, self._contours):

@@ -5,10 +5,12 @@ It takes a line of JSON on its standard input for each stage, and answers with l
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from typing import Any, TextIO
 
 from .._gonio import Error, _files_of_stage, _view_scene
@@ -35,11 +37,8 @@ def answer(asked: dict[str, Any], answers: TextIO) -> None:
     try:
         scene, about = _view_scene(asked["words"], asked["folder"], asked["frame"])
         scene.save(asked["scene"])
-    except Error as error:
+    except (Error, OSError, UnicodeError) as error:
         _say(answers, {"error": str(error)})
-        return
-    except UnicodeEncodeError as error:
-        _say(answers, {"error": f"the command line is not text: {error}"})
         return
     told = json.loads(about)
     _say(answers, told)
@@ -49,13 +48,27 @@ def answer(asked: dict[str, Any], answers: TextIO) -> None:
 def files(inputs: list[str]) -> list[str]:
     """Absolute paths of all files that the inputs are made of."""
     found = dict.fromkeys(os.path.abspath(path) for path in inputs)
-    for path in inputs:
-        try:
-            found.update(dict.fromkeys(os.path.abspath(name) for name in _files_of_stage(path)))
-        except Error:
-            # A table of the weather is no stage, and a broken one tells nothing.
-            continue
+    with _silence():
+        for path in inputs:
+            try:
+                found.update(dict.fromkeys(os.path.abspath(name) for name in _files_of_stage(path)))
+            except (Error, OSError):
+                # A table of the weather is no stage, and a broken one tells nothing.
+                continue
     return [path for path in found if os.path.exists(path)]
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Lets the library not say once more what it misses: the scene's messages have told."""
+    errors, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(errors, 2)
+        os.close(errors)
+        os.close(nowhere)
 
 
 def _say(answers: TextIO, words: dict[str, Any]) -> None:

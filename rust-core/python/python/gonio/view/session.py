@@ -103,7 +103,7 @@ class Session:
                 self._follow(wish)
             except Cancelled:
                 continue
-            except Error as error:
+            except (Error, OSError, RuntimeError) as error:
                 self._tell(Failure(str(error)))
         if self._render is not None:
             self._render.cancel()

@@ -141,7 +141,7 @@ class StageReader:
             return
         try:
             self._tell(Seen(Scene.load(path), about))
-        except Error as error:
+        except (Error, OSError) as error:
             self._tell(Broken(str(error)))
         found = self._answer()
         if found is not None:
