@@ -42,7 +42,8 @@ def answer(asked: dict[str, Any], answers: TextIO) -> None:
         return
     told = json.loads(about)
     _say(answers, told)
-    _say(answers, {"files": files(told["inputs"])})
+    if asked["files"]:
+        _say(answers, {"files": files(told["inputs"])})
 
 
 def files(inputs: list[str]) -> list[str]:

@@ -74,13 +74,16 @@ class Show(QObject):
     def reload(self) -> None:
         """Reads the stage once more, with all its images."""
         self._session.forget()
-        self.read(self.frame)
+        self._read(self.frame, files=True)
 
     def read(self, frame: float | None) -> None:
         """Reads the stage at a frame; the picture stays until then."""
+        self._read(frame, files=False)
+
+    def _read(self, frame: float | None, *, files: bool) -> None:
         self.frame = frame
         self.reading_began.emit()
-        self._reader.read(frame)
+        self._reader.read(frame, files=files)
 
     def resize(self, size: tuple[int, int]) -> None:
         """Pictures have so many pixels from now on."""
@@ -183,7 +186,7 @@ class Show(QObject):
     def _take_files(self, saved: list[str]) -> None:
         """Reads the stage once more; images only where others than layers were saved, since that takes long."""
         if all(os.path.splitext(path)[1].lower() in LAYERS for path in saved):
-            self.read(self.frame)
+            self._read(self.frame, files=True)
         else:
             self.reload()
 

@@ -95,17 +95,18 @@ class StageReader:
     def __init__(self, words: Sequence[str], folder: str | os.PathLike[str], tell: Callable[[Told], None]) -> None:
         self._words, self._folder, self._tell = [*words], os.fspath(folder), tell
         self._condition = threading.Condition()
-        self._asked: list[float | None] = []
+        # The frame to read, and whether the stage's files are to be told too.
+        self._asked: tuple[float | None, bool] | None = None
         self._closed = False
         self._bundles = tempfile.TemporaryDirectory(prefix="gonio-view-")
         self._process = self._start()
         self._thread = threading.Thread(target=self._run, name="gonio view: stage", daemon=True)
         self._thread.start()
 
-    def read(self, frame: float | None) -> None:
-        """Reads the stage at a frame, the first one without it; of several wishes that wait the latest counts."""
+    def read(self, frame: float | None, *, files: bool = True) -> None:
+        """Reads the stage at a frame, the first one without it, and tells its files; of several wishes that wait the latest counts."""
         with self._condition:
-            self._asked = [frame]
+            self._asked = (frame, files or (self._asked is not None and self._asked[1]))
             self._condition.notify()
 
     def close(self) -> None:
@@ -121,15 +122,15 @@ class StageReader:
     def _run(self) -> None:
         while True:
             with self._condition:
-                self._condition.wait_for(lambda: self._asked or self._closed)
-                if self._closed:
+                self._condition.wait_for(lambda: self._asked is not None or self._closed)
+                if self._closed or self._asked is None:
                     return
-                frame = self._asked.pop()
-            self._read(frame)
+                (frame, files), self._asked = self._asked, None
+            self._read(frame, files)
 
-    def _read(self, frame: float | None) -> None:
+    def _read(self, frame: float | None, files: bool) -> None:
         path = Path(self._bundles.name, "scene.gonio")
-        asked = {"words": self._words, "folder": self._folder, "frame": frame, "scene": os.fspath(path)}
+        asked = {"words": self._words, "folder": self._folder, "frame": frame, "scene": os.fspath(path), "files": files}
         if self._process.poll() is not None:
             self._end()
             self._process = self._start()
@@ -143,7 +144,7 @@ class StageReader:
             self._tell(Seen(Scene.load(path), about))
         except (Error, OSError) as error:
             self._tell(Broken(str(error)))
-        found = self._answer()
+        found = self._answer() if files else None
         if found is not None:
             self._tell(Files(found["files"]))
 
