@@ -14,7 +14,7 @@ import pytest
 from failures import fails
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-pytest.importorskip("PySide6.QtWidgets", reason="the window needs Qt: pip install 'gonio[view]'")
+pytest.importorskip("PySide6.QtWidgets", reason="the window needs Qt: pip install 'gonio[view]'", exc_type=ImportError)
 
 from gonio.view.keys import DEEDS, list_of_keys  # noqa: E402
 from gonio.view.session import Session, Wish  # noqa: E402

@@ -141,7 +141,10 @@ class StageReader:
             self._tell(Broken(about["error"]))
             return
         try:
-            self._tell(Seen(Scene.load(path), about))
+            scene = Scene.load(path)
+            # Large ones shall not lie about if this process is ended from outside.
+            path.unlink()
+            self._tell(Seen(scene, about))
         except (Error, OSError) as error:
             self._tell(Broken(str(error)))
         found = self._answer() if files else None

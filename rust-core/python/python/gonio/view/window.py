@@ -104,9 +104,9 @@ class Window(Deeds):
         self.resize(round(sides[0] * scale) + beside[0], round(sides[1] * scale) + beside[1])
 
     def _open(self, seen: Seen, is_first: bool) -> None:
+        self.frames.take(seen.frames, seen.about["frame"])
         if is_first and self._size is None and not self.isMaximized():
             self._fit(*seen.about["resolution"])
-        self.frames.take(seen.frames, seen.about["frame"])
         self.messages.clear()
         self.messages.addItems([("⚠ " if warns else "") + text for warns, text in seen.messages])
         if any(warns for warns, _ in seen.messages):
