@@ -48,6 +48,18 @@ def shown(film, path, **look):
     return png(path)
 
 
+@pytest.mark.parametrize("look", [{}, {"tonemap": "local", "exposure": 1.0}, {"tonemap": "ev100=3"}, {"white": 2.0, "adapted": 3.0}])
+def test_pictures_in_memory_are_those_of_files(film, tmp_path, look):
+    picture = film.picture(**look)
+    pixels, _ = shown(film, tmp_path / "a.png", **look)
+    there = np.frombuffer(picture.tobytes(), np.uint8).reshape(pixels.shape)
+    assert picture.size == film.size and np.array_equal(there[..., :3], pixels[..., :3])
+    picture.write(tmp_path / "b.png")
+    assert np.array_equal(png(tmp_path / "b.png")[0], there)
+    with pytest.raises(gonio.SettingError, match="false colour"):
+        picture.legend(100)
+
+
 def test_the_default_is_the_photographic_operator(film, tmp_path):
     color = np.asarray(film["color"]).astype("f8")[..., :3] * 0.18 / film.log_average()
     luminance = color @ [0.2126, 0.7152, 0.0722]

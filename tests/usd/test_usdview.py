@@ -124,7 +124,7 @@ def play_usdview(qt):
 def container():
     """The plugin's container, found as usdview finds it: through the plugin registry, by plugInfo.json."""
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    pytest.importorskip("PySide6.QtWidgets", reason="usdview's windows need Qt: pip install PySide6-Essentials")
+    pytest.importorskip("PySide6.QtWidgets", reason="usdview's windows need Qt: pip install PySide6-Essentials", exc_type=ImportError)
     from pxr import Plug
     from PySide6 import QtCore, QtGui, QtWidgets
 

@@ -115,7 +115,12 @@ const CAMERA_LIGHT: &str = "camera light";
 
 /// Whether a scene has [`camera_light`], whose white is meant to be shown as white.
 pub fn is_camera_lit(scene: &Scene) -> bool {
-    scene.lights.iter().any(|light| &*light.origin.name == CAMERA_LIGHT)
+    camera_light_of(scene).is_some()
+}
+
+/// The number of [`camera_light`] among a scene's lights.
+pub fn camera_light_of(scene: &Scene) -> Option<usize> {
+    scene.lights.iter().position(|light| &*light.origin.name == CAMERA_LIGHT)
 }
 
 /// A light for stages without any: it shines along the camera's view without shadows, as usdrecord's, and shows a white surface that faces it as

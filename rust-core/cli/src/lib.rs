@@ -35,8 +35,10 @@ mod render;
 mod report;
 mod share;
 mod snapshot;
+mod view;
 
 pub use farm::farm_scene;
+pub use view::{Viewed, view_scene};
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -85,6 +87,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
                 None => render::render(py, &options, &INTERRUPTED),
             }
         }
+        Command::View(options) => view::view(py, &options, &arguments),
         Command::Merge(options) => py.detach(|| merge::merge(&options)),
         Command::Info(options) => info::info(py, &options, &INTERRUPTED),
         Command::Compare(options) => compare::compare(&options),

@@ -1,9 +1,13 @@
 //! Developed films as buffers.
 
-use crate::{error::exception, pass::Pass, picture::flat};
+use crate::{
+    error::exception,
+    pass::Pass,
+    picture::{Picture, flat},
+};
 use gonio::{
     film::{Image, Layer, channel_names, edge_aware},
-    output::{DisplaySpace, ExrOptions, Look, ToneMap, display_linear, log_average, matte_notes, write_exr, write_picture},
+    output::{DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_exr, write_picture},
     scene::Aov,
 };
 use gonio_simd::Execution;
@@ -115,6 +119,14 @@ impl Film {
         let look = ToneMap::by_name(tonemap).and_then(|operator| Look::new(operator, exposure, white, adapted, DisplaySpace::Srgb));
         let look = look.map_err(exception)?;
         Ok(self.with_colour(py.detach(|| display_linear(&self.image, &look, Execution::detect()))))
+    }
+    /// The picture that `write_picture` writes with the same arguments, as pixels: 8-bit sRGB with coverage, colours times that.
+    #[pyo3(signature = (tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None))]
+    fn picture(&self, py: Python<'_>, tonemap: &str, exposure: f32, white: f32, adapted: Option<f32>) -> PyResult<Picture> {
+        self.layer(Aov::Color.name())?;
+        let look = ToneMap::by_name(tonemap).and_then(|operator| Look::new(operator, exposure, white, adapted, DisplaySpace::Srgb));
+        let look = look.map_err(exception)?;
+        Ok(Picture::plain(self.image.size(), py.detach(|| display(&self.image, &look, Execution::detect()))))
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]

@@ -76,7 +76,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]
-    use crate::usd::{_files_of_stage, _main, _scene, load_usd};
+    use crate::usd::{_files_of_stage, _main, _scene, _view_scene, load_usd};
 
     use pyo3::{prelude::*, types::PyDict};
 

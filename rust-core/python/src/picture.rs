@@ -15,12 +15,17 @@ const TALLEST: usize = 65_536;
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct Picture {
     canvas: Canvas,
-    style: FalseColour,
+    /// None where its colours stand for no numbers.
+    style: Option<FalseColour>,
 }
 
 impl Picture {
     pub(crate) fn of(canvas: Canvas, style: FalseColour) -> Self {
-        Self { canvas, style }
+        Self { canvas, style: Some(style) }
+    }
+    /// Pixels that need no legend: four bytes each.
+    pub(crate) fn plain(size: [usize; 2], rgba: Vec<u8>) -> Self {
+        Self { canvas: Canvas { size, rgba }, style: None }
     }
 }
 
@@ -31,12 +36,13 @@ impl Picture {
     fn size(&self) -> (usize, usize) {
         self.canvas.size.into()
     }
-    /// The legend alone, for a picture of a height in pixels, at most 65,536.
+    /// The legend of false colours alone, for a picture of a height in pixels, at most 65,536.
     fn legend(&self, height: usize) -> PyResult<Self> {
         if height > TALLEST {
             return Err(setting("height", format!("{height} was found, expected at most {TALLEST} pixels")));
         }
-        Ok(Self::of(self.style.legend(height), self.style.clone()))
+        let style = self.style.as_ref().ok_or_else(|| setting("legend", "the picture is not in false colour".to_owned()))?;
+        Ok(Self::of(style.legend(height), style.clone()))
     }
     /// Four bytes a pixel.
     fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {

@@ -55,6 +55,19 @@ pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, fr
     Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
 }
 
+/// The scene that `gonio view` with these arguments, the program's name first, would show at a frame, and what its window has to know, as JSON.
+#[pyfunction]
+pub(crate) fn _view_scene(
+    py: Python<'_>,
+    arguments: Vec<String>,
+    folder: PathBuf,
+    frame: Option<f64>,
+) -> PyResult<(Bound<'_, Scene>, String)> {
+    let gonio_cli::Viewed { loaded, about } = gonio_cli::view_scene(py, &arguments, &folder, frame).map_err(exception)?;
+    let scene = Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: true };
+    Ok((scene.public(py)?, about))
+}
+
 /// Paths of all files that the stage in a file is made of.
 #[pyfunction]
 pub(crate) fn _files_of_stage(py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {

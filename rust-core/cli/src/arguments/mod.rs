@@ -19,6 +19,7 @@ mod render;
 mod report;
 mod stage;
 mod texture;
+mod view;
 mod work;
 
 pub(super) use bench::BenchOptions;
@@ -40,6 +41,7 @@ pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use texture::TextureArguments;
+pub(super) use view::{ShowArgument, ViewOptions};
 pub(super) use work::WorkArguments;
 
 use bsdf::BSDF_EXAMPLES;
@@ -49,6 +51,7 @@ use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
+use view::VIEW_EXAMPLES;
 
 /// What the process's status says.
 const EXIT_STATUS: &str = "\
@@ -84,6 +87,11 @@ pub(super) enum Command {
     /// Takes the options of usdrecord and husk too; docs/usd.md lists what becomes of each.
     #[command(after_long_help = RENDER_EXAMPLES)]
     Render(Box<RenderOptions>),
+    /// Show a USD stage in a window: a picture that becomes clearer, seen from where you like, with cd/m² and lux under the cursor.
+    ///
+    /// Reads the stage anew when one of its files is saved. Needs Qt: pip install 'gonio[view]'.
+    #[command(after_long_help = VIEW_EXAMPLES)]
+    View(Box<ViewOptions>),
     /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
     Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
