@@ -1,6 +1,7 @@
 //! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
 
 use crate::goniogram::LuminaireFile;
+use crate::kept::Kept;
 use crate::material::{Library, Shaded};
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
@@ -70,6 +71,9 @@ pub struct Context<'a, 'py> {
     pub waited_for_meshes: Duration,
     /// Prims met, by type.
     pub prim_counts: HashMap<String, usize>,
+    /// What other readings of the stage left.
+    pub(crate) kept: Kept,
+    told: usize,
     diagnostics: Vec<Diagnostic>,
     refused: Option<Error>,
     tallies: HashMap<(&'static str, String), Tally>,
@@ -104,6 +108,8 @@ impl<'a, 'py> Context<'a, 'py> {
             luminaires: Vec::new(),
             waited_for_meshes: Duration::ZERO,
             prim_counts: HashMap::new(),
+            kept: Kept::default(),
+            told: 0,
             diagnostics: Vec::new(),
             refused: None,
             tallies: HashMap::new(),
@@ -124,13 +130,20 @@ impl<'a, 'py> Context<'a, 'py> {
         self.cancel
     }
 
+    /// How much has been told; what is read without telling anything can be kept for other readings.
+    pub(crate) fn told(&self) -> usize {
+        self.told
+    }
+
     /// Reports something that changes the picture.
     pub fn warn(&mut self, origin: &Origin, message: impl Into<String>) {
+        self.told += 1;
         self.diagnostics.push(Diagnostic::warning(origin, message));
     }
 
     /// Reports something that ends the reading unless it is to be lenient: what is done `instead` is then a warning.
     pub fn refuse(&mut self, origin: &Origin, problem: &str, instead: &str) {
+        self.told += 1;
         if self.options.lenient {
             self.warn(origin, format!("{problem}; {instead}"));
         } else if self.refused.is_none() {
@@ -148,16 +161,19 @@ impl<'a, 'py> Context<'a, 'py> {
 
     /// Reports something worth knowing.
     pub fn note(&mut self, origin: &Origin, message: impl Into<String>) {
+        self.told += 1;
         self.diagnostics.push(Diagnostic::info(origin, message));
     }
 
     /// Reports a diagnostic.
     pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.told += 1;
         self.diagnostics.push(diagnostic);
     }
 
     /// Warns once for each `kind` and `name`, however often it is met; the message gets the number of places at the end.
     pub fn once(&mut self, kind: &'static str, name: &str, origin: &Origin, message: impl FnOnce() -> String) {
+        self.told += 1;
         let next = self.diagnostics.len();
         let tally = self.tallies.entry((kind, name.to_owned())).or_insert(Tally { diagnostic: next, count: 0 });
         tally.count += 1;

@@ -16,6 +16,7 @@ pub mod explain;
 pub mod framing;
 mod goniogram;
 pub mod instancer;
+mod kept;
 pub mod light;
 pub mod material;
 pub mod memory_limit;

@@ -15,15 +15,15 @@ const MAX_REFINED_FACES: usize = 1 << 22;
 
 /// A mesh prim as read: the source and the prims of its slots, the mesh first.
 #[derive(Debug)]
-pub struct ReadMesh {
+pub struct ReadMesh<'py> {
     /// What triangles are made of.
     pub source: MeshSource,
     /// The prims that slots look up their material at.
-    pub slot_prims: Vec<String>,
+    pub slot_prims: Vec<Prim<'py>>,
 }
 
 /// Reads a `Mesh` prim; `None` where there is nothing to show or, with a report, nothing that can be used.
-pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<ReadMesh> {
+pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<ReadMesh<'py>> {
     let origin = prim.origin();
     let points = if prim.has_authored("velocities") { moved_points(context, prim) } else { context.get_authored(prim, "points") };
     let face_counts = context.get_authored::<Vec<i32>>(prim, "faceVertexCounts");
@@ -49,7 +49,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rea
     let (surface, normals) = surface(context, prim);
     polygons.primvars.extend(normals);
     let subsets = subset::read(context, prim, polygons.face_counts.len());
-    let mut slot_prims = vec![prim.path()];
+    let mut slot_prims = vec![prim.clone()];
     slot_prims.extend(subsets.prims);
     Some(ReadMesh { source: MeshSource { origin, polygons, surface, face_slots: subsets.face_slots }, slot_prims })
 }

@@ -125,6 +125,8 @@ pub struct StageOptions {
     pub session_layer: Option<PathBuf>,
     /// Whether layers are read into memory as a whole, so that files that change on disk later do not matter.
     pub detached: bool,
+    /// Whether what time does not change is kept from one reading for those at other times.
+    pub kept: bool,
     /// Whether payloads are loaded.
     pub load_payloads: bool,
     /// Purposes of material bindings in the order in which they are tried; the empty one is the all-purpose binding.
@@ -152,6 +154,7 @@ impl Default for StageOptions {
             variants: Vec::new(),
             session_layer: None,
             detached: false,
+            kept: false,
             load_payloads: true,
             material_binding_purposes: None,
             render_settings: None,

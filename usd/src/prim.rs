@@ -1,23 +1,32 @@
 //! Prims and attributes of a stage, with the names they have opinions for.
 
+use crate::kept::{KeptPrim, Known};
 use gonio::scene::Origin;
 use pyo3::intern;
 use pyo3::prelude::*;
-use std::cell::OnceCell;
+use std::sync::Arc;
 
 /// A prim.
 #[derive(Clone, Debug)]
 pub struct Prim<'py> {
     object: Bound<'py, PyAny>,
-    authored: OnceCell<Vec<String>>,
-    path: OnceCell<String>,
-    is_instance: OnceCell<bool>,
+    known: Arc<Known>,
 }
 
 impl<'py> Prim<'py> {
     /// Around a `Usd.Prim`.
     pub fn new(object: Bound<'py, PyAny>) -> Self {
-        Self { object, authored: OnceCell::new(), path: OnceCell::new(), is_instance: OnceCell::new() }
+        Self { object, known: Arc::default() }
+    }
+
+    /// Around a `Usd.Prim` of which something is known.
+    pub(crate) fn with(object: Bound<'py, PyAny>, known: Arc<Known>) -> Self {
+        Self { object, known }
+    }
+
+    /// What is known of the prim.
+    pub(crate) fn known(&self) -> &Arc<Known> {
+        &self.known
     }
 
     /// The `Usd.Prim`.
@@ -39,7 +48,7 @@ impl<'py> Prim<'py> {
     pub fn path(&self) -> String {
         let py = self.py();
         let path = || self.object.call_method0(intern!(py, "GetPath"))?.getattr(intern!(py, "pathString"))?.extract();
-        self.path.get_or_init(|| path().unwrap_or_else(|_: PyErr| "<invalid prim>".to_owned())).clone()
+        self.known.path.get_or_init(|| path().unwrap_or_else(|_: PyErr| "<invalid prim>".to_owned())).clone()
     }
 
     /// The last part of the path.
@@ -49,7 +58,7 @@ impl<'py> Prim<'py> {
 
     /// The schema's name, `Mesh`; empty for untyped prims.
     pub fn type_name(&self) -> String {
-        self.text(intern!(self.py(), "GetTypeName"))
+        self.known.type_name.get_or_init(|| self.text(intern!(self.py(), "GetTypeName"))).clone()
     }
 
     /// The prim as a place in messages.
@@ -67,7 +76,7 @@ impl<'py> Prim<'py> {
 
     /// Whether the prim is the root of a native instance.
     pub fn is_instance(&self) -> bool {
-        *self.is_instance.get_or_init(|| self.flag(intern!(self.py(), "IsInstance")))
+        *self.known.is_instance.get_or_init(|| self.flag(intern!(self.py(), "IsInstance")))
     }
 
     /// The kind in the model hierarchy, such as `component`; empty for none.
@@ -82,6 +91,15 @@ impl<'py> Prim<'py> {
         prototype.is_valid().then_some(prototype)
     }
 
+    /// The children that are displayed, asked for once.
+    pub(crate) fn displayed_children(&self) -> impl Iterator<Item = Self> {
+        let py = self.py();
+        let ask = || -> PyResult<Vec<KeptPrim>> {
+            self.object.call_method0(intern!(py, "GetChildren"))?.try_iter()?.map(|child| Ok(KeptPrim::of(&Self::new(child?)))).collect()
+        };
+        self.known.children[0].get_or_init(|| ask().unwrap_or_default()).iter().map(move |child| child.prim(py))
+    }
+
     /// The parent prim.
     pub fn parent(&self) -> Option<Self> {
         let parent = Self::new(self.object.call_method0(intern!(self.py(), "GetParent")).ok()?);
@@ -90,7 +108,7 @@ impl<'py> Prim<'py> {
 
     /// Names of the properties that have opinions.
     pub fn authored_names(&self) -> &[String] {
-        self.authored.get_or_init(|| {
+        self.known.authored.get_or_init(|| {
             let names = self.object.call_method0(intern!(self.py(), "GetAuthoredPropertyNames"));
             names.and_then(|names| names.try_iter()?.map(|name| name?.extract()).collect()).unwrap_or_default()
         })
@@ -107,15 +125,17 @@ impl<'py> Prim<'py> {
     }
 
     /// Names of the applied API schemas.
-    pub fn applied_schemas(&self) -> Vec<String> {
-        let names = self.object.call_method0(intern!(self.py(), "GetAppliedSchemas"));
-        names.and_then(|names| names.try_iter()?.map(|name| name?.extract()).collect()).unwrap_or_default()
+    pub fn applied_schemas(&self) -> &[String] {
+        self.known.schemas.get_or_init(|| {
+            let names = self.object.call_method0(intern!(self.py(), "GetAppliedSchemas"));
+            names.and_then(|names| names.try_iter()?.map(|name| name?.extract()).collect()).unwrap_or_default()
+        })
     }
 
     /// The attribute, if the prim has it by schema or by authoring.
     pub fn attribute(&self, name: &str) -> Option<Attribute<'py>> {
         let object = self.object.call_method1(intern!(self.py(), "GetAttribute"), (name,)).ok()?;
-        if self.authored.get().is_some_and(|names| names.iter().any(|authored| authored == name)) {
+        if self.known.authored.get().is_some_and(|names| names.iter().any(|authored| authored == name)) {
             return Some(Attribute { object });
         }
         object.is_truthy().unwrap_or(false).then_some(Attribute { object })

@@ -11,6 +11,7 @@ pub use info::{CameraInfo, StageInfo};
 
 use crate::context::Context;
 use crate::goniogram::LuminaireFile;
+use crate::kept::Kept;
 use crate::options::{SampleTime, StageOptions};
 use crate::prim::Prim;
 use crate::pxr::{Module, Trap};
@@ -26,6 +27,7 @@ use problem::{composition_errors, passed_on, unreadable};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// A stage as a scene.
@@ -41,6 +43,8 @@ pub struct Loaded {
     pub settings: Option<RenderSettings>,
     /// How much of the reading was waiting for meshes to be built, which goes on beside it.
     pub waited_for_meshes: Duration,
+    /// How many meshes, curves and points were taken over from the last reading.
+    pub kept_shapes: usize,
     /// The IES and EULUMDAT files that its lights name.
     pub luminaires: Vec<LuminaireFile>,
 }
@@ -56,6 +60,8 @@ pub struct Stage {
     diagnostics: Vec<Diagnostic>,
     /// Layers that stand in for MaterialX documents for as long as the stage is open.
     documents: Option<material::Substitution>,
+    /// What the last reading left.
+    kept: Mutex<Option<Kept>>,
 }
 
 /// Opens a stage and reads it: [`Stage::open`], then [`Stage::load`].
@@ -87,7 +93,15 @@ impl Stage {
         info.composition_errors = composition_errors(&stage, path);
         diagnostics.extend(info.composition_errors.iter().cloned());
         diagnostics.extend(passed_on(messages, &info.composition_errors, path));
-        Ok(Self { path: path.to_owned(), object: stage.unbind(), baked: baked.unbind(), info, diagnostics, documents })
+        Ok(Self {
+            path: path.to_owned(),
+            object: stage.unbind(),
+            baked: baked.unbind(),
+            info,
+            diagnostics,
+            documents,
+            kept: Mutex::default(),
+        })
     }
 
     /// What the stage says about itself.
@@ -120,6 +134,9 @@ impl Stage {
         let trap = Trap::set(py);
         let result = self.read(py, options, cancel).and_then(|loaded| self.blurred(py, options, cancel, loaded));
         let messages = trap.release();
+        if !options.kept {
+            self.forget();
+        }
         let mut loaded = result?;
         let mut all = self.diagnostics.clone();
         all.append(&mut loaded.diagnostics);
@@ -142,7 +159,7 @@ impl Stage {
         let Some(shutter) = shutter else { return Ok(loaded) };
         let mut keys = Vec::new();
         for time in shutter.times() {
-            let at_key = StageOptions { time: SampleTime::Code(time), ..options.clone() };
+            let at_key = StageOptions { time: SampleTime::Code(time), kept: true, ..options.clone() };
             keys.push(self.read(py, &at_key, cancel)?.scene);
         }
         loaded.diagnostics.extend(motion::put(&mut loaded.scene, &keys));
@@ -160,10 +177,25 @@ impl Stage {
         motion::shutter(stage, &prim, time.call_method0("GetValue")?.extract()?)
     }
 
+    fn take_kept(&self) -> Option<Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn keep(&self, kept: Kept) {
+        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
+    }
+
+    /// Lets go of what readings left.
+    fn forget(&self) {
+        drop(self.take_kept());
+    }
+
     /// What a reading gives by itself: without what opening the stage told, and what `pxr` says.
     fn read(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
         let unreadable = |error: PyErr| unreadable(py, &self.path, &error);
-        let _ = self.baked.bind(py).call_method0("Clear").map_err(unreadable)?;
+        if self.info.has_skeletons {
+            let _ = self.baked.bind(py).call_method0("Clear").map_err(unreadable)?;
+        }
         let time = time_code(py, self.info.time_range, options.time).map_err(unreadable)?;
         // What is shown depends on the settings, so they are read in a context of their own.
         let mut first = Context::new(self.object.bind(py).clone(), time.clone(), options, cancel);
@@ -173,6 +205,10 @@ impl Stage {
         let (_, mut diagnostics) = first.finish();
         let options = options.with_settings(settings.as_ref());
         let mut context = Context::new(self.object.bind(py).clone(), time, &options, cancel);
+        let last = self.take_kept();
+        if options.kept {
+            context.kept = Kept::for_reading(last, &options, &self.info.skeleton_roots);
+        }
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
         context.roles = pass.roles;
@@ -184,6 +220,10 @@ impl Stage {
         let (world, failed) = walker.world()?;
         place::place_world(&mut context, &world, failed)?;
         context.check_refused()?;
+        let kept_shapes = context.kept.shapes;
+        if options.kept {
+            self.keep(std::mem::take(&mut context.kept));
+        }
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
         let luminaires = std::mem::take(&mut context.luminaires);
@@ -193,7 +233,7 @@ impl Stage {
         let wanted = settings.as_ref().and_then(|settings| settings.framing.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
-        Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, luminaires })
+        Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, kept_shapes, luminaires })
     }
 }
 

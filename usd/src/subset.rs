@@ -8,15 +8,15 @@ use pyo3::prelude::*;
 
 /// The subsets of a mesh that bind materials.
 #[derive(Debug, Default)]
-pub struct Subsets {
-    /// Their prims' paths; slot 1 is the first.
-    pub prims: Vec<String>,
+pub struct Subsets<'py> {
+    /// Their prims; slot 1 is the first.
+    pub prims: Vec<Prim<'py>>,
     /// The slot of each face, 0 where no subset has it; `None` without subsets.
     pub face_slots: Option<Vec<u16>>,
 }
 
 /// Reads the face subsets among the mesh's children whose family is `materialBind`, or that have none but bind a material.
-pub fn read<'py>(context: &mut Context<'_, 'py>, mesh: &Prim<'py>, face_count: usize) -> Subsets {
+pub fn read<'py>(context: &mut Context<'_, 'py>, mesh: &Prim<'py>, face_count: usize) -> Subsets<'py> {
     let mut subsets = Subsets::default();
     for child in children(mesh) {
         if child.type_name() != "GeomSubset" || !binds_material(context, &child) {
@@ -26,7 +26,6 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, mesh: &Prim<'py>, face_count: u
         let (Some(indices), Ok(slot)) = (context.get_authored::<Vec<i32>>(&child, "indices"), slot) else { continue };
         let slots = subsets.face_slots.get_or_insert_with(|| vec![0; face_count]);
         let (outside, overlapping) = assign(slots, &indices, slot);
-        subsets.prims.push(child.path());
         if outside > 0 {
             let message = format!("{outside} of {} indices name no face, the mesh has {face_count}; they are ignored", indices.len());
             context.warn(&child.origin(), message);
@@ -34,19 +33,19 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, mesh: &Prim<'py>, face_count: u
         if overlapping > 0 {
             context.warn(&child.origin(), format!("an earlier subset has {overlapping} of its faces too, and keeps them"));
         }
+        subsets.prims.push(child);
     }
     subsets
 }
 
 fn children<'py>(mesh: &Prim<'py>) -> Vec<Prim<'py>> {
     let py = mesh.py();
-    let list = if mesh.is_instance() {
-        // An instanced mesh has its subsets as instance proxies.
-        let proxies = || Module::Usd.item(py, "TraverseInstanceProxies")?.call0();
-        proxies().and_then(|predicate| mesh.object().call_method1(intern!(py, "GetFilteredChildren"), (predicate,)))
-    } else {
-        mesh.object().call_method0(intern!(py, "GetChildren"))
-    };
+    if !mesh.is_instance() {
+        return mesh.displayed_children().collect();
+    }
+    // An instanced mesh has its subsets as instance proxies.
+    let proxies = || Module::Usd.item(py, "TraverseInstanceProxies")?.call0();
+    let list = proxies().and_then(|predicate| mesh.object().call_method1(intern!(py, "GetFilteredChildren"), (predicate,)));
     list.and_then(|list| list.try_iter()?.map(|child| child.map(Prim::new)).collect()).unwrap_or_default()
 }
 

@@ -7,6 +7,7 @@ mod surface;
 
 use crate::context::Context;
 use crate::draw_mode::{self, DrawMode};
+use crate::kept::{KeptPrim, Known, MeshParts};
 use crate::model::{Element, Inherited, Kind, Model, Slots};
 use crate::options::{Purpose, Standing};
 use crate::prim::Prim;
@@ -21,6 +22,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// What a prim hands down.
 #[derive(Clone, Debug)]
@@ -62,7 +64,11 @@ pub struct Walker<'w, 'a, 'py> {
     pending: Pending,
     failed: HashSet<MeshId>,
     /// Prims whose materials are looked up at the end, and where to put them.
-    to_bind: Vec<(Vec<String>, Slots)>,
+    to_bind: Vec<(Vec<Prim<'py>>, Slots)>,
+    /// Meshes that are to be kept for other readings when they are built.
+    to_keep: HashMap<MeshId, (Arc<Known>, MeshParts)>,
+    /// Whether the stage has native instances; else no prim is asked whether it is one.
+    has_instances: bool,
     displayed: Bound<'py, PyAny>,
     loaded: Bound<'py, PyAny>,
 }
@@ -84,6 +90,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             pending: Pending::default(),
             failed: HashSet::new(),
             to_bind: Vec::new(),
+            to_keep: HashMap::new(),
+            has_instances: context.stage.call_method0(intern!(context.py, "GetPrototypes"))?.len()? > 0,
             displayed: usd.getattr("PrimDefaultPredicate")?,
             // Prototypes of point instancers may stand below `over` and `class`, to be hidden from others.
             loaded: active_and_loaded,
@@ -96,17 +104,25 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
     /// # Errors
     /// Cancellation.
     pub fn world(mut self) -> Result<(Model, HashSet<MeshId>)> {
-        let root = self.context.stage.call_method0(intern!(self.context.py, "GetPseudoRoot"));
-        let origin = Origin::new("/");
-        let Some(root) = self.context.attempt(&origin, "the stage has no root", root) else { return Ok((Model::default(), self.failed)) };
+        let Some(root) = self.root() else { return Ok((Model::default(), self.failed)) };
         let branch = Rc::new(Branch::root(false));
         let displayed = self.displayed.clone();
-        let roots = self.children(&Prim::new(root), &displayed, &branch);
+        let roots = self.children(&root, &displayed, &branch);
         let model = self.walk("", roots, &displayed)?;
         self.bind();
         self.finish_meshes()?;
         self.context.waited_for_meshes = self.pending.waited;
         Ok((model, self.failed))
+    }
+
+    fn root(&mut self) -> Option<Prim<'py>> {
+        if let Some(kept) = self.context.kept.root(self.context.py, "") {
+            return Some(kept);
+        }
+        let root = self.context.stage.call_method0(intern!(self.context.py, "GetPseudoRoot"));
+        let root = Prim::new(self.context.attempt(&Origin::new("/"), "the stage has no root", root)?);
+        self.context.kept.keep_root("", &root);
+        Some(root)
     }
 
     /// Visits prims and all below; the stack is ours, as stages may be deeper than the machine's.
@@ -120,10 +136,28 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
     }
 
     fn children(&mut self, prim: &Prim<'py>, predicate: &Bound<'py, PyAny>, branch: &Rc<Branch>) -> Stack<'py> {
-        let list = prim.object().call_method1(intern!(self.context.py, "GetFilteredChildren"), (predicate,));
-        let list = list.and_then(|list| list.try_iter()?.map(|child| child.map(|child| (Prim::new(child), branch.clone()))).collect());
-        let mut children: Stack<'py> = self.context.attempt_at(prim, "the children cannot be listed", list).unwrap_or_default();
+        let mut children: Stack<'py> = self.prims_below(prim, predicate).into_iter().map(|child| (child, branch.clone())).collect();
         children.reverse();
+        children
+    }
+
+    /// The children, asked for once; those of skinned meshes' roots are written over for each reading.
+    fn prims_below(&mut self, prim: &Prim<'py>, predicate: &Bound<'py, PyAny>) -> Vec<Prim<'py>> {
+        let py = self.context.py;
+        let cell = &prim.known().children[usize::from(!predicate.is(&self.displayed))];
+        let is_skinned = self.context.kept.is_skinned(prim);
+        if let (false, Some(kept)) = (is_skinned, cell.get()) {
+            let known: Vec<Prim<'py>> = kept.iter().map(|child| child.prim(py)).collect();
+            if known.iter().all(|child| self.context.kept.is_there(child)) {
+                return known;
+            }
+        }
+        let list = prim.object().call_method1(intern!(py, "GetFilteredChildren"), (predicate,));
+        let list = list.and_then(|list| list.try_iter()?.map(|child| child.map(Prim::new)).collect::<PyResult<Vec<_>>>());
+        let children = self.context.attempt_at(prim, "the children cannot be listed", list).unwrap_or_default();
+        if !is_skinned {
+            let _ = cell.set(children.iter().map(KeptPrim::of).collect());
+        }
         children
     }
 
@@ -138,6 +172,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         // Prototypes stand elsewhere: what places them is what counts.
         let limited = model.root.is_empty() && self.context.options.subtree.is_some();
         let standing = if limited { self.context.options.standing(&prim.path()) } else { Standing::Within };
+        if !self.has_instances {
+            let _ = prim.known().is_instance.set(false);
+        }
         let type_name = prim.type_name();
         let kind = self.kind(&type_name, prim);
         let is_pruned = model.root.is_empty() && !self.context.roles.are_plain() && self.context.roles.prunes(&prim.path());

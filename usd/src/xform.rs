@@ -37,6 +37,9 @@ impl<'py> Xforms<'py> {
         if !prim.has_authored("xformOpOrder") {
             return Some(LocalTransform { transform: Transform::IDENTITY, resets: false });
         }
+        if let Some(still) = prim.known().still_local(prim) {
+            return Some(still);
+        }
         let read = || -> PyResult<(Option<Transform>, bool)> {
             let pair = self.cache.call_method1(intern!(context.py, "GetLocalTransformation"), (prim.object(),))?;
             Ok((Transform::from_value(&pair.get_item(0)?), pair.get_item(1)?.is_truthy()?))
@@ -44,7 +47,12 @@ impl<'py> Xforms<'py> {
         let result = read();
         let (transform, resets) = context.attempt_at(prim, "the transformation cannot be read, the prim is left out", result)?;
         match transform.filter(Transform::is_finite) {
-            Some(transform) => Some(LocalTransform { transform, resets }),
+            Some(transform) => {
+                let local = LocalTransform { transform, resets };
+                // Full where the place changes with time.
+                let _ = prim.known().local.set(local);
+                Some(local)
+            }
             None => {
                 context.warn(&prim.origin(), "the transformation has numbers that are not finite, the prim is left out");
                 None

@@ -33,6 +33,7 @@ mod radiance;
 mod relight;
 mod render;
 mod report;
+mod sequence;
 mod share;
 mod snapshot;
 mod view;

@@ -9,7 +9,7 @@ use super::{
     print,
     products::{Picture, Products, half_layers},
     progress::{Reporter, clock},
-    say,
+    say, sequence,
     snapshot::Snapshots,
 };
 use gonio::{
@@ -45,7 +45,8 @@ pub(super) const MOST_WARNINGS: usize = 20;
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let mut stage_options = stage_options(&options.stage)?;
     // A stage that is read again and again may be edited meanwhile.
-    stage_options.detached = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
+    stage_options.kept = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
+    stage_options.detached = stage_options.kept;
     let start = Instant::now();
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
     if options.stage.verbose && !options.quiet {
@@ -64,18 +65,38 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     let writer = Writer::new(&options.files, execution)?;
     let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
     Snapshots::new(options.snapshot)?;
-    let mut previous: Option<Arc<CompiledScene>> = None;
-    let mut products = Products::default();
-    for frame in &frames {
-        stage_options.time = sample_time(options, *frame);
+    let mut sequence =
+        Sequence { options, stage: &stage, stage_options, writer: &writer, execution, products: Products::default(), previous: None };
+    sequence::run(&frames, |frame| sequence.frame(py, frame, interrupted))
+}
+
+/// Frames of one stage, each of which leaves to the next what has not changed.
+struct Sequence<'a> {
+    options: &'a RenderOptions,
+    stage: &'a Stage,
+    stage_options: StageOptions,
+    writer: &'a Writer,
+    execution: Execution,
+    products: Products,
+    previous: Option<Arc<CompiledScene>>,
+}
+
+impl Sequence<'_> {
+    /// Reads, compiles and renders a frame.
+    fn frame(&mut self, py: Python<'_>, frame: Option<f64>, interrupted: &'static AtomicBool) -> Result<()> {
+        let (options, stage, writer, execution) = (self.options, self.stage, self.writer, self.execution);
+        self.stage_options.time = sample_time(options, frame);
         let start = Instant::now();
-        let loaded = stage.load(py, &stage_options, interrupted)?;
+        let loaded = stage.load(py, &self.stage_options, interrupted)?;
         let (loading, waited_for_meshes) = (start.elapsed(), loaded.waited_for_meshes);
+        if loaded.kept_shapes > 0 && options.stage.verbose && !options.quiet {
+            say(&format!("{} shapes are as in the frame before", loaded.kept_shapes));
+        }
         let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
         let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
         let pictures = if options.files.output.is_empty() && checkpoint.is_none() {
-            products.pictures(&loaded, *frame)?
+            self.products.pictures(&loaded, frame)?
         } else {
             vec![Picture::of_all_products(&loaded, options.files.output.iter().map(of_frame))]
         };
@@ -86,13 +107,14 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
             let scene = if number + 1 == count { loaded.take() } else { loaded.clone() };
             let Some(scene) = scene else { break };
             let checkpoint = checkpoint.clone();
-            let (writer, is_first) = (&writer, number == 0);
+            let is_first = number == 0;
             let job = Job { options, writer, execution, picture, is_first, checkpoint, loading, waited_for_meshes, time, interrupted };
-            let compiled = py.detach(|| job.run(scene, previous.as_deref()))?;
-            previous = Some(compiled);
+            let previous = self.previous.as_deref();
+            let compiled = py.detach(|| job.run(scene, previous))?;
+            self.previous = Some(compiled);
         }
+        Ok(())
     }
-    Ok(0)
 }
 
 /// When the stage is read for a frame.

@@ -3,10 +3,12 @@
 use super::fallback;
 use super::shaded::material_on;
 use crate::context::Context;
+use crate::kept::KeptPrim;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use gonio::scene::{MaterialId, Origin};
 use pyo3::{intern, prelude::*, types::PyList};
+use std::collections::HashMap;
 
 /// The material of a prim (a geometry prim or a GeomSubset), or the one that shows its displayColor.
 pub fn bound<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> MaterialId {
@@ -48,7 +50,11 @@ fn report_absent<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
 fn compute<'py>(context: &Context<'_, 'py>, prims: &[Prim<'py>]) -> PyResult<Vec<Option<Prim<'py>>>> {
     let py = context.py;
     let api = Module::UsdShade.item(py, "MaterialBindingAPI")?;
-    let mut found: Vec<Option<Prim<'py>>> = prims.iter().map(|_| None).collect();
+    let kept =
+        |prim: &Prim<'py>| prim.known().material.get().map(|material| material.prim(py)).filter(|material| context.kept.is_there(material));
+    let mut found: Vec<Option<Prim<'py>>> = prims.iter().map(kept).collect();
+    // One for all prims that it is bound to, with its path and what else is known.
+    let mut materials: HashMap<String, Prim<'py>> = HashMap::new();
     for purpose in &context.options.binding_purposes() {
         let open: Vec<usize> = (0..prims.len()).filter(|&index| found[index].is_none()).collect();
         if open.is_empty() {
@@ -59,7 +65,17 @@ fn compute<'py>(context: &Context<'_, 'py>, prims: &[Prim<'py>]) -> PyResult<Vec
         for (&index, material) in open.iter().zip(computed.get_item(0)?.try_iter()?) {
             let material = material?;
             if material.is_truthy()? {
-                found[index] = Some(Prim::new(material.call_method0(intern!(py, "GetPrim"))?));
+                let path: String = material.call_method0(intern!(py, "GetPath"))?.getattr(intern!(py, "pathString"))?.extract()?;
+                let bound = match materials.get(&path) {
+                    Some(known) => known.clone(),
+                    None => {
+                        let bound = Prim::new(material.call_method0(intern!(py, "GetPrim"))?);
+                        materials.insert(path, bound.clone());
+                        bound
+                    }
+                };
+                let _ = prims[index].known().material.set(KeptPrim::of(&bound));
+                found[index] = Some(bound);
             }
         }
     }

@@ -34,6 +34,7 @@ impl Stage {
         let stage = self.object.bind(py);
         let edit = |layer: Bound<'_, PyAny>| stage.call_method1("SetEditTarget", (layer,)).map(drop);
         let target = |name: &str| stage.call_method0(name);
+        self.forget();
         let written = target("GetSessionLayer").and_then(edit).and_then(|()| author());
         let restored = edit(self.baked.bind(py).clone().into_any());
         match written.and_then(|found| restored.map(|()| found)) {

@@ -41,6 +41,8 @@ pub struct StageInfo {
     pub prim_counts: BTreeMap<String, usize>,
     /// Whether meshes are skinned.
     pub has_skeletons: bool,
+    /// Paths of the prims that hold skinned meshes, outside prototypes.
+    pub skeleton_roots: Vec<String>,
     /// What could not be composed: missing references, cycles.
     pub composition_errors: Vec<Diagnostic>,
 }
@@ -76,7 +78,7 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
             ));
         }
     }
-    let (cameras, has_skeletons) = survey(stage)?;
+    let (cameras, skeleton_roots) = survey(stage)?;
     let primary: String = Module::UsdUtils.import(stage.py())?.call_method0("GetPrimaryCameraName")?.extract()?;
     let default_camera = cameras.iter().find(|camera| camera.name == primary).or(cameras.first()).map(|camera| camera.path.clone());
     Ok(StageInfo {
@@ -86,23 +88,25 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
         time_codes_per_second,
         default_camera,
         cameras,
-        has_skeletons,
+        has_skeletons: !skeleton_roots.is_empty(),
+        skeleton_roots,
         ..StageInfo::default()
     })
 }
 
-/// The cameras, and whether there are skeletons.
-fn survey(stage: &Bound<'_, PyAny>) -> PyResult<(Vec<CameraInfo>, bool)> {
+/// The cameras, and the paths of the prims that hold skinned meshes.
+fn survey(stage: &Bound<'_, PyAny>) -> PyResult<(Vec<CameraInfo>, Vec<String>)> {
     let camera = Module::UsdGeom.item(stage.py(), "Camera")?;
     let mut cameras = Vec::new();
-    let mut has_skeletons = false;
+    let mut skeleton_roots = Vec::new();
     for prim in stage.call_method0("Traverse")?.try_iter()? {
         let prim = Prim::new(prim?);
         match prim.type_name().as_str() {
             "" | "Xform" | "Scope" | "Mesh" => {}
             _ if prim.is_a(&camera) => cameras.push(CameraInfo { name: prim.name(), path: prim.path() }),
-            _ => has_skeletons = has_skeletons || skeleton::is_root(&prim),
+            _ if skeleton::is_root(&prim) => skeleton_roots.push(prim.path()),
+            _ => {}
         }
     }
-    Ok((cameras, has_skeletons))
+    Ok((cameras, skeleton_roots))
 }

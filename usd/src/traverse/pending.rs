@@ -2,6 +2,7 @@
 
 use super::Walker;
 use crate::build::{self, BuildError, BuiltMesh, MeshSource};
+use crate::kept::KeptShape;
 use gonio::scene::{Mesh, MeshId, Origin};
 use gonio::{Error, Result};
 use std::sync::Arc;
@@ -108,6 +109,14 @@ impl Walker<'_, '_, '_> {
         for Outcome { id, origin, result, .. } in outcomes {
             match result {
                 Ok(BuiltMesh { mesh, problems }) => {
+                    // What is to be told is told for each reading.
+                    if let Some((known, parts)) = self.to_keep.remove(&id).filter(|_| problems.is_empty()) {
+                        // Full where the shape changes with time.
+                        let _ = known.shape.set(KeptShape::Mesh(mesh.clone(), parts));
+                    }
+                    if !problems.is_empty() {
+                        self.quadrics.retain(|_, quadric| *quadric != id);
+                    }
                     self.context.scene.meshes[id.index()] = mesh;
                     problems.into_iter().for_each(|problem| self.context.warn(&origin, problem));
                 }
@@ -116,6 +125,11 @@ impl Walker<'_, '_, '_> {
                     self.context.warn(&origin, format!("{problem}; the mesh is left out"));
                     self.failed.insert(id);
                 }
+            }
+        }
+        for (key, id) in &self.quadrics {
+            if !self.failed.contains(id) {
+                self.context.kept.keep_quadric(key, &self.context.scene.meshes[id.index()]);
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use super::{Branch, Walker, push};
 use crate::instancer;
+use crate::kept::KeptPrim;
 use crate::model::{Group, Kind, Model};
 use crate::prim::Prim;
 use crate::primvar;
@@ -36,10 +37,12 @@ impl<'py> Walker<'_, '_, 'py> {
             );
             return Ok(None);
         }
-        let Some(prim) = self.context.prim_at(path) else {
+        let kept = self.context.kept.root(self.context.py, path);
+        let Some(prim) = kept.or_else(|| self.context.prim_at(path)) else {
             self.context.warn(&origin, format!("the prototype {path} does not exist; its instances are left out"));
             return Ok(None);
         };
+        self.context.kept.keep_root(path, &prim);
         self.open_prototypes.push(path.to_owned());
         let predicate = self.loaded.clone();
         let model = self.walk(path, vec![(prim, Rc::new(Branch::root(true)))], &predicate);
@@ -51,7 +54,10 @@ impl<'py> Walker<'_, '_, 'py> {
 
     /// Adds a native instance.
     pub(super) fn native_instance(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
-        let Some(prototype) = prim.prototype() else { return Ok(()) };
+        let kept = prim.known().prototype.get().map(|kept| kept.prim(self.context.py));
+        let kept = kept.filter(|prototype| self.context.kept.is_there(prototype));
+        let Some(prototype) = kept.or_else(|| prim.prototype()) else { return Ok(()) };
+        let _ = prim.known().prototype.set(KeptPrim::of(&prototype));
         let path = prototype.path();
         let known = self.prototypes.get(&path).cloned();
         let prototype = match known {

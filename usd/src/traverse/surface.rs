@@ -2,30 +2,50 @@
 
 use super::{Branch, Walker, push};
 use crate::context::Context;
+use crate::kept::{KeptPrim, KeptShape, MeshParts};
 use crate::model::{Inherited, Kind, Model, Shape};
 use crate::prim::Prim;
 use crate::{curves, draw_mode, material, mesh, mesh_light, meter, points, primvar, quadrics};
 use gonio::Result;
 use gonio::mesh::Interpolation;
-use gonio::scene::{Geometry, Primvar};
+use gonio::scene::{Geometry, Mesh, MeshId, Primvar};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
 impl<'py> Walker<'_, '_, 'py> {
     /// Adds a mesh.
     pub(super) fn mesh(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
-        let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(()) };
-        let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
-        let is_light = mesh_light::is_geometry_light(prim);
-        let mesh = self.submit(source)?;
-        let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims, has_opacity, is_light };
+        let Some((mesh, slot_prims, has_opacity, is_light)) = self.mesh_of(prim)? else { return Ok(()) };
+        let paths = slot_prims.iter().map(Prim::path).collect();
+        let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims: paths, has_opacity, is_light };
         if meter::is_measured(prim) {
             push(model, prim, branch, Kind::Measured(Some(mesh)));
         }
         // A binding may stand on a subset alone.
         let is_bound = branch.is_bound || shape.slot_prims.len() > 1;
-        self.push_shape(prim, &Branch { is_bound, ..branch.clone() }, shape, model);
+        self.push_shape(prim, &Branch { is_bound, ..branch.clone() }, shape, slot_prims, model);
         Ok(())
+    }
+
+    /// The mesh of a prim, the prims of its slots, whether it has displayOpacity, and whether it is a light; as it was where time does not change it.
+    fn mesh_of(&mut self, prim: &Prim<'py>) -> Result<Option<(MeshId, Vec<Prim<'py>>, bool, bool)>> {
+        if let Some(KeptShape::Mesh(mesh, MeshParts { subsets, has_opacity, is_light })) = prim.known().still_shape(prim) {
+            let subsets = subsets.iter().map(|subset| subset.prim(self.context.py));
+            let slot_prims = std::iter::once(prim.clone()).chain(subsets).collect();
+            self.context.kept.shapes += 1;
+            return Ok(Some((self.context.scene.add_mesh(mesh.clone()), slot_prims, *has_opacity, *is_light)));
+        }
+        let told = self.context.told();
+        let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(None) };
+        let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
+        let is_light = mesh_light::is_geometry_light(prim);
+        let mesh = self.submit(source)?;
+        if self.context.kept.is_on() && self.context.told() == told {
+            // The mesh itself would be its own keeper.
+            let subsets = slot_prims.iter().skip(1).map(KeptPrim::of).collect();
+            self.to_keep.insert(mesh, (prim.known().clone(), MeshParts { subsets, has_opacity, is_light }));
+        }
+        Ok(Some((mesh, slot_prims, has_opacity, is_light)))
     }
 
     /// Adds what is drawn in the place of a model.
@@ -37,9 +57,9 @@ impl<'py> Walker<'_, '_, 'py> {
         Ok(())
     }
 
-    fn push_shape(&mut self, prim: &Prim<'py>, branch: &Branch, shape: Shape, model: &mut Model) {
+    fn push_shape(&mut self, prim: &Prim<'py>, branch: &Branch, shape: Shape, slot_prims: Vec<Prim<'py>>, model: &mut Model) {
         if branch.is_bound {
-            self.to_bind.push((shape.slot_prims.clone(), shape.slots.clone()));
+            self.to_bind.push((slot_prims, shape.slots.clone()));
         }
         push(model, prim, branch, Kind::Shape(shape));
     }
@@ -50,7 +70,13 @@ impl<'py> Walker<'_, '_, 'py> {
         let mesh = match self.quadrics.get(&quadric.key()) {
             Some(mesh) => *mesh,
             None => {
-                let mesh = self.submit(quadric.source(prim.origin(), self.context.options.complexity))?;
+                let mesh = match self.context.kept.quadric(&quadric.key()).cloned() {
+                    Some(known) => {
+                        self.context.kept.shapes += 1;
+                        self.context.scene.add_mesh(Mesh { origin: prim.origin(), ..known })
+                    }
+                    None => self.submit(quadric.source(prim.origin(), self.context.options.complexity))?,
+                };
                 self.quadrics.insert(quadric.key(), mesh);
                 mesh
             }
@@ -67,13 +93,24 @@ impl<'py> Walker<'_, '_, 'py> {
         let is_light = mesh_light::is_geometry_light(prim);
         let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light };
         let branch = Branch { primvars: primvar::merged(&own, &branch.primvars), ..branch.clone() };
-        self.push_shape(prim, &branch, shape, model);
+        self.push_shape(prim, &branch, shape, vec![prim.clone()], model);
         Ok(())
     }
 
     /// Adds curves.
     pub(super) fn curves(&mut self, prim: &Prim<'py>, type_name: &str, branch: &Branch, model: &mut Model) {
-        let Some(curves) = curves::read(self.context, prim, type_name) else { return };
+        let told = self.context.told();
+        let curves = match prim.known().still_shape(prim) {
+            Some(KeptShape::Curves(curves)) => {
+                self.context.kept.shapes += 1;
+                curves.clone()
+            }
+            _ => {
+                let Some(curves) = curves::read(self.context, prim, type_name) else { return };
+                self.keep(prim, told, || KeptShape::Curves(curves.clone()));
+                curves
+            }
+        };
         let has_opacity = has_opacity(&curves.primvars);
         let geometry = self.context.scene.add_curves(curves).into();
         self.push_fibres(prim, branch, geometry, has_opacity, model);
@@ -81,10 +118,29 @@ impl<'py> Walker<'_, '_, 'py> {
 
     /// Adds points.
     pub(super) fn points(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) {
-        let Some(points) = points::read(self.context, prim) else { return };
+        let told = self.context.told();
+        let points = match prim.known().still_shape(prim) {
+            Some(KeptShape::Points(points)) => {
+                self.context.kept.shapes += 1;
+                points.clone()
+            }
+            _ => {
+                let Some(points) = points::read(self.context, prim) else { return };
+                self.keep(prim, told, || KeptShape::Points(points.clone()));
+                points
+            }
+        };
         let has_opacity = has_opacity(&points.primvars);
         let geometry = self.context.scene.add_points(points).into();
         self.push_fibres(prim, branch, geometry, has_opacity, model);
+    }
+
+    /// Keeps a shape that was read without anything told since.
+    fn keep(&self, prim: &Prim<'py>, told: usize, shape: impl FnOnce() -> KeptShape) {
+        if self.context.kept.is_on() && self.context.told() == told {
+            // Full where the shape changes with time.
+            let _ = prim.known().shape.set(shape());
+        }
     }
 
     fn push_fibres(&mut self, prim: &Prim<'py>, branch: &Branch, geometry: Geometry, has_opacity: bool, model: &mut Model) {
@@ -93,28 +149,23 @@ impl<'py> Walker<'_, '_, 'py> {
             self.context.unsupported("curves and points as lights", &prim.origin());
         }
         let shape = Shape { geometry, slots: Rc::default(), slot_prims: vec![prim.path()], has_opacity, is_light: false };
-        self.push_shape(prim, branch, shape, model);
+        self.push_shape(prim, branch, shape, vec![prim.clone()], model);
     }
 
     /// Looks up the materials of all shapes in one call: `pxr` reads the collections above anew in each.
     pub(super) fn bind(&mut self) {
         let shapes = std::mem::take(&mut self.to_bind);
         let mut prims = Vec::new();
-        // A prim that has vanished leaves its shape without materials.
-        let shapes: Vec<_> = shapes
-            .into_iter()
-            .filter_map(|(paths, slots)| {
-                let mut own: Vec<Prim<'py>> = paths.iter().map(|path| self.context.prim_at(path)).collect::<Option<_>>()?;
-                let count = own.len();
-                prims.append(&mut own);
-                Some((count, slots))
-            })
-            .collect();
+        let mut counts = Vec::with_capacity(shapes.len());
+        for (mut own, slots) in shapes {
+            counts.push((own.len(), slots));
+            prims.append(&mut own);
+        }
         if prims.is_empty() {
             return;
         }
         let mut materials = material::bound_all(self.context, &prims).into_iter();
-        for (count, slots) in shapes {
+        for (count, slots) in counts {
             // Each cell is filled once.
             let _ = slots.set(materials.by_ref().take(count).collect());
         }
