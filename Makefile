@@ -1,5 +1,5 @@
 # What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make same-bits`,
-# `make bench`, `make bench-peers`, `make bench-caustics`. `make docs` writes the site of the documentation.
+# `make bench`, `make bench-peers`, `make bench-caustics`. `make docs` writes the site of the documentation. Other systems: `make cross-check`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -12,7 +12,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build dev render extension blender cross-check test test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
+.PHONY: fuzz build dev render extension blender cross-check lint-workflows test test-levels test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -59,21 +59,35 @@ $(addsuffix /ready,$(BPY)):
 	$(@D)/bin/python -m pip install --quiet bpy==$(VERSION) numpy pytest
 	touch $@
 
-test: lint build test-rust test-python test-blender
+test: lint build test-rust test-python test-levels test-blender
 
 lint:
 	cargo fmt --all --check
 	cargo clippy --release --quiet --workspace --all-targets -- --deny warnings
 
-# Whether the workspace compiles for ARM; brings a compiler for it where there is none.
+# Whether the workspace compiles for Linux on ARM, macOS and Windows (SYSTEMS="linux-arm64 macos-arm64 windows-x64" chooses); brings a compiler
+# for them where there is none.
 cross-check:
-	tests/validate/cross_check.sh
+	tests/cross/check.sh $(SYSTEMS)
+
+# The workflows of the hosted CI: their form, and what could be misused in them.
+lint-workflows: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet "zizmor>=1.32" "check-jsonschema>=0.39"
+	$(BIN)/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	$(BIN)/zizmor --quiet --offline .github/workflows
 
 test-rust: $(VENV)/ready
 	cargo test --release --quiet --workspace --exclude gonio-python
 
 test-python: build
 	$(BIN)/python -m pytest tests/python tests/usd tests/docs
+
+# What renders at every level of this machine, as other machines would, and on one core.
+LEVELS := scalar sse4.2 avx2
+test-levels: build
+	$(BIN)/python tests/cross/smoke.py
+	for level in $(LEVELS); do GONIO_SIMD=$$level $(BIN)/python -m pytest --quiet tests/python/test_render.py tests/python/test_scene.py || exit 1; done
+	taskset -c 0 $(BIN)/python -m pytest --quiet tests/python/test_render.py tests/python/test_scene.py
 
 # The extension for this machine alone, with the wheel of `build`, in both versions of Blender.
 blender: build $(addsuffix /ready,$(BPY))

@@ -6,6 +6,7 @@
 mod kernel;
 mod measure;
 mod numbers;
+mod paper;
 mod plot;
 mod rays;
 mod report;
@@ -13,6 +14,7 @@ mod scenes;
 mod stages;
 mod text;
 
+pub use paper::paper;
 pub use plot::plot;
 pub use report::{Breakdown, Figure, LanesAlive, LevelBreakdown, Machine, Report, Row, Share, Spread};
 pub use stages::Stage;
@@ -26,7 +28,7 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 /// What is measured, and for how long.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The stages, in any order; none means all.
+    /// The stages, in any order; none means [`Stage::ALL`].
     pub stages: Vec<Stage>,
     /// Seconds for each row, warming up apart; 0 runs everything once.
     pub seconds: f64,
@@ -54,7 +56,9 @@ impl Options {
 /// Fails where a bundle cannot be read or a scene cannot be rendered, and with [`gonio::Error::Cancelled`] soon after `cancel` is raised.
 pub fn run(options: &Options, cancel: &AtomicBool, mut on_row: impl FnMut(&Row)) -> Result<Report> {
     let mut report = Report::new(options);
-    for stage in Stage::ALL.into_iter().filter(|stage| options.stages.is_empty() || options.stages.contains(stage)) {
+    let asked = |stage: &Stage| options.stages.contains(stage);
+    let stages = Stage::ALL.into_iter().filter(|stage| options.stages.is_empty() || asked(stage));
+    for stage in stages.chain(Stage::PAPER.into_iter().filter(asked)) {
         for mut case in stage.cases(options, cancel)? {
             let rows = measured(stage, &mut case, options.seconds, cancel)?;
             rows.iter().for_each(&mut on_row);

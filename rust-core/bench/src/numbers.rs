@@ -7,7 +7,12 @@ pub(super) const BATCH: usize = 4096;
 
 /// Values in [0, 1) of an additive recurrence: the multiples of `step` modulo 1.
 pub(super) fn column(step: f64) -> Column {
-    let mut column = Column::new(BATCH);
+    column_of(step, BATCH)
+}
+
+/// So many of them.
+fn column_of(step: f64, count: usize) -> Column {
+    let mut column = Column::new(count);
     for (i, x) in column.iter_mut().enumerate() {
         *x = ((0.5 + i as f64 * step).fract() as f32).min(0.999_999_94);
     }
@@ -20,6 +25,11 @@ pub(super) const STEPS: [f64; 3] = [0.819_172_513_4, 0.671_043_606_7, 0.549_700_
 /// Three columns that fill the unit cube evenly.
 pub(super) fn cube() -> [Column; 3] {
     STEPS.map(column)
+}
+
+/// The same with so many points.
+pub(super) fn cube_of(count: usize) -> [Column; 3] {
+    STEPS.map(|step| column_of(step, count))
 }
 
 /// Three empty columns.

@@ -106,6 +106,8 @@ pub struct LevelBreakdown {
     pub level: &'static str,
     /// Million rays a second of processor time, shadow rays among them.
     pub mrays: f64,
+    /// Camera rays a pixel.
+    pub camera_rays: f64,
     /// Shares of the workers' time by the clock, which sum to 1.
     pub time: Vec<Share>,
     /// Lanes of use, bounce by bounce.

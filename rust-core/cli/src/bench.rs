@@ -2,13 +2,14 @@
 
 use super::{arguments::BenchOptions, print};
 use gonio::{Error, Result, output::write_atomically};
-use gonio_bench::{Options, heading, plot, run};
+use gonio_bench::{Options, Stage, heading, paper, plot, run};
 use std::{io::Write, sync::atomic::AtomicBool};
 
 /// Measures, and prints the table or everything as JSON.
 pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<i32> {
-    let BenchOptions { stage, seconds, threads, scene, json, plot: chart } = options;
-    let wanted = Options { stages: stage.clone(), seconds: *seconds, threads: *threads, scene: scene.clone() };
+    let BenchOptions { stage, seconds, threads, scene, paper: as_paper, json, plot: chart } = options;
+    let stages = if *as_paper { Stage::PAPER.to_vec() } else { stage.clone() };
+    let wanted = Options { stages, seconds: *seconds, threads: *threads, scene: scene.clone() };
     if !json {
         print(&heading());
     }
@@ -19,6 +20,8 @@ pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<
     })?;
     if *json {
         print(&serde_json::to_string_pretty(&report).map_err(|error| Error::Internal(error.to_string()))?);
+    } else if *as_paper {
+        print(&format!("\n{}", paper(&report)));
     } else {
         report.renders.iter().for_each(|render| print(&format!("\n{render}")));
     }

@@ -2,11 +2,15 @@
 //!
 //! Each index is clamped to the table, so the functions are safe for any argument.
 
+#[cfg(target_arch = "aarch64")]
+use crate::neon::{gather_neon, gather_pairs_neon, gather_quads_neon, lookup32_neon};
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::u32x4;
+use fearless_simd::{Level, Simd, prelude::*};
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::{Level, f32x8, f32x16, kernel, u32x8, u32x16, x86::*};
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{f32x8, f32x16, kernel, u32x8, u32x16, x86::*};
 
 /// Table reads, implemented once for every level.
 pub(crate) trait Lookup: Simd {
@@ -22,7 +26,7 @@ pub(crate) trait Lookup: Simd {
 
 /// The largest index that leaves room for `tail` values, checked to fit the hardware's signed index.
 #[inline(always)]
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) fn last_index(table: &[f32], tail: usize) -> i32 {
     let last = table.len().checked_sub(tail).expect("a table read from is long enough");
     i32::try_from(last).expect("a table has fewer than 2^31 values")
@@ -146,6 +150,8 @@ impl<S: Simd> Lookup for S {
             Level::Avx512(t) => S::f32s::from_slice(self, gather_avx512(t, table, u32x16::from_slice(t, index.as_slice())).as_slice()),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(t) => S::f32s::from_slice(self, gather_avx2(t, table, u32x8::from_slice(t, index.as_slice())).as_slice()),
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => S::f32s::from_slice(self, gather_neon(t, table, u32x4::from_slice(t, index.as_slice())).as_slice()),
             _ => {
                 let last = table.len() - 1;
                 S::f32s::from_fn(
@@ -167,6 +173,11 @@ impl<S: Simd> Lookup for S {
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(t) => {
                 let [a, b] = gather_pairs_avx2(t, table, u32x8::from_slice(t, index.as_slice()));
+                [S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice())]
+            }
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => {
+                let [a, b] = gather_pairs_neon(t, table, u32x4::from_slice(t, index.as_slice()));
                 [S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice())]
             }
             _ => {
@@ -191,6 +202,12 @@ impl<S: Simd> Lookup for S {
                 let (a, b) = (S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice()));
                 [a, b, S::f32s::from_slice(self, c.as_slice()), S::f32s::from_slice(self, d.as_slice())]
             }
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => {
+                let [a, b, c, d] = gather_quads_neon(t, table, u32x4::from_slice(t, index.as_slice()));
+                let (a, b) = (S::f32s::from_slice(self, a.as_slice()), S::f32s::from_slice(self, b.as_slice()));
+                [a, b, S::f32s::from_slice(self, c.as_slice()), S::f32s::from_slice(self, d.as_slice())]
+            }
             _ => {
                 let last = u32::try_from(table.len() - 4).unwrap_or(u32::MAX);
                 let index = index.min(last);
@@ -205,6 +222,8 @@ impl<S: Simd> Lookup for S {
             Level::Avx512(t) => S::f32s::from_slice(self, lookup32_avx512(t, table, u32x16::from_slice(t, index.as_slice())).as_slice()),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(t) => S::f32s::from_slice(self, lookup32_avx2(t, table, u32x8::from_slice(t, index.as_slice())).as_slice()),
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => S::f32s::from_slice(self, lookup32_neon(t, table, u32x4::from_slice(t, index.as_slice())).as_slice()),
             _ => S::f32s::from_fn(
                 self,
                 #[inline(always)]

@@ -59,6 +59,8 @@ mod integer;
 mod lanes;
 mod mask;
 pub mod motion;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod octets;
 mod one;
 mod prefetch;

@@ -4,11 +4,15 @@
 
 #[cfg(target_arch = "x86_64")]
 use crate::gather::last_index;
+#[cfg(target_arch = "aarch64")]
+use crate::neon::sum_octets_neon;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
+use fearless_simd::{Level, Simd, prelude::*};
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::{f32x4, u32x4};
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::{Level, f32x8, f32x16, kernel, u32x8, u32x16, x86::*};
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{f32x8, f32x16, kernel, u32x8, u32x16, x86::*};
 
 /// Terms of a sum at most.
 pub(crate) const MOST_TERMS: usize = 8;
@@ -21,7 +25,7 @@ pub(crate) trait Octets: Simd {
 
 /// Values behind the first one that a sum reads.
 #[inline(always)]
-fn reach(offsets: &[u32]) -> usize {
+pub(crate) fn reach(offsets: &[u32]) -> usize {
     offsets.iter().fold(0, |most, offset| most.max(*offset)) as usize + 8
 }
 
@@ -142,6 +146,17 @@ impl<S: Simd> Octets for S {
                     *own = f32x8::from_slice(t, weight.as_slice());
                 }
                 let sums = sum_octets_avx2(t, table, u32x8::from_slice(t, index.as_slice()), offsets, &own);
+                for (column, sum) in columns.iter_mut().zip(sums) {
+                    *column = S::f32s::from_slice(self, sum.as_slice());
+                }
+            }
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => {
+                let mut own = [f32x4::splat(t, 0.0); MOST_TERMS];
+                for (own, weight) in own.iter_mut().zip(weights) {
+                    *own = f32x4::from_slice(t, weight.as_slice());
+                }
+                let sums = sum_octets_neon(t, table, u32x4::from_slice(t, index.as_slice()), offsets, &own);
                 for (column, sum) in columns.iter_mut().zip(sums) {
                     *column = S::f32s::from_slice(self, sum.as_slice());
                 }

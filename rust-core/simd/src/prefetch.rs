@@ -17,6 +17,12 @@ pub fn prefetch_at(address: usize, size: usize) {
         // SAFETY: a hint reads nothing, and no address is wrong.
         unsafe { core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(place) };
     }
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(target_arch = "aarch64")]
+    for line in (0..size).step_by(64) {
+        let place = address.wrapping_add(line);
+        // SAFETY: a hint reads nothing, and no address is wrong.
+        unsafe { core::arch::asm!("prfm pldl1keep, [{place}]", place = in(reg) place, options(nostack, preserves_flags, readonly)) };
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     let _ = (address, size);
 }

@@ -2,7 +2,9 @@
 
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
-use fearless_simd::{Level, Simd, f32x8, prelude::*, u32x8};
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::mask32x4;
+use fearless_simd::{Level, Simd, f32x8, mask32x8, prelude::*, u32x8};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{kernel, x86::*};
 
@@ -11,6 +13,8 @@ pub fn sorts_fast(level: Level) -> bool {
     match level {
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(_) | Level::Avx512(_) => true,
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon(_) => true,
         _ => false,
     }
 }
@@ -20,10 +24,13 @@ pub trait Sort8: Simd {
     /// Writes the distances and values of the slots of `mask`, farthest first, and anything behind them. Distances must not be negative; the
     /// last three of their bits become the slot's number.
     fn sort8(self, near: f32x8<Self>, mask: u32, values: u32x8<Self>, distances: &mut [u32; 8], sorted: &mut [u32; 8]);
+
+    /// Writes the values of the slots of a mask, first slot first, and anything behind them.
+    fn pack8(self, mask: mask32x8<Self>, values: u32x8<Self>, packed: &mut [u32; 8]);
 }
 
 /// Bits that a slot's number takes.
-const SLOT: u32 = 7;
+pub(crate) const SLOT: u32 = 7;
 
 #[cfg(target_arch = "x86_64")]
 kernel!(
@@ -114,6 +121,11 @@ impl<S: Simd> Sort8 for S {
             Level::Avx2(t) => {
                 sort8_avx2(t, f32x8::from_slice(t, near.as_slice()), mask, u32x8::from_slice(t, values.as_slice()), distances, sorted)
             }
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(t) => {
+                let (near, values) = (f32x8::from_slice(t, near.as_slice()), u32x8::from_slice(t, values.as_slice()));
+                crate::neon::sort8_neon(t, near, mask, values, distances, sorted);
+            }
             _ => {
                 let mut keys: [u32; 8] = core::array::from_fn(|slot| {
                     let is_in = (mask >> slot) & 1;
@@ -123,6 +135,21 @@ impl<S: Simd> Sort8 for S {
                 *distances = keys;
                 *sorted = keys.map(|key| values[(key & SLOT) as usize]);
             }
+        }
+    }
+
+    #[inline(always)]
+    fn pack8(self, mask: mask32x8<S>, values: u32x8<S>, packed: &mut [u32; 8]) {
+        match self.level() {
+            // Two registers: the second one's go behind the first one's.
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => {
+                let ((low, high), bits) = (values.split(), mask.to_bitmask());
+                let from = (bits & 15).count_ones() as usize;
+                low.compress(mask32x4::from_bitmask(self, bits & 15)).store_slice(&mut packed[..4]);
+                high.compress(mask32x4::from_bitmask(self, bits >> 4)).store_slice(&mut packed[from..from + 4]);
+            }
+            _ => values.compress(mask).store_slice(packed),
         }
     }
 }
@@ -141,12 +168,20 @@ mod tests {
         (distances, values)
     }
 
+    #[inline(always)]
+    fn packed<S: Simd>(simd: S, mask: u32) -> [u32; 8] {
+        let mut packed = [0; 8];
+        simd.pack8(mask32x8::from_bitmask(simd, mask.into()), u32x8::from_slice(simd, &VALUES), &mut packed);
+        packed
+    }
+
     /// Every level that this machine has, and the fallback.
     fn levels() -> Vec<Level> {
-        let mut levels = vec![Level::new(), Level::baseline()];
         #[cfg(target_arch = "x86_64")]
-        levels.extend(Level::new().as_avx2().map(Level::Avx2));
-        levels
+        let narrower = Level::new().as_avx2().map(Level::Avx2);
+        #[cfg(not(target_arch = "x86_64"))]
+        let narrower = None;
+        [Some(Level::new()), Some(Level::baseline()), narrower].into_iter().flatten().collect()
     }
 
     #[test]
@@ -161,6 +196,8 @@ mod tests {
                 let n = slots.len();
                 assert_eq!(distances[..n], keys[..], "{level:?} {mask:b}");
                 assert_eq!(values[..n], keys.iter().map(|key| VALUES[(key & SLOT) as usize]).collect::<Vec<_>>()[..], "{level:?} {mask:b}");
+                let packed = dispatch!(level, simd => packed(simd, mask));
+                assert_eq!(packed[..n], slots.iter().map(|slot| VALUES[*slot as usize]).collect::<Vec<_>>()[..], "{level:?} {mask:b}");
             }
         }
     }

@@ -208,7 +208,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             simd.sort8(near, mask, children, distances, stacked);
         } else {
             // Smallest box on top: often a leaf, and a likely end of the search.
-            children.compress(met).store_slice(stacked);
+            simd.pack8(met, children, stacked);
         }
         self.stacked += mask.count_ones() as usize;
     }

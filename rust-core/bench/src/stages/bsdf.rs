@@ -2,7 +2,7 @@
 
 use crate::{
     kernel::{Case, Kernel, Outcome},
-    numbers::{BATCH, columns3, cube},
+    numbers::{BATCH, cube, cube_of},
     scenes,
 };
 use gonio::bsdf::{Closure, Distribution, Hits, Lobes, MeasuredBsdf, ParameterValues, Surface, Switches, parameter as p};
@@ -70,7 +70,7 @@ pub(super) fn cases() -> Vec<Case> {
             surface: surface.clone(),
             task,
             numbers: cube(),
-            directions: directions(),
+            directions: directions(BATCH),
             light: SpectrumColumns::new(BATCH),
             pdf: Column::new(BATCH),
         };
@@ -88,17 +88,22 @@ pub(super) fn cases() -> Vec<Case> {
     let mut cases: Vec<Case> =
         surfaces.iter().flat_map(|(name, surface)| tasks.map(|(task, what)| case(name, surface, task, what))).collect();
     if let Some(measured) = measured {
-        let kernel = Lookup { measured, directions: directions(), views: views(), colour: columns3() };
-        cases.push(Case::new("17 × 7 × 17 × 13 table: lookup", "lookup", BATCH, kernel));
+        cases.push(Case::new("17 × 7 × 17 × 13 table: lookup", "lookup", BATCH, Lookup::new(measured, BATCH)));
     }
     cases
 }
 
+/// So many lookups in the paper's table, each of directions of its own.
+pub(super) fn lookups(counts: &[usize]) -> Vec<Case> {
+    let Some(measured) = scenes::table().and_then(|table| MeasuredBsdf::new(&table).ok()).map(Arc::new) else { return Vec::new() };
+    counts.iter().map(|count| Case::new(format!("{count} calls"), "call", *count, Lookup::new(measured.clone(), *count))).collect()
+}
+
 /// Directions all over the hemisphere about +z, by equal solid angles.
-fn directions() -> [Column; 3] {
-    let [u, v, _] = cube();
-    let mut directions = columns3();
-    for i in 0..BATCH {
+fn directions(count: usize) -> [Column; 3] {
+    let [u, v, _] = cube_of(count);
+    let mut directions = [Column::new(count), Column::new(count), Column::new(count)];
+    for i in 0..count {
         let (z, turn) = (0.02 + 0.98 * u[i], v[i] * std::f32::consts::TAU);
         let ring = (1.0 - z * z).max(0.0).sqrt();
         (directions[0][i], directions[1][i], directions[2][i]) = (ring * turn.cos(), ring * turn.sin(), z);
@@ -107,9 +112,9 @@ fn directions() -> [Column; 3] {
 }
 
 /// The same in another order.
-fn views() -> [Column; 3] {
-    let mut views = directions();
-    views.iter_mut().for_each(|column| column.rotate_left(BATCH / 3));
+fn views(count: usize) -> [Column; 3] {
+    let mut views = directions(count);
+    views.iter_mut().for_each(|column| column.rotate_left(count / 3));
     views
 }
 
@@ -121,10 +126,17 @@ struct Lookup {
     colour: [Column; 3],
 }
 
+impl Lookup {
+    fn new(measured: Arc<MeasuredBsdf>, count: usize) -> Self {
+        let colour = [Column::new(count), Column::new(count), Column::new(count)];
+        Self { measured, directions: directions(count), views: views(count), colour }
+    }
+}
+
 #[inline(always)]
 fn look_up<L: Lanes>(l: L, job: &mut Lookup) {
     let Lookup { measured, directions: [x, y, z], views: [a, b, c], colour: [red, green, blue] } = job;
-    for at in (0..BATCH).step_by(L::COUNT) {
+    for at in (0..x.len()).step_by(L::COUNT) {
         let (wi, wo) = (Vec3::load(l, [&x[..], &y[..], &z[..]], at), Vec3::load(l, [&a[..], &b[..], &c[..]], at));
         measured.reflected(l, wi, wo).store([red, green, blue], at);
     }

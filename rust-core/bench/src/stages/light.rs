@@ -30,6 +30,22 @@ pub(super) fn cases(cancel: &AtomicBool) -> Result<Vec<Case>> {
     lights().into_iter().map(case).collect()
 }
 
+/// The eight kinds that the paper compares. Its lights of an extent are sums over samples; here one sample is counted, as of all others.
+pub(super) fn paper(cancel: &AtomicBool) -> Result<Vec<Case>> {
+    let [spot, directed, goniogram] = beams().map(|(_, beam)| Scene { lights: vec![beam], ..Scene::default() });
+    let kinds = [
+        ("omnidirectional", alone(LightShape::Point)),
+        ("spot", spot),
+        ("parallel", alone(LightShape::Distant { angle_deg: 0.0 })),
+        ("directed", directed),
+        ("linear", alone(LightShape::Cylinder { radius: 0.005, length: 1.2 })),
+        ("circular", alone(LightShape::Disk { radius: 0.4 })),
+        ("rectangular", alone(LightShape::Rectangle { width: 1.0, height: 0.6 })),
+        ("with a goniogram", goniogram),
+    ];
+    kinds.into_iter().map(|(name, scene)| Ok(Case::new(name, "sample", BATCH, Sampling::new(&scene, cancel)?))).collect()
+}
+
 /// What is sampled, by name.
 fn lights() -> Vec<(&'static str, Scene)> {
     let shapes = [

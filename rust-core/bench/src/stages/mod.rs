@@ -43,6 +43,12 @@ pub enum Stage {
     Tone,
     /// Whole renders.
     Render,
+    /// The paper's first table: lookups in a measured BRDF.
+    PaperBrdf,
+    /// Its second: kinds of light.
+    PaperLight,
+    /// Its third and fourth: whole pictures.
+    PaperPicture,
 }
 
 impl Stage {
@@ -61,6 +67,9 @@ impl Stage {
         Self::Render,
     ];
 
+    /// The tables of the paper, which are measured where they are asked for alone.
+    pub const PAPER: [Self; 3] = [Self::PaperBrdf, Self::PaperLight, Self::PaperPicture];
+
     /// The name that the command line takes.
     pub fn name(self) -> &'static str {
         match self {
@@ -75,6 +84,9 @@ impl Stage {
             Self::Function => "function",
             Self::Tone => "tone",
             Self::Render => "render",
+            Self::PaperBrdf => "table 1",
+            Self::PaperLight => "table 2",
+            Self::PaperPicture => "table 3",
         }
     }
 
@@ -102,6 +114,9 @@ impl Stage {
             Self::Function => Ok(function::cases()),
             Self::Tone => Ok(tone::cases()),
             Self::Render => render::cases(options, cancel),
+            Self::PaperBrdf => Ok(bsdf::lookups(&[100_000, 200_000, 400_000])),
+            Self::PaperLight => light::paper(cancel),
+            Self::PaperPicture => render::paper(options, cancel),
         }
     }
 }

@@ -12,7 +12,7 @@ use gonio::colour::luminance_of_pixel;
 use gonio::compile::CompiledScene;
 use gonio::error::Result;
 use gonio::render::Render;
-use gonio::scene::{Aov, Scene, Settings, load_bundle};
+use gonio::scene::{Antialiasing, Aov, Filter, Integrator, Scene, Settings, load_bundle};
 use gonio::transport::{LaneCount, LaneStage, Stage, Statistics};
 use gonio_simd::Execution;
 use std::{
@@ -40,6 +40,7 @@ struct Total {
     /// Seconds by the clock, and of processor time.
     clock: f64,
     processor: f64,
+    runs: f64,
 }
 
 pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
@@ -62,6 +63,25 @@ pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>>
     scenes.iter().map(|(name, scene)| case(name, scene)).collect()
 }
 
+/// The paper's three scenes by its renderer: trees of rays, its depths and its antialiasing, 1024 × 768 pixels.
+pub(super) fn paper(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
+    let scenes = [("car", scenes::car(), 3), ("glass", scenes::glass(), 2), ("room", scenes::room(), 2)];
+    let case = |(name, scene, depth): (&str, Scene, u32)| {
+        let base = Settings { resolution: [1024, 768], threads: options.workers(), max_bounces: depth, ..Settings::default() };
+        let mut settings = Settings { integrator: Integrator::Whitted, light_samples: 1, filter: Filter::Box, filter_width: 1.0, ..base };
+        settings.set_antialiasing(Antialiasing::Paper);
+        let kernel = Whole { name: name.into(), scene: compiled(&scene, cancel)?, settings, last: None, totals: Vec::new() };
+        Ok(Case::new(name, "picture", 1, kernel))
+    };
+    scenes.into_iter().map(case).collect()
+}
+
+impl Whole {
+    fn pixels(&self) -> f64 {
+        self.settings.resolution.map(f64::from).iter().product()
+    }
+}
+
 impl Kernel for Whole {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let (start, processor) = (Instant::now(), ProcessTime::now());
@@ -72,9 +92,9 @@ impl Kernel for Whole {
         match known {
             Some(total) => {
                 total.statistics.add(&render.statistics());
-                (total.clock, total.processor) = (total.clock + clock, total.processor + processor);
+                (total.clock, total.processor, total.runs) = (total.clock + clock, total.processor + processor, total.runs + 1.0);
             }
-            None => self.totals.push(Total { execution, statistics: render.statistics(), clock, processor }),
+            None => self.totals.push(Total { execution, statistics: render.statistics(), clock, processor, runs: 1.0 }),
         }
         self.last = Some(render);
         Ok(())
@@ -98,6 +118,7 @@ impl Kernel for Whole {
         let level = |total: &Total| LevelBreakdown {
             level: total.execution.name(),
             mrays: (total.statistics.rays + total.statistics.shadow_rays) as f64 * 1e-6 / total.processor,
+            camera_rays: total.statistics.camera_rays as f64 / (total.runs * self.pixels()),
             time: shares(&total.statistics, total.clock * f64::from(self.settings.threads)),
             lanes: lanes(&total.statistics),
         };

@@ -18,6 +18,9 @@ pub(crate) struct BenchOptions {
     /// Render this scene bundle instead of the benchmark's own scenes.
     #[arg(long, value_name = "BUNDLE")]
     pub(crate) scene: Option<PathBuf>,
+    /// The tables of the paper that gonio descends from, as Markdown beside its figures; instead of stages.
+    #[arg(long, conflicts_with_all = ["stage", "scene"])]
+    pub(crate) paper: bool,
     /// For machines: everything as JSON, once all is measured.
     #[arg(long)]
     pub(crate) json: bool,
