@@ -1,7 +1,6 @@
 //! Meshes, quadrics, curves, points and their materials.
 
 use super::{Branch, Walker, push};
-use crate::context::Context;
 use crate::model::{Inherited, Kind, Model, Shape};
 use crate::prim::Prim;
 use crate::{curves, draw_mode, material, mesh, mesh_light, meter, points, primvar, quadrics};
@@ -12,9 +11,9 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 
 impl<'py> Walker<'_, '_, 'py> {
-    /// Adds a mesh.
-    pub(super) fn mesh(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
-        let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(()) };
+    /// Adds what was read of a mesh, or of what becomes one.
+    pub(super) fn mesh(&mut self, prim: &Prim<'py>, read: Option<mesh::ReadMesh>, branch: &Branch, model: &mut Model) -> Result<()> {
+        let Some(mesh::ReadMesh { source, slot_prims }) = read else { return Ok(()) };
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
         let is_light = mesh_light::is_geometry_light(prim);
         let mesh = self.submit(source)?;
@@ -88,7 +87,6 @@ impl<'py> Walker<'_, '_, 'py> {
     }
 
     fn push_fibres(&mut self, prim: &Prim<'py>, branch: &Branch, geometry: Geometry, has_opacity: bool, model: &mut Model) {
-        report_still(self.context, prim);
         if mesh_light::is_geometry_light(prim) {
             self.context.unsupported("curves and points as lights", &prim.origin());
         }
@@ -117,15 +115,6 @@ impl<'py> Walker<'_, '_, 'py> {
         for (count, slots) in shapes {
             // Each cell is filled once.
             let _ = slots.set(materials.by_ref().take(count).collect());
-        }
-    }
-}
-
-/// Curves and points keep their shape while the shutter is open.
-fn report_still(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
-    for name in ["velocities", "accelerations"] {
-        if prim.has_authored(name) {
-            context.unsupported(&format!("motion blur of curves and points ({name})"), &prim.origin());
         }
     }
 }
