@@ -252,5 +252,6 @@ def test_lights_whose_strength_changes_have_its_mean(tmp_path):
     found = load(tmp_path, text, (-0.5, 0.5))[0]["lights"][0]["emission"]["radiance"]
     # It rises and falls evenly: half of the strength of the middle.
     assert found == pytest.approx([0.5 * x for x in still])
-    _, told = load(tmp_path, text.replace("treatAsPoint = 0", "treatAsPoint = 0\n    float inputs:radius.timeSamples = { 1: 0.5, 2: 1 }"), (-0.5, 0.5))
+    growing = "treatAsPoint = 0\n    float inputs:radius.timeSamples = { 1: 0.5, 2: 1 }"
+    _, told = load(tmp_path, text.replace("treatAsPoint = 0", growing), (-0.5, 0.5))
     assert any("/L" in line and "form" in line for line in told), told
