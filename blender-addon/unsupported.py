@@ -39,7 +39,7 @@ OBJECTS = {
 
 SCENES = {
     "motion blur": _untold(
-        "Motion blur of faces that change without a velocity attribute, of the form of hair, curves and points, of lenses that zoom, of worlds, and in "
+        "Motion blur of faces that change without a velocity attribute, of widths of hair and points, of lenses that zoom, of worlds, and in "
         "the viewport",
         "these stand still at the frame",
     ),
@@ -53,7 +53,7 @@ SCENES = {
         "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
-    "pass": Limit("Passes: Vector, Shadow, volume passes", "absent"),
+    "pass": Limit("Passes: Shadow, volume passes", "absent"),
     "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
     "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
     "kind of camera": Limit("Cameras of custom types", "a perspective one"),

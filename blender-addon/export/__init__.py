@@ -44,6 +44,8 @@ class Exporter:
         self._camera_motion = {}
         # Values that materials want of meshes, by the keys of groups.
         self._primvars = {}
+        # What the groups show, by their keys.
+        self._shown = {}
 
     def sync(self, depsgraph, *, preview=False, shader_aovs=frozenset()):
         """Exports everything, of AOV Output nodes those named; what is as it was is found by comparing and is not written again."""
@@ -61,29 +63,37 @@ class Exporter:
         """Exports where things are while the shutter is open; what was exported before stays at the frame."""
         scene, self._camera_motion = depsgraph.scene, {}
         self.scene.set(**motion.settings_of(scene))
-        shutter = motion.shutter_of(scene)
+        shutter, ends = motion.shutter_of(scene), ()
+        if shutter is None:
+            # Nothing is blurred: motion vectors may be asked for.
+            shutter, ends = motion.neighbours_of(depsgraph), motion.ENDS
         if shutter is None:
             return
         cameras = motion.cameras_of(scene)
         seen = {share for camera in cameras for share in motion.shares_of(camera)}
-        shares = {*self._instances.shares(), *self._lights.shares(), *seen}
-        places = motion.places_at(engine, depsgraph, shutter, shares, self._part)
-        self._instances.blur(places, self._forms(depsgraph, places, shutter))
-        self._lights.blur(places)
-        self._camera_motion = {camera.session_uid: motion.camera_keys(camera, places) for camera in cameras}
+        shares = {*ends} or {*self._instances.shares(), *self._lights.shares(), *seen}
+        places = motion.places_at(engine, depsgraph, shutter, shares, self._part, ends)
+        self._instances.blur(places, self._forms(depsgraph, places, shutter, ends), ends)
+        if not ends:
+            self._lights.blur(places)
+        self._camera_motion = {camera.session_uid: motion.camera_keys(camera, places, ends) for camera in cameras}
 
-    def _forms(self, depsgraph, places, shutter):
-        """Numbers of the meshes that change their form, by the keys of their groups."""
-        numbers, walk = {}, Walk(depsgraph, self.report, self._part)
+    def _forms(self, depsgraph, places, shutter, ends):
+        """What stands in for the meshes, hair, curves and points that change their form, by the keys of their groups and what these show."""
+        changed, walk = {}, Walk(depsgraph, self.report, self._part)
         for key, group in zip(motion.keys_of(walk.groups), walk.groups, strict=True):
             if key not in self._primvars:
                 continue
             with self.report.guard("Object", group.name, "its form is not blurred"):
-                forms = motion.forms_of(key, group, places, shutter, depsgraph.scene)
-                number = self._meshes.blur(group, self._primvars[key], forms, self.report) if forms else None
-                if number is not None:
-                    numbers[key] = number
-        return numbers
+                forms = motion.forms_of(key, group, places, shutter, depsgraph.scene, ends)
+                if not forms:
+                    continue
+                if group.kind in FIBRES:
+                    shown = self._fibres.blur(group, self._shown[key], self._primvars[key], forms, depsgraph)
+                    changed.update({(key, before): after for before, after in shown})
+                elif (number := self._meshes.blur(group, self._primvars[key], forms, self.report)) is not None:
+                    changed[key, "mesh"] = ("mesh", number)
+        return changed
 
     def sync_world(self, depsgraph):
         """Exports the world and nothing else."""
@@ -192,7 +202,7 @@ class Exporter:
         keyed = list(zip(walk.groups, motion.keys_of(walk.groups), strict=True))
         layer = depsgraph.view_layer_eval
         override = layer.material_override
-        entries, keys, self._primvars = [], [], {}
+        entries, keys, self._primvars, self._shown = [], [], {}, {}
         for group, key in keyed:
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
@@ -201,8 +211,8 @@ class Exporter:
                     for shown, numbers in self._surfaces(group, materials, depsgraph):
                         entries.append((group, shown, numbers, materials.placed))
                         keys.append(key)
-                        if shown[0] == "mesh":
-                            self._primvars[key] = materials.primvars
+                        self._primvars[key] = materials.primvars
+                        self._shown.setdefault(key, []).append(shown)
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]
         fill_instancer(depsgraph, [group for group, _ in given], [wanted for _, wanted in given], self.report)

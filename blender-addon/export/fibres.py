@@ -23,6 +23,8 @@ class Fibres:
         # (object, data, kind) -> (list of (kind, content, material slot), values wanted, shape)
         self._known, self._seen = {}, set()
         self.any_written = False
+        # Shapes over the shutter of what is read, by its number in its group.
+        self._motion = {}
 
     def begin(self, keep_known):
         """Starts a pass; without `keep_known` everything is read again."""
@@ -45,6 +47,27 @@ class Fibres:
             known = self._known[place] = (self._read(group, primvars, shape, depsgraph.mode == "RENDER"), primvars, shape)
         return [((kind, self._slots[kind].take(key)[0]), slot) for kind, key, slot in known[0]]
 
+    def blur(self, group, shown, primvars, forms, depsgraph):
+        """Pairs of what a group shows and what stands in for it, which moves between `forms` at even times of the shutter."""
+        pairs = []
+        for number, before in enumerate(shown):
+            shapes = [form[number] if number < len(form) else None for form in forms]
+            if any(one is None or not one.is_like(shapes[0]) for one in shapes):
+                self._report.add("Object", group.name, "it has other points at other times of the shutter; its form is not blurred")
+                continue
+            if all(np.array_equal(one.points, shapes[0].points) for one in shapes):
+                continue
+            self._motion[number] = shapes
+            pairs.append((before, number))
+        if not pairs:
+            return []
+        try:
+            moving = self._read(group, primvars, _shape(depsgraph), depsgraph.mode == "RENDER")
+        finally:
+            self._motion = {}
+        taken = {number: (moving[number][0], self._slots[moving[number][0]].take(moving[number][1])[0]) for _, number in pairs}
+        return [(before, taken[number]) for before, number in pairs]
+
     def _read(self, group, primvars, shape, is_render):
         """What is there, as (kind, content, material slot); what cannot be read is left out, with a report line."""
         try:
@@ -52,9 +75,9 @@ class Fibres:
                 return self._hair(group, primvars, shape, is_render)
             if group.kind == "CURVES":
                 strands = of_curves(group.data, primvars)
-                return [] if strands is None else [("curves", self._curves(group.name, strands, shape), None)]
+                return [] if strands is None else [("curves", self._curves(group.name, strands, shape, 0), None)]
             cloud = of_points(group.data, primvars)
-            return [] if cloud is None else [("points", self._points(group.name, *cloud), None)]
+            return [] if cloud is None else [("points", self._points(group.name, *cloud, 0), None)]
         except Exception as problem:
             self._report.add("Object", group.name, f"{words_of(problem)}; it is left out", severity="ERROR")
             return []
@@ -65,24 +88,32 @@ class Fibres:
             strands = of_system(group.source, modifier, system, is_render, primvars, first)
             if strands is not None:
                 first += len(strands.counts)
-                key = self._curves(f"{group.name} {system.name}", strands, shape)
+                key = self._curves(f"{group.name} {system.name}", strands, shape, len(found))
                 found.append(("curves", key, system.settings.material - 1))
         return found
 
-    def _curves(self, name, strands, shape):
+    def _curves(self, name, strands, shape, number):
         arrays = (strands.points, strands.counts, strands.radii * 2.0)
         keywords = {"type": "cubic", "basis": "catmullRom", "wrap": "pinned", "shape": shape, "primvars": strands.values}
-        return self._put("curves", self._scene.put_curves, arrays, {**keywords, "name": name})
+        return self._put("curves", self._scene.put_curves, arrays, {**keywords, **self._keys(number, strands.points), "name": name})
 
-    def _points(self, name, points, radii, values):
-        return self._put("points", self._scene.put_points, (points, radii * 2.0), {"primvars": values, "name": name})
+    def _points(self, name, points, radii, values, number):
+        return self._put("points", self._scene.put_points, (points, radii * 2.0), {"primvars": values, **self._keys(number, points), "name": name})
+
+    def _keys(self, number, rest):
+        """The points over the shutter, where they move and are as many as at the frame."""
+        shapes = self._motion.get(number)
+        if shapes is None or shapes[0].points.shape != rest.shape:
+            return {}
+        return {"motion": np.concatenate([one.points for one in shapes])}
 
     def _put(self, kind, write, arrays, keywords):
         """Writes what is not there yet; gives its key."""
         digest = blake2b(digest_size=16)
-        for array in (*arrays, *(keywords["primvars"][name] for name in sorted(keywords["primvars"]))):
+        moving = [keywords["motion"]] if "motion" in keywords else []
+        for array in (*arrays, *moving, *(keywords["primvars"][name] for name in sorted(keywords["primvars"]))):
             digest.update(np.ascontiguousarray(array))
-        key = (digest.digest(), keywords.get("shape"), tuple(sorted(keywords["primvars"])), tuple(len(array) for array in arrays))
+        key = (digest.digest(), keywords.get("shape"), tuple(sorted(keywords["primvars"])), tuple(len(array) for array in (*arrays, *moving)))
         if key not in self._slots[kind]:
             number, _ = self._slots[kind].take(key)
             self.any_written = True

@@ -150,12 +150,13 @@ class Instances:
         """All times of the shutter at which entries want to know where they are."""
         return {share for _, shares in self._sources for share in shares}
 
-    def blur(self, places, meshes):
-        """Writes the entries that move, with where they are at the times of the shutter, and `meshes` by their keys in place of those before."""
+    def blur(self, places, changed, ends=()):
+        """Writes the entries that move, with where they are at the times of the shutter, or at `ends`; what is `changed` (by the key and what
+        was shown, or `mesh`) stands in for what was shown."""
         for number, (key, shares) in enumerate(self._sources):
             entry = self._written[number]
-            motion = moved(key, entry.transforms, shares, places)
-            shown = ("mesh", meshes[key]) if key in meshes and entry.shown[0] == "mesh" else entry.shown
+            motion = moved(key, entry.transforms, ends or shares, places)
+            shown = changed.get((key, "mesh" if entry.shown[0] == "mesh" else entry.shown), entry.shown)
             if motion is not None or shown != entry.shown:
                 self._put(number, replace(entry, motion=motion, shown=shown))
 

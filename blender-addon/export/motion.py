@@ -7,13 +7,18 @@ from math import floor
 import numpy as np
 
 from .deforming import form_of, forms_by_velocities, has_velocities, may_change
+from .fibres import KINDS as FIBRES
 from .gather import Walk
+from .moving_fibres import may_move as fibres_may_move
+from .moving_fibres import shapes_of
 from .transforms import without_scale
 
 # Frames from the shutter's opening to the frame that is rendered, as a share of the time that it is open.
 POSITIONS = {"START": 0.0, "CENTER": 0.5, "END": 1.0}
 # Points of the shutter's curve.
 CURVE_POINTS = 65
+# The times that motion vectors want: the frame before and the next one.
+ENDS = (0.0, 1.0)
 # Keys are 2^steps + 1; more steps would take an hour.
 MOST_STEPS = 7
 
@@ -74,6 +79,14 @@ def shutter_of(scene):
     return Shutter(rests - POSITIONS.get(position, 0.5) * length, length, rests)
 
 
+def neighbours_of(depsgraph):
+    """The frames before and after as if a shutter opened and closed there, where the pass of motion vectors is shown; else None."""
+    if not getattr(depsgraph.view_layer, "use_pass_vector", False) or depsgraph.scene.render.use_motion_blur:
+        return None
+    rests = depsgraph.scene.frame_current + depsgraph.scene.frame_subframe
+    return Shutter(rests - 1.0, 2.0, rests)
+
+
 def settings_of(scene):
     """The shutter's settings for `gonio.Scene.set`."""
     cycles = getattr(scene, "cycles", None)
@@ -109,9 +122,9 @@ def cameras_of(scene):
     return ([] if scene.camera is None else [scene.camera]) + [thing for thing in others if thing != scene.camera]
 
 
-def camera_keys(camera, places):
-    """The matrices of a camera at its times of the shutter; nothing where it stands still."""
-    keys = [places[share].cameras.get(camera.session_uid) for share in shares_of(camera)]
+def camera_keys(camera, places, ends=()):
+    """The matrices of a camera at its times of the shutter, or at others that are given; nothing where it stands still."""
+    keys = [places[share].cameras.get(camera.session_uid) for share in ends or shares_of(camera)]
     if not keys or any(key is None or not np.isfinite(key).all() for key in keys) or all((key == keys[0]).all() for key in keys):
         return []
     return [without_scale(key) for key in keys]
@@ -132,8 +145,8 @@ def keys_of(groups):
     return keys
 
 
-def places_at(engine, depsgraph, shutter, shares, part):
-    """Matrices of everything at shares of the shutter's time; the frame is put back."""
+def places_at(engine, depsgraph, shutter, shares, part, ends=()):
+    """Matrices of everything at shares of the shutter's time; the frame is put back. Forms are those at each thing's own times, or at `ends`."""
     found = {}
     try:
         for share in sorted(shares):
@@ -144,26 +157,30 @@ def places_at(engine, depsgraph, shutter, shares, part):
             cameras = cameras_of(depsgraph.scene)
             seen = {camera.session_uid: np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float) for camera in cameras}
             groups = {key: np.array(group.matrices) for key, group in zip(keys_of(walk.groups), walk.groups, strict=True)}
-            found[share] = Places(seen, groups, _forms(walk, share))
+            found[share] = Places(seen, groups, _forms(walk, share, depsgraph, ends))
     finally:
         whole = floor(shutter.rests)
         engine.frame_set(whole, subframe=shutter.rests - whole)
     return found
 
 
-def _forms(walk, share):
-    """What meshes look like that are asked for at this share of the time."""
+def _forms(walk, share, depsgraph, ends):
+    """What meshes, hair, curves and points look like that are asked for at this share of the time."""
     forms = {}
     for key, group in zip(keys_of(walk.groups), walk.groups, strict=True):
-        if may_change(group) and share in shares_of(group.source.original):
-            with _Ignored():
+        if share not in (ends or shares_of(group.source.original)):
+            continue
+        with _Ignored():
+            if group.kind in FIBRES and fibres_may_move(group):
+                forms[key] = shapes_of(group, depsgraph.mode == "RENDER")
+            elif may_change(group):
                 forms[key] = form_of(group)
     return forms
 
 
-def forms_of(key, group, places, shutter, scene):
-    """What a group's mesh looks like at even times of the shutter; nothing where it keeps its form."""
-    shares = shares_of(group.source.original)
+def forms_of(key, group, places, shutter, scene, ends=()):
+    """What a group's mesh, or its hair, looks like at even times of the shutter; nothing where it keeps its form."""
+    shares = ends or shares_of(group.source.original)
     if shares and has_velocities(group):
         # Ways are straight: two times say all.
         speed = scene.render.fps / scene.render.fps_base

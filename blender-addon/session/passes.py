@@ -59,6 +59,7 @@ _LAYER_PASSES = {
     "use_pass_mist": Pass("Mist", "Z", "VALUE", "mist"),
     "use_pass_position": Pass("Position", "XYZ", "VECTOR", "P"),
     "use_pass_normal": Pass("Normal", "XYZ", "VECTOR", "normal"),
+    "use_pass_vector": Pass("Vector", "XYZW", "VECTOR", "motion"),
     "use_pass_uv": Pass("UV", "UVA", "VECTOR", "uv"),
     "use_pass_object_index": Pass("Object Index", "X", "VALUE", "object_index"),
     "use_pass_material_index": Pass("Material Index", "X", "VALUE", "material_index"),

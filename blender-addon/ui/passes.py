@@ -70,6 +70,10 @@ class GONIO_VIEWLAYER_PT_passes_data(LayerPanel, Panel):
             ("use_pass_uv", "UV"),
         ):
             column.prop(layer, switch, text=text)
+        row = column.row()
+        # Nothing is blurred where it has values.
+        row.active = not is_blurred(layer)
+        row.prop(layer, "use_pass_vector", text="Vector")
         column = layout.column(heading="Indexes")
         column.prop(layer, "use_pass_object_index")
         column.prop(layer, "use_pass_material_index")
@@ -122,6 +126,11 @@ class GONIO_VIEWLAYER_PT_passes_aov(LayerPanel, Panel):
         buttons.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
         if layer.active_aov is not None and not layer.active_aov.is_valid:
             layout.label(text="Another pass has this name", icon="ERROR")
+
+
+def is_blurred(layer) -> bool:
+    """Whether the scene of a view layer blurs what moves."""
+    return layer.id_data.render.use_motion_blur
 
 
 def changes_colors(view) -> bool:

@@ -152,7 +152,69 @@ def lamp():
     keyed(bpy.context.object, "location", ((-1.6, 1.5, 1.8), (1.6, 1.5, 1.8)))
 
 
-KINDS = {made.__name__: made for made in (fan, field, pan, shape, skinned, flowing, lamp)}
+def bent(name, data):
+    """An object whose upper points a node group draws aside, more from frame to frame."""
+    import bpy
+    from scenes import diffuse
+
+    made = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(made)
+    made.data.materials.append(diffuse(name, (0.8, 0.5, 0.2)))
+    tree = bpy.data.node_groups.new("Bend", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    nodes = {kind: tree.nodes.new(kind) for kind in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeSetPosition")}
+    place, parts = tree.nodes.new("GeometryNodeInputPosition"), tree.nodes.new("ShaderNodeSeparateXYZ")
+    amount, aside, sway = tree.nodes.new("ShaderNodeValue"), tree.nodes.new("ShaderNodeMath"), tree.nodes.new("ShaderNodeCombineXYZ")
+    aside.operation = "MULTIPLY"
+    for source, target in (
+        (nodes["NodeGroupInput"].outputs[0], nodes["GeometryNodeSetPosition"].inputs["Geometry"]),
+        (nodes["GeometryNodeSetPosition"].outputs[0], nodes["NodeGroupOutput"].inputs[0]),
+        (place.outputs[0], parts.inputs[0]),
+        (parts.outputs["Z"], aside.inputs[0]),
+        (amount.outputs[0], aside.inputs[1]),
+        (aside.outputs[0], sway.inputs["X"]),
+        (sway.outputs[0], nodes["GeometryNodeSetPosition"].inputs["Offset"]),
+    ):
+        tree.links.new(source, target)
+    made.modifiers.new("Bend", "NODES").node_group = tree
+    keyed(amount.outputs[0], "default_value", (-0.8, 0.8))
+    return made
+
+
+def strands():
+    """Hair curves that sway."""
+    import bpy
+
+    data = bpy.data.hair_curves.new("Hair")
+    data.add_curves([5] * 21)
+    along = np.arange(5) / 4.0
+    points = [np.stack([np.full(5, 0.25 * n - 2.5), 0.4 * np.sin(n + along), 1.6 * along], axis=1) for n in range(21)]
+    data.position_data.foreach_set("vector", np.concatenate(points).astype(np.float32).ravel())
+    data.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", np.full(105, 0.06, dtype=np.float32))
+    bent("Hair", data)
+
+
+def cloud():
+    """A point cloud that sways."""
+    import bpy
+
+    places = np.stack(np.meshgrid(np.linspace(-2, 2, 9), [0.0], np.linspace(0.2, 1.8, 5)), axis=-1).reshape(-1, 3)
+    data = bpy.data.meshes.new("Cloud")
+    data.from_pydata(places.tolist(), [], [])
+    made = bent("Cloud", data)
+    tree = made.modifiers[0].node_group
+    last = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput").inputs[0]
+    before, to_points = last.links[0].from_socket, tree.nodes.new("GeometryNodeMeshToPoints")
+    to_points.inputs["Radius"].default_value = 0.15
+    dressed = tree.nodes.new("GeometryNodeSetMaterial")
+    dressed.inputs["Material"].default_value = data.materials[0]
+    tree.links.new(before, to_points.inputs[0])
+    tree.links.new(to_points.outputs[0], dressed.inputs["Geometry"])
+    tree.links.new(dressed.outputs[0], last)
+
+
+KINDS = {made.__name__: made for made in (fan, field, pan, shape, skinned, flowing, strands, cloud, lamp)}
 CASES = [(kind, "CENTER") for kind in KINDS if kind != "lamp"]
 CASES += [(kind, position) for kind in ("pan", "skinned") for position in ("START", "END")]
 MOMENTS = 16

@@ -4,7 +4,7 @@ mod nurbs;
 
 use crate::context::Context;
 use crate::prim::Prim;
-use crate::{primvar, strand_values};
+use crate::{mesh, primvar, strand_values};
 use gonio::mesh::{FacePrimvar, Interpolation};
 use gonio::scene::{CurveBasis, CurveShape, CurveWrap, Curves};
 
@@ -30,7 +30,7 @@ struct Lines {
 /// Reads a prim of curves; `None`, with a report, where there is nothing to show.
 pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &str) -> Option<Curves> {
     let origin = prim.origin();
-    let points = context.get_authored::<Vec<[f32; 3]>>(prim, "points").unwrap_or_default();
+    let points = mesh::points(context, prim).unwrap_or_default();
     let counts = context.get_authored::<Vec<i32>>(prim, "curveVertexCounts").unwrap_or_default();
     let counts: Vec<u32> = counts.into_iter().map(|count| u32::try_from(count).unwrap_or(0)).collect();
     let sum: u64 = counts.iter().map(|count| u64::from(*count)).sum();

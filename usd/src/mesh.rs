@@ -25,7 +25,7 @@ pub struct ReadMesh<'py> {
 /// Reads a `Mesh` prim; `None` where there is nothing to show or, with a report, nothing that can be used.
 pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<ReadMesh<'py>> {
     let origin = prim.origin();
-    let points = if prim.has_authored("velocities") { moved_points(context, prim) } else { context.get_authored(prim, "points") };
+    let points = points(context, prim);
     let face_counts = context.get_authored::<Vec<i32>>(prim, "faceVertexCounts");
     let corners = context.get_authored::<Vec<i32>>(prim, "faceVertexIndices");
     let (Some(points), Some(face_counts), Some(corners)) = (points, face_counts, corners) else {
@@ -122,6 +122,11 @@ fn creases<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Creases {
         corner_indices: unsigned(context.get_authored(prim, "cornerIndices")),
         corner_sharpnesses: context.get_authored(prim, "cornerSharpnesses").unwrap_or_default(),
     }
+}
+
+/// The points of a prim at the time that is read.
+pub(crate) fn points<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Vec<[f32; 3]>> {
+    if prim.has_authored("velocities") { moved_points(context, prim) } else { context.get_authored(prim, "points") }
 }
 
 /// Points taken on by their velocities and accelerations from the sample before the time that is read.

@@ -4,7 +4,7 @@
 
 use crate::prim::Prim;
 use gonio::Diagnostic;
-use gonio::scene::{Mesh, MeshKey, Scene, Transform};
+use gonio::scene::{Light, Mesh, MeshKey, Origin, PointKey, Scene, Transform};
 use pyo3::prelude::*;
 
 /// Samples over the shutter where the stage names no number: turns are even between two of them.
@@ -44,6 +44,15 @@ pub(crate) fn shutter(stage: &Bound<'_, PyAny>, camera: &Prim<'_>, frame: f64) -
     Ok(Some(Shutter { open: frame + open, close: frame + close, keys: keys.clamp(2, MOST_KEYS) }))
 }
 
+/// The frames before and after a time, in place of a shutter's opening and closing; `None` where nothing of the stage has samples in time.
+pub(crate) fn neighbours(stage: &Bound<'_, PyAny>, time: &Bound<'_, PyAny>) -> PyResult<Option<Shutter>> {
+    if !time.call_method0("IsNumeric")?.is_truthy()? || !is_sampled(stage)? {
+        return Ok(None);
+    }
+    let frame: f64 = time.call_method0("GetValue")?.extract()?;
+    Ok(Some(Shutter { open: frame - 1.0, close: frame + 1.0, keys: 2 }))
+}
+
 /// Whether any layer of the stage has values that change.
 fn is_sampled(stage: &Bound<'_, PyAny>) -> PyResult<bool> {
     for layer in stage.call_method0("GetUsedLayers")?.try_iter()? {
@@ -65,6 +74,10 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
     for (number, light) in scene.lights.iter_mut().enumerate() {
         let at = |key: &Scene| key.lights.get(number).filter(|other| other.origin.name == light.origin.name).map(|other| other.transform);
         light.motion = moved(keys.iter().map(at).collect());
+        let like = |key: &Scene| key.lights.get(number).filter(|other| other.origin.name == light.origin.name).cloned();
+        if let (Some(found), true) = (keys.iter().map(like).collect::<Option<Vec<Light>>>(), scene.settings.shutter.blur) {
+            set_mean_strength(light, &found, &mut told);
+        }
     }
     for (number, set) in scene.instances.iter_mut().enumerate() {
         let like = |key: &Scene| {
@@ -84,18 +97,57 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
             None => told.push(Diagnostic::warning(&mesh.origin, still)),
         }
     }
-    let bends = "its points move while the shutter is open; curves and points keep their shape";
-    for (number, curves) in scene.curves.iter().enumerate() {
-        if keys.iter().any(|key| key.curves.get(number).is_some_and(|other| other.points != curves.points)) {
-            told.push(Diagnostic::warning(&curves.origin, bends));
-        }
+    for (number, curves) in scene.curves.iter_mut().enumerate() {
+        let like = |key: &Scene| {
+            let other = key.curves.get(number).filter(|other| other.origin.name == curves.origin.name)?;
+            (other.points.len() == curves.points.len() && other.counts == curves.counts).then(|| PointKey { points: other.points.clone() })
+        };
+        let found = keys.iter().map(like).collect();
+        curves.motion = moved_points(found, &curves.origin, still, &mut told);
     }
-    for (number, points) in scene.points.iter().enumerate() {
-        if keys.iter().any(|key| key.points.get(number).is_some_and(|other| other.points != points.points)) {
-            told.push(Diagnostic::warning(&points.origin, bends));
-        }
+    for (number, points) in scene.points.iter_mut().enumerate() {
+        let like = |key: &Scene| {
+            let other = key.points.get(number).filter(|other| other.origin.name == points.origin.name)?;
+            (other.points.len() == points.points.len()).then(|| PointKey { points: other.points.clone() })
+        };
+        let found = keys.iter().map(like).collect();
+        points.motion = moved_points(found, &points.origin, still, &mut told);
     }
     told
+}
+
+/// Gives a light whose strength changes the mean of it over the shutter, which is right for what stands still.
+fn set_mean_strength(light: &mut Light, keys: &[Light], told: &mut Vec<Diagnostic>) {
+    if keys.iter().any(|key| key.shape != light.shape || key.quantity != light.quantity || key.shaping != light.shaping) {
+        told.push(Diagnostic::warning(
+            &light.origin,
+            "its form or its photometry changes while the shutter is open; it is that of the frame",
+        ));
+    }
+    if keys.iter().all(|key| key.emission.radiance == keys[0].emission.radiance) {
+        return;
+    }
+    // The strength goes straight from key to key, so the first and the last count half.
+    let weight = |key: usize| if key == 0 || key + 1 == keys.len() { 0.5 } else { 1.0 } / (keys.len() - 1) as f32;
+    let mut mean = [0.0; 3];
+    for (number, key) in keys.iter().enumerate() {
+        for (mean, x) in mean.iter_mut().zip(key.emission.radiance) {
+            *mean += weight(number) * x;
+        }
+    }
+    light.emission.radiance = mean;
+}
+
+/// Points at the keys, none where they are all the same; told where they cannot be had.
+fn moved_points(keys: Option<Vec<PointKey>>, origin: &Origin, still: &str, told: &mut Vec<Diagnostic>) -> Vec<PointKey> {
+    match keys {
+        Some(found) if found.iter().any(|key| *key != found[0]) => found,
+        Some(_) => Vec::new(),
+        None => {
+            told.push(Diagnostic::warning(origin, still));
+            Vec::new()
+        }
+    }
 }
 
 /// Maps at the keys, none where they are all the same or one is missing.
@@ -104,10 +156,58 @@ fn moved(keys: Vec<Option<Transform>>) -> Vec<Transform> {
     if keys.iter().all(|key| *key == keys[0]) { Vec::new() } else { keys }
 }
 
-/// A mesh at another time, if it is the same but for its points and normals.
+/// A mesh at another time, if it is the same but for its points and normals. Its triangles are those of the first: faces that bend may be cut in
+/// another way at another time.
 fn mesh_key(mesh: &Mesh, other: &Mesh) -> Option<MeshKey> {
-    let same = mesh.origin.name == other.origin.name && mesh.points.len() == other.points.len() && mesh.triangles == other.triangles;
+    let same = mesh.origin.name == other.origin.name && mesh.points.len() == other.points.len() && has_same_faces(mesh, other);
     let values = |mesh: &Mesh| mesh.normals.as_ref().map(|normals| normals.values.clone());
     let normals = values(other).filter(|normals| Some(normals.len()) == values(mesh).map(|values| values.len()));
     same.then(|| MeshKey { points: other.points.clone(), normals })
+}
+
+/// Whether two meshes have the same faces over the same points, however these are cut into triangles.
+fn has_same_faces(mesh: &Mesh, other: &Mesh) -> bool {
+    if mesh.triangles == other.triangles {
+        return true;
+    }
+    // Of faces in the order of their triangles' own numbers there is one triangle each.
+    let face = |mesh: &Mesh, triangle: usize| mesh.faces.as_ref().map_or(triangle as u32, |faces| faces[triangle]);
+    let count = mesh.triangles.len();
+    if count != other.triangles.len() || !(0..count).all(|triangle| face(mesh, triangle) == face(other, triangle)) {
+        return false;
+    }
+    let mut first = 0;
+    while first < count {
+        let end = (first..count).find(|triangle| face(mesh, *triangle) != face(mesh, first)).unwrap_or(count);
+        if points_of(&mesh.triangles[first..end]) != points_of(&other.triangles[first..end]) {
+            return false;
+        }
+        first = end;
+    }
+    true
+}
+
+/// The points of triangles, each once, in rising order.
+fn points_of(triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut points: Vec<u32> = triangles.as_flattened().to_vec();
+    points.sort_unstable();
+    points.dedup();
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quad(triangles: [[u32; 3]; 2], faces: [u32; 2]) -> Mesh {
+        Mesh { triangles: triangles.into(), faces: Some(faces.into()), points: vec![[0.0; 3]; 5].into(), ..Mesh::default() }
+    }
+
+    #[test]
+    fn a_face_that_is_cut_in_another_way_is_the_same_face() {
+        let mesh = quad([[0, 1, 2], [0, 2, 3]], [0, 0]);
+        assert!(mesh_key(&mesh, &quad([[1, 2, 3], [1, 3, 0]], [0, 0])).is_some());
+        assert!(mesh_key(&mesh, &quad([[1, 2, 4], [1, 4, 0]], [0, 0])).is_none(), "another point");
+        assert!(mesh_key(&mesh, &quad([[1, 2, 3], [1, 3, 0]], [0, 1])).is_none(), "other faces");
+    }
 }

@@ -1,6 +1,7 @@
 //! What of a stage is read, and how.
 
 use crate::settings::RenderSettings;
+use gonio::scene::Aov;
 use std::path::PathBuf;
 
 /// The time at which attributes are read.
@@ -137,6 +138,8 @@ pub struct StageOptions {
     pub render_pass: Option<String>,
     /// Whether nothing moves while the shutter is open, whatever the render settings say.
     pub disable_motion_blur: bool,
+    /// Whether a pass of motion vectors is asked for: where nothing is blurred, things are then read at the frames before and after too.
+    pub motion_vectors: bool,
     /// Whether warnings end the reading.
     pub strict: bool,
     /// Whether the reading goes on where a light's photometric file cannot be read, with a warning and a stand-in.
@@ -160,6 +163,7 @@ impl Default for StageOptions {
             render_settings: None,
             render_pass: None,
             disable_motion_blur: false,
+            motion_vectors: false,
             strict: false,
             lenient: true,
         }
@@ -177,6 +181,7 @@ impl StageOptions {
         let mut options = self.clone();
         if let Some(settings) = settings {
             options.disable_motion_blur |= settings.framing.disable_motion_blur;
+            options.motion_vectors |= settings.shows(Aov::Motion);
             options.purposes.get_or_insert_with(|| settings.purposes.clone());
             options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());
         }

@@ -76,6 +76,7 @@ pub fn aov_by_name(name: &str) -> Option<Aov> {
         "N" | "Nn" | "normal" | "Normal" | "Nworld" => Aov::Normal,
         "P" | "position" | "Position" | "Pworld" => Aov::P,
         "st" => Aov::Uv,
+        "motionvector" | "motionvectors" | "motionVector" | "motionVectors" | "Vector" => Aov::Motion,
         other => return Aov::by_name(other),
     })
 }

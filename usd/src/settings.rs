@@ -4,9 +4,9 @@ use crate::context::Context;
 use crate::framing::ConformPolicy;
 use crate::options::Purpose;
 use crate::prim::Prim;
-use crate::render_variable::{self, RenderVariable};
+use crate::render_variable::{self, RenderVariable, Source};
 use gonio::colour::{ColourSpace, Gamut, Transfer};
-use gonio::scene::{Origin, Scene};
+use gonio::scene::{Aov, Origin, Scene};
 use gonio::{Error, Result};
 use pyo3::{intern, prelude::*};
 
@@ -207,6 +207,11 @@ fn has_ending(name: &str) -> bool {
 }
 
 impl RenderSettings {
+    /// Whether a variable shows a pass.
+    pub fn shows(&self, aov: Aov) -> bool {
+        self.products.iter().flat_map(|product| &product.variables).any(|variable| variable.source == Source::Pass(aov))
+    }
+
     /// The variables of all products, each name once.
     pub fn variables(&self) -> Vec<RenderVariable> {
         let mut variables: Vec<RenderVariable> = Vec::new();

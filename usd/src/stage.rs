@@ -151,11 +151,16 @@ impl Stage {
     }
 
     /// What was read, with how it moves while the shutter of its camera is open.
+    /// Where nothing is blurred and motion vectors are asked for, with where it is at the frames before and after.
     fn blurred(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool, mut loaded: Loaded) -> Result<Loaded> {
-        if options.with_settings(loaded.settings.as_ref()).disable_motion_blur {
-            return Ok(loaded);
+        let asked = options.with_settings(loaded.settings.as_ref());
+        let shutter = if asked.disable_motion_blur { Ok(None) } else { self.shutter(py, options, &loaded.scene) };
+        let mut shutter = shutter.map_err(|error| unreadable(py, &self.path, &error))?;
+        if shutter.is_none() && asked.motion_vectors {
+            loaded.scene.settings.shutter.blur = false;
+            let time = self.time(py, options.time)?;
+            shutter = motion::neighbours(self.object.bind(py), &time).map_err(|error| unreadable(py, &self.path, &error))?;
         }
-        let shutter = self.shutter(py, options, &loaded.scene).map_err(|error| unreadable(py, &self.path, &error))?;
         let Some(shutter) = shutter else { return Ok(loaded) };
         let mut keys = Vec::new();
         for time in shutter.times() {

@@ -13,7 +13,7 @@ use crate::options::{Purpose, Standing};
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, meter, primvar};
+use crate::{daylight, mesh, meter, nurbs_patch, primvar, tet_mesh};
 use gonio::Result;
 use gonio::scene::{MeshId, Origin, Transform};
 use kind::PrimKind;
@@ -203,7 +203,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             return Ok(());
         }
         // Surfaces have no surfaces below them: their primvars need not be read again.
-        let is_surface = matches!(kind, PrimKind::Mesh | PrimKind::Quadric | PrimKind::Curves | PrimKind::Points | PrimKind::Unsupported);
+        let is_surface = kind.is_surface();
         let handed_down = if is_surface { branch.primvars.clone() } else { primvar::handed_down(self.context, prim, &branch.primvars) };
         let below = Rc::new(Branch { primvars: handed_down, ..branch });
         let children = self.children(prim, predicate, &below);
@@ -231,7 +231,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
 
     fn read(&mut self, prim: &Prim<'py>, type_name: &str, kind: PrimKind, branch: &Branch, model: &mut Model) -> Result<()> {
         match kind {
-            PrimKind::Mesh => self.mesh(prim, branch, model)?,
+            PrimKind::Mesh => self.mesh(prim, mesh::read, branch, model)?,
+            PrimKind::Patch => self.mesh(prim, nurbs_patch::read, branch, model)?,
+            PrimKind::Tetrahedra => self.mesh(prim, tet_mesh::read, branch, model)?,
             PrimKind::Quadric => self.quadric(prim, type_name, branch, model)?,
             PrimKind::Curves => self.curves(prim, type_name, branch, model),
             PrimKind::Points => self.points(prim, branch, model),

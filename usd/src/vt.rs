@@ -147,6 +147,17 @@ impl FromValue for Vec<i32> {
     }
 }
 
+impl<const N: usize> FromValue for Vec<[i32; N]> {
+    const EXPECTED: &'static str = "an array of integer vectors";
+    fn from_value(value: &Bound<'_, PyAny>) -> Option<Self> {
+        match raw_array(value)? {
+            RawArray { components, numbers: Numbers::Int(values) } if components == N => Some(values.as_chunks::<N>().0.to_vec()),
+            RawArray { numbers: Numbers::Float(values), .. } if values.is_empty() => Some(Self::new()),
+            _ => None,
+        }
+    }
+}
+
 impl FromValue for Vec<i64> {
     const EXPECTED: &'static str = "int64[]";
     fn from_value(value: &Bound<'_, PyAny>) -> Option<Self> {

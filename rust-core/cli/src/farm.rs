@@ -8,7 +8,7 @@ use super::{
     output::{Notes, Writer},
     products::{gamut_of, half_layers},
     progress::Reporter,
-    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, sample_time, stage_options, write_cropped},
+    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, sample_time, shows_motion, stage_options, write_cropped},
 };
 use clap::Parser;
 use gonio::{
@@ -82,7 +82,8 @@ fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
 /// The stage at a frame with what the command line says.
 fn load(py: Python<'_>, stage: &Stage, options: &RenderOptions, frame: Option<f64>) -> Result<Loaded> {
     let time = sample_time(options, frame);
-    let mut loaded = stage.load(py, &StageOptions { time, ..stage_options(&options.stage)? }, &INTERRUPTED)?;
+    let mut loaded =
+        stage.load(py, &StageOptions { time, motion_vectors: shows_motion(options), ..stage_options(&options.stage)? }, &INTERRUPTED)?;
     complete_scene(options, &mut loaded, None)?;
     Ok(loaded)
 }

@@ -43,7 +43,7 @@ pub(super) const MOST_WARNINGS: usize = 20;
 
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let mut stage_options = stage_options(&options.stage)?;
+    let mut stage_options = StageOptions { motion_vectors: shows_motion(options), ..stage_options(&options.stage)? };
     // A stage that is read again and again may be edited meanwhile.
     stage_options.kept = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
     stage_options.detached = stage_options.kept;
@@ -147,6 +147,11 @@ pub(super) fn frames_of(options: &RenderOptions, first: Option<f64>) -> Result<V
         });
     }
     Ok(frames.into_iter().map(Some).collect())
+}
+
+/// Whether the command line asks for a pass of motion vectors.
+pub(super) fn shows_motion(options: &RenderOptions) -> bool {
+    options.aov.iter().any(|name| aov_by_name(name) == Some(Aov::Motion))
 }
 
 /// What of the stage is read, from the command line.

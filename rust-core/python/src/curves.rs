@@ -4,7 +4,7 @@ use crate::{
     buffer::{floats, floats_of_any_width, indices},
     error::setting,
 };
-use gonio::scene::{CurveBasis, CurveShape, CurveWrap, Curves, Origin, PointShape, Points, Primvar, PrimvarInterpolation};
+use gonio::scene::{CurveBasis, CurveShape, CurveWrap, Curves, Origin, PointKey, PointShape, Points, Primvar, PrimvarInterpolation};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 use std::sync::Arc;
 
@@ -17,6 +17,7 @@ pub(crate) struct CurveBuffers<'a, 'py> {
     pub(crate) basis: &'a str,
     pub(crate) wrap: &'a str,
     pub(crate) shape: &'a str,
+    pub(crate) motion: Option<&'a Bound<'py, PyAny>>,
     pub(crate) primvars: Option<&'a Bound<'py, PyDict>>,
 }
 
@@ -43,6 +44,7 @@ impl CurveBuffers<'_, '_> {
         let mut curves = Curves {
             origin: Origin::new(name),
             points: points.into(),
+            motion: keys(self.motion, points.len())?,
             counts: counts.into(),
             basis,
             wrap: one_of("wrap", self.wrap, &wraps)?,
@@ -67,6 +69,7 @@ pub(crate) struct PointBuffers<'a, 'py> {
     pub(crate) widths: &'a Bound<'py, PyAny>,
     pub(crate) normals: Option<&'a Bound<'py, PyAny>>,
     pub(crate) shape: &'a str,
+    pub(crate) motion: Option<&'a Bound<'py, PyAny>>,
     pub(crate) primvars: Option<&'a Bound<'py, PyDict>>,
 }
 
@@ -79,12 +82,24 @@ impl PointBuffers<'_, '_> {
         Ok(Points {
             origin: Origin::new(name),
             points: points.into(),
+            motion: keys(self.motion, points.len())?,
             widths: widths(self.widths, &elements)?,
             normals: self.normals.map(|normals| primvar(normals, "normals", Some(3), &elements)).transpose()?,
             shape: one_of("shape", self.shape, &[("sphere", PointShape::Sphere), ("disc", PointShape::Disc)])?,
             primvars: primvars(self.primvars, &elements)?,
         })
     }
+}
+
+/// Keys of points (K, N, 3).
+fn keys(points: Option<&Bound<'_, PyAny>>, count: usize) -> PyResult<Vec<PointKey>> {
+    let Some(points) = points else { return Ok(Vec::new()) };
+    let points = floats(points, "motion", 3)?.values;
+    let points = points.as_chunks::<3>().0;
+    if count == 0 || !points.len().is_multiple_of(count) {
+        return Err(PyValueError::new_err(format!("motion: {} points were found, expected {count} a key", points.len())));
+    }
+    Ok(points.chunks(count).map(|points| PointKey { points: points.into() }).collect())
 }
 
 /// How many values there are by what they belong to, the likeliest first.

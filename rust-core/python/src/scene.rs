@@ -110,8 +110,9 @@ impl Scene {
     /// points: float buffer (N, 3), curve after curve; counts: integer buffer, the points of each curve; widths: diameters, a number or a float buffer;
     /// type: linear or cubic; basis: bezier, bspline or catmullRom; wrap: nonperiodic, periodic or pinned; shape: round, or ribbon for flat ones that
     /// face each ray; primvars: values by name, 1 to 4 numbers each. Whether values belong to points (vertex), joints of spans (varying), curves
-    /// (uniform) or all (constant) follows from their number, or is told by a pair of buffer and word.
-    #[pyo3(signature = (points, counts, widths, *, r#type = "linear", basis = "bezier", wrap = "nonperiodic", shape = "round", primvars = None, name = "curves", index = None))]
+    /// (uniform) or all (constant) follows from their number, or is told by a pair of buffer and word. motion: float buffer (K, N, 3), the points at
+    /// K evenly spaced times over the shutter.
+    #[pyo3(signature = (points, counts, widths, *, r#type = "linear", basis = "bezier", wrap = "nonperiodic", shape = "round", motion = None, primvars = None, name = "curves", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_curves(
         &mut self,
@@ -122,19 +123,21 @@ impl Scene {
         basis: &str,
         wrap: &str,
         shape: &str,
+        motion: Option<&Bound<'_, PyAny>>,
         primvars: Option<&Bound<'_, PyDict>>,
         name: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
-        let buffers = CurveBuffers { points, counts, widths, kind: r#type, basis, wrap, shape, primvars };
+        let buffers = CurveBuffers { points, counts, widths, kind: r#type, basis, wrap, shape, motion, primvars };
         description::put(&mut self.scene.curves, "curves", buffers.curves(name)?, index)
     }
 
     /// Adds points, or replaces points `index`; gives their number.
     ///
     /// points: float buffer (N, 3); widths: diameters, a number or a float buffer; normals: float buffer (N, 3) of shading normals in place of the
-    /// shape's; shape: sphere, or disc for flat ones that face each ray; primvars: values by name, 1 to 4 numbers a point, or one for all.
-    #[pyo3(signature = (points, widths, *, normals = None, shape = "sphere", primvars = None, name = "points", index = None))]
+    /// shape's; shape: sphere, or disc for flat ones that face each ray; primvars: values by name, 1 to 4 numbers a point, or one for all;
+    /// motion: float buffer (K, N, 3), the points at K evenly spaced times over the shutter.
+    #[pyo3(signature = (points, widths, *, normals = None, shape = "sphere", motion = None, primvars = None, name = "points", index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_points(
         &mut self,
@@ -142,11 +145,12 @@ impl Scene {
         widths: &Bound<'_, PyAny>,
         normals: Option<&Bound<'_, PyAny>>,
         shape: &str,
+        motion: Option<&Bound<'_, PyAny>>,
         primvars: Option<&Bound<'_, PyDict>>,
         name: &str,
         index: Option<u32>,
     ) -> PyResult<u32> {
-        let buffers = PointBuffers { points, widths, normals, shape, primvars };
+        let buffers = PointBuffers { points, widths, normals, shape, motion, primvars };
         description::put(&mut self.scene.points, "points", buffers.points(name)?, index)
     }
 

@@ -14,9 +14,10 @@ use gonio_usd::{
 use pyo3::prelude::*;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
-/// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for.
+/// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for. `motion_vectors`: for the pass `motion`, things are read at the
+/// frames before and after too, where nothing is blurred.
 #[pyfunction]
-#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, render_pass = None, purposes = None, complexity = "high", camera_light = true, strict = false))]
+#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, render_pass = None, purposes = None, complexity = "high", camera_light = true, strict = false, motion_vectors = false))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd<'py>(
     py: Python<'py>,
@@ -29,8 +30,9 @@ pub(crate) fn load_usd<'py>(
     complexity: &str,
     camera_light: bool,
     strict: bool,
+    motion_vectors: bool,
 ) -> PyResult<Bound<'py, Scene>> {
-    let mut options = StageOptions { strict, render_settings, render_pass, ..StageOptions::default() };
+    let mut options = StageOptions { strict, render_settings, render_pass, motion_vectors, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
         .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high or veryhigh")))?;

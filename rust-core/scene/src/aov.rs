@@ -64,6 +64,9 @@ pub enum Aov {
     InstanceId,
     /// Number of the triangle in its mesh.
     ElementId,
+    /// Pixels that what is seen moved since the frame before and moves until the next: x to the right and y upwards of where it was less where it
+    /// is, and of where it is less where it will be. Keys of motion at times 0 and 1 say where things are at those frames; nothing is blurred.
+    Motion,
 }
 
 /// What stands before an expression in the name of its pass.
@@ -130,7 +133,7 @@ pub enum LightPart {
 
 impl Aov {
     /// All passes with their names, but for shader passes, light groups, mattes and light paths.
-    pub const NAMES: [(Self, &'static str); 32] = {
+    pub const NAMES: [(Self, &'static str); 33] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
         [
@@ -157,6 +160,7 @@ impl Aov {
             (Self::Cost, "cost"),
             (Self::InstanceId, "instanceId"),
             (Self::ElementId, "elementId"),
+            (Self::Motion, "motion"),
             (Self::Light(Diffuse, Direct), "diffuse_direct"),
             (Self::Light(Diffuse, Indirect), "diffuse_indirect"),
             (Self::Light(Diffuse, Color), "diffuse_color"),

@@ -1,6 +1,6 @@
 //! Curves: hair, fur, grass, threads.
 
-use super::{Origin, Primvar};
+use super::{Origin, PointKey, Primvar};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -50,6 +50,9 @@ pub struct Curves {
     /// Points, local units, curve after curve.
     #[serde(with = "super::blob")]
     pub points: Arc<[[f32; 3]]>,
+    /// Points at evenly spaced times over the shutter, two or more; empty where the curves keep their shape.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<PointKey>,
     /// Points of each curve.
     #[serde(with = "super::blob")]
     pub counts: Arc<[u32]>,
@@ -98,6 +101,6 @@ impl Curves {
     /// Bytes held by the arrays.
     pub fn memory(&self) -> usize {
         let primvars = std::iter::once(&self.widths).chain(&self.primvars);
-        self.points.len() * 12 + self.counts.len() * 4 + primvars.map(Primvar::memory).sum::<usize>()
+        self.points.len() * 12 * (1 + self.motion.len()) + self.counts.len() * 4 + primvars.map(Primvar::memory).sum::<usize>()
     }
 }

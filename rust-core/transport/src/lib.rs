@@ -42,6 +42,7 @@ pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::matte_names::{MatteNames, NameRun};
+pub use tables::motion_vectors::{MotionCameras, NeighbourFrames, NeighbourMaps};
 pub use tables::photons::{Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
 pub use tables::shutter::{Rolling, Shutter};

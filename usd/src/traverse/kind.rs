@@ -11,6 +11,9 @@ use pyo3::prelude::*;
 pub(super) enum PrimKind {
     Container,
     Mesh,
+    /// A NURBS patch.
+    Patch,
+    Tetrahedra,
     Quadric,
     /// Curves of any kind.
     Curves,
@@ -22,6 +25,13 @@ pub(super) enum PrimKind {
     Leaf,
     /// A surface that gonio does not have.
     Unsupported,
+}
+
+impl PrimKind {
+    /// Whether prims of the kind are surfaces, or would be.
+    pub(super) fn is_surface(self) -> bool {
+        matches!(self, Self::Mesh | Self::Patch | Self::Tetrahedra | Self::Quadric | Self::Curves | Self::Points | Self::Unsupported)
+    }
 }
 
 impl<'py> Walker<'_, '_, 'py> {
@@ -43,6 +53,8 @@ impl<'py> Walker<'_, '_, 'py> {
         match type_name {
             "" | "Xform" | "Scope" | "SkelRoot" => PrimKind::Container,
             "Mesh" => PrimKind::Mesh,
+            "NurbsPatch" => PrimKind::Patch,
+            "TetMesh" => PrimKind::Tetrahedra,
             "Points" => PrimKind::Points,
             "PointInstancer" => PrimKind::Instancer,
             "Camera" => PrimKind::Camera,

@@ -12,10 +12,13 @@ use gonio::scene::{Geometry, Mesh, MeshId, Primvar};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
+/// What reads a mesh from a prim, with a message where it cannot.
+pub(super) type Reader<'py> = fn(&mut Context<'_, 'py>, &Prim<'py>) -> Option<mesh::ReadMesh<'py>>;
+
 impl<'py> Walker<'_, '_, 'py> {
-    /// Adds a mesh.
-    pub(super) fn mesh(&mut self, prim: &Prim<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
-        let Some((mesh, slot_prims, has_opacity, is_light)) = self.mesh_of(prim)? else { return Ok(()) };
+    /// Adds a mesh, or what becomes one; `read` reads it.
+    pub(super) fn mesh(&mut self, prim: &Prim<'py>, read: Reader<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
+        let Some((mesh, slot_prims, has_opacity, is_light)) = self.mesh_of(prim, read)? else { return Ok(()) };
         let paths = slot_prims.iter().map(Prim::path).collect();
         let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims: paths, has_opacity, is_light };
         if meter::is_measured(prim) {
@@ -28,7 +31,7 @@ impl<'py> Walker<'_, '_, 'py> {
     }
 
     /// The mesh of a prim, the prims of its slots, whether it has displayOpacity, and whether it is a light; as it was where time does not change it.
-    fn mesh_of(&mut self, prim: &Prim<'py>) -> Result<Option<(MeshId, Vec<Prim<'py>>, bool, bool)>> {
+    fn mesh_of(&mut self, prim: &Prim<'py>, read: Reader<'py>) -> Result<Option<(MeshId, Vec<Prim<'py>>, bool, bool)>> {
         if let Some(KeptShape::Mesh(mesh, MeshParts { subsets, has_opacity, is_light })) = prim.known().still_shape(prim) {
             let subsets = subsets.iter().map(|subset| subset.prim(self.context.py));
             let slot_prims = std::iter::once(prim.clone()).chain(subsets).collect();
@@ -36,7 +39,7 @@ impl<'py> Walker<'_, '_, 'py> {
             return Ok(Some((self.context.scene.add_mesh(mesh.clone()), slot_prims, *has_opacity, *is_light)));
         }
         let told = self.context.told();
-        let Some(mesh::ReadMesh { source, slot_prims }) = mesh::read(self.context, prim) else { return Ok(None) };
+        let Some(mesh::ReadMesh { source, slot_prims }) = read(self.context, prim) else { return Ok(None) };
         let has_opacity = source.polygons.primvars.iter().any(|primvar| primvar.name == "displayOpacity");
         let is_light = mesh_light::is_geometry_light(prim);
         let mesh = self.submit(source)?;
@@ -144,7 +147,6 @@ impl<'py> Walker<'_, '_, 'py> {
     }
 
     fn push_fibres(&mut self, prim: &Prim<'py>, branch: &Branch, geometry: Geometry, has_opacity: bool, model: &mut Model) {
-        report_still(self.context, prim);
         if mesh_light::is_geometry_light(prim) {
             self.context.unsupported("curves and points as lights", &prim.origin());
         }
@@ -168,15 +170,6 @@ impl<'py> Walker<'_, '_, 'py> {
         for (count, slots) in counts {
             // Each cell is filled once.
             let _ = slots.set(materials.by_ref().take(count).collect());
-        }
-    }
-}
-
-/// Curves and points keep their shape while the shutter is open.
-fn report_still(context: &mut Context<'_, '_>, prim: &Prim<'_>) {
-    for name in ["velocities", "accelerations"] {
-        if prim.has_authored(name) {
-            context.unsupported(&format!("motion blur of curves and points ({name})"), &prim.origin());
         }
     }
 }

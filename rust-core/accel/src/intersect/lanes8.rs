@@ -2,7 +2,7 @@
 
 use super::line_ray::SmoothHits;
 use super::prepared::{Padded, PreparedRay};
-use super::smooth::Smooth;
+use super::smooth::SmoothLeaf;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use crate::tree::node::{Node, WIDTH};
@@ -22,5 +22,5 @@ pub(crate) trait Lanes8: Copy {
     fn triangles(self, block: &TriangleBlock, ray: &PreparedRay, t_max: f32, hits: &mut BlockHits) -> u32;
 
     /// The pieces of curves or points of a leaf hit with `ray.t_min < t <= t_max`, as a mask.
-    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32;
+    fn smooth(self, leaf: SmoothLeaf<'_>, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32;
 }

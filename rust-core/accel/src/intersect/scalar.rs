@@ -3,7 +3,7 @@
 use super::lanes8::Lanes8;
 use super::line_ray::SmoothHits;
 use super::prepared::{Padded, PreparedRay};
-use super::smooth::Smooth;
+use super::smooth::SmoothLeaf;
 use super::smooth_scalar;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
@@ -71,7 +71,7 @@ impl Lanes8 for Scalar {
     }
 
     #[inline(always)]
-    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
-        smooth_scalar::intersect(smooth, leaf, ray, t_max, hits)
+    fn smooth(self, leaf: SmoothLeaf<'_>, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+        smooth_scalar::intersect(leaf, ray, t_max, hits)
     }
 }

@@ -67,52 +67,73 @@ impl Smooth {
         }
     }
 
-    /// The lanes of a leaf that a ray meets with `ray.t_min < t <= t_max`, as a mask.
+    /// A leaf.
+    #[inline(always)]
+    pub(crate) fn leaf(&self, index: usize) -> SmoothLeaf<'_> {
+        match self {
+            Smooth::Nothing => SmoothLeaf::Nothing,
+            Smooth::Tubes(blocks) => SmoothLeaf::Tubes(&blocks[index]),
+            Smooth::Ribbons(blocks) => SmoothLeaf::Ribbons(&blocks[index]),
+            Smooth::Spheres(blocks) => SmoothLeaf::Spheres(&blocks[index]),
+            Smooth::Discs(blocks) => SmoothLeaf::Discs(&blocks[index]),
+        }
+    }
+}
+
+/// A leaf of a tree, as it stands or at a ray's time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SmoothLeaf<'a> {
+    Nothing,
+    Tubes(&'a SegmentBlock),
+    Ribbons(&'a SegmentBlock),
+    Spheres(&'a PointBlock),
+    Discs(&'a PointBlock),
+}
+
+impl SmoothLeaf<'_> {
+    /// The lanes that a ray meets with `ray.t_min < t <= t_max`, as a mask.
     #[inline(never)]
-    pub(crate) fn intersect<S: Simd>(&self, simd: S, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+    pub(crate) fn intersect<S: Simd>(self, simd: S, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
         simd.vectorize(
             #[inline(always)]
             || match self {
-                Smooth::Nothing => 0,
-                Smooth::Tubes(blocks) => intersect_tubes(simd, &blocks[leaf], ray, t_max, hits),
-                Smooth::Ribbons(blocks) => intersect_ribbons(simd, &blocks[leaf], ray, t_max, hits),
-                Smooth::Spheres(blocks) => intersect_spheres(simd, &blocks[leaf], ray, t_max, hits),
-                Smooth::Discs(blocks) => intersect_discs(simd, &blocks[leaf], ray, t_max, hits),
+                SmoothLeaf::Nothing => 0,
+                SmoothLeaf::Tubes(block) => intersect_tubes(simd, block, ray, t_max, hits),
+                SmoothLeaf::Ribbons(block) => intersect_ribbons(simd, block, ray, t_max, hits),
+                SmoothLeaf::Spheres(block) => intersect_spheres(simd, block, ray, t_max, hits),
+                SmoothLeaf::Discs(block) => intersect_discs(simd, block, ray, t_max, hits),
             },
         )
     }
 
     /// The distance where a ray that enters the shape of a lane at `t` leaves it; of what is flat `t`.
-    pub(crate) fn leaves(&self, leaf: usize, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
+    pub(crate) fn leaves(self, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
         match self {
-            Smooth::Tubes(blocks) => smooth_scalar::leaves(&blocks[leaf], lane, ray).max(t),
+            SmoothLeaf::Tubes(block) => smooth_scalar::leaves(block, lane, ray).max(t),
             _ => t,
         }
     }
 
     /// Which primitive a lane has hit, and where on it.
-    pub(crate) fn describe(&self, leaf: usize, lane: usize, ray: &PreparedRay, hits: &SmoothHits) -> LaneHit {
+    pub(crate) fn describe(self, lane: usize, ray: &PreparedRay, hits: &SmoothHits) -> LaneHit {
         let lane = lane % WIDTH;
         let out = [hits.out[0][lane], hits.out[1][lane], hits.out[2][lane]];
         match self {
-            Smooth::Nothing => (NONE, 0.0, 0.0),
-            Smooth::Tubes(blocks) => {
-                let block = &blocks[leaf];
+            SmoothLeaf::Nothing => (NONE, 0.0, 0.0),
+            SmoothLeaf::Tubes(block) => {
                 let (axis, _) = block.lane(lane, 0.0);
                 let (u, v) = on_tube(axis, hits.along[lane], out);
                 (block.primitives[lane], u, v)
             }
-            Smooth::Ribbons(blocks) => {
-                let block = &blocks[leaf];
+            SmoothLeaf::Ribbons(block) => {
                 let (axis, radius) = block.lane(lane, hits.along[lane]);
                 (block.primitives[lane], hits.along[lane], on_ribbon(axis, radius, ray, out))
             }
-            Smooth::Spheres(blocks) => {
+            SmoothLeaf::Spheres(block) => {
                 let [u, v] = octahedral(unit(out));
-                (blocks[leaf].primitives[lane], u, v)
+                (block.primitives[lane], u, v)
             }
-            Smooth::Discs(blocks) => {
-                let block = &blocks[leaf];
+            SmoothLeaf::Discs(block) => {
                 let (u, v) = on_disc(block.radius[lane], ray, out);
                 (block.primitives[lane], u, v)
             }

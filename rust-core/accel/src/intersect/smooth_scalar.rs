@@ -5,7 +5,7 @@ use super::point_block::PointBlock;
 use super::prepared::PreparedRay;
 use super::segment_block::{OVERLAP, SegmentBlock};
 use super::segments::SEAM;
-use super::smooth::{Smooth, dot};
+use super::smooth::{SmoothLeaf, dot};
 use crate::tree::node::WIDTH;
 
 /// Distance, share of the axis, and the way out from there.
@@ -56,16 +56,16 @@ impl LineRay {
 }
 
 /// The lanes of a leaf that a ray meets, as a mask.
-pub(crate) fn intersect(smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+pub(crate) fn intersect(leaf: SmoothLeaf<'_>, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
     let ray = LineRay::new(ray, t_max);
     let mut mask = 0;
     for lane in 0..WIDTH {
-        let found = match smooth {
-            Smooth::Nothing => None,
-            Smooth::Tubes(blocks) => tube(&blocks[leaf], lane, &ray),
-            Smooth::Ribbons(blocks) => ribbon(&blocks[leaf], lane, &ray),
-            Smooth::Spheres(blocks) => ball(&blocks[leaf], lane, &ray, false),
-            Smooth::Discs(blocks) => ball(&blocks[leaf], lane, &ray, true),
+        let found = match leaf {
+            SmoothLeaf::Nothing => None,
+            SmoothLeaf::Tubes(block) => tube(block, lane, &ray),
+            SmoothLeaf::Ribbons(block) => ribbon(block, lane, &ray),
+            SmoothLeaf::Spheres(block) => ball(block, lane, &ray, false),
+            SmoothLeaf::Discs(block) => ball(block, lane, &ray, true),
         };
         if let Some((t, share, out)) = found {
             (hits.t[lane], hits.along[lane]) = (t, share);

@@ -3,7 +3,7 @@
 use super::lanes8::Lanes8;
 use super::line_ray::SmoothHits;
 use super::prepared::{Padded, PreparedRay};
-use super::smooth::Smooth;
+use super::smooth::SmoothLeaf;
 use super::transform::Affine;
 use super::triangle_block::{BlockHits, TriangleBlock};
 use crate::tree::node::{Node, WIDTH};
@@ -59,8 +59,8 @@ impl<S: Simd> Lanes8 for Wide<S> {
     }
 
     #[inline(always)]
-    fn smooth(self, smooth: &Smooth, leaf: usize, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
-        smooth.intersect(self.0, leaf, ray, t_max, hits)
+    fn smooth(self, leaf: SmoothLeaf<'_>, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
+        leaf.intersect(self.0, ray, t_max, hits)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
-use crate::{Blas, Care, MovingInstance, NONE};
+use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, Seen};
 use gonio_simd::Execution;
 use gonio_simd::motion::{Interpolation, Motion};
 use std::sync::Arc;
@@ -92,6 +92,56 @@ fn walks_within_an_instance_see_it_at_their_time() {
     built(&meshes, &stand, &[]).first_hit_within(Execution::Scalar, &rays.batch(), &numbers, &mut expected);
     assert_eq!(found, expected);
     assert!(found.instance.iter().any(|instance| *instance != NONE));
+}
+
+#[test]
+fn curves_and_points_that_move_are_met_as_they_are_at_the_rays_time() {
+    let (mut random, cancel) = (Random(31), AtomicBool::new(false));
+    let ball = |random: &mut Random| [random.signed(), random.signed(), random.signed(), 0.02 + 0.03 * random.unit()];
+    let rest: Vec<[f32; 4]> = (0..400).map(|_| ball(&mut random)).collect();
+    let moved = |random: &mut Random| -> Vec<[f32; 4]> {
+        rest.iter().map(|p| [0, 1, 2, 3].map(|k| p[k] + if k < 3 { 0.2 * random.signed() } else { 0.0 })).collect()
+    };
+    let keys: Vec<Vec<[f32; 4]>> = vec![rest.clone(), moved(&mut random), moved(&mut random)];
+    // Strands of four points.
+    let bits = |i: u32| if i % 4 == 0 { FIRST_PIECE } else { 0 } | if i % 4 == 2 { LAST_PIECE } else { 0 };
+    let pieces: Vec<u32> = (0..400).filter(|i| i % 4 < 3).map(|i| i | bits(i)).collect();
+    let mut rays = OwnedRays::random(&mut random, 2048, 1.0, true);
+    rays.time = (0..2048).map(|i| TIMES[i % 4]).collect();
+    let at = |time: f32| -> Vec<[f32; 4]> {
+        let (number, share) = if time < 0.5 { (0, 2.0 * time) } else { (1, 2.0 * time - 1.0) };
+        keys[number].iter().zip(&keys[number + 1]).map(|(a, b)| [0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * share)).collect()
+    };
+    let instances: Vec<Instance> = (0..20).map(|_| instance(Geometry::Mesh(0), random_placement(&mut random))).collect();
+    for (is_curve, seen) in [(true, Seen::Solid), (true, Seen::Facing), (false, Seen::Solid), (false, Seen::Facing)] {
+        let tree = match is_curve {
+            true => Blas::of_moving_curves(keys.clone(), &pieces, seen, Care::Quick, &cancel),
+            false => Blas::of_moving_points(keys.clone(), seen, Care::Quick, &cancel),
+        };
+        let scene = built(&[Arc::new(tree.expect("not cancelled"))], &instances, &[]);
+        assert!(scene.moves());
+        let stands = |time: f32| {
+            let tree = match is_curve {
+                true => Blas::of_curves(&at(time), &pieces, seen, Care::Quick, &cancel),
+                false => Blas::of_points(&at(time), seen, Care::Quick, &cancel),
+            };
+            built(&[Arc::new(tree.expect("not cancelled"))], &instances, &[])
+        };
+        let standing: Vec<Hits> = TIMES.map(|time| super::first_hits(&stands(time), levels()[0], &rays)).into();
+        for level in levels() {
+            let single = super::first_hits(&scene, level, &rays);
+            let (mut packets, mut stream) = (Hits::default(), Hits::default());
+            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
+            scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
+            assert_eq!(single, packets, "{level:?}");
+            assert_eq!(single, stream, "{level:?}");
+            let differs =
+                |i: &usize| standing[i % 4].instance[*i] != single.instance[*i] || standing[i % 4].primitive[*i] != single.primitive[*i];
+            let others = (0..2048).filter(differs).count();
+            assert!(others <= 2, "{others} rays differ, {is_curve} {seen:?} {level:?}");
+            assert!(single.instance.iter().filter(|i| **i != NONE).count() > 40);
+        }
+    }
 }
 
 #[test]

@@ -269,7 +269,8 @@ impl<const ANY: bool> MeshVisitor<'_, ANY> {
     fn smooth<S: Simd>(&mut self, simd: S, rays: &PacketRays<S>, leaf: usize, lane: usize) {
         let ray = rays.single(lane);
         let mut found = SmoothHits::default();
-        let mut mask = self.mesh.smooth.intersect(simd, leaf, &ray, self.hits.t[lane], &mut found);
+        let leaf = self.mesh.smooth.leaf(leaf);
+        let mut mask = leaf.intersect(simd, &ray, self.hits.t[lane], &mut found);
         if ANY {
             if mask != 0 {
                 self.hits.set_blocked(lane);
@@ -279,7 +280,7 @@ impl<const ANY: bool> MeshVisitor<'_, ANY> {
         while mask != 0 {
             let slot = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
-            let (primitive, u, v) = self.mesh.smooth.describe(leaf, slot, &ray, &found);
+            let (primitive, u, v) = leaf.describe(slot, &ray, &found);
             let mut nearest = Nearest(self.hits.get(lane));
             nearest.add(Hit { t: found.t[slot], u, v, primitive, instance: self.record.id }, false);
             self.hits.set(lane, nearest.0);

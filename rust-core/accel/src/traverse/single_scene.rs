@@ -5,7 +5,7 @@ use crate::hit_callback::HitCallback;
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::prepared::PreparedRay;
-use crate::intersect::smooth::Smooth;
+use crate::intersect::smooth::SmoothLeaf;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::ray::{Hit, RayBatch};
 use crate::tree::blas::Blas;
@@ -168,7 +168,11 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for MeshVisitor<'_, C> {
     #[inline(always)]
     fn leaf(&mut self, lanes: K, ray: &PreparedRay, leaf: ChildRef) -> bool {
         if !leaf.is(Kind::Triangles) {
-            return intersect_smooth(lanes, &self.mesh.smooth, leaf.index(), ray, self.record.owner(), self.callback);
+            if self.mesh.is_still() {
+                return intersect_smooth(lanes, self.mesh.smooth.leaf(leaf.index()), ray, self.record.owner(), self.callback);
+            }
+            let moved = self.mesh.smooth_at(leaf.index(), self.time);
+            return intersect_smooth(lanes, moved.leaf(), ray, self.record.owner(), self.callback);
         }
         if self.mesh.is_still() {
             return intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback);
@@ -196,16 +200,9 @@ fn intersect_leaf<K: Lanes8, C: HitCallback>(lanes: K, block: &TriangleBlock, ra
 
 /// Hands the pieces of curves or points of a leaf that a ray meets to a callback; true when it ended the search.
 #[inline(always)]
-fn intersect_smooth<K: Lanes8, C: HitCallback>(
-    lanes: K,
-    smooth: &Smooth,
-    leaf: usize,
-    ray: &PreparedRay,
-    owner: Owner,
-    callback: &mut C,
-) -> bool {
+fn intersect_smooth<K: Lanes8, C: HitCallback>(lanes: K, leaf: SmoothLeaf<'_>, ray: &PreparedRay, owner: Owner, callback: &mut C) -> bool {
     let mut hits = SmoothHits::default();
-    let mut mask = lanes.smooth(smooth, leaf, ray, callback.t_max(), &mut hits);
+    let mut mask = lanes.smooth(leaf, ray, callback.t_max(), &mut hits);
     while mask != 0 {
         let lane = mask.trailing_zeros() as usize % WIDTH;
         mask &= mask - 1;
@@ -213,9 +210,9 @@ fn intersect_smooth<K: Lanes8, C: HitCallback>(
         if C::ORDERED && hits.t[lane] > callback.t_max() {
             continue;
         }
-        let (primitive, u, v) = smooth.describe(leaf, lane, ray, &hits);
+        let (primitive, u, v) = leaf.describe(lane, ray, &hits);
         let hit = Hit { t: hits.t[lane], u, v, primitive, instance: owner.id };
-        if callback.add_smooth(hit, || smooth.leaves(leaf, lane, ray, hit.t), owner.transparent) {
+        if callback.add_smooth(hit, || leaf.leaves(lane, ray, hit.t), owner.transparent) {
             return true;
         }
     }

@@ -234,15 +234,15 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
     /// The step at a block of pieces of curves or of points.
     #[inline(always)]
     pub(crate) fn smooth<S: Simd>(&mut self, simd: S) -> usize {
-        let (smooth, leaf, ray) = (self.smooth, self.current.index(), self.rays[1]);
+        let (leaf, ray) = (self.smooth.leaf(self.current.index()), self.rays[1]);
         let mut hits = SmoothHits::default();
-        let mut mask = smooth.intersect(simd, leaf, &ray, self.callback.t_max(), &mut hits);
+        let mut mask = leaf.intersect(simd, &ray, self.callback.t_max(), &mut hits);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
-            let (primitive, u, v) = smooth.describe(leaf, lane, &ray, &hits);
+            let (primitive, u, v) = leaf.describe(lane, &ray, &hits);
             let hit = Hit { t: hits.t[lane], u, v, primitive, instance: self.instance };
-            self.ended = self.callback.add_smooth(hit, || smooth.leaves(leaf, lane, &ray, hit.t), self.transparent);
+            self.ended = self.callback.add_smooth(hit, || leaf.leaves(lane, &ray, hit.t), self.transparent);
             self.shorten();
             if self.ended {
                 return Kind::End as usize;

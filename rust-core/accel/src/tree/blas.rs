@@ -1,5 +1,6 @@
 //! The bottom-level acceleration structure (BLAS): the tree of one triangle mesh, or of curves or points.
 
+use super::moving_smooth::MovingSmooth;
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
 use crate::build::collapse::LeafMaker;
 use crate::build::division::Source;
@@ -28,6 +29,8 @@ pub struct Blas {
     pub(crate) smooth: Smooth,
     /// Of a mesh that deforms, as many blocks for each of `blocks` as it has keys.
     pub(crate) key_blocks: Vec<TriangleBlock>,
+    /// Of curves and points that move, what their leaves are put together from at a ray's time.
+    pub(crate) moving_smooth: Option<Box<MovingSmooth>>,
     /// Times at which the points are given, 0 for a mesh that stands still.
     pub(crate) keys: usize,
     /// Boxes that hold all triangles together, tighter than one: turned, they need less room. None for a tree without triangles.
@@ -104,14 +107,26 @@ impl Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
-        Ok(Blas { nodes, blocks, key_blocks: Vec::new(), keys: 0, smooth: Smooth::Nothing, outline, triangles: primitives, sah_cost })
+        Ok(Blas {
+            nodes,
+            blocks,
+            key_blocks: Vec::new(),
+            keys: 0,
+            smooth: Smooth::Nothing,
+            moving_smooth: None,
+            outline,
+            triangles: primitives,
+            sah_cost,
+        })
     }
 
     /// The bytes of the tree.
     pub fn memory(&self) -> BlasMemory {
         BlasMemory {
             nodes: self.nodes.capacity() * size_of::<Node>(),
-            blocks: (self.blocks.capacity() + self.key_blocks.capacity()) * size_of::<TriangleBlock>() + self.smooth.memory(),
+            blocks: (self.blocks.capacity() + self.key_blocks.capacity()) * size_of::<TriangleBlock>()
+                + self.smooth.memory()
+                + self.moving_smooth.as_ref().map_or(0, |moving| moving.memory()),
             triangles: self.triangles,
         }
     }

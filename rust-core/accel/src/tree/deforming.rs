@@ -21,7 +21,17 @@ impl Blas {
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
         let key_blocks = blocks.iter().flat_map(|block| keys.iter().map(|points| at_key(block, points, triangles))).collect();
-        Ok(Blas { nodes, blocks, key_blocks, keys: keys.len(), smooth: Smooth::Nothing, outline, triangles: primitives, sah_cost })
+        Ok(Blas {
+            nodes,
+            blocks,
+            key_blocks,
+            keys: keys.len(),
+            smooth: Smooth::Nothing,
+            moving_smooth: None,
+            outline,
+            triangles: primitives,
+            sah_cost,
+        })
     }
 
     /// Whether its triangles stand still.

@@ -5,6 +5,7 @@ pub(crate) mod deforming;
 pub(crate) mod instance;
 mod loose_lights;
 pub(crate) mod moving;
+pub(crate) mod moving_smooth;
 pub(crate) mod node;
 mod refit;
 pub(crate) mod smooth_tree;

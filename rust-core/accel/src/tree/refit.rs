@@ -40,6 +40,7 @@ impl Blas {
             key_blocks: Vec::new(),
             keys: 0,
             smooth: Smooth::Nothing,
+            moving_smooth: None,
             outline,
             triangles: self.triangles,
             sah_cost: self.sah_cost,

@@ -50,7 +50,7 @@ impl Blas {
         Ok(Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Spheres(leaves) } else { Smooth::Discs(leaves) }))
     }
 
-    fn smooth<L>(tree: WideTree<L>, leaves: impl FnOnce(Vec<L>) -> Smooth) -> Blas {
+    pub(super) fn smooth<L>(tree: WideTree<L>, leaves: impl FnOnce(Vec<L>) -> Smooth) -> Blas {
         let WideTree { nodes, leaves: blocks, bounds, primitives } = tree;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
@@ -58,6 +58,7 @@ impl Blas {
             nodes,
             blocks: Vec::new(),
             key_blocks: Vec::new(),
+            moving_smooth: None,
             keys: 0,
             smooth: leaves(blocks),
             outline,
@@ -82,9 +83,9 @@ fn extent(points: &[[f32; 4]]) -> Aabb {
     points.iter().step_by(step).filter_map(ball_box).fold(Aabb::empty(), |all, b| all.union(&b))
 }
 
-struct Pieces<'a> {
-    points: &'a [[f32; 4]],
-    pieces: &'a [u32],
+pub(super) struct Pieces<'a> {
+    pub(super) points: &'a [[f32; 4]],
+    pub(super) pieces: &'a [u32],
 }
 
 impl Pieces<'_> {
@@ -115,6 +116,20 @@ impl Source for Pieces<'_> {
     }
 }
 
+impl Pieces<'_> {
+    /// A piece's first point, and whether it is the first and the last one of its curve.
+    pub(super) fn place(&self, piece: u32) -> (usize, bool, bool) {
+        (self.first(piece), self.is(piece, FIRST_PIECE), self.is(piece, LAST_PIECE))
+    }
+
+    /// A piece with what its leaf needs of its neighbours.
+    fn segment(&self, piece: u32) -> Segment {
+        let first = self.first(piece);
+        let next = if self.is(piece, LAST_PIECE) { None } else { self.points.get(first + 2).copied() };
+        Segment { ends: [self.points[first], self.points[first + 1]], next, first: self.is(piece, FIRST_PIECE) }
+    }
+}
+
 impl LeafMaker for Pieces<'_> {
     type Leaf = SegmentBlock;
     const CAPACITY: u32 = 8;
@@ -124,17 +139,14 @@ impl LeafMaker for Pieces<'_> {
     fn leaf(&self, primitives: &[u32]) -> SegmentBlock {
         let mut block = SegmentBlock::EMPTY;
         for (lane, &piece) in primitives.iter().enumerate() {
-            let first = self.first(piece);
-            let next = if self.is(piece, LAST_PIECE) { None } else { self.points.get(first + 2).copied() };
-            let segment = Segment { ends: [self.points[first], self.points[first + 1]], next, first: self.is(piece, FIRST_PIECE) };
-            block.set(lane, &segment, piece);
+            block.set(lane, &self.segment(piece), piece);
         }
         block
     }
 }
 
-struct Balls<'a> {
-    points: &'a [[f32; 4]],
+pub(super) struct Balls<'a> {
+    pub(super) points: &'a [[f32; 4]],
 }
 
 impl Source for Balls<'_> {

@@ -41,7 +41,7 @@ pub(crate) fn strands() -> Scene {
         wrap: CurveWrap::Nonperiodic,
         shape: CurveShape::Round,
         widths,
-        primvars: Vec::new(),
+        ..Curves::default()
     };
     let curves = Geometry::Curves { curves: scene.add_curves(curves) };
     let material = scene.add_material(layered([0.2, 0.1, 0.05], &[]));

@@ -74,7 +74,7 @@ pub(crate) struct RenderOptions {
     /// Width of the pixel filter in pixels.
     #[arg(long = "filter-width", value_name = "PIXELS", default_value_t = 1.5)]
     pub(crate) filter_width: f32,
-    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, denoising_light, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct); shadow_catcher, ambient_occlusion, cost (seconds), instanceId, elementId; normal and position in the camera's space (Neye, Peye); cryptomatte_object, cryptomatte_material, cryptomatte_asset; primvars:NAME, lightgroup:NAME, and light path expressions such as lpe:C<RD>L.
+    /// Passes to write, separated by commas: color, alpha, depth, normal, P, albedo, primId, luminance, illuminance, uv, mist, emission, environment, object_index, material_index, sample_count, denoising_normal, denoising_albedo, denoising_light, and direct, indirect and color of diffuse, glossy and transmission (diffuse_direct); shadow_catcher, ambient_occlusion, cost (seconds), instanceId, elementId, motion (vectors in pixels, where nothing is blurred); normal and position in the camera's space (Neye, Peye); cryptomatte_object, cryptomatte_material, cryptomatte_asset; primvars:NAME, lightgroup:NAME, and light path expressions such as lpe:C<RD>L.
     #[arg(long, value_name = "PASSES", value_delimiter = ',')]
     pub(crate) aov: Vec<String>,
     /// Ranks of the cryptomattes: how many names of a pixel are told apart. Odd numbers are rounded up.

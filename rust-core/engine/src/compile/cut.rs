@@ -1,9 +1,10 @@
 //! Curves cut into straight pieces, and points, as the trees and the tables have them.
 
+use super::times::{blurs, shows_vectors};
 use crate::{
     error::Diagnostic,
     geometry::{FIRST_PIECE, LAST_PIECE},
-    scene::{CurveBasis, CurveWrap, Curves, Points, Primvar, PrimvarInterpolation, Scene},
+    scene::{CurveBasis, CurveWrap, Curves, Origin, PointKey, Points, Primvar, PrimvarInterpolation, Scene, point_key_problem},
 };
 use rayon::prelude::*;
 
@@ -12,6 +13,8 @@ use rayon::prelude::*;
 pub(super) struct Cut {
     /// Centres and radii, local units; a closed curve has copies of its ends beyond them.
     pub(super) points: Vec<[f32; 4]>,
+    /// The same at evenly spaced times over the shutter; none where they stand still.
+    pub(super) keys: Vec<Vec<[f32; 4]>>,
     /// Of each piece of a curve its first point, with the bits of its ends; none for points.
     pub(super) pieces: Vec<u32>,
     /// Where each point of curves lies.
@@ -38,9 +41,53 @@ pub(super) struct CurveStart {
 /// All curves and behind them all points of a scene.
 pub(super) fn cut_all(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Vec<Cut> {
     let mut cuts = Vec::with_capacity(scene.curves.len() + scene.points.len());
-    cuts.extend(scene.curves.iter().map(|curves| cut_curves(curves, diagnostics)));
-    cuts.extend(scene.points.iter().map(|points| cut_points(points, diagnostics)));
+    let has_times = blurs(&scene.settings) || shows_vectors(&scene.settings);
+    for curves in &scene.curves {
+        let mut cut = cut_curves(curves, diagnostics);
+        if has_times && moves(&curves.motion, curves.points.len(), &curves.origin, diagnostics) {
+            cut.keys = keys_of_curves(curves, &cut);
+        }
+        cuts.push(cut);
+    }
+    for points in &scene.points {
+        let mut cut = cut_points(points, diagnostics);
+        if has_times && moves(&points.motion, points.points.len(), &points.origin, diagnostics) {
+            cut.keys = points.motion.iter().map(|key| placed(&key.points, &cut)).collect();
+        }
+        cuts.push(cut);
+    }
     cuts
+}
+
+/// Whether keys can be used and differ; says why they cannot.
+fn moves(keys: &[PointKey], count: usize, origin: &Origin, diagnostics: &mut Vec<Diagnostic>) -> bool {
+    if let Some(problem) = point_key_problem(keys, count) {
+        diagnostics.push(Diagnostic::warning(origin, format!("{problem}; the shape of the frame stands still")));
+        return false;
+    }
+    keys.iter().any(|key| *key != keys[0])
+}
+
+/// Other centres with the radii of points.
+fn placed(points: &[[f32; 3]], cut: &Cut) -> Vec<[f32; 4]> {
+    points.iter().zip(&cut.points).map(|([x, y, z], [.., radius])| [*x, *y, *z, *radius]).collect()
+}
+
+/// Curves at their keys, cut where they are cut at the frame.
+fn keys_of_curves(curves: &Curves, cut: &Cut) -> Vec<Vec<[f32; 4]>> {
+    let starts = starts(curves);
+    let at = |points: &[[f32; 3]], place: &Place, radius: f32| {
+        let start = starts[place.curve as usize];
+        let mut sum = [0.0, 0.0, 0.0, radius];
+        for (point, weight) in weights(curves.basis, curves.wrap, start.count, place.span as usize, place.t) {
+            if weight != 0.0 {
+                (0..3).for_each(|k| sum[k] += weight * points[start.point + point][k]);
+            }
+        }
+        sum
+    };
+    let key = |key: &PointKey| cut.places.par_iter().zip(&cut.points).map(|(place, rest)| at(&key.points, place, rest[3])).collect();
+    curves.motion.iter().map(key).collect()
 }
 
 /// The control points of a span with their weights.
@@ -249,8 +296,8 @@ fn cut_points(points: &Points, diagnostics: &mut Vec<Diagnostic>) -> Cut {
             if matches!(points.widths.interpolation, PrimvarInterpolation::Vertex | PrimvarInterpolation::Varying) { i } else { 0 };
         0.5 * points.widths.values.get(place_of(&points.widths, element)).copied().unwrap_or(0.0)
     };
-    let placed = |(i, point): (usize, &[f32; 3])| [point[0], point[1], point[2], radius(i)];
-    let mut cut = Cut { points: points.points.par_iter().enumerate().map(placed).collect(), ..Cut::default() };
+    let with_radius = |(i, point): (usize, &[f32; 3])| [point[0], point[1], point[2], radius(i)];
+    let mut cut = Cut { points: points.points.par_iter().enumerate().map(with_radius).collect(), ..Cut::default() };
     report_sizes(&mut cut.points, &mut |message| diagnostics.push(Diagnostic::warning(&points.origin, message)));
     cut
 }

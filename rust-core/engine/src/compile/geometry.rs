@@ -41,7 +41,7 @@ pub(super) fn tables(
     motion::report_meshes(scene, diagnostics);
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     meshes.extend(smooth_tables::append(scene, cuts, names, &mut table, diagnostics)?);
-    motion::fill_keys(scene, &mut table);
+    motion::fill_keys(scene, cuts, &mut table);
     // Curves and points have one material.
     let slots: Vec<usize> = scene.meshes.iter().map(slots_of).chain(cuts.iter().map(|_| 1)).collect();
     let mut instances = Vec::new();

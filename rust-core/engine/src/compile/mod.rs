@@ -18,6 +18,7 @@ mod luminaires;
 mod materials;
 mod measured;
 mod motion;
+mod motion_vectors;
 mod numbers;
 mod openings;
 mod oversized;
@@ -31,6 +32,7 @@ mod smooth_tables;
 mod standard_passes;
 mod strand_materials;
 mod textures;
+mod times;
 mod trees;
 mod view;
 mod whitted;
@@ -138,6 +140,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let origin = bounds.rebase_origin();
     let mut geometry = geometry::tables(scene, &cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     motion::report_cameras(scene, &mut diagnostics);
+    motion_vectors::report(scene, &mut diagnostics);
+    let neighbours = motion_vectors::neighbours(scene, &cuts, &geometry, origin, &mut diagnostics);
     let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
     lights.linking.set_masks(&geometry.table, &mut geometry.instances);
     geometry.instances.extend(&lights.instances);
@@ -175,6 +179,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         bvh,
         first_light_instance: geometry.first_light,
         geometry: geometry.table,
+        neighbours,
         materials,
         textures: textures.table,
         lights: lights.table,

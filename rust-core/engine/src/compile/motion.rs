@@ -1,10 +1,14 @@
 //! What moves while the shutter is open: instances, cameras and lamps, from keys to the motions that kernels read.
 
+use super::{
+    cut::Cut,
+    times::{blurs, shows_vectors},
+};
 use crate::{
     accel::{MovingInstance, Tlas},
     error::Diagnostic,
     geometry::{GeometryTable, MeshKeys, NONE},
-    scene::{Camera, Instances, Integrator, Light, LightShape, Mesh, Origin, Scene, Settings, Shutter, Transform, key_problem},
+    scene::{Camera, Instances, Light, LightShape, Mesh, Origin, Scene, Settings, Shutter, Transform, key_problem},
     transport::{Rolling, Shutter as ShutterTable},
 };
 use gonio_simd::motion::{Interpolation, Motion, Rows};
@@ -15,11 +19,6 @@ const LAMP_PLACES: usize = 32;
 
 /// Steps of the inverse of a shutter's curve.
 const CURVE_STEPS: usize = 256;
-
-/// Whether settings blur what moves. Trees of rays have no noise, and no time.
-pub(super) fn blurs(settings: &Settings) -> bool {
-    settings.shutter.blur && settings.integrator != Integrator::Whitted
-}
 
 fn interpolation(shutter: &Shutter) -> Interpolation {
     if shutter.linear { Interpolation::Linear } else { Interpolation::Decomposed }
@@ -72,7 +71,7 @@ pub(super) fn deforms(mesh: &Mesh, settings: &Settings) -> bool {
 
 /// Says what keys of meshes cannot be used.
 pub(super) fn report_meshes(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) {
-    for mesh in scene.meshes.iter().filter(|_| blurs(&scene.settings)) {
+    for mesh in scene.meshes.iter().filter(|_| blurs(&scene.settings) || shows_vectors(&scene.settings)) {
         if let Some(problem) = mesh.key_problem() {
             diagnostics.push(Diagnostic::warning(&mesh.origin, format!("{problem}; its form is not blurred")));
         }
@@ -80,8 +79,9 @@ pub(super) fn report_meshes(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 /// Puts keys of meshes where surface points look for them.
-pub(super) fn fill_keys(scene: &Scene, table: &mut GeometryTable) {
-    if !scene.meshes.iter().any(|mesh| deforms(mesh, &scene.settings)) {
+pub(super) fn fill_keys(scene: &Scene, cuts: &[Cut], table: &mut GeometryTable) {
+    let bends = blurs(&scene.settings) && cuts.iter().any(|cut| !cut.keys.is_empty());
+    if !bends && !scene.meshes.iter().any(|mesh| deforms(mesh, &scene.settings)) {
         return;
     }
     for mesh in &scene.meshes {
@@ -99,8 +99,16 @@ pub(super) fn fill_keys(scene: &Scene, table: &mut GeometryTable) {
         }
         table.mesh_keys.push(keys);
     }
-    // Curves and points are numbered behind the meshes, and keep their shape.
-    table.mesh_keys.resize_with(scene.meshes.len() + scene.curves.len() + scene.points.len(), MeshKeys::default);
+    // Curves and points are numbered behind the meshes.
+    for cut in cuts {
+        let mut keys = MeshKeys::default();
+        if bends && !cut.keys.is_empty() {
+            keys.segments = cut.keys.len() as u32 - 1;
+            (keys.first_point, keys.points) = (table.key_points.len() as u32, 3 * cut.points.len() as u32);
+            cut.keys.iter().flatten().for_each(|point| table.key_points.extend_from_slice(&point[..3]));
+        }
+        table.mesh_keys.push(keys);
+    }
 }
 
 /// How a camera moves in the rebased world.

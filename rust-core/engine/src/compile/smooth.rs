@@ -1,6 +1,6 @@
 //! Trees of curves and points, kept from one compilation to the next.
 
-use super::{bounds::Bounds, cut::Cut};
+use super::{bounds::Bounds, cut::Cut, times};
 use crate::{
     accel::{Blas, Care, Seen},
     error::{Diagnostic, Error, Result},
@@ -47,35 +47,47 @@ impl Source {
 
 /// Trees of all curves and behind them all points; those that are the very same as before are kept.
 pub(super) fn build(scene: &Scene, cuts: &[Cut], previous: &[KeptSmooth], cancel: &AtomicBool) -> Result<Vec<KeptSmooth>> {
+    let blurs = times::blurs(&scene.settings);
     let care = Care::of_scene(cuts.iter().map(|cut| cut.pieces.len().max(cut.points.len())).sum());
     let mut built = Vec::with_capacity(cuts.len());
     for (curves, cut) in scene.curves.iter().zip(cuts) {
-        if let Some(kept) = previous.iter().find(|kept| kept.source.is_curves(curves)) {
+        let moves = blurs && !cut.keys.is_empty();
+        if !moves && let Some(kept) = previous.iter().find(|kept| kept.tree.is_still() && kept.source.is_curves(curves)) {
             built.push(kept.clone());
             continue;
         }
         let seen = if curves.shape == CurveShape::Round { Seen::Solid } else { Seen::Facing };
-        let tree = Blas::of_curves(&cut.points, &cut.pieces, seen, care, cancel).map_err(|_| Error::Cancelled)?;
+        let tree = match moves {
+            true => Blas::of_moving_curves(cut.keys.clone(), &cut.pieces, seen, care, cancel),
+            false => Blas::of_curves(&cut.points, &cut.pieces, seen, care, cancel),
+        };
+        let tree = tree.map_err(|_| Error::Cancelled)?;
         let source = Source::Curves(Curves { primvars: Vec::new(), ..curves.clone() });
-        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(&cut.points) });
+        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(cut, moves) });
     }
     for (points, cut) in scene.points.iter().zip(&cuts[scene.curves.len()..]) {
-        if let Some(kept) = previous.iter().find(|kept| kept.source.is_points(points)) {
+        let moves = blurs && !cut.keys.is_empty();
+        if !moves && let Some(kept) = previous.iter().find(|kept| kept.tree.is_still() && kept.source.is_points(points)) {
             built.push(kept.clone());
             continue;
         }
         let seen = if points.shape == PointShape::Sphere { Seen::Solid } else { Seen::Facing };
-        let tree = Blas::of_points(&cut.points, seen, care, cancel).map_err(|_| Error::Cancelled)?;
+        let tree = match moves {
+            true => Blas::of_moving_points(cut.keys.clone(), seen, care, cancel),
+            false => Blas::of_points(&cut.points, seen, care, cancel),
+        };
+        let tree = tree.map_err(|_| Error::Cancelled)?;
         let source = Source::Points(Points { primvars: Vec::new(), ..points.clone() });
-        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(&cut.points) });
+        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(cut, moves) });
     }
     Ok(built)
 }
 
-/// Bounds of spheres.
-fn bounds(points: &[[f32; 4]]) -> Bounds {
+/// Bounds of spheres, at all times where they move.
+fn bounds(cut: &Cut, moves: bool) -> Bounds {
     let mut bounds = Bounds::default();
-    for [x, y, z, radius] in points.iter().map(|point| point.map(f64::from)) {
+    let keys = if moves { cut.keys.as_slice() } else { &[] };
+    for [x, y, z, radius] in keys.iter().flatten().chain(&cut.points).map(|point| point.map(f64::from)) {
         bounds.extend([x - radius, y - radius, z - radius]);
         bounds.extend([x + radius, y + radius, z + radius]);
     }

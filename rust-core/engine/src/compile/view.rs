@@ -1,6 +1,6 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, light_groups, motion, samples, shader_passes};
+use super::{CompiledScene, light_groups, motion, motion_vectors, samples, shader_passes};
 use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
@@ -49,7 +49,8 @@ impl View {
         let table = camera_table(camera, settings, scene.tables.origin)?;
         let table = CameraTable { motion: motion::of_camera(camera, settings, scene.tables.origin), ..table };
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
-        let transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
+        let mut transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
+        transport.passes.motion = motion_vectors::cameras(camera, settings, |camera| camera_table(camera, settings, scene.tables.origin))?;
         let placement = match settings.antialiasing {
             Antialiasing::Grid(side) => Placement::Grid(side),
             _ => Placement::Filter(tabulate(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
@@ -83,6 +84,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
             shader: shader_passes::programs(&scene.tables.materials, settings),
             groups: light_groups::passes(&scene.tables.groups, settings),
             surface: [Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo].iter().any(|aov| settings.aovs.contains(aov)),
+            motion: None,
             uv: settings.aovs.contains(&Aov::Uv),
             mist: settings.aovs.contains(&Aov::Mist).then_some(Mist {
                 start: settings.mist.start,

@@ -74,8 +74,16 @@ impl ChannelLayout {
 
 /// How many sums a pixel a pass is kept as.
 pub(super) fn summed_channels(aov: Aov) -> usize {
-    if matches!(aov, Aov::Cryptomatte(..) | Aov::ShadowCatcher) { 0 } else { channel_names(aov).len() }
+    match aov {
+        Aov::Cryptomatte(..) | Aov::ShadowCatcher => 0,
+        // And how much of the pixel they are means over.
+        Aov::Motion => MOTION_CHANNELS + 1,
+        _ => channel_names(aov).len(),
+    }
 }
+
+/// Channels of motion vectors.
+pub(super) const MOTION_CHANNELS: usize = 4;
 
 /// The channels of a pass.
 pub fn channel_names(aov: Aov) -> &'static [&'static str] {
@@ -87,6 +95,7 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
         Aov::Depth => &["Z"],
         Aov::Normal | Aov::P | Aov::DenoisingNormal => &["X", "Y", "Z"],
         Aov::Uv => &["U", "V", "A"],
+        Aov::Motion => &["X", "Y", "Z", "W"],
         Aov::Albedo
         | Aov::DenoisingAlbedo
         | Aov::DenoisingLight

@@ -1,7 +1,7 @@
 //! From sums to an image.
 
 use super::splats::SplatFilm;
-use super::{Film, ZONES, catcher, channel_names, divisor, is_index, zone_of};
+use super::{Film, ZONES, catcher, channel_names, channels::MOTION_CHANNELS, divisor, is_index, zone_of};
 use crate::{
     camera::sampler::{BATCH, TILE, tile_code, tile_place},
     colour::luminance,
@@ -182,6 +182,8 @@ impl Film {
             (_, Some(divisor)) => part.fill(|channel, code| share(sum(channel, code), tile.sums[(divisor + channel) * BATCH + code])),
             // Ids are kept one higher, so that nothing met is −1; indices of hosts start at 0 for nothing.
             (Aov::ShadowCatcher, _) => part.fill(|_, _| 1.0),
+            // Of what moves alone: the background takes nothing off.
+            (Aov::Motion, _) => part.fill(|channel, code| share(sum(channel, code), sum(MOTION_CHANNELS, code))),
             // Blocks bring their seconds; pixels' own, which are not means.
             (Aov::Cost, _) => part.fill(sum),
             (Aov::PrimId | Aov::InstanceId | Aov::ElementId, _) => part.fill(|channel, code| sum(channel, code) - 1.0),

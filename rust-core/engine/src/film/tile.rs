@@ -256,6 +256,11 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
         Aov::DenoisingAlbedo => copy3(channels, &gathered.guides[0]),
         Aov::DenoisingNormal => copy3(channels, &gathered.guides[1]),
         Aov::Uv => copy3(channels, &gathered.uv),
+        Aov::Motion => {
+            for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.motion) {
+                out.copy_from_slice(&column[..BATCH]);
+            }
+        }
         Aov::Shader(..) => {
             for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.shader.columns[layout.shader_column(aov)..]) {
                 out.copy_from_slice(&column[..BATCH]);

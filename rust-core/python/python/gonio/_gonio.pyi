@@ -595,6 +595,7 @@ class Scene:
         basis: str = "bezier",
         wrap: str = "nonperiodic",
         shape: str = "round",
+        motion: Buffer | None = None,
         primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
         name: str = "curves",
         index: int | None = None,
@@ -606,6 +607,7 @@ class Scene:
         *,
         normals: Buffer | None = None,
         shape: str = "sphere",
+        motion: Buffer | None = None,
         primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
         name: str = "points",
         index: int | None = None,
@@ -804,6 +806,7 @@ def load_usd(
     complexity: str = "high",
     camera_light: bool = True,
     strict: bool = False,
+    motion_vectors: bool = False,
 ) -> PublicScene: ...
 def _files_of_stage(path: str | PathLike[str]) -> list[str]: ...
 def _scene(arguments: Sequence[str], folder: str | PathLike[str], frame: float | None) -> PublicScene: ...

@@ -68,11 +68,14 @@ class Scene(_gonio.Scene):
         basis: str = "bezier",
         wrap: str = "nonperiodic",
         shape: str = "round",
+        motion: Buffer | None = None,
         primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
         name: str = "curves",
     ) -> int:
         """Adds curves; gives their number. The arguments are those of `put_curves`."""
-        return self.put_curves(points, counts, widths, type=type, basis=basis, wrap=wrap, shape=shape, primvars=primvars, name=name)
+        return self.put_curves(
+            points, counts, widths, type=type, basis=basis, wrap=wrap, shape=shape, motion=motion, primvars=primvars, name=name
+        )
 
     def add_points(
         self,
@@ -81,11 +84,12 @@ class Scene(_gonio.Scene):
         *,
         normals: Buffer | None = None,
         shape: str = "sphere",
+        motion: Buffer | None = None,
         primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
         name: str = "points",
     ) -> int:
         """Adds points; gives their number. The arguments are those of `put_points`."""
-        return self.put_points(points, widths, normals=normals, shape=shape, primvars=primvars, name=name)
+        return self.put_points(points, widths, normals=normals, shape=shape, motion=motion, primvars=primvars, name=name)
 
     def add_instance(
         self,

@@ -19,6 +19,8 @@ pub(crate) struct FirstSurface<L: Lanes> {
     pub(crate) numbers: Option<[U<L>; 5]>,
     pub(crate) clearness: Option<F<L>>,
     pub(crate) uv: Option<[F<L>; 2]>,
+    /// Motion vectors, see [`crate::tables::motion_vectors`].
+    pub(crate) motion: Option<[F<L>; 4]>,
     /// Albedos of the kinds of scattering.
     pub(crate) kinds: Option<[Spectrum<L>; 3]>,
 }
@@ -52,6 +54,13 @@ impl TileSums {
         }
         if let Some([u, v]) = surface.uv {
             add_rgb(&mut self.uv, slot, Rgb::new(u, v, l.f(1.0)) * share, chosen);
+        }
+        if let Some(vectors) = surface.motion {
+            let [ways @ .., weight] = &mut self.motion;
+            for (column, way) in ways.iter_mut().zip(vectors) {
+                add(column, slot, way * share, chosen);
+            }
+            add(weight, slot, share, chosen);
         }
         if let Some(kinds) = surface.kinds {
             for (kind, albedo) in kinds.into_iter().enumerate() {

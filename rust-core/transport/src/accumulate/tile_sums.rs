@@ -39,6 +39,8 @@ pub struct TileSums {
     pub material_index: Column<u32>,
     /// Texture coordinates.
     pub uv: Columns3,
+    /// Motion vectors, and the weight that they are divided by.
+    pub motion: [Column; 5],
     /// Mist pass: the share of light that the mist lets through.
     pub clearness: Column,
     /// Number of camera rays, for pixels whose number is not that of the block's samples.
@@ -75,6 +77,7 @@ impl Default for TileSums {
             object_index: Column::new(BATCH),
             material_index: Column::new(BATCH),
             uv: Columns3::default(),
+            motion: Default::default(),
             clearness: Column::new(BATCH),
             rays: Column::new(BATCH),
             specular: Columns3::default(),
@@ -106,6 +109,10 @@ impl TileSums {
             if columns[0].len() != room {
                 *columns = columns3(room);
             }
+        }
+        let room = if passes.motion.is_some() { BATCH } else { 0 };
+        if self.motion[0].len() != room {
+            self.motion = std::array::from_fn(|_| Column::new(room));
         }
     }
 
@@ -148,6 +155,7 @@ impl TileSums {
             .chain(&mut self.guides)
             .flatten()
             .chain(ones)
+            .chain(&mut self.motion)
             .chain(&mut self.shader.columns)
             .chain(self.catchers.columns())
             .for_each(|column| column.fill(0.0));

@@ -47,8 +47,13 @@ impl GeometryTable {
     /// A corner of the triangles where some meshes change their form, `still` being that of the others.
     #[inline(always)]
     pub(super) fn moved_point<L: Lanes>(&self, l: L, hit: &HitLanes<L>, corner: usize, still: Vec3<L>) -> Vec3<L> {
-        let place = hit.points[corner] - hit.first_point;
-        self.between_keys(l, hit, place * 3, still, false)
+        self.moved_place(l, hit, hit.points[corner], still)
+    }
+
+    /// A point of the hits' geometry by its number over all geometry, `still` being where it is if nothing moves.
+    #[inline(always)]
+    pub(super) fn moved_place<L: Lanes>(&self, l: L, hit: &HitLanes<L>, number: U<L>, still: Vec3<L>) -> Vec3<L> {
+        self.between_keys(l, hit, (number - hit.first_point) * 3, still, false)
     }
 
     /// The same for a normal whose number is at a place of the mesh's own.

@@ -189,6 +189,13 @@ impl GeometryTable {
         }
     }
 
+    /// A point by its number over all geometry, at the hits' times.
+    #[inline(always)]
+    fn place<L: Lanes>(&self, l: L, hit: &HitLanes<L>, number: U<L>) -> Vec3<L> {
+        let still = Vec3::gather(l, &self.points, number * 3);
+        if self.mesh_keys.is_empty() { still } else { self.moved_place(l, hit, number, still) }
+    }
+
     /// Ends, frames and tangents of pieces at the hits' shares.
     #[inline(always)]
     fn axis<L: Lanes>(&self, l: L, hit: &HitLanes<L>, smooth: M<L>) -> Axis<L> {
@@ -200,8 +207,8 @@ impl GeometryTable {
         let [first, last] = [(hit.smooth.piece & FIRST_PIECE).ne(0), (hit.smooth.piece & LAST_PIECE).ne(0)];
         let before = hit.points[0] - l.u(1).keep_if(curve.and_not(first));
         let after = hit.points[1] + l.u(1).keep_if(curve.and_not(last));
-        let starts = (end - Vec3::gather(l, &self.points, before * 3)).normalize_or(unit);
-        let ends = (Vec3::gather(l, &self.points, after * 3) - start).normalize_or(unit);
+        let starts = (end - self.place(l, hit, before)).normalize_or(unit);
+        let ends = (self.place(l, hit, after) - start).normalize_or(unit);
         Axis {
             centre: axis.mul_add(hit.u, start),
             radius: radius.lerp(end_radius, hit.u),

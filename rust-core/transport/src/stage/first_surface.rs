@@ -8,10 +8,11 @@ use crate::state::chunk::ChunkContext;
 use crate::state::flag;
 use crate::state::vertex::Vertex;
 use crate::tables::material::SurfaceMaterial;
+use crate::tables::motion_vectors::Moved;
 use crate::tables::transport::Mist;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::pixel;
-use gonio_simd::{F, Lanes, M, U, Vec3};
+use gonio_simd::{F, Lanes, M, PADDING, U, Vec3};
 
 /// Leaves out what the camera sees of holdouts: paths end there without light or coverage.
 #[inline(always)]
@@ -61,6 +62,7 @@ pub(crate) fn add_first_surface<L: Lanes>(
             None => None,
         },
         uv: if transport.passes.uv { Some(texture_coordinates(chunk, material, point, at)) } else { None },
+        motion: motion_vectors(chunk, point, seen, at),
         kinds: if deposits.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
     };
     deposits.sums.add_first_surface(l, &surface, seen);
@@ -82,6 +84,39 @@ fn look<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, lobes: &Lobes<
         position: point.at.position,
         albedo: lobes.albedo(),
     }
+}
+
+/// Motion vectors of the chosen lanes, where a pass shows them.
+#[inline(always)]
+fn motion_vectors<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chosen: M<L>, at: usize) -> Option<[F<L>; 4]> {
+    let ChunkContext { l, tables, transport, columns, .. } = *chunk;
+    let (Some(cameras), Some(frames)) = (&transport.passes.motion, &tables.neighbours) else { return None };
+    let barycentric = &columns.surface.barycentric;
+    let primitive = l.load_integers(&columns.surface.primitive, at);
+    let hit = tables.geometry.hit_lanes(l, point.instance, primitive, l.load(&barycentric[0], at), l.load(&barycentric[1], at));
+    let (instances, geometries) = (hit.instance.to_array(), hit.mesh.to_array());
+    let [a, b, c] = hit.points;
+    let points = [(a - hit.first_point).to_array(), (b - hit.first_point).to_array(), (c - hit.first_point).to_array()];
+    let weights = [(l.f(1.0) - hit.u - hit.v).to_array(), hit.u.to_array(), hit.v.to_array()];
+    let Vec3 { x, y, z } = point.at.position;
+    let position = [x.to_array(), y.to_array(), z.to_array()];
+    let mut vectors = [[0.0; PADDING]; 4];
+    let mut bits = chosen.bits();
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize;
+        let hit = Moved {
+            instance: instances[lane],
+            geometry: geometries[lane],
+            points: [points[0][lane], points[1][lane], points[2][lane]],
+            weights: [weights[0][lane], weights[1][lane], weights[2][lane]],
+            position: [position[0][lane], position[1][lane], position[2][lane]],
+        };
+        for (column, value) in vectors.iter_mut().zip(frames.vectors(cameras, &hit)) {
+            column[lane] = value;
+        }
+        bits &= bits - 1;
+    }
+    Some([l.load(&vectors[0], 0), l.load(&vectors[1], 0), l.load(&vectors[2], 0), l.load(&vectors[3], 0)])
 }
 
 /// The instance set, the pass indices of the instance and of the material, the instance's number in its set, and the triangle.

@@ -4,6 +4,7 @@ pub(crate) mod light_groups;
 pub(crate) mod links;
 pub(crate) mod material;
 pub(crate) mod matte_names;
+pub(crate) mod motion_vectors;
 pub(crate) mod photons;
 pub mod ray_mask;
 pub(crate) mod shader_passes;
@@ -18,6 +19,7 @@ use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
 use material::MaterialTable;
 use matte_names::MatteNames;
+use motion_vectors::NeighbourFrames;
 use std::sync::Arc;
 
 /// The tables of a compiled scene.
@@ -27,6 +29,8 @@ pub struct Tables {
     pub bvh: Tlas,
     /// Meshes and instances.
     pub geometry: GeometryTable,
+    /// Where meshes and instances were at the frame before and will be at the next, for the pass of motion vectors.
+    pub neighbours: Option<NeighbourFrames>,
     /// Materials.
     pub materials: MaterialTable,
     /// Images.

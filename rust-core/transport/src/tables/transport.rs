@@ -3,6 +3,7 @@
 use super::shutter::Shutter;
 use crate::state::flag;
 use crate::tables::light_groups::GroupPasses;
+use crate::tables::motion_vectors::MotionCameras;
 use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
@@ -135,6 +136,8 @@ pub struct Passes {
     pub surface: bool,
     /// Texture coordinates.
     pub uv: bool,
+    /// The camera at the frames that motion vectors go between.
+    pub motion: Option<Arc<MotionCameras>>,
     /// Start, depth and falloff of the mist.
     pub mist: Option<Mist>,
     /// Albedo and normal for denoisers.
