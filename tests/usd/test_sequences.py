@@ -1,6 +1,8 @@
 """Frames of an animation: each is the picture that it is alone, whatever was rendered before it; what time does not change is kept."""
 
+import pathlib
 import re
+import subprocess
 
 import numpy as np
 import pictures
@@ -234,26 +236,21 @@ def test_a_frame_that_fails_does_not_end_the_sequence(run, tmp_path):
 
 def resident(process):
     """Bytes of memory of a process and of those below it that are resident."""
-    total = 0
-    for pid in (process, *map(int, open(f"/proc/{process}/task/{process}/children").read().split())):
-        total += int(re.search(r"VmRSS:\s+(\d+)", open(f"/proc/{pid}/status").read()).group(1)) * 1024
-    return total
+    folder = pathlib.Path("/proc")
+    below = (folder / f"{process}/task/{process}/children").read_text().split()
+    status = ((folder / str(pid) / "status").read_text() for pid in (process, *below))
+    return sum(int(re.search(r"VmRSS:\s+(\d+)", text).group(1)) * 1024 for text in status)
 
 
 @pytest.mark.validate
 @pytest.mark.timeout(1800)
 def test_a_thousand_frames_leak_nothing(command, tmp_path):
     """From the hundredth frame on the memory stays within a few megabytes; the stage moves all the time."""
-    import subprocess
-
     stage = bent(tmp_path, blurred=True)
     line = [*command, "render", str(stage), "--frames", "1:1000", "-o", str(tmp_path / "####.png"), "--res", "8", "8", "--spp", "1", "-j", "1"]
-    process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    sizes = []
-    for printed in process.stdout:
-        if printed.strip().endswith(".png"):
-            sizes.append(resident(process.pid))
-    assert process.wait() == 0 and len(sizes) == 1000
+    with subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+        sizes = [resident(process.pid) for printed in process.stdout if printed.strip().endswith(".png")]
+    assert process.returncode == 0 and len(sizes) == 1000
     print(f"frame 100: {sizes[99] / 1e6:.1f} MB, 500: {sizes[499] / 1e6:.1f} MB, 1000: {sizes[-1] / 1e6:.1f} MB")
     middle, last = np.median(sizes[100:200]), np.median(sizes[900:])
     assert last - middle < 6e6, (middle, last)

@@ -12,13 +12,21 @@ use gonio::scene::{Geometry, Mesh, MeshId, Primvar};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
+/// A mesh of the scene with what a walk asks of its prim.
+struct FoundMesh<'py> {
+    mesh: MeshId,
+    slot_prims: Vec<Prim<'py>>,
+    has_opacity: bool,
+    is_light: bool,
+}
+
 /// What reads a mesh from a prim, with a message where it cannot.
 pub(super) type Reader<'py> = fn(&mut Context<'_, 'py>, &Prim<'py>) -> Option<mesh::ReadMesh<'py>>;
 
 impl<'py> Walker<'_, '_, 'py> {
     /// Adds a mesh, or what becomes one; `read` reads it.
     pub(super) fn mesh(&mut self, prim: &Prim<'py>, read: Reader<'py>, branch: &Branch, model: &mut Model) -> Result<()> {
-        let Some((mesh, slot_prims, has_opacity, is_light)) = self.mesh_of(prim, read)? else { return Ok(()) };
+        let Some(FoundMesh { mesh, slot_prims, has_opacity, is_light }) = self.mesh_of(prim, read)? else { return Ok(()) };
         let paths = slot_prims.iter().map(Prim::path).collect();
         let shape = Shape { geometry: mesh.into(), slots: Rc::default(), slot_prims: paths, has_opacity, is_light };
         if meter::is_measured(prim) {
@@ -30,13 +38,14 @@ impl<'py> Walker<'_, '_, 'py> {
         Ok(())
     }
 
-    /// The mesh of a prim, the prims of its slots, whether it has displayOpacity, and whether it is a light; as it was where time does not change it.
-    fn mesh_of(&mut self, prim: &Prim<'py>, read: Reader<'py>) -> Result<Option<(MeshId, Vec<Prim<'py>>, bool, bool)>> {
+    /// The mesh of a prim, as it was where time does not change it.
+    fn mesh_of(&mut self, prim: &Prim<'py>, read: Reader<'py>) -> Result<Option<FoundMesh<'py>>> {
         if let Some(KeptShape::Mesh(mesh, MeshParts { subsets, has_opacity, is_light })) = prim.known().still_shape(prim) {
             let subsets = subsets.iter().map(|subset| subset.prim(self.context.py));
             let slot_prims = std::iter::once(prim.clone()).chain(subsets).collect();
             self.context.kept.shapes += 1;
-            return Ok(Some((self.context.scene.add_mesh(mesh.clone()), slot_prims, *has_opacity, *is_light)));
+            let mesh = self.context.scene.add_mesh(mesh.clone());
+            return Ok(Some(FoundMesh { mesh, slot_prims, has_opacity: *has_opacity, is_light: *is_light }));
         }
         let told = self.context.told();
         let Some(mesh::ReadMesh { source, slot_prims }) = read(self.context, prim) else { return Ok(None) };
@@ -48,7 +57,7 @@ impl<'py> Walker<'_, '_, 'py> {
             let subsets = slot_prims.iter().skip(1).map(KeptPrim::of).collect();
             self.to_keep.insert(mesh, (prim.known().clone(), MeshParts { subsets, has_opacity, is_light }));
         }
-        Ok(Some((mesh, slot_prims, has_opacity, is_light)))
+        Ok(Some(FoundMesh { mesh, slot_prims, has_opacity, is_light }))
     }
 
     /// Adds what is drawn in the place of a model.
