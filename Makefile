@@ -1,5 +1,6 @@
 # What a newcomer runs: `make render`, `make test`. What takes longer: `make validate`, `make validation`, `make compare-cycles`, `make same-bits`,
-# `make bench`, `make bench-peers`, `make bench-caustics`. `make docs` writes the site of the documentation. Other systems: `make cross-check`.
+# `make bench`, `make bench-peers`, `make bench-caustics`. `make docs` writes the site of the documentation. Other systems: `make cross-check`,
+# `make arm`, `make wheels`.
 
 PYTHON ?= python3.11
 VENV := $(CURDIR)/.venv
@@ -12,7 +13,7 @@ BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
 FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured
 
-.PHONY: fuzz build dev render extension blender cross-check lint-workflows test test-levels test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
+.PHONY: fuzz build dev render extension blender cross-check arm wheels lint-workflows test test-levels test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
 
 # The Python environment with everything that building and testing wants.
 $(VENV)/ready: pyproject.toml
@@ -69,6 +70,14 @@ lint:
 # for them where there is none.
 cross-check:
 	tests/cross/check.sh $(SYSTEMS)
+
+# The NEON level in an emulator: tests of lanes and of traversal, and a picture beside the one of this machine, in out/arm.
+arm: build
+	GONIO_PYTHON=$(BIN)/python tests/cross/arm.sh
+
+# Wheels and extension zips for every system, in dist/wheels and dist, and what is in them; SYSTEMS as above, and linux-x64.
+wheels:
+	tests/cross/wheels.sh $(SYSTEMS)
 
 # The workflows of the hosted CI: their form, and what could be misused in them.
 lint-workflows: $(VENV)/ready

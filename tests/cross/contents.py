@@ -20,7 +20,7 @@ import lief
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "blender-addon"))
-from build import platform_of  # noqa: E402
+from build import platform_of
 
 INIT = "PyInit__gonio"
 # Megabytes of the module, unpacked: the levels of x86 are three more than ARM's one.
@@ -30,8 +30,26 @@ LINUX = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"
 LINUX_LOADERS = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 APPLE = {"/usr/lib/libSystem.B.dylib", "/usr/lib/libiconv.2.dylib", "/usr/lib/libcharset.1.dylib"}
 WINDOWS = {
-    "python3.dll", "kernel32.dll", "kernelbase.dll", "ntdll.dll", "msvcrt.dll", "ucrtbase.dll", "vcruntime140.dll", "vcruntime140_1.dll",
-    "bcryptprimitives.dll", "bcrypt.dll", "advapi32.dll", "userenv.dll", "ws2_32.dll", "ole32.dll", "shell32.dll", "user32.dll", "dbghelp.dll",
+    f"{name}.dll"
+    for name in [
+        "python3",
+        "kernel32",
+        "kernelbase",
+        "ntdll",
+        "msvcrt",
+        "ucrtbase",
+        "vcruntime140",
+        "vcruntime140_1",
+        "bcryptprimitives",
+        "bcrypt",
+        "advapi32",
+        "userenv",
+        "ws2_32",
+        "ole32",
+        "shell32",
+        "user32",
+        "dbghelp",
+    ]
 }
 WINDOWS_SETS = re.compile(r"api-ms-win-[a-z0-9-]+\.dll")
 

@@ -54,6 +54,10 @@ cross() {
         llvm=$(apt-cache show "$library=$version" | grep -o -m 1 'libllvm[0-9]*')
         unpack "rustc-web=$version" "libstd-rust-web-dev=$version" "rust-web-src=$version" "$library=$version" "$llvm"
     fi
+    # The standard library of Windows names what it takes from the system by itself, for which the compiler calls this tool.
+    case $target in
+        *-windows-gnu) unpack binutils-mingw-w64-x86-64 && PATH=$PATH:$tools/usr/bin ;;
+    esac
     local libraries
     libraries=$(dirname "$(find "$tools/usr/lib" -name 'librustc_driver*' | head -n 1)")
     # That compiler brings no tool that strips.
