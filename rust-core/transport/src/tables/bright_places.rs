@@ -122,14 +122,14 @@ mod tests {
 
     #[test]
     fn both_sides_know_the_same_share() {
-        let mut flux = DirectFlux::new(2.0);
+        let mut flux = DirectFlux::new(20.0);
         for number in 0..4000 {
             let x = (number % 63) as f32 * 0.05 - 1.5;
             flux.add([x, 0.0, (number / 63) as f32 * 0.05 - 1.5], 1.0);
         }
         let spot = [0.3, 0.2, -0.7];
         (0..4000).for_each(|_| flux.add(spot, 1.0));
-        let places = flux.bright_places(1.0 / 8000.0, 50.0);
+        let places = flux.bright_places(1.0 / 8000.0, 20.0);
         dispatch!(Execution::best(), l => {
             let at = |p: [f32; 3]| places.carried_on(Vec3::splat(l, p), l.m(true)).to_array()[0];
             assert!(at(spot) > 0.99 && at([0.301, 0.2001, -0.701]) > 0.99);
