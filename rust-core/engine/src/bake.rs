@@ -52,7 +52,10 @@ pub fn bake(scene: &Scene, compiled: Arc<CompiledScene>, target: &BakeTarget, se
         tile_range: None,
         noise_threshold: 0.0,
         antialiasing: Antialiasing::Sampled,
-        integrator: if settings.integrator == Integrator::Whitted { Integrator::Path } else { settings.integrator },
+        integrator: match settings.integrator {
+            Integrator::Whitted | Integrator::Light => Integrator::Path,
+            integrator => integrator,
+        },
         ..settings.clone()
     };
     window(&settings)?;

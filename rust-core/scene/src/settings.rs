@@ -40,11 +40,15 @@ pub enum Integrator {
     /// Direct light of every light by fixed samples, and all that is mirrored and refracted sharply: without noise, without light from
     /// surface to surface (Whitted 1980).
     Whitted,
+    /// Paths from the lights alone (light tracing): what surfaces send straight to the camera. Lights are seen, also in mirrors and through clear glass,
+    /// where nothing else is.
+    Light,
 }
 
 impl Integrator {
     /// All of them with their names.
-    pub const NAMES: [(Self, &'static str); 3] = [(Self::Path, "path"), (Self::Direct, "direct"), (Self::Whitted, "whitted")];
+    pub const NAMES: [(Self, &'static str); 4] =
+        [(Self::Path, "path"), (Self::Direct, "direct"), (Self::Whitted, "whitted"), (Self::Light, "light")];
 }
 
 /// Whether light paths bring the light that comes by mirrors and smooth glass to surfaces that the camera sees.

@@ -38,6 +38,7 @@ pub use state::rays::Rays;
 pub use state::workspace::Workspace;
 pub use state::workspaces::Workspaces;
 pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
+pub use tables::bright_places::{BrightPlaces, DirectFlux};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};

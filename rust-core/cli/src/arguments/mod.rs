@@ -153,6 +153,8 @@ pub(super) enum IntegratorArgument {
     Direct,
     /// Direct light without noise, mirrors and clear glass; --max-bounces is their depth.
     Whitted,
+    /// Light tracing: paths from the lamps alone. In mirrors and through clear glass lamps are seen, and nothing else.
+    Light,
 }
 
 impl From<IntegratorArgument> for Integrator {
@@ -161,6 +163,7 @@ impl From<IntegratorArgument> for Integrator {
             IntegratorArgument::Path => Self::Path,
             IntegratorArgument::Direct => Self::Direct,
             IntegratorArgument::Whitted => Self::Whitted,
+            IntegratorArgument::Light => Self::Light,
         }
     }
 }

@@ -56,7 +56,7 @@ pub(crate) struct RenderOptions {
     /// Bounces after the first surface.
     #[arg(long = "max-bounces", value_name = "COUNT")]
     pub(crate) max_bounces: Option<u32>,
-    /// The light transport: full global illumination, direct light alone, or direct light without noise with mirrors and clear glass.
+    /// The light transport: full global illumination, direct light alone, direct light without noise with mirrors and clear glass, or paths from the lamps alone.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
     /// Light paths from the lamps bring what mirrors and clear glass throw onto surfaces that the camera sees: where a lamp stands within something that refracts, always, or never.

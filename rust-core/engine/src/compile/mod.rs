@@ -10,6 +10,7 @@ mod geometry;
 mod goniograms;
 mod instances;
 mod kept;
+mod light_alone;
 mod light_groups;
 mod light_images;
 mod lights;
@@ -170,6 +171,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let emits = |number: usize| materials.even_emission(materials.number(number)).is_some();
     smooth::report_emission(scene, emits, &mut diagnostics);
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
+    light_alone::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
     casters::report(scene, &casters, &mut diagnostics);
     lights.linking.report(scene, [casters.enclosing.is_some(), !casters.targets.is_empty()], &mut diagnostics);

@@ -30,7 +30,7 @@ pub use zones::{ZONE, ZONES, zone_of};
 
 use crate::{
     camera::sampler::TILE,
-    scene::{Crop, Manifests, Settings},
+    scene::{Crop, Integrator, Manifests, Settings},
 };
 use std::{
     ops::Range,
@@ -57,6 +57,8 @@ pub struct Film {
     tiles: Vec<Mutex<TileFilm>>,
     /// What light paths bring, where some are traced. Locked before a tile.
     splats: Option<Mutex<SplatFilm>>,
+    /// Classes of light that they bring.
+    brought: u8,
     /// The names in its mattes.
     manifests: Arc<Manifests>,
     columns: u32,
@@ -82,6 +84,7 @@ impl Film {
             plan,
             tiles: Vec::new(),
             splats: None,
+            brought: if settings.integrator == Integrator::Light { splats::SCATTERED } else { splats::INDIRECT },
             manifests: Arc::default(),
             columns,
         };
@@ -101,7 +104,7 @@ impl Film {
 
     /// Makes room for what light paths bring; `power` is that of their lights.
     pub(crate) fn with_splats(mut self, power: Option<f64>) -> Self {
-        self.splats = power.map(|power| Mutex::new(SplatFilm::new(&self.layout, self.window, power)));
+        self.splats = power.map(|power| Mutex::new(SplatFilm::new(&self.layout, self.window, self.brought, power)));
         self
     }
 

@@ -18,13 +18,15 @@ const MOST: f64 = (1_u64 << 52) as f64;
 enum Share {
     /// All of it.
     Radiance,
-    /// What the first surface's lobes of a kind scatter.
-    Kind(ScatteringKind),
+    /// Classes of light, as [`crate::scene::LightPath::Classes`] has them: what the first surface's lobes of some kinds scatter.
+    Classes(u8),
     /// What the lights of a group send.
     Group(u16),
-    /// What the lobes of some kinds scatter: a bit for each.
-    Kinds(u8),
 }
+
+/// The classes of light that is indirect, and of all that surfaces scatter.
+pub(super) const INDIRECT: u8 = 0b11_1000;
+pub(super) const SCATTERED: u8 = 0b11_1111;
 
 /// What is summed, and in which units.
 #[derive(Clone, Debug)]
@@ -40,6 +42,8 @@ pub(crate) struct SplatLayout {
 #[derive(Clone, Debug)]
 pub(crate) struct SplatFilm {
     layout: SplatLayout,
+    /// Classes of light that light paths bring.
+    brought: u8,
     /// Light paths so far.
     paths: u64,
     /// By part, channel and pixel.
@@ -73,11 +77,13 @@ pub(crate) struct SplatBlock {
 }
 
 impl SplatLayout {
-    /// The splats of a block in fixed point. `limit` is the most that one may bring to its pixel as a sample's part, 0 for any.
-    pub(crate) fn block(&self, splats: &[Splat], paths: u64, groups: &GroupPasses, limit: f32) -> SplatBlock {
+    /// The splats of a block in fixed point. `limits` are the most that one may bring to its pixel as a sample's part, straight from a light and
+    /// otherwise; 0 for any.
+    pub(crate) fn block(&self, splats: &[Splat], paths: u64, groups: &GroupPasses, limits: [f32; 2]) -> SplatBlock {
         let mut block = SplatBlock { paths, ..SplatBlock::default() };
-        let most = f64::from(limit) * (self.size[0] * self.size[1]) as f64;
         for splat in splats {
+            let limit = limits[usize::from(!splat.direct)];
+            let most = f64::from(limit) * (self.size[0] * self.size[1]) as f64;
             let value = splat.value.map(f64::from);
             let mean = value.iter().sum::<f64>() / 3.0;
             let clamp = if limit > 0.0 && mean > most { most / mean } else { 1.0 };
@@ -86,8 +92,8 @@ impl SplatLayout {
                 for (channel, value) in value.iter().enumerate() {
                     let share = match part {
                         Share::Radiance => 1.0,
-                        Share::Kind(kind) => kind_share(splat, *kind, channel),
-                        Share::Kinds(kinds) => {
+                        Share::Classes(classes) => {
+                            let kinds = if splat.direct { *classes } else { classes >> 3 };
                             let asked = KINDS.iter().filter(|kind| kinds >> **kind as u8 & 1 == 1);
                             asked.map(|kind| kind_share(splat, *kind, channel)).sum()
                         }
@@ -102,24 +108,19 @@ impl SplatLayout {
 }
 
 impl SplatFilm {
-    /// Empty sums for the passes of a film; `power` is that of the lights whose paths bring light.
-    pub(super) fn new(layout: &ChannelLayout, window: Crop, power: f64) -> Self {
+    /// Empty sums for the passes of a film; `brought` are the classes of light that light paths bring, `power` is that of their lights.
+    pub(super) fn new(layout: &ChannelLayout, window: Crop, brought: u8, power: f64) -> Self {
         let unit = power.max(f64::MIN_POSITIVE).log2().ceil().exp2() * UNIT;
-        Self::scaled(layout, window, unit.recip())
+        Self::scaled(layout, window, brought, unit.recip())
     }
 
     /// The same with a known scale.
-    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, scale: f64) -> Self {
-        let of_aov = |aov: &Aov| match aov {
-            Aov::Light(kind, LightPart::Indirect) => Some(Share::Kind(*kind)),
-            Aov::LightGroup(number) => Some(Share::Group(*number)),
-            Aov::LightPaths(classes, _) => kinds_of(*classes),
-            _ => None,
-        };
+    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, brought: u8, scale: f64) -> Self {
+        let of_aov = |aov: &Aov| share_of(*aov, brought).filter(|share| *share != Share::Radiance);
         let parts: Vec<Share> = [Share::Radiance].into_iter().chain(layout.aovs.iter().filter_map(of_aov)).collect();
         let size = [0, 1].map(|axis| (window.max[axis] - window.min[axis]) as usize);
         let sums = vec![0; parts.len() * 3 * size[0] * size[1]];
-        Self { layout: SplatLayout { scale, parts, size }, paths: 0, sums }
+        Self { layout: SplatLayout { scale, parts, size }, brought, paths: 0, sums }
     }
 
     /// What is summed.
@@ -147,13 +148,7 @@ impl SplatFilm {
 
     /// The light that a pass shows, if it shows any of it.
     pub(super) fn shown(&self, aov: Aov) -> Option<Shown<'_>> {
-        let share = match aov {
-            Aov::Color | Aov::Luminance => Share::Radiance,
-            Aov::Light(kind, LightPart::Indirect) => Share::Kind(kind),
-            Aov::LightGroup(number) => Share::Group(number),
-            Aov::LightPaths(classes, _) => kinds_of(classes)?,
-            _ => return None,
-        };
+        let share = share_of(aov, self.brought)?;
         let first = self.layout.parts.iter().position(|known| *known == share)? * 3;
         let pixels = self.layout.size[0] * self.layout.size[1];
         let unit = 1.0 / (self.layout.scale * self.paths.max(1) as f64);
@@ -184,9 +179,17 @@ impl SplatFilm {
 /// The share of a kind in what the first surface scatters.
 const KINDS: [ScatteringKind; 3] = [ScatteringKind::Diffuse, ScatteringKind::Glossy, ScatteringKind::Transmission];
 
-/// What light paths bring of some classes of light: it is indirect.
-fn kinds_of(classes: u8) -> Option<Share> {
-    Some(classes >> 3 & 7).filter(|kinds| *kinds != 0).map(Share::Kinds)
+/// The light that a pass shows of what light paths bring, if any.
+fn share_of(aov: Aov, brought: u8) -> Option<Share> {
+    let classes = match aov {
+        Aov::Color | Aov::Luminance => return Some(Share::Radiance),
+        Aov::LightGroup(number) => return Some(Share::Group(number)),
+        Aov::Light(kind, LightPart::Direct) => 1u8 << kind as u8,
+        Aov::Light(kind, LightPart::Indirect) => 8u8 << kind as u8,
+        Aov::LightPaths(classes, _) => classes,
+        _ => return None,
+    };
+    Some(classes & brought).filter(|classes| *classes != 0).map(Share::Classes)
 }
 
 fn kind_share(splat: &Splat, kind: ScatteringKind, channel: usize) -> f64 {

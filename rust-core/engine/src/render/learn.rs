@@ -23,7 +23,10 @@ const OTHER_SEED: u32 = 0x5bd1_e995;
 
 /// None where lights are few, samples too few, or nothing could be learned.
 pub(super) fn learn(scene: &CompiledScene, settings: &Settings, source: &Source, cancelled: &dyn Fn() -> bool) -> Option<Arc<LightCache>> {
-    if settings.samples < LEAST_SAMPLES || settings.integrator == Integrator::Whitted || !scene.tables.lights.has_tree() {
+    if settings.samples < LEAST_SAMPLES
+        || matches!(settings.integrator, Integrator::Whitted | Integrator::Light)
+        || !scene.tables.lights.has_tree()
+    {
         return None;
     }
     match source {

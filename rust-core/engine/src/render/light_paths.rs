@@ -14,6 +14,8 @@ use std::{ops::Range, sync::Arc};
 #[derive(Debug)]
 pub(crate) struct LightPaths {
     sampler: EmissionSampler,
+    /// Whether they bring caustics alone; else all light is theirs.
+    caustics: bool,
 }
 
 /// Samples of a pixel that have batch numbers of their own in a tile.
@@ -26,6 +28,10 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
         Caustics::On => true,
         Caustics::Auto => scene.casters.enclosing.is_some(),
     };
+    if settings.integrator == Integrator::Light {
+        let sampler = EmissionSampler::new(&scene.tables.lights, None, sphere(scene), &scene.casters.targets);
+        return (!sampler.is_empty()).then(|| (LightPaths { sampler, caustics: false }, [].into()));
+    }
     if !wanted
         || settings.caustic_paths != [true; 2]
         || settings.integrator != Integrator::Path
@@ -42,13 +48,22 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
     // Rays that look for a wide sky find it better than its paths find the picture.
     let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(!lights.is_dome(light))).collect();
     let numbers: Vec<u32> = (0..lights.len() as u32).filter(|light| started[*light as usize] != 0).collect();
+    let sampler = EmissionSampler::new(lights, Some(&numbers), sphere(scene), &scene.casters.targets);
+    (!sampler.is_empty()).then_some((LightPaths { sampler, caustics: true }, started))
+}
+
+/// A sphere around all surfaces.
+fn sphere(scene: &CompiledScene) -> ([f32; 3], f32) {
     let (centre, radius) = scene.bounds.sphere(scene.tables.origin);
-    let sphere = (centre, (radius * (1.0 + 1e-5)) as f32);
-    let sampler = EmissionSampler::new(lights, Some(&numbers), sphere, &scene.casters.targets);
-    (!sampler.is_empty()).then_some((LightPaths { sampler }, started))
+    (centre, (radius * (1.0 + 1e-5)) as f32)
 }
 
 impl LightPaths {
+    /// Whether they bring caustics alone.
+    pub(super) fn caustics(&self) -> bool {
+        self.caustics
+    }
+
     /// How paths start.
     pub(super) fn sampler(&self) -> &EmissionSampler {
         &self.sampler
@@ -71,7 +86,7 @@ impl LightPaths {
     ) -> SplatBlock {
         let Crop { min, max } = view.window;
         let picture = Picture { camera: &view.camera, placement: &view.placement, window: [min, max] };
-        let wanted = Wanted { arrivals: Arriving::No, specular_only: true, picture: Some(picture) };
+        let wanted = Wanted { arrivals: Arriving::No, specular_only: self.caustics, picture: Some(picture) };
         let tracer = LightTracer { tables: &shared.scene.tables, transport, emission: Emission::Lights(&self.sampler), wanted };
         let mut brought = Vec::new();
         let mut paths = 0;
@@ -83,7 +98,7 @@ impl LightPaths {
             tracer.trace(batch, &mut Unasked, &mut brought, workspace, cancelled);
             paths += LIGHT_BATCH as u64;
         }
-        splats.block(&brought, paths, &transport.passes.groups, transport.limits.clamps[1])
+        splats.block(&brought, paths, &transport.passes.groups, transport.limits.clamps)
     }
 }
 

@@ -17,9 +17,9 @@ use crate::{
     error::{Error, Result},
     film::Film,
     light::LightCache,
-    scene::{Crop, Settings},
+    scene::{Aov, Crop, Integrator, Settings},
     threads::available_threads,
-    transport::{PlaceTable, SensorTable, Statistics},
+    transport::{Estimator, PlaceTable, SensorTable, Statistics},
 };
 use light_paths::LightPaths;
 use photons::PhotonMaps;
@@ -110,7 +110,7 @@ impl Render {
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let tiles = film.tile_count();
         let photons = match &source {
-            Source::View(view) if light_paths.is_some() => Some(PhotonMaps::new(&scene, view)),
+            Source::View(view) if light_paths.as_ref().is_some_and(LightPaths::caustics) => Some(PhotonMaps::new(&scene, view)),
             _ => None,
         };
         let shared = Arc::new(Shared {
@@ -199,14 +199,32 @@ impl Render {
 /// A view, and the light paths that go with it.
 fn view(scene: &CompiledScene, settings: &Settings, execution: gonio_simd::Execution) -> Result<(View, Option<LightPaths>)> {
     let mut view = View::new(scene, settings, execution)?;
+    if settings.integrator == Integrator::Light {
+        by_light_alone(scene, settings)?;
+        view.transport.estimator = Estimator::Seen;
+    }
     let planned = light_paths::plan(scene, settings, &view);
     Ok(match planned {
         Some((light_paths, started)) => {
-            view.transport.light_paths = Some(started);
+            view.transport.light_paths = light_paths.caustics().then_some(started);
             (view, Some(light_paths))
         }
         None => (view, None),
     })
+}
+
+/// Refuses what no light path brings.
+fn by_light_alone(scene: &CompiledScene, settings: &Settings) -> Result<()> {
+    let problem = if settings.aovs.contains(&Aov::Illuminance) {
+        "light brings no illuminance pass; `gonio map` keeps lux on surfaces, or choose path"
+    } else if !scene.tables.geometry.set_catcher.is_empty() {
+        "light knows no shadow catchers; choose path"
+    } else if settings.noise_threshold > 0.0 {
+        "light reaches all pixels at once; leave out the noise threshold, or choose path"
+    } else {
+        return Ok(());
+    };
+    Err(Error::setting("integrator", problem))
 }
 
 fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {

@@ -6,7 +6,10 @@
 use super::light_paths::LightPaths;
 use crate::{
     compile::{CompiledScene, View},
-    transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, Photons, Receiver, Transport, Wanted, Workspace},
+    transport::{
+        Arrivals, Arriving, DirectFlux, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, Photons, Receiver, Transport, Wanted,
+        Workspace,
+    },
 };
 use std::{
     collections::BTreeMap,
@@ -66,7 +69,7 @@ impl PhotonMaps {
         };
         let make = || {
             let batches = (u64::from(samples) * BATCHES_PER_SAMPLE).min(MOST_BATCHES);
-            let mut photons = Arrived::default();
+            let mut arrived = Arrived { photons: Vec::new(), direct: DirectFlux::new(scene.bounds.radius()) };
             let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
             let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Lights(light_paths.sampler()), wanted };
             for batch in 0..batches {
@@ -74,30 +77,37 @@ impl PhotonMaps {
                     return None;
                 }
                 let number = OTHER_BATCHES | u64::from(block) << 32 | batch;
-                tracer.trace(number, &mut photons, &mut Vec::new(), workspace, cancelled);
+                tracer.trace(number, &mut arrived, &mut Vec::new(), workspace, cancelled);
             }
             let shrinks = f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
             // Of surfaces about the casters' room as large as its sphere.
             let area = 4.0 * std::f64::consts::PI * scene.bounds.radius().powi(2);
-            Some(Arc::new(Photons::new(&photons.0, self.radius * shrinks, shrinks, share, area)))
+            let bright = arrived.direct.bright_places(share, area);
+            Some(Arc::new(Photons::new(&arrived.photons, bright, self.radius * shrinks, shrinks, share, area)))
         };
         slot.get_or_init(make).clone()
     }
 }
 
-/// Keeps what arrives.
-#[derive(Default)]
-struct Arrived(Vec<Photon>);
+/// Keeps what arrives: photons after a scattering, and of what comes straight from lights how much it is where.
+struct Arrived {
+    photons: Vec<Photon>,
+    direct: DirectFlux,
+}
 
 impl Receiver for Arrived {
     fn arrived(&mut self, arrivals: &Arrivals) {
-        self.0.extend((0..arrivals.count).map(|entry| Photon {
-            position: [0, 1, 2].map(|axis| arrivals.position[axis][entry]),
-            direction: [0, 1, 2].map(|axis| arrivals.direction[axis][entry]),
-            flux: [0, 1, 2].map(|axis| arrivals.flux[axis][entry]),
-            light: arrivals.light[entry],
-        }));
+        for entry in 0..arrivals.count {
+            let position = [0, 1, 2].map(|axis| arrivals.position[axis][entry]);
+            let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
+            if arrivals.bounces(entry) == 0 {
+                self.direct.add(position, flux.map(f64::from).iter().sum::<f64>() / 3.0);
+                continue;
+            }
+            let direction = [0, 1, 2].map(|axis| arrivals.direction[axis][entry]);
+            self.photons.push(Photon { position, direction, flux, light: arrivals.light[entry] });
+        }
     }
     fn escaped(&mut self, _: &Escapes) {}
 }

@@ -106,7 +106,7 @@ fn photons(shared: &Shared, work: &Work, room: &mut Room, cancelled: &dyn Fn() -
 fn specular_rays(shared: &Shared) -> Option<u32> {
     let wanted = shared.film.layout.offset(Aov::DenoisingLight).is_some();
     let settings = &shared.settings;
-    let drawn = settings.integrator != Integrator::Whitted && settings.antialiasing == Antialiasing::Sampled;
+    let drawn = !matches!(settings.integrator, Integrator::Whitted | Integrator::Light) && settings.antialiasing == Antialiasing::Sampled;
     // What shadow catchers hide is compared path by path.
     let possible = wanted && drawn && shared.film.layout.catchers.is_none();
     possible.then(|| SPECULAR_RAYS.div_ceil(settings.samples.max(1)))

@@ -60,9 +60,10 @@ impl Tracer<'_> {
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
         let batch = Batch { area: TileArea { min, max }, sampler, runs };
         match &self.transport.estimator {
-            Estimator::Paths => {
-                let first = self.begin(&PathIntegrator, &batch, ws);
-                path::follow(self, sampler, runs, first, ws, cancelled);
+            estimator @ (Estimator::Paths | Estimator::Seen) => {
+                let integrator = PathIntegrator { lit: matches!(estimator, Estimator::Paths) };
+                let first = self.begin(&integrator, &batch, ws);
+                path::follow(self, &integrator, sampler, runs, first, ws, cancelled);
             }
             Estimator::Trees(samples) => {
                 let integrator = WhittedIntegrator { samples };

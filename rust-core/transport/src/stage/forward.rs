@@ -1,10 +1,11 @@
 //! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
 
 use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
+use crate::accumulate::light_sums::code;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
-use crate::stage::merge::{Found, carried_on};
-use crate::stage::nee::shares;
+use crate::stage::merge::{Found, carried_on, in_share};
+use crate::stage::nee::{seen_part, shares};
 use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
 use crate::state::chunk::ChunkContext;
@@ -16,12 +17,12 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, parameter_values};
-use crate::tables::photons::PhotonMap;
+use crate::tables::photons::Photons;
 use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;
 use gonio_camera::{CameraTable, Placement};
-use gonio_simd::{F, Lanes, M, One, SpectrumColumns, U};
+use gonio_simd::{F, Lanes, M, One, Spectrum, SpectrumColumns, U, Vec3};
 
 /// What of light paths is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +31,7 @@ pub struct Wanted<'a> {
     pub arrivals: Arriving,
     /// Whether paths go on by mirrors and smooth glass alone: camera paths find all that goes on otherwise.
     pub specular_only: bool,
-    /// Light that surfaces send to the camera, which sees them directly; not that of a path's first surface.
+    /// Light that surfaces send to the camera, which sees them directly; not that of a path's first surface, where paths are specular alone.
     pub picture: Option<Picture<'a>>,
 }
 
@@ -41,7 +42,7 @@ pub enum Arriving {
     No,
     /// All, at any surface.
     All,
-    /// Photons: those after a scattering, at surfaces that are not specular alone.
+    /// Photons: those at surfaces that are not specular alone.
     Photons,
 }
 
@@ -97,7 +98,7 @@ impl Integrator for LightIntegrator<'_> {
         let noted = match self.wanted.arrivals {
             Arriving::No => l.m(false),
             Arriving::All => present,
-            Arriving::Photons => present & non_specular & point.bounces.ne(0),
+            Arriving::Photons => present & non_specular,
         };
         if noted.any() && !material.surface.lobes.straight {
             arrive(chunk, point, noted, at, queues);
@@ -110,20 +111,25 @@ impl Integrator for LightIntegrator<'_> {
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
         if let Some(picture) = &self.wanted.picture {
-            let caustic = (going_on & non_specular & point.bounces.ne(0)).and_not(hidden(chunk, point));
-            if caustic.any() && !material.holdout {
-                connect(chunk, material, point, (&light, lobes), caustic, picture, &mut room, queues);
+            let seen = (going_on & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
+            if seen.any() && !material.holdout {
+                connect(chunk, material, point, (&light, lobes), seen, picture, &mut room, queues);
             }
         }
         let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
         let sample = kernels::sample(l, lobes, point.local_wo, [u_lobe, u, v]);
         let mut goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
         if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
-            goes |= goes_on(chunk, point, (&photons.coarse, &sample), going_on.and_not(goes), base, &mut queues.photons);
+            goes |= goes_on(chunk, point, (photons, &sample), going_on.and_not(goes), &mut queues.photons);
+        }
+        if chunk.tables.lights.hides_any() {
+            let kind = sample.diffuse.select(l.u(0), sample.transmitted.select(l.u(2), l.u(1)));
+            let light = l.gather_integers(&queues.light_paths.starts.light, point.slot);
+            goes = goes.and_not(point.bounces.eq(0) & !sample.straight & unseen_by(chunk, light, kind));
         }
         let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         // Camera paths keep radiance behind an interface without the squared index, so what they take up there is less by it than the flux.
-        if let (true, Some(eta)) = (self.wanted.specular_only, lobes.eta()) {
+        if let (true, Some(eta)) = (self.wanted.specular_only || self.wanted.picture.is_some(), lobes.eta()) {
             let passed = sample.transmitted.and_not(sample.straight | sample.diffuse);
             factor = factor * passed.select((eta * eta).recip(), l.f(1.0));
         }
@@ -147,28 +153,43 @@ fn hidden<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> M<L> {
     l.gather_integers(&geometry.set_hidden, geometry.set_lanes(l, point.instance)).ne(0)
 }
 
+/// Where a light is hidden from a kind of scattering: 0 is diffuse, 1 glossy, 2 transmitted.
+#[inline(always)]
+fn unseen_by<L: Lanes>(chunk: &ChunkContext<'_, L>, light: U<L>, kind: U<L>) -> M<L> {
+    let (l, lights) = (chunk.l, &chunk.tables.lights);
+    let mut unseen = l.m(false);
+    for number in 0..3 {
+        unseen |= kind.eq(number) & lights.hidden_from(l, light, number);
+    }
+    unseen
+}
+
 /// Which light paths of a picture go on where they scatter otherwise than specularly: where much light arrives, camera paths seldom look.
 #[inline(always)]
 fn goes_on<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     point: &Vertex<L>,
-    (photons, sample): (&PhotonMap, &BsdfSample<L>),
+    (photons, sample): (&Photons, &BsdfSample<L>),
     chosen: M<L>,
-    base: u32,
     found: &mut Found,
 ) -> M<L> {
     let l = chunk.l;
-    // Camera paths light what the first surface of a light path sends on; beyond its first that is not specular it is on its way.
-    let chosen = chosen & point.bounces.ne(0);
+    // Beyond its first surface that is not specular a path is on its way.
     let under_way = (point.flags & flag::SEEN_DIRECTLY).ne(0);
     // Camera paths find what enters a surface first.
     let first = chosen.and_not(under_way | sample.entered);
     if !first.any() {
         return chosen & under_way;
     }
-    let share = carried_on(l, photons, [point.at.position, point.at.geometric], first, found);
-    let [_, u] = chunk.sample.sampler.pair(l, chunk.sample.index(l, point.slot), base + dimension::CLOSURE);
-    (chosen & under_way) | (first & u.lt(share))
+    let [straight, caustic] = [first & point.bounces.eq(0), first & point.bounces.ne(0)];
+    let mut share = l.f(0.0);
+    if caustic.any() {
+        share = carried_on(l, &photons.coarse, [point.at.position, point.at.geometric], caustic, found).keep_if(caustic);
+    }
+    if straight.any() && !photons.bright.is_empty() {
+        share = straight.select(photons.bright.carried_on(point.at.position, straight), share);
+    }
+    (chosen & under_way) | (first & in_share(chunk, point, share))
 }
 
 /// Notes flux that arrived.
@@ -198,7 +219,7 @@ fn connect<'s, L: Lanes>(
     material: &'s SurfaceMaterial,
     point: &Vertex<L>,
     (light, lobes): (&LightHits<'_, L>, &Lobes<'s, L>),
-    caustic: M<L>,
+    chosen: M<L>,
     picture: &Picture<'_>,
     room: &mut Lobes<'s, L>,
     queues: &mut Queues,
@@ -215,19 +236,28 @@ fn connect<'s, L: Lanes>(
     let front = point.at.geometric.dot(to).gt(0.0);
     let local = point.at.frame.to_local(to);
     // Neither side of the triangle may be told from the other by the shading normal alone: it would leak light.
-    let usable = caustic & seen.valid & inside & (front & local.z.gt(0.0) | (!front) & local.z.lt(0.0));
+    let usable = chosen & seen.valid & inside & (front & local.z.gt(0.0) | (!front) & local.z.lt(0.0));
     if !usable.any() {
         return;
     }
     let scattered = kernels::flux(l, &material.surface, light, lobes, local, room);
+    let scattered = as_radiance(l, lobes, [point.local_wo, local], scattered);
     let starts = &queues.light_paths.starts;
+    let light = l.gather_integers(&starts.light, point.slot);
+    let scattered = if chunk.tables.lights.hides_any() {
+        let seen = seen_part(chunk, lobes, [point.local_wo, local], scattered, light);
+        point.bounces.eq(0).select(seen, scattered)
+    } else {
+        scattered
+    };
     let value = starts.carried(l, point.slot, point.throughput) * scattered * seen.importance;
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
     // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes.
     let shares = Some(shares(l, lobes, point.local_wo, local, scattered));
-    let light = l.gather_integers(&starts.light, point.slot);
-    let code = code_of_found(l.u(event::DIFFUSE | (2 << flag::BOUNCE_SHIFT)), 0);
+    // Straight from a light it is direct.
+    let bounces = point.bounces.eq(0).select(l.u(1 << flag::BOUNCE_SHIFT), l.u(2 << flag::BOUNCE_SHIFT));
+    let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     queues
@@ -235,6 +265,19 @@ fn connect<'s, L: Lanes>(
         .connections
         .rays
         .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares, receiver: None }, lit);
+}
+
+/// Flux that an interface sends to its other side as the radiance that camera paths keep there, without the squared index.
+#[inline(always)]
+fn as_radiance<L: Lanes>(l: L, lobes: &Lobes<'_, L>, [from, to]: [Vec3<L>; 2], flux: Spectrum<L>) -> Spectrum<L> {
+    let behind = to.z.lt(0.0);
+    let Some(eta) = lobes.eta() else { return flux };
+    if !behind.any() {
+        return flux;
+    }
+    // What is scattered diffusely passes no interface.
+    let passed = (flux - kernels::eval_diffuse(l, lobes, from, to)).max(0.0);
+    behind.select(flux - passed * (1.0 - (eta * eta).recip()), flux)
 }
 
 impl Picture<'_> {
@@ -272,6 +315,8 @@ pub struct Splat {
     pub value: [f32; 3],
     /// Diffuse and glossy shares of what the surface scattered.
     pub shares: [[f32; 3]; 2],
+    /// Whether it came straight from the light.
+    pub direct: bool,
 }
 
 impl Splat {
@@ -286,6 +331,7 @@ impl Splat {
             light: rays.light[at],
             value: three(&rays.contribution, at),
             shares: [three(&rays.shares[0], at), three(&rays.shares[1], at)],
+            direct: rays.code[at] < code::INDIRECT,
         }));
     }
 }

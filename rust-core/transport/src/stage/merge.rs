@@ -6,9 +6,11 @@ use crate::kernels;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag;
 use crate::state::vertex::Vertex;
+use crate::tables::bright_places::BrightPlaces;
 use crate::tables::light_groups::UNSEEN;
 use crate::tables::photons::PhotonMap;
 use gonio_bsdf::Lobes;
+use gonio_camera::sampler::dimension;
 use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U, Vec3};
 use std::f32::consts::PI;
 
@@ -61,6 +63,26 @@ pub(crate) fn irradiance<L: Lanes>(
 ) -> Spectrum<L> {
     let most = find(l, map, [position, normal], chosen, found);
     irradiance_of(l, map, found, most, Some(normal))
+}
+
+/// Where light paths bring what comes straight from lights, at random by the share that they carry on from there: surfaces that camera paths
+/// meet after they were scattered at the first.
+#[inline(always)]
+pub(crate) fn direct_brought<L: Lanes>(chunk: &ChunkContext<'_, L>, map: &BrightPlaces, point: &Vertex<L>, chosen: M<L>) -> M<L> {
+    let chosen = chosen & (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    if map.is_empty() || !chosen.any() {
+        return chunk.l.m(false);
+    }
+    let share = map.carried_on(point.at.position, chosen);
+    chosen & in_share(chunk, point, share)
+}
+
+/// Whether a random number of the point's is below a share.
+#[inline(always)]
+pub(crate) fn in_share<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, share: F<L>) -> M<L> {
+    let context = chunk.sample;
+    let [_, u] = context.sampler.pair(chunk.l, context.index(chunk.l, point.slot), context.dimension(dimension::CLOSURE));
+    u.lt(share)
 }
 
 /// Share of the flux at each chosen point that light paths carry on, see [`PhotonMap::carried_on`].

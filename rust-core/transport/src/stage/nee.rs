@@ -42,6 +42,12 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.slot, sample.light);
+    let usable = match &transport.light_paths {
+        Some(brought) if point.direct_brought.any() => {
+            usable.and_not(point.direct_brought & l.gather_integers(brought, sample.light.keep_if(usable)).ne(0))
+        }
+        _ => usable,
+    };
     if !usable.any() {
         deposits.note_lost(&point.at, present);
         return;
@@ -61,7 +67,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
 
 /// What is scattered of a light, less by the kinds of scattering that do not see it.
 #[inline(always)]
-fn seen_part<L: Lanes>(
+pub(crate) fn seen_part<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     lobes: &Lobes<'_, L>,
     [wo, wi]: [Vec3<L>; 2],

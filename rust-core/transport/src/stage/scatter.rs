@@ -98,7 +98,8 @@ fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bs
     let ends = first | (point.flags & flag::FROM_LIGHT).ne(0);
     let directly = l.u(flag::SEEN_DIRECTLY).keep_if(ends & here.and_not(sample.delta));
     let kept = point.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY | flag::ROUGH);
-    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | kept
+    let direct = l.u(flag::DIRECT_BROUGHT).keep_if(point.direct_brought.and_not(sample.delta));
+    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | direct | kept
 }
 
 /// The flag of paths that the camera sends through clear glass, where that is to be transparent.
@@ -128,9 +129,21 @@ pub(crate) fn scatter<L: Lanes>(
     if !(going_on | ending).any() {
         return;
     }
-    let sample = kernels::sample(chunk.l, lobes, point.local_wo, [u[0], u[1], u[2]]);
-    let factor = sample.value * sample.pdf.recip();
+    let (sample, factor) = sampled(chunk, point, lobes, [u[0], u[1], u[2]]);
     send_on(chunk, point, lobes, (&sample, factor), u[3], [going_on, ending], next, walks);
+}
+
+/// Samples the BSDF, and what that makes of the throughput.
+#[inline(always)]
+pub(crate) fn sampled<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    point: &Vertex<L>,
+    lobes: &Lobes<'_, L>,
+    u: [F<L>; 3],
+) -> (BsdfSample<L>, Spectrum<L>) {
+    let sample = kernels::sample(chunk.l, lobes, point.local_wo, u);
+    let factor = sample.value * sample.pdf.recip();
+    (sample, factor)
 }
 
 /// Appends the paths that go on in sampled directions, with `factor` on their throughput, and starts walks under the surface.

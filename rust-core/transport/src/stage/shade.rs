@@ -90,6 +90,7 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
         medium: Spectrum::zero(l),
         behind: Spectrum::zero(l),
         all_delta: l.m(false),
+        direct_brought: l.m(false),
         pdf,
         share: pdf,
     }

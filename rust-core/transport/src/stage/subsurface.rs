@@ -184,6 +184,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         medium: Spectrum::zero(l),
         behind: Spectrum::zero(l),
         all_delta: l.m(false),
+        direct_brought: l.m(false),
         pdf: l.f(0.0),
         share: l.f(0.0),
     }

@@ -24,8 +24,10 @@ pub(crate) const SEEN_DIRECTLY: u32 = 2048;
 pub(crate) const ROUGH: u32 = 4096;
 /// The camera sees the path's next hit through clear glass alone, before which a transparent background stays transparent.
 pub(crate) const CLEAR: u32 = 8192;
+/// Light paths bring what comes straight from lights to the surface that the path left last.
+pub(crate) const DIRECT_BROUGHT: u32 = 16384;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 14;
+pub(crate) const BOUNCE_SHIFT: u32 = 15;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {

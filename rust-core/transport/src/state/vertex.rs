@@ -79,6 +79,8 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) all_delta: M<L>,
     /// Pdf of the direction that found the vertex, per solid angle; of no meaning for camera rays.
     pub(crate) pdf: F<L>,
+    /// Where light paths bring what comes straight from lights.
+    pub(crate) direct_brought: M<L>,
     /// Share of a camera ray's sample that is here; of no meaning for other rays.
     pub(crate) share: F<L>,
 }

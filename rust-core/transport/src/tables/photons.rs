@@ -1,5 +1,6 @@
 //! The photon map: where light paths left flux on surfaces that are not specular, on a hash grid, to be merged with camera paths.
 
+use crate::tables::bright_places::BrightPlaces;
 use gonio_bsdf::parameter::spectrum;
 use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
 
@@ -23,6 +24,8 @@ pub struct Photons {
     pub fine: PhotonMap,
     /// For light that goes on from there to other surfaces: fewer photons, of a radius that always finds some.
     pub coarse: PhotonMap,
+    /// Where light paths carry on what falls straight from lights.
+    pub bright: BrightPlaces,
 }
 
 /// Photons by cells of a grid whose width is twice the radius: what lies about a point is in eight cells.
@@ -64,13 +67,14 @@ const FOUND_COARSE: f64 = 16.0;
 impl Photons {
     /// Sorts photons into cells. `radius` is that of the fine map, `shrinks` the part of the coarse map's that later blocks keep; `share` is the part of
     /// a path in all that were traced, `area` about that of the scene's surfaces.
-    pub fn new(photons: &[Photon], radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
+    pub fn new(photons: &[Photon], bright: BrightPlaces, radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
         let step = photons.len().div_ceil(MOST_COARSE).max(1);
         let some: Vec<Photon> = photons.iter().step_by(step).copied().collect();
         let wide = (FOUND_COARSE * lit_area(&some, area) / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
         Self {
             fine: PhotonMap::new(photons, radius as f32, share, area),
             coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64, area),
+            bright,
         }
     }
 }

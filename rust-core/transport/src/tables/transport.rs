@@ -47,13 +47,13 @@ pub struct Transport {
 
 impl Transport {
     /// Where light that a camera path found is brought by light paths: mirrors or smooth glass sent it on last, and light paths
-    /// bring what they do to the surface before. Each path of light so belongs to one technique.
+    /// bring what they do to the surface before; or they bring all that comes straight to it. Each path of light so belongs to one technique.
     #[inline(always)]
     pub(crate) fn is_brought<L: Lanes>(&self, flags: U<L>, light: U<L>, found: M<L>) -> M<L> {
         let l = flags.lanes();
         let Some(brought) = &self.light_paths else { return l.m(false) };
-        let caustic = found & is_caustic(flags);
-        if caustic.any() { caustic & l.gather_integers(brought, light.keep_if(caustic)).ne(0) } else { caustic }
+        let theirs = found & (is_caustic(flags) | (flags & flag::DIRECT_BROUGHT).ne(0));
+        if theirs.any() { theirs & l.gather_integers(brought, light.keep_if(theirs)).ne(0) } else { theirs }
     }
 }
 
@@ -68,6 +68,8 @@ fn is_caustic<L: Lanes>(flags: U<L>) -> M<L> {
 pub enum Estimator {
     /// Along paths: a light and a direction at random at each vertex.
     Paths,
+    /// Along paths that end at the first surface which is neither mirror nor smooth glass: what light paths cannot bring, as the rest is theirs.
+    Seen,
     /// By trees of rays (Whitted): these light samples at every point, and all specular ways. The specular trees that guide denoisers have no
     /// samples, as they end where lights would be sampled.
     Trees(Arc<[FixedLightSample]>),

@@ -17,12 +17,20 @@ use gonio_camera::sampler::{Runs, Sampler};
 use std::time::Instant;
 
 /// Follows all paths to their ends, bounce by bounce.
-pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: u32, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+pub(crate) fn follow(
+    tracer: &Tracer<'_>,
+    integrator: &PathIntegrator,
+    sampler: Sampler,
+    runs: &Runs,
+    first: u32,
+    ws: &mut Workspace,
+    cancelled: &dyn Fn() -> bool,
+) {
     for depth in first..MOST_DEPTH {
         if ws.paths.count == 0 || cancelled() {
             break;
         }
-        follow_bounce(tracer, &SampleContext { sampler, runs, depth }, ws, cancelled);
+        follow_bounce(tracer, integrator, &SampleContext { sampler, runs, depth }, ws, cancelled);
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         catcher::join(tracer.tables, &mut ws.paths);
         steps::set_masks(tracer.tables, &mut ws.paths);
@@ -30,7 +38,13 @@ pub(crate) fn follow(tracer: &Tracer<'_>, sampler: Sampler, runs: &Runs, first: 
 }
 
 /// One bounce: what paths hit is shaded and lit, and sends on the next rays.
-fn follow_bounce(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
+fn follow_bounce(
+    tracer: &Tracer<'_>,
+    integrator: &PathIntegrator,
+    sample: &SampleContext<'_>,
+    ws: &mut Workspace,
+    cancelled: &dyn Fn() -> bool,
+) {
     let Tracer { tables, transport, .. } = tracer;
     let time = Instant::now();
     steps::intersect(tracer, sample.depth, ws);
@@ -38,11 +52,11 @@ fn follow_bounce(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Works
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);
     ws.queues.next.count = 0;
-    steps::shade(tracer, &PathIntegrator, sample, ws);
+    steps::shade(tracer, integrator, sample, ws);
     let time = Instant::now();
     let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };
     ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
-    steps::measure(tracer, &PathIntegrator, sample, ws);
+    steps::measure(tracer, integrator, sample, ws);
     steps::trace_shadows(tracer, sample.depth == 0, ws);
     ws.statistics.spent(Stage::Shadow, time);
 }

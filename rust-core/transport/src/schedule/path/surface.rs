@@ -4,10 +4,10 @@ use crate::accumulate::deposit::Deposits;
 use crate::stage::integrator::Integrator;
 use crate::stage::light_queue::sample_queued;
 use crate::stage::measure::{self, MeasureContext};
-use crate::stage::merge::merge;
+use crate::stage::merge::{direct_brought, merge};
 use crate::stage::nee::{queue_shadow_ray, sample_light};
 use crate::stage::portal::pass_on;
-use crate::stage::scatter::{scatter, without_cut_outs};
+use crate::stage::scatter::{sampled, send_on, without_cut_outs};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::flag;
@@ -24,7 +24,10 @@ use gonio_simd::Lanes;
 
 /// One light and one direction at random at each point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PathIntegrator;
+pub(crate) struct PathIntegrator {
+    /// Whether surfaces are lit; else paths go on by mirrors and smooth glass alone, and find what shines by itself.
+    pub(crate) lit: bool,
+}
 
 impl Integrator for PathIntegrator {
     const WALKS: bool = true;
@@ -64,9 +67,10 @@ impl Integrator for PathIntegrator {
                     merge(chunk, map, point, lobes, chosen, &mut queues.photons, deposits);
                 }
             }
+            point.direct_brought = direct_brought(chunk, &photons.bright, point, unseen);
         }
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
-        if (non_specular & going_on).any() && !tables.lights.is_empty() {
+        if self.lit && (non_specular & going_on).any() && !tables.lights.is_empty() {
             if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {
                 let sample = sample_queued(chunk, at, lobes.has_fibre(), &mut queues.light_samples);
                 queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), going_on, &mut queues.shadows, deposits);
@@ -77,8 +81,12 @@ impl Integrator for PathIntegrator {
         }
         let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
-        let random = [u_lobe, u, v, u_roulette];
-        scatter(chunk, point, lobes, random, [going_on, ending], &mut queues.next, &mut queues.walks);
+        if (going_on | ending).any() {
+            let (sample, factor) = sampled(chunk, point, lobes, [u_lobe, u, v]);
+            let goes = if self.lit { l.m(true) } else { sample.delta | sample.straight };
+            let masks = [going_on & goes, ending & goes];
+            send_on(chunk, point, lobes, (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);
+        }
     }
 
     #[inline(always)]
