@@ -55,6 +55,9 @@ pub fn bake(scene: &Scene, compiled: Arc<CompiledScene>, target: &BakeTarget, se
         integrator: if settings.integrator == Integrator::Whitted { Integrator::Path } else { settings.integrator },
         ..settings.clone()
     };
+    if settings.aovs.contains(&Aov::Deep) {
+        return Err(Error::setting("deep", "what is baked has no depth"));
+    }
     window(&settings)?;
     let instance = instance_of(scene, &compiled, target)?;
     let places = places(scene, target, instance)?;

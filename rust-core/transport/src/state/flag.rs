@@ -24,8 +24,12 @@ pub(crate) const SEEN_DIRECTLY: u32 = 2048;
 pub(crate) const ROUGH: u32 = 4096;
 /// The camera sees the path's next hit through clear glass alone, before which a transparent background stays transparent.
 pub(crate) const CLEAR: u32 = 8192;
+/// Above this bit: the state of the automaton of light path expressions, 0 where none are followed.
+pub(crate) const STATE_SHIFT: u32 = 14;
+/// Bits of a state.
+pub(crate) const STATES: u32 = (1 << (BOUNCE_SHIFT - STATE_SHIFT)) - 1;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 14;
+pub(crate) const BOUNCE_SHIFT: u32 = 23;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {
