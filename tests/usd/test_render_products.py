@@ -172,9 +172,9 @@ def test_normals_of_a_turned_camera_are_in_its_space(run, tmp_path):
 
 
 def test_variables_that_are_not_there_are_named(run, tmp_path):
-    odd = 'def RenderVar "odd"\n{\n    uniform string sourceName = "C<RD><RS>L"\n    uniform token sourceType = "lpe"\n}\n'
+    odd = 'def RenderVar "odd"\n{\n    uniform string sourceName = "C<RD\'skin\'>L"\n    uniform token sourceType = "lpe"\n}\n'
     done = rendered(run, tmp_path, settings("", 'token productName = "out.exr"\n    rel orderedVars = [</odd>]'), odd)
-    assert "'C<RD><RS>L' (lpe) is not supported" in done.stderr
+    assert "'C<RD'skin'>L' (lpe): labels of surfaces are not told apart" in done.stderr and "is not supported" in done.stderr
 
 
 # Three settings as studios have them.

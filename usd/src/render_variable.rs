@@ -42,7 +42,10 @@ pub(crate) fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Opt
         _ => raw(&stated),
     };
     if source.is_none() {
-        context.unsupported(&format!("the render variable '{stated}' ({})", if kind.is_empty() { "raw" } else { &kind }), &prim.origin());
+        let kind = if kind.is_empty() { "raw" } else { &kind };
+        let problem = if kind == "lpe" { gonio::scene::light_path(&stated).err() } else { None };
+        let problem = problem.map(|problem| format!(": {problem}")).unwrap_or_default();
+        context.unsupported(&format!("the render variable '{stated}' ({kind}){problem}"), &prim.origin());
     }
     source.map(|source| RenderVariable { name, source, half: is_half(context, prim) })
 }
@@ -83,7 +86,7 @@ pub fn aov_by_name(name: &str) -> Option<Aov> {
 
 /// The pass of a light path expression, if gonio can show it.
 fn light_path(expression: &str) -> Option<Source> {
-    match gonio::scene::light_path(expression)? {
+    match gonio::scene::light_path(expression).ok()? {
         // With coverage.
         LightPath::Classes(LightPath::ALL) => Some(Source::Pass(Aov::Color)),
         _ => Some(Source::LightPath(expression.to_owned())),
@@ -159,11 +162,12 @@ mod tests {
     }
 
     #[test]
-    fn light_paths_that_part_a_class_are_unknown() {
+    fn light_path_expressions_are_passes() {
         assert_eq!(light_path("lpe:C.*[LO]"), Some(Source::Pass(Aov::Color)));
         assert_eq!(light_path("C<RD>[<L.>O]"), Some(Source::LightPath("C<RD>[<L.>O]".into())));
         assert_eq!(light_path("C.*<L.'key'>"), Some(Source::LightPath("C.*<L.'key'>".into())));
-        for other in ["C<RD><RD>L", "C<RD>", "", "CDDL"] {
+        assert_eq!(light_path("C<RD><RD>L"), Some(Source::LightPath("C<RD><RD>L".into())));
+        for other in ["C<RD>", "", "C<RD'skin'>L"] {
             assert_eq!(light_path(other), None, "{other}");
         }
     }

@@ -20,7 +20,9 @@ pub struct Product {
     pub origin: Origin,
     /// The file's name; never empty.
     pub name: String,
-    /// What is in it, in order.
+    /// Whether it is a deep picture.
+    pub deep: bool,
+    /// What is in it, in order; deep pictures have the colour and its coverage, whatever is asked for.
     pub variables: Vec<RenderVariable>,
     /// How it is framed: its own opinions over those of the settings.
     pub framing: Framing,
@@ -185,7 +187,7 @@ fn gamut<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Gamut {
 fn read_product<'py>(context: &mut Context<'_, 'py>, settings: &Prim<'py>, prim: &Prim<'py>) -> Option<Product> {
     let origin = prim.origin();
     let kind: String = context.get(prim, "productType").unwrap_or_default();
-    if !matches!(kind.as_str(), "" | "raster") {
+    if !matches!(kind.as_str(), "" | "raster" | "deepRaster") {
         context.unsupported(&format!("a render product of type '{kind}'"), &origin);
         return None;
     }
@@ -197,7 +199,7 @@ fn read_product<'py>(context: &mut Context<'_, 'py>, settings: &Prim<'py>, prim:
     }
     let name = if stated.is_empty() { prim.name() } else { stated };
     let name = if has_ending(&name) { name } else { format!("{name}.exr") };
-    Some(Product { framing: framing(context, settings, Some(prim)), origin, name, variables })
+    Some(Product { framing: framing(context, settings, Some(prim)), origin, name, deep: kind == "deepRaster", variables })
 }
 
 /// Whether a name tells a format: places for the frame number do not.

@@ -72,6 +72,7 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
         samples: 1,
         mean_samples: 1.0,
         manifests: Default::default(),
+        deep: None,
     };
     Ok(Canvas { rgba: display(&image, &Look::default(), Execution::detect()), size: picture.size })
 }

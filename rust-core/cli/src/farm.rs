@@ -46,7 +46,7 @@ pub fn farm_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
 
 /// Renders all frames asked for on a cluster; `words` are the command line.
 pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[String]) -> Result<i32> {
-    if options.files.output.is_empty() {
+    if options.files.output.is_empty() && options.files.deep.is_none() {
         return Err(Error::setting("output", "no file was given; say -o picture.exr"));
     }
     let writer = Writer::new(&options.files, Execution::detect())?;
@@ -108,6 +108,9 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
         attributes: &attributes(options, scene),
     };
     let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
+    if let Some(path) = &options.files.deep {
+        writer.write_deep(&of_frame(path), &image, &notes, options.quiet)?;
+    }
     let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();
     write_cropped(writer, &outputs, &image, &notes, options)
 }

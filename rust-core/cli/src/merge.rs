@@ -10,7 +10,7 @@ use gonio_simd::Execution;
 
 /// Joins parts of a render's samples and writes the picture.
 pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
-    if options.files.output.is_empty() {
+    if options.files.output.is_empty() && options.files.deep.is_none() {
         return Err(Error::setting("output", "no file was given; say -o picture.exr"));
     }
     let writer = Writer::new(&options.files, Execution::detect())?;
@@ -22,6 +22,9 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
     let notes = Notes { exposure: whole.identity.exposure, attributes: &whole.identity.notes, ..Notes::default() };
     let mut image = whole.film.develop();
     writer.finish(&mut image)?;
+    if let Some(path) = &options.files.deep {
+        writer.write_deep(path, &image, &notes, options.quiet)?;
+    }
     writer.write_all(&options.files.output, &image, &notes, options.quiet)?;
     Ok(0)
 }

@@ -5,7 +5,7 @@ use gonio::{
     Error, Result,
     colour::Gamut,
     film::Image,
-    output::{Adaptation, DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_exr, write_picture},
+    output::{Adaptation, DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_deep_exr, write_exr, write_picture},
     scene::{Aov, Settings},
 };
 use gonio_simd::Execution;
@@ -57,6 +57,14 @@ pub(super) fn check_name(path: &Path) -> Result<String> {
     Err(Error::setting("output", format!("{}: the ending is '{ending}', expected exr, png or jpg", path.display())))
 }
 
+/// Refuses deep pictures in other formats than OpenEXR.
+pub(super) fn check_deep_name(path: &Path) -> Result<()> {
+    match check_name(path)?.as_str() {
+        "exr" => Ok(()),
+        other => Err(Error::setting("deep", format!("{}: the ending is '{other}', deep pictures are .exr", path.display()))),
+    }
+}
+
 impl Writer {
     /// Checks the options and the names' endings before anything is rendered.
     pub(super) fn new(options: &OutputArguments, execution: Execution) -> Result<Self> {
@@ -66,6 +74,10 @@ impl Writer {
                 let problem = format!("{}: JPEG files are sRGB, '{}' goes to PNG", path.display(), options.color_space);
                 return Err(Error::setting("color-space", problem));
             }
+            make_folder(path)?;
+        }
+        if let Some(path) = &options.deep {
+            check_deep_name(path)?;
             make_folder(path)?;
         }
         let denoiser = options.denoise.then(Denoiser::new).transpose()?;
@@ -112,6 +124,28 @@ impl Writer {
         Ok(())
     }
 
+    /// Writes the picture's deep samples.
+    pub(super) fn write_deep(&self, path: &Path, image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
+        make_folder(path)?;
+        write_deep_exr(path, image, &self.exr_options(about))?;
+        if !quiet {
+            print(&path.display().to_string());
+        }
+        Ok(())
+    }
+
+    fn exr_options(&self, about: &Notes<'_>) -> ExrOptions {
+        let Notes { exposure, interrupted, attributes, half_layers, gamut, .. } = *about;
+        ExrOptions {
+            half: self.half,
+            half_layers: half_layers.to_vec(),
+            gamut,
+            exposure,
+            hasty: interrupted,
+            attributes: attributes.to_vec(),
+        }
+    }
+
     /// How a picture is shown, by an eye that has adapted to those before it.
     fn look_at(&self, image: &Image, about: &Notes<'_>) -> Look {
         let adapted = self.eye.as_ref().map(|eye| {
@@ -131,16 +165,7 @@ impl Writer {
     /// Writes one file.
     fn write(&self, path: &Path, image: &Image, look: &Look, about: &Notes<'_>) -> Result<()> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-            let Notes { exposure, interrupted, attributes, half_layers, gamut, .. } = *about;
-            let options = ExrOptions {
-                half: self.half,
-                half_layers: half_layers.to_vec(),
-                gamut,
-                exposure,
-                hasty: interrupted,
-                attributes: attributes.to_vec(),
-            };
-            write_exr(path, image, &options)
+            write_exr(path, image, &self.exr_options(about))
         } else {
             write_picture(path, image, look, self.execution)
         }

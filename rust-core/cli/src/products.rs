@@ -4,7 +4,10 @@ use gonio::{Error, Result, colour::Gamut};
 use gonio_usd::{Loaded, render_variable::RenderVariable};
 use std::{collections::HashSet, path::PathBuf};
 
-use super::{file_name, output::check_name};
+use super::{
+    file_name,
+    output::{check_deep_name, check_name},
+};
 
 /// A file, and what is in it; all passes of the picture where no variables are named.
 #[derive(Debug)]
@@ -19,16 +22,18 @@ pub(super) struct Picture {
     /// The first of the products that share it; `None` for all of them at once.
     pub(super) product: Option<usize>,
     pub(super) files: Vec<File>,
+    /// Deep pictures.
+    pub(super) deep: Vec<PathBuf>,
     /// The gamut of EXR files' colours.
     pub(super) gamut: Option<Gamut>,
 }
 
 impl Picture {
-    /// One picture with the variables of all products in each of these files.
-    pub(super) fn of_all_products(loaded: &Loaded, paths: impl Iterator<Item = PathBuf>) -> Self {
+    /// One picture with the variables of all products in each of these files; the deep one has none.
+    pub(super) fn of_all_products(loaded: &Loaded, paths: impl Iterator<Item = PathBuf>, deep: Option<PathBuf>) -> Self {
         let variables = loaded.settings.as_ref().map(|settings| settings.variables()).unwrap_or_default();
         let files = paths.map(|path| File { path, variables: variables.clone() }).collect();
-        Self { product: None, files, gamut: gamut_of(loaded) }
+        Self { product: None, files, deep: deep.into_iter().collect(), gamut: gamut_of(loaded) }
     }
 }
 
@@ -60,19 +65,25 @@ impl Products {
         for (number, product) in products.iter().enumerate() {
             let path = PathBuf::from(&product.name);
             let path = frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(&path, frame));
-            check_name(&path).map_err(|error| Error::scene(&product.origin, error.to_string()))?;
+            let checked = if product.deep { check_deep_name(&path) } else { check_name(&path).map(|_| ()) };
+            checked.map_err(|error| Error::scene(&product.origin, error.to_string()))?;
             if !self.written.insert(path.clone()) {
                 let problem = format!("{} is written twice; several frames need a place for the number, such as '####'", path.display());
                 return Err(Error::scene(&product.origin, problem));
             }
-            let file = File { path, variables: product.variables.clone() };
-            let is_like = |picture: &&mut Picture| {
+            let is_like = |picture: &Picture| {
                 let other = picture.product.and_then(|first| products.get(first));
                 other.is_some_and(|other| other.framing == product.framing && other.variables == product.variables)
             };
-            match pictures.iter_mut().find(is_like) {
-                Some(picture) => picture.files.push(file),
-                None => pictures.push(Picture { product: Some(number), files: vec![file], gamut: gamut_of(loaded) }),
+            let at = pictures.iter().position(is_like).unwrap_or(pictures.len());
+            if at == pictures.len() {
+                pictures.push(Picture { product: Some(number), files: Vec::new(), deep: Vec::new(), gamut: gamut_of(loaded) });
+            }
+            let picture = &mut pictures[at];
+            if product.deep {
+                picture.deep.push(path);
+            } else {
+                picture.files.push(File { path, variables: product.variables.clone() });
             }
         }
         Ok(pictures)

@@ -111,6 +111,7 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
         samples: 0,
         mean_samples: 0.0,
         manifests: Default::default(),
+        deep: None,
     }
 }
 

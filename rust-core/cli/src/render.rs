@@ -95,10 +95,11 @@ impl Sequence<'_> {
         let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
         let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
-        let pictures = if options.files.output.is_empty() && checkpoint.is_none() {
+        let deep = options.files.deep.as_ref().map(of_frame);
+        let pictures = if options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() {
             self.products.pictures(&loaded, frame)?
         } else {
-            vec![Picture::of_all_products(&loaded, options.files.output.iter().map(of_frame))]
+            vec![Picture::of_all_products(&loaded, options.files.output.iter().map(of_frame), deep)]
         };
         let count = pictures.len();
         let mut loaded = Some(loaded);
@@ -139,6 +140,7 @@ pub(super) fn frames_of(options: &RenderOptions, first: Option<f64>) -> Result<V
         .output
         .iter()
         .map(|path| ("output", path))
+        .chain(options.files.deep.iter().map(|path| ("deep", path)))
         .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
     if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !file_name::has_frame(path))) {
         return Err(Error::Setting {
@@ -233,6 +235,9 @@ impl Job<'_> {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
+        if !self.picture.deep.is_empty() {
+            ask_for_deep(&mut loaded.scene.settings);
+        }
         let compiled = Arc::new(compile(&loaded.scene, previous, self.interrupted)?);
         self.complain(&compiled)?;
         self.tell_sizes(&compiled);
@@ -295,6 +300,10 @@ impl Job<'_> {
             // Pictures for looking at are made of it, and it costs nothing.
             settings.aovs.insert(0, Aov::Color);
         }
+        if options.files.deep.is_some() {
+            ask_for_deep(settings);
+        }
+        settings.deep_tolerance = options.deep_tolerance;
         if options.light_groups {
             settings.add_light_groups(light_groups);
         }
@@ -412,6 +421,9 @@ impl Job<'_> {
             attributes: &attributes(self.options, scene),
         };
         let paths: Vec<PathBuf> = self.picture.files.iter().map(|file| file.path.clone()).collect();
+        for path in &self.picture.deep {
+            self.writer.write_deep(path, image, &notes, self.options.quiet || snapshot)?;
+        }
         name_layers(self.options, image, &scene.settings, variables);
         write_cropped(self.writer, &paths, image, &notes, self.options)
     }
@@ -437,6 +449,13 @@ pub(super) fn write_cropped(writer: &Writer, paths: &[PathBuf], image: &Image, n
     let mut part = image.clone();
     autocrop::crop(&mut part, &options.autocrop)?;
     writer.write_all(&owned(to_crop), &part, notes, quiet)
+}
+
+/// Asks for the deep picture.
+fn ask_for_deep(settings: &mut Settings) {
+    if !settings.aovs.contains(&Aov::Deep) {
+        settings.aovs.push(Aov::Deep);
+    }
 }
 
 /// What textures within a memory limit took, and what went wrong with them.
@@ -513,9 +532,8 @@ fn set_aovs(settings: &mut Settings, names: &[String]) -> Result<()> {
 
 fn unknown_aov(name: &str) -> String {
     if name.starts_with("lpe:") {
-        return format!(
-            "'{name}' was found, expected an expression that asks for whole kinds of light, such as lpe:C<RD>L or lpe:C<RS>.*L"
-        );
+        let problem = gonio::scene::light_path(name).err().unwrap_or_default();
+        return format!("'{name}' was found, expected a light path expression such as lpe:C<RD>L or lpe:C<RS>.*L: {problem}");
     }
     let standard = [EYE_NORMAL, EYE_POSITION, AMBIENT_OCCLUSION, "primvars:NAME", "lightgroup:NAME", "lpe:EXPRESSION"];
     let known = Aov::NAMES.iter().map(|(_, name)| *name).chain(MatteKind::NAMES.iter().map(|(_, name, _)| *name)).chain(standard);

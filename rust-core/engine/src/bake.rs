@@ -58,6 +58,9 @@ pub fn bake(scene: &Scene, compiled: Arc<CompiledScene>, target: &BakeTarget, se
         },
         ..settings.clone()
     };
+    if settings.aovs.contains(&Aov::Deep) {
+        return Err(Error::setting("deep", "what is baked has no depth"));
+    }
     window(&settings)?;
     let instance = instance_of(scene, &compiled, target)?;
     let places = places(scene, target, instance)?;

@@ -7,7 +7,9 @@ use crate::{
 };
 use gonio::{
     film::{Image, Layer, channel_names, edge_aware},
-    output::{DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_exr, write_picture},
+    output::{
+        DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_deep_exr, write_exr, write_picture,
+    },
     scene::Aov,
 };
 use gonio_simd::Execution;
@@ -37,7 +39,7 @@ impl Film {
         let Image { resolution, window, frame, samples, mean_samples, .. } = self.image;
         let manifests = self.image.manifests.clone();
         let layers = vec![Layer { aov: Aov::Color, name: Aov::Color.name().to_owned(), values, channels: 4 }];
-        Self { image: Image { resolution, window, frame, layers, samples, mean_samples, manifests }, exposure: self.exposure }
+        Self { image: Image { resolution, window, frame, layers, samples, mean_samples, manifests, deep: None }, exposure: self.exposure }
     }
 }
 
@@ -133,6 +135,11 @@ impl Film {
     fn write_exr(&self, py: Python<'_>, path: PathBuf, half: bool) -> PyResult<()> {
         let options = ExrOptions { half, exposure: self.exposure, ..ExrOptions::default() };
         py.detach(|| write_exr(&path, &self.image, &options)).map_err(exception)
+    }
+    /// Writes the deep picture (pass `deep`) as OpenEXR's `deepscanline`: RGBA, Z and ZBack as 32-bit floats.
+    fn write_deep_exr(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let options = ExrOptions { exposure: self.exposure, ..ExrOptions::default() };
+        py.detach(|| write_deep_exr(&path, &self.image, &options)).map_err(exception)
     }
     /// What headers of files say about the film's cryptomattes (name, hash, conversion, manifest), by key; `prefix` comes before the layers' names.
     #[pyo3(signature = (prefix = ""))]

@@ -77,6 +77,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             ranks => return Err(wrong(key, format!("{ranks} was found, expected an even number from 2 to {MOST_MATTE_RANKS}"))),
         },
         "occlusion_distance" => s.occlusion_distance = within(key, value, 0.0, f64::from(f32::MAX))? as f32,
+        "deep_tolerance" => s.deep_tolerance = within(key, value, 1e-6, 1.0)? as f32,
         "time_limit" => {
             let limit: f64 = value.extract()?;
             if !(limit.is_finite() && limit >= 0.0) {

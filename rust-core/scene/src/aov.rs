@@ -56,6 +56,9 @@ pub enum Aov {
     /// Light of the classes whose bits are set, see [`super::LightPath`], times the camera's exposure; what it is called is an entry of
     /// [`super::Settings::light_paths`].
     LightPaths(u8, u16),
+    /// Light whose paths an expression takes that parts these classes, times the camera's exposure; it is an entry of
+    /// [`super::Settings::light_paths`].
+    LightExpression(u16),
     /// How much of the light that shadow catchers would send is there in spite of the objects; 1 where there are no catchers.
     ShadowCatcher,
     /// Seconds spent on the pixel: those of its tile, shared out by rays.
@@ -67,6 +70,8 @@ pub enum Aov {
     /// Pixels that what is seen moved since the frame before and moves until the next: x to the right and y upwards of where it was less where it
     /// is, and of where it is less where it will be. Keys of motion at times 0 and 1 say where things are at those frames; nothing is blurred.
     Motion,
+    /// The colour by depth, in files of its own: the deep picture.
+    Deep,
 }
 
 /// What stands before an expression in the name of its pass.
@@ -133,7 +138,7 @@ pub enum LightPart {
 
 impl Aov {
     /// All passes with their names, but for shader passes, light groups, mattes and light paths.
-    pub const NAMES: [(Self, &'static str); 33] = {
+    pub const NAMES: [(Self, &'static str); 34] = {
         use LightPart::{Color, Direct, Indirect};
         use ScatteringKind::{Diffuse, Glossy, Transmission};
         [
@@ -161,6 +166,7 @@ impl Aov {
             (Self::InstanceId, "instanceId"),
             (Self::ElementId, "elementId"),
             (Self::Motion, "motion"),
+            (Self::Deep, "deep"),
             (Self::Light(Diffuse, Direct), "diffuse_direct"),
             (Self::Light(Diffuse, Indirect), "diffuse_indirect"),
             (Self::Light(Diffuse, Color), "diffuse_color"),

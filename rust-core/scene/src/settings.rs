@@ -189,6 +189,9 @@ pub struct Settings {
     /// Ranks of the cryptomattes that are asked for as a whole: 2 to [`MOST_MATTE_RANKS`], even.
     #[serde(default = "matte_ranks")]
     pub cryptomatte_depth: u32,
+    /// Share by which depths of deep pictures may differ and still be one sample.
+    #[serde(default = "deep_tolerance")]
+    pub deep_tolerance: f32,
     /// Stop after this many seconds; 0 is off.
     pub time_limit_s: f64,
     /// Bytes that textures of materials may take at once; 0 is no limit.
@@ -225,6 +228,10 @@ fn all_caustics() -> [bool; 2] {
 
 fn occlusion_distance() -> f32 {
     10.0
+}
+
+fn deep_tolerance() -> f32 {
+    1e-3
 }
 
 fn matte_ranks() -> u32 {
@@ -273,6 +280,7 @@ impl Default for Settings {
             light_paths: Vec::new(),
             occlusion_distance: occlusion_distance(),
             cryptomatte_depth: matte_ranks(),
+            deep_tolerance: deep_tolerance(),
             time_limit_s: 0.0,
             texture_memory: 0,
             texture_cache: None,
@@ -351,8 +359,9 @@ impl Settings {
     }
     /// The pass of a light path expression; `None` for those that cannot be shown.
     pub fn light_path_pass(&mut self, expression: &str) -> Option<Aov> {
-        match light_path(expression)? {
+        match light_path(expression).ok()? {
             LightPath::Classes(classes) => entered(&mut self.light_paths, expression).map(|number| Aov::LightPaths(classes, number)),
+            LightPath::Followed => entered(&mut self.light_paths, expression).map(Aov::LightExpression),
             LightPath::Group(name) => entered(&mut self.light_groups, &name).map(Aov::LightGroup),
         }
     }
@@ -390,7 +399,9 @@ impl Settings {
     /// A pass's name, those with names of their own among them.
     pub fn pass_name(&self, aov: Aov) -> String {
         match aov {
-            Aov::LightPaths(_, number) => format!("{LIGHT_PATH}{}", self.light_paths.get(usize::from(number)).map_or("", String::as_str)),
+            Aov::LightPaths(_, number) | Aov::LightExpression(number) => {
+                format!("{LIGHT_PATH}{}", self.light_paths.get(usize::from(number)).map_or("", String::as_str))
+            }
             Aov::Shader(kind, number) => {
                 let name = self.shader_passes.get(usize::from(number)).map_or("", String::as_str);
                 if standard_pass(name) == Some(kind) {

@@ -42,6 +42,7 @@ pub(super) fn cases() -> Vec<Case> {
         samples: 1,
         mean_samples: 1.0,
         manifests: Default::default(),
+        deep: None,
     };
     vec![
         Case::new("photographic curve", "pixel", BATCH, Curve { radiance, out: columns3() }),

@@ -9,6 +9,9 @@ pub(crate) struct OutputArguments {
     /// The file to write (.exr, .png, .jpg); '####' or '$F4' stand for the frame number. Several may be given.
     #[arg(long, short = 'o', value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
+    /// A deep picture (.exr, OpenEXR's deepscanline) beside the others: of each pixel its surfaces one behind the other, for compositing by depth.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) deep: Option<PathBuf>,
     /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
     pub(crate) exposure: f32,

@@ -80,6 +80,9 @@ pub(crate) struct RenderOptions {
     /// Ranks of the cryptomattes: how many names of a pixel are told apart. Odd numbers are rounded up.
     #[arg(long, value_name = "RANKS", value_parser = clap::value_parser!(u32).range(1..=16))]
     pub(crate) cryptomatte_depth: Option<u32>,
+    /// Share by which depths of a deep picture may differ and still be one sample.
+    #[arg(long = "deep-tolerance", value_name = "SHARE", default_value_t = 1e-3)]
+    pub(crate) deep_tolerance: f32,
     /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
     #[arg(long = "light-groups")]
     pub(crate) light_groups: bool,

@@ -6,6 +6,7 @@ mod bounds;
 mod casters;
 mod catchers;
 mod cut;
+mod expressions;
 mod geometry;
 mod goniograms;
 mod instances;

@@ -1,13 +1,13 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, light_groups, motion, motion_vectors, samples, shader_passes};
+use super::{CompiledScene, expressions, light_groups, motion, motion_vectors, samples, shader_passes};
 use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
     film::{Film, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{Estimator, Limits, Mist, Passes, PathFilter, Transport},
+    transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport},
 };
 use gonio_simd::Execution;
 
@@ -38,6 +38,8 @@ impl View {
     pub fn new(scene: &CompiledScene, settings: &Settings, execution: Execution) -> Result<Self> {
         let window = window(settings)?;
         samples::check(settings)?;
+        check_deep(scene, settings)?;
+        expressions::passes(scene, settings)?;
         check_tiles(settings, window)?;
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
@@ -51,12 +53,19 @@ impl View {
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
         let mut transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
         transport.passes.motion = motion_vectors::cameras(camera, settings, |camera| camera_table(camera, settings, scene.tables.origin))?;
+        let transport = Transport { passes: deep_of(&table, transport.passes.clone()), ..transport };
         let placement = match settings.antialiasing {
             Antialiasing::Grid(side) => Placement::Grid(side),
             _ => Placement::Filter(tabulate(settings.filter, settings.filter_width.clamp(0.0, 16.0))),
         };
         Ok(Self { camera: table, placement, rule: samples::rule(settings.antialiasing), transport, exposure: camera.exposure.0, window })
     }
+}
+
+/// Passes whose depths are what the lens wants: pictures all around have no axis.
+fn deep_of(camera: &CameraTable, passes: Passes) -> Passes {
+    let flat = matches!(camera.lens, Lens::Perspective | Lens::Orthographic);
+    Passes { deep: passes.deep.map(|along| if flat { along } else { Distance::FromEye }), ..passes }
 }
 
 /// The light transport that settings ask for; `eye` and `forward` are the camera's, rebased world space.
@@ -82,6 +91,8 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         environment_covers: settings.background == Background::Covering,
         passes: Passes {
             shader: shader_passes::programs(&scene.tables.materials, settings),
+            // What is wrong with them is told when the view is made.
+            expressions: expressions::passes(scene, settings).unwrap_or_default(),
             groups: light_groups::passes(&scene.tables.groups, settings),
             surface: [Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo].iter().any(|aov| settings.aovs.contains(aov)),
             motion: None,
@@ -96,6 +107,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
             illuminance: settings.aovs.contains(&Aov::Illuminance),
             effort: settings.aovs.contains(&Aov::Cost),
             mattes: !settings.matte_kinds().is_empty(),
+            deep: settings.aovs.contains(&Aov::Deep).then_some(Distance::AlongAxis),
             numbers: [Aov::PrimId, Aov::InstanceId, Aov::ElementId, Aov::ObjectIndex, Aov::MaterialIndex]
                 .iter()
                 .any(|aov| settings.aovs.contains(aov)),
@@ -111,6 +123,22 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         shutter: motion::shutter(&scene.tables.bvh, None, settings),
         photons: None,
     }
+}
+
+/// Refuses deep pictures of what has no depth.
+fn check_deep(scene: &CompiledScene, settings: &Settings) -> Result<()> {
+    let problem = if !settings.aovs.contains(&Aov::Deep) {
+        return Ok(());
+    } else if settings.antialiasing.is_adaptive() {
+        "a deep picture wants samples drawn at random; leave out the antialiasing"
+    } else if !scene.tables.geometry.set_catcher.is_empty() {
+        "shadow catchers have no place in a deep picture; hide them"
+    } else if !(settings.deep_tolerance > 0.0 && settings.deep_tolerance <= 1.0) {
+        return Err(Error::setting("deep_tolerance", format!("{} was found, expected more than 0, up to 1", settings.deep_tolerance)));
+    } else {
+        return Ok(());
+    };
+    Err(Error::setting("deep", problem))
 }
 
 /// Refuses ranges of tiles that are empty or beyond the picture.

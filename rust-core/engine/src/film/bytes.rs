@@ -2,6 +2,7 @@
 
 use super::{
     Film, block_at,
+    deep::Deep,
     matte::Matte,
     noise::Halves,
     raw::{array, number},
@@ -58,7 +59,8 @@ impl TileFilm {
         leading.iter().try_for_each(|block| out.write_all(bytemuck::cast_slice(block)))?;
         groups.iter().chain(Some(open)).try_for_each(|group| out.write_all(bytemuck::cast_slice(group)))?;
         self.halves.as_ref().map_or(Ok(()), |halves| halves.write(out))?;
-        self.mattes.iter().try_for_each(|matte| matte.write(out))
+        self.mattes.iter().try_for_each(|matte| matte.write(out))?;
+        self.deep.as_ref().map_or(Ok(()), |deep| deep.write(out))
     }
 
     fn fill(&mut self, input: &mut impl Read, values: usize) -> Result<()> {
@@ -76,6 +78,9 @@ impl TileFilm {
         }
         for matte in &mut self.mattes {
             *matte = Matte::read(input)?;
+        }
+        if let Some(deep) = &mut self.deep {
+            *deep = Deep::read(input)?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ const CATCHER_CHANNELS: usize = 10;
 /// The passes of a film and the first channel of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ChannelLayout {
-    /// Passes in the order of their channels; mattes have none, and are kept in another way.
+    /// Passes in the order of their channels; mattes and deep pictures have none, and are kept in other ways.
     pub aovs: Vec<Aov>,
     /// First channel of each pass.
     pub offsets: Vec<usize>,
@@ -35,7 +35,9 @@ impl ChannelLayout {
     /// A layout of the passes asked for and of those that they are divided by.
     pub fn with_divisors(aovs: &[Aov]) -> Self {
         let divisors = aovs.iter().filter_map(|aov| divisor(*aov));
-        Self::new(&aovs.iter().copied().chain(divisors).collect::<Vec<_>>())
+        // A deep picture flattens to the colour.
+        let flat = aovs.contains(&Aov::Deep).then_some(Aov::Color);
+        Self::new(&aovs.iter().copied().chain(divisors).chain(flat).collect::<Vec<_>>())
     }
 
     /// Makes room for what shadow catchers hide.
@@ -47,6 +49,12 @@ impl ChannelLayout {
     /// Whether a pass shows light by where it comes from.
     pub fn shows_lights(&self) -> bool {
         self.aovs.iter().any(|aov| matches!(aov, Aov::Light(..) | Aov::LightPaths(..) | Aov::Emission | Aov::Environment))
+    }
+
+    /// The number of a light path expression among those that are followed.
+    pub fn expression(&self, aov: Aov) -> u32 {
+        let before = self.aovs.iter().take_while(|known| **known != aov);
+        before.filter(|known| matches!(known, Aov::LightExpression(_))).count() as u32
     }
 
     /// Channels of all shader passes.
@@ -75,7 +83,7 @@ impl ChannelLayout {
 /// How many sums a pixel a pass is kept as.
 pub(super) fn summed_channels(aov: Aov) -> usize {
     match aov {
-        Aov::Cryptomatte(..) | Aov::ShadowCatcher => 0,
+        Aov::Cryptomatte(..) | Aov::ShadowCatcher | Aov::Deep => 0,
         // And how much of the pixel they are means over.
         Aov::Motion => MOTION_CHANNELS + 1,
         _ => channel_names(aov).len(),
@@ -103,11 +111,14 @@ pub fn channel_names(aov: Aov) -> &'static [&'static str] {
         | Aov::Environment
         | Aov::Light(..)
         | Aov::LightPaths(..)
+        | Aov::LightExpression(_)
         | Aov::ShadowCatcher
         | Aov::LightGroup(_) => &["R", "G", "B"],
         Aov::PrimId | Aov::InstanceId | Aov::ElementId | Aov::ObjectIndex | Aov::MaterialIndex => &["id"],
         Aov::Mist | Aov::SampleCount | Aov::Cost | Aov::Shader(ShaderValue::Number, _) => &["value"],
         Aov::Luminance | Aov::Illuminance => &["Y"],
+        // It has files of its own.
+        Aov::Deep => &[],
     }
 }
 
@@ -116,7 +127,8 @@ pub fn is_absolute(aov: Aov) -> bool {
     use Aov::{Albedo, Alpha, Color, DenoisingAlbedo, DenoisingLight, DenoisingNormal, Light, LightGroup, Normal};
     // The values of names are bits.
     let relative = matches!(aov, Color | Alpha | Albedo | Normal | DenoisingNormal | DenoisingAlbedo | DenoisingLight);
-    !relative && !matches!(aov, Light(_, LightPart::Color) | LightGroup(_) | Aov::LightPaths(..) | Aov::ShadowCatcher)
+    !relative
+        && !matches!(aov, Light(_, LightPart::Color) | LightGroup(_) | Aov::LightPaths(..) | Aov::LightExpression(_) | Aov::ShadowCatcher)
 }
 
 /// Whether values are numbers of things, of which the first that is met counts.

@@ -5,6 +5,7 @@ use super::{Film, ZONES, catcher, channel_names, channels::MOTION_CHANNELS, divi
 use crate::{
     camera::sampler::{BATCH, TILE, tile_code, tile_place},
     colour::luminance,
+    deep::DeepPicture,
     scene::{Aov, Crop, Manifests},
     threads::available_threads,
 };
@@ -58,6 +59,8 @@ pub struct Image {
     pub mean_samples: f64,
     /// The names in its mattes.
     pub manifests: Arc<Manifests>,
+    /// What lies at which depth, where that was asked for.
+    pub deep: Option<Arc<DeepPicture>>,
 }
 
 impl Image {
@@ -84,8 +87,14 @@ impl Film {
     /// Depth, normal and position are means over what was covered; alpha tells how much that was.
     pub fn develop(&self) -> Image {
         let [width, height] = [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize);
-        let mut layers: Vec<Layer> =
-            self.layout.aovs.iter().zip(&self.names).map(|(aov, name)| empty_layer(*aov, name, width * height)).collect();
+        let mut layers: Vec<Layer> = self
+            .layout
+            .aovs
+            .iter()
+            .zip(&self.names)
+            .filter(|(aov, _)| **aov != Aov::Deep)
+            .map(|(aov, name)| empty_layer(*aov, name, width * height))
+            .collect();
         let aovs: Vec<Aov> = layers.iter().map(|layer| layer.aov).collect();
         let bands = Mutex::new(self.bands(&mut layers, width));
         let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -98,7 +107,9 @@ impl Film {
         let (samples, total) = samples.unwrap_or((0, 0));
         let mean_samples = total as f64 / (width * height).max(1) as f64;
         let manifests = self.manifests.clone();
-        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples, manifests }
+        let colour = layers.iter().find(|layer| layer.aov == Aov::Color);
+        let deep = self.plan.deep.zip(colour).map(|(tolerance, colour)| Arc::new(self.develop_deep(tolerance, colour)));
+        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples, manifests, deep }
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {

@@ -5,6 +5,7 @@ use super::{
     blocks::{self, GROUP, block_at},
     catcher,
     channels::summed_channels,
+    deep::{self, Deep},
     is_index,
     matte::{self, Matte},
     noise::{Halves, decides},
@@ -33,6 +34,8 @@ pub struct Block {
     pub(crate) splats: SplatBlock,
     /// Its mattes, by kind.
     pub(crate) mattes: Vec<Matte>,
+    /// What it met at which depth, where a deep picture is wanted.
+    pub(crate) deep: Option<Deep>,
 }
 
 /// Sums over all blocks so far.
@@ -51,6 +54,8 @@ pub struct TileFilm {
     pub(super) halves: Option<Halves>,
     /// By kind of matte.
     pub(super) mattes: Vec<Matte>,
+    /// By depth, where a deep picture is wanted.
+    pub(super) deep: Option<Deep>,
     waiting: BTreeMap<u32, Block>,
 }
 
@@ -76,6 +81,8 @@ pub(super) struct Plan {
     pub(super) index_channels: Vec<usize>,
     /// Kinds of mattes.
     pub(super) mattes: usize,
+    /// Share by which depths of a deep picture that is wanted may differ and be one.
+    pub(super) deep: Option<f32>,
     /// Error and least samples at which a zone has enough.
     pub(super) enough: Option<(f32, u32)>,
 }
@@ -88,6 +95,7 @@ impl Plan {
             tiles: settings.tiles(tiles),
             index_channels: layout.aovs.iter().zip(&layout.offsets).filter(|(aov, _)| is_index(**aov)).map(|(_, at)| *at).collect(),
             mattes: layout.mattes().len(),
+            deep: deep::is_asked(&layout.aovs).then_some(settings.deep_tolerance),
             enough: settings.least_samples().map(|least| (settings.noise_threshold, least)),
         }
     }
@@ -130,6 +138,7 @@ impl TileFilm {
             sums: Sums::default(),
             halves,
             mattes: vec![Matte::default(); plan.mattes],
+            deep: plan.deep.map(|_| Deep::default()),
             waiting: BTreeMap::new(),
         }
     }
@@ -154,6 +163,7 @@ impl TileFilm {
             }
         }
         self.mattes.iter_mut().zip(&block.mattes).for_each(|(matte, more)| matte.add(more));
+        self.deep.iter_mut().zip(&block.deep).for_each(|(deep, more)| deep.add(more));
         self.sums.add_block(Cow::Owned(block.sums), plan.place(&samples), plan.rules());
         self.count(samples.end - samples.start, block.zones);
         self.next += 1;
@@ -176,6 +186,7 @@ impl TileFilm {
             self.sums.open = later.sums.open;
         }
         self.mattes.iter_mut().zip(&later.mattes).for_each(|(matte, more)| matte.add(more));
+        self.deep.iter_mut().zip(&later.deep).for_each(|(deep, more)| deep.add(more));
         self.samples.iter_mut().zip(later.samples).for_each(|(samples, more)| *samples += more);
         self.next = later.next;
     }
@@ -215,7 +226,8 @@ impl Block {
         let mut luminance = if film.plan.enough.is_some() { shown_luminance(gathered, layout, exposure) } else { Vec::new() };
         unpack(packed, &mut luminance, false);
         let mattes = matte::of_block(&layout.mattes(), &gathered.mattes, packed);
-        Self { sums, zones, luminance, splats: SplatBlock::default(), mattes }
+        let deep = film.plan.deep.map(|tolerance| deep::of_block(&gathered.deep, tolerance, packed));
+        Self { sums, zones, luminance, splats: SplatBlock::default(), mattes, deep }
     }
 
     /// Shares the seconds that the block took out among its pixels, where a pass shows them.
@@ -267,7 +279,8 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
             }
         }
         // These are kept in other ways.
-        Aov::Cryptomatte(..) | Aov::ShadowCatcher => {}
+        Aov::Cryptomatte(..) | Aov::ShadowCatcher | Aov::Deep => {}
+        Aov::LightExpression(_) => expose3(channels, gathered.expressions.part(layout.expression(aov)), exposure),
         Aov::LightPaths(classes, _) => fill_light_paths(classes, channels, gathered, exposure),
         // Shares of the block's rays; its seconds come when they are known.
         Aov::Cost => channels.copy_from_slice(&gathered.effort.rays[..BATCH]),

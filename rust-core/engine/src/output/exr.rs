@@ -104,8 +104,20 @@ fn in_gamut(image: &Image, gamut: Option<Gamut>) -> Cow<'_, Image> {
 
 /// Whether a pass is of light or of what colours it.
 fn is_colour(aov: Aov) -> bool {
-    use Aov::{Albedo, Color, DenoisingAlbedo, DenoisingLight, Emission, Environment, Light, LightGroup, LightPaths};
-    matches!(aov, Color | LightGroup(_) | LightPaths(..) | Light(..) | Emission | Environment | Albedo | DenoisingAlbedo | DenoisingLight)
+    use Aov::{Albedo, Color, DenoisingAlbedo, DenoisingLight, Emission, Environment, Light, LightExpression, LightGroup, LightPaths};
+    matches!(
+        aov,
+        Color
+            | LightGroup(_)
+            | LightPaths(..)
+            | LightExpression(_)
+            | Light(..)
+            | Emission
+            | Environment
+            | Albedo
+            | DenoisingAlbedo
+            | DenoisingLight
+    )
 }
 
 /// What headers say about mattes, by key (Cryptomatte specification 1.2, "Metadata"); `prefix` comes before the layers' names. Names of things
@@ -144,10 +156,12 @@ fn unit(aov: Aov, gamut: Option<Gamut>) -> Option<&'static str> {
         Aov::Illuminance => Some("lx"),
         Aov::Depth | Aov::P => Some("m"),
         Aov::Cost => Some("s"),
-        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) if gamut.is_some() => {
+        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) | Aov::LightExpression(_) if gamut.is_some() => {
             Some("linear, of the header's chromaticities, luminance in cd/m2 times exposure")
         }
-        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) => Some("linear Rec.709, luminance in cd/m2 times exposure"),
+        Aov::Color | Aov::LightGroup(_) | Aov::LightPaths(..) | Aov::LightExpression(_) => {
+            Some("linear Rec.709, luminance in cd/m2 times exposure")
+        }
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
-//! Files: EXR with all passes, PNG and JPEG for looking at, false colour, and comparing images.
+//! Files: EXR with all passes, deep EXR, PNG and JPEG for looking at, false colour, and comparing images.
 
 mod compare;
+mod deep;
 mod exr;
 mod false_colour;
 mod picture;
@@ -8,6 +9,7 @@ mod tone_map;
 
 pub use crate::scene::{write_atomically, write_through};
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
+pub use deep::write_deep_exr;
 pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};

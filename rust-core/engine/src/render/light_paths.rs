@@ -5,7 +5,7 @@ use crate::{
     compile::{CompiledScene, View},
     film::{SplatBlock, SplatLayout},
     light::EmissionSampler,
-    scene::{Caustics, Crop, Integrator, Settings},
+    scene::{Aov, Caustics, Crop, Integrator, Settings},
     transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Picture, Receiver, Transport, Wanted, Workspace},
 };
 use std::{ops::Range, sync::Arc};
@@ -38,6 +38,10 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
         || view.rule.is_some()
         || scene.casters.targets.is_empty()
     {
+        return None;
+    }
+    // Expressions that are followed know nothing of how light came to the surfaces that light paths bring it to.
+    if settings.aovs.iter().any(|aov| matches!(aov, Aov::LightExpression(_))) {
         return None;
     }
     // What shadow catchers hide is compared path by path, from the camera.

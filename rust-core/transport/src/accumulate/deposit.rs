@@ -24,7 +24,7 @@ pub(crate) struct Contribution<L: Lanes> {
     /// Where it goes: a pixel's slot, a measured point's, or a half's at shadow catchers.
     pub(crate) slot: U<L>,
     pub(crate) value: Spectrum<L>,
-    /// The light pass, see [`code`].
+    /// The light pass, see [`code`]; where expressions are followed, with the state of the path.
     pub(crate) code: U<L>,
     /// Where light passes are wanted, the diffuse and the glossy share of what first surfaces scatter; the rest is transmitted.
     pub(crate) shares: Option<[Spectrum<L>; 2]>,
@@ -61,6 +61,9 @@ impl Deposits {
         if self.sums.lights.wanted() {
             self.deposit_to_passes(light, counted);
         }
+        if let Some(expressions) = &transport.passes.expressions {
+            self.deposit_to_expressions(expressions, light, counted);
+        }
         self.deposit_to_group(&transport.passes.groups, light, counted);
         counted
     }
@@ -84,7 +87,8 @@ impl Deposits {
 
     #[inline(always)]
     fn deposit_to_passes<L: Lanes>(&mut self, light: &Contribution<L>, chosen: M<L>) {
-        let Contribution { slot, value, code, .. } = *light;
+        let Contribution { slot, value, .. } = *light;
+        let code = light.code & code::CODES;
         let at_first = code.eq(code::SHARED);
         self.sums.lights.add(code, slot, to_film(value), chosen.and_not(at_first));
         let Some([diffuse, glossy]) = light.shares else { return };
@@ -93,6 +97,12 @@ impl Deposits {
         for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
             self.sums.lights.add(slot.lanes().u(kind as u32), slot, to_film(part), chosen & at_first & part.is_lit());
         }
+    }
+
+    /// Whether light samples are to say what which kind of scattering sends of them.
+    #[inline(always)]
+    pub(crate) fn wants_shares(&self, transport: &Transport) -> bool {
+        self.sums.lights.wanted() || transport.passes.expressions.is_some()
     }
 
     /// Adds light to the sums of its source's group.

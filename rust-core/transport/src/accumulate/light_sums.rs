@@ -18,6 +18,14 @@ pub mod code {
     pub const COUNT: usize = 11;
     /// Direct light at the first surface, shared among the kinds by what each of them scatters.
     pub const SHARED: u32 = 11;
+    /// Bits of a code alone.
+    pub(crate) const CODES: u32 = 15;
+    /// Where expressions are followed: above this bit the state of the path that brought the light.
+    pub(crate) const STATE_SHIFT: u32 = 4;
+    /// Light of a light sample, whose last scattering is told by its shares.
+    pub(crate) const SAMPLED: u32 = 1 << 30;
+    /// A light sample behind the surface.
+    pub(crate) const THROUGH: u32 = 1 << 31;
 }
 
 /// Sums by pixel slot, one triple a code; empty where no pass asks for them.
@@ -43,6 +51,22 @@ impl LightSums {
     /// Adds other sums of the same codes, times a factor.
     pub(crate) fn add_scaled(&mut self, other: &Self, factor: f32) {
         self.parts.iter_mut().zip(&other.parts).for_each(|(to, from)| add_scaled(to, from, factor));
+    }
+    /// Adds to the sums whose bits are set.
+    #[inline(always)]
+    pub(crate) fn add_to_many<L: Lanes>(&mut self, wanted: U<L>, slot: U<L>, value: Rgb<L>) {
+        let (wanted, slots) = (wanted.to_array(), slot.to_array());
+        let value = [value.r.to_array(), value.g.to_array(), value.b.to_array()];
+        for lane in 0..L::COUNT {
+            let mut bits = wanted[lane];
+            while bits != 0 {
+                let part = &mut self.parts[bits.trailing_zeros() as usize];
+                for (column, value) in part.iter_mut().zip(&value) {
+                    column[slots[lane] as usize] += value[lane];
+                }
+                bits &= bits - 1;
+            }
+        }
     }
     pub(crate) fn clear(&mut self) {
         self.parts.iter_mut().flatten().for_each(|column| column.fill(0.0));

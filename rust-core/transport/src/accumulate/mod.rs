@@ -7,8 +7,10 @@
 pub(crate) mod add;
 pub(crate) mod arrivals;
 pub(crate) mod catcher_sums;
+pub(crate) mod deep_sums;
 pub(crate) mod deposit;
 pub(crate) mod effort;
+pub(crate) mod expression_sums;
 pub(crate) mod guides;
 pub(crate) mod light_sums;
 pub(crate) mod matte_sums;

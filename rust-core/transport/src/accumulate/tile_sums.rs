@@ -1,6 +1,7 @@
 //! The sums of a sample block by slot: radiance, coverage, AOVs, light passes, light groups, shader AOVs, shadow catchers.
 
 use crate::accumulate::catcher_sums::CatcherSums;
+use crate::accumulate::deep_sums::DeepSums;
 use crate::accumulate::effort::Effort;
 use crate::accumulate::light_sums::LightSums;
 use crate::accumulate::matte_sums::MatteSums;
@@ -51,12 +52,16 @@ pub struct TileSums {
     pub lights: LightSums,
     /// Light groups.
     pub groups: LightSums,
+    /// Light path expressions that are followed.
+    pub expressions: LightSums,
     /// What materials show in passes of their own.
     pub shader: ShaderSums,
     /// Work by pixel.
     pub effort: Effort,
     /// What camera rays met, for cryptomattes.
     pub mattes: MatteSums,
+    /// What camera rays met at which depth.
+    pub deep: DeepSums,
     /// What shadow catchers hide; empty where there are none.
     pub catchers: CatcherSums,
 }
@@ -83,9 +88,11 @@ impl Default for TileSums {
             specular: Columns3::default(),
             lights: LightSums::default(),
             groups: LightSums::default(),
+            expressions: LightSums::default(),
             shader: ShaderSums::default(),
             effort: Effort::default(),
             mattes: MatteSums::default(),
+            deep: DeepSums::default(),
             catchers: CatcherSums::default(),
         }
     }
@@ -95,6 +102,7 @@ impl TileSums {
     /// Makes room for what passes want, and for nothing else.
     pub(crate) fn prepare_passes(&mut self, passes: &Passes) {
         self.effort.prepare(passes.effort);
+        self.deep.prepare(passes.deep.is_some());
         let [albedo, normal] = &mut self.guides;
         for (columns, wanted) in [
             (&mut self.normal, passes.surface),
@@ -139,6 +147,12 @@ impl TileSums {
         self.guides.iter_mut().zip(&rays.guides).for_each(|(to, from)| add_scaled(to, from, factor));
         self.lights.add_scaled(&rays.lights, factor);
         self.groups.add_scaled(&rays.groups, factor);
+        self.expressions.add_scaled(&rays.expressions, factor);
+    }
+
+    /// Tells apart at which depths the samples of a batch found their light; once it is traced.
+    pub(crate) fn settle_depths(&mut self) {
+        self.deep.settle(&self.radiance, &self.alpha);
     }
 
     /// Empties the sums of radiance and coverage, for those who look at nothing else.
@@ -164,6 +178,8 @@ impl TileSums {
             .for_each(|column| column.fill(0));
         self.lights.clear();
         self.groups.clear();
+        self.expressions.clear();
         self.mattes.met.clear();
+        self.deep.clear();
     }
 }

@@ -27,6 +27,7 @@ impl Tracer<'_> {
                 guides: own.passes.guides,
                 specular: own.passes.guides,
                 groups: own.passes.groups.clone(),
+                expressions: own.passes.expressions.clone(),
                 ..Passes::default()
             },
             path_filter: PathFilter::SpecularOnly,

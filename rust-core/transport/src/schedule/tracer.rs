@@ -71,6 +71,9 @@ impl Tracer<'_> {
                 whitted::follow(self, &integrator, sampler, runs, first, ws, cancelled);
             }
         }
+        if self.transport.passes.deep.is_some() {
+            ws.deposits.sums.settle_depths();
+        }
     }
 
     /// Adds a sample at each of some raster positions to the sums of its slot; slots differ. For cameras and trees of rays (Whitted).

@@ -4,6 +4,7 @@
 
 use crate::accumulate::add::add;
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, to_film};
+use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::accumulate::light_sums::code;
 use crate::kernels::{self, LightHit};
@@ -111,7 +112,8 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
         let (carried, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
-        let (code, specular) = (code_of_found(flags, code::EMISSION), is_specular_path(flags, slot));
+        let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
+        let specular = is_specular_path(flags, slot);
         let brought = transport.is_brought(flags, light, alive);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Light(light) };
         deposits.deposit(transport, &light, (alive & value.is_lit()).and_not(brought));
@@ -190,10 +192,13 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         }
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
-        let (code, specular) = (code_of_found(flags, code::ENVIRONMENT), is_specular_path(flags, slot));
+        let expressions = transport.passes.expressions.as_deref();
+        let code = with_state(expressions, code_of_found(flags, code::ENVIRONMENT), flags);
+        let specular = is_specular_path(flags, slot);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
         let counted = deposits.deposit(transport, &light, alive & value.is_lit());
-        if transport.passes.groups.wanted() && counted.any() {
+        let told_apart = expressions.filter(|expressions| expressions.infinite.is_none());
+        if (transport.passes.groups.wanted() || told_apart.is_some()) && counted.any() {
             // A limit holds for all of them together.
             let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
@@ -202,7 +207,11 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                     * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
                 let brought = transport.is_brought(flags, l.u(number), counted);
-                deposits.deposit_to_group(&transport.passes.groups, &part, (counted & value.is_lit()).and_not(brought));
+                let lit = (counted & value.is_lit()).and_not(brought);
+                deposits.deposit_to_group(&transport.passes.groups, &part, lit);
+                if let Some(expressions) = told_apart {
+                    deposits.deposit_to_expressions(expressions, &part, lit);
+                }
             }
         }
     }

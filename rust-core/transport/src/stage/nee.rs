@@ -1,6 +1,7 @@
 //! Next event estimation (NEE): a light sampled at each hit, its MIS weight (power heuristic), and the shadow ray to it.
 
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
+use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::catcher;
 use crate::state::chunk::ChunkContext;
@@ -59,8 +60,8 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
-    let code = code_of_sampled(point.flags);
-    let shares = if deposits.sums.lights.wanted() { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
+    let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.flags), point.flags, !wi.z.gt(0.0));
+    let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     send(transport, &point.at, sample, &light, lit, shadows, deposits);
 }

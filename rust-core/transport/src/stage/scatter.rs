@@ -1,5 +1,6 @@
 //! BSDF sampling and Russian roulette: paths go on from a surface, straight through it, or start a random walk under it.
 
+use crate::accumulate::expression_sums::scattering_of;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
@@ -198,6 +199,13 @@ pub(crate) fn send_on<L: Lanes>(
         | (kind << flag::LAST_SHIFT)
         | first
         | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let scattered = match &chunk.transport.passes.expressions {
+        Some(expressions) => {
+            let event = scattering_of(l, [sample.diffuse, sample.delta, !sample.wi.z.gt(0.0)]);
+            scattered | expressions.step(point.flags, event)
+        }
+        None => scattered,
+    };
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;

@@ -4,6 +4,7 @@
 //! cut-outs, next event estimation (NEE), and the rays that go on. Out come contributions, shadow rays, the next rays, and subsurface walks.
 
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
+use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::accumulate::light_sums::code;
 use crate::geometry::NONE;
@@ -237,7 +238,8 @@ fn add_emission<L: Lanes>(
         }
     }
     let value = transport.limits.clamped(value, point.bounces);
-    let source = if transport.passes.groups.wanted() {
+    let expressions = transport.passes.expressions.as_deref();
+    let source = if transport.passes.groups.wanted() || expressions.is_some() {
         Source::Set(tables.geometry.set_lanes(l, point.instance.keep_if(present)))
     } else {
         Source::Several
@@ -245,7 +247,7 @@ fn add_emission<L: Lanes>(
     let light = Contribution {
         slot: point.slot,
         value,
-        code: code_of_found(point.flags, code::EMISSION),
+        code: with_state(expressions, code_of_found(point.flags, code::EMISSION), point.flags),
         shares: None,
         specular: is_specular_path(point.flags, point.slot),
         source,

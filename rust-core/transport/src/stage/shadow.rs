@@ -78,7 +78,7 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
         }
         let arrived = gonio_simd::M(l.mask_from_bits(bits)) & l.first(shadows.count - at);
         let [diffuse, glossy] = &shadows.shares;
-        let shares = if deposits.sums.lights.wanted() { Some([diffuse.load(l, at), glossy.load(l, at)]) } else { None };
+        let shares = if deposits.wants_shares(transport) { Some([diffuse.load(l, at), glossy.load(l, at)]) } else { None };
         let [light, slot, code] =
             [l.load_integers(&shadows.light, at), l.load_integers(&shadows.slot, at), l.load_integers(&shadows.code, at)];
         let light = Contribution::sampled(light, slot, shadows.contribution.load(l, at), code, shares);

@@ -26,8 +26,12 @@ pub(crate) const ROUGH: u32 = 4096;
 pub(crate) const CLEAR: u32 = 8192;
 /// Light paths bring what comes straight from lights to the surface that the path left last.
 pub(crate) const DIRECT_BROUGHT: u32 = 16384;
+/// Above this bit: the state of the automaton of light path expressions, 0 where none are followed.
+pub(crate) const STATE_SHIFT: u32 = 15;
+/// Bits of a state.
+pub(crate) const STATES: u32 = (1 << (BOUNCE_SHIFT - STATE_SHIFT)) - 1;
 /// Above this bit: the number of scatterings.
-pub(crate) const BOUNCE_SHIFT: u32 = 15;
+pub(crate) const BOUNCE_SHIFT: u32 = 23;
 
 /// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
 pub(crate) mod event {

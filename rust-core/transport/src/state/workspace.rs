@@ -66,6 +66,7 @@ impl Workspace {
         for sums in [&mut *sums, &mut self.specular_sums] {
             sums.lights.prepare(if shows_lights { code::COUNT } else { 0 });
             sums.groups.prepare(transport.passes.groups.count);
+            sums.expressions.prepare(transport.passes.expressions.as_ref().map_or(0, |expressions| expressions.count));
             sums.prepare_passes(&transport.passes);
         }
         sums.shader.prepare(&transport.passes.shader);

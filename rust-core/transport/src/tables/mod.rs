@@ -1,6 +1,7 @@
 //! What kernels see of a compiled scene and of a view: tables, which no stage changes.
 
 pub(crate) mod bright_places;
+pub(crate) mod expressions;
 pub(crate) mod light_groups;
 pub(crate) mod links;
 pub(crate) mod material;

@@ -2,6 +2,7 @@
 
 use super::shutter::Shutter;
 use crate::state::flag;
+use crate::tables::expressions::PathExpressions;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::motion_vectors::MotionCameras;
 use crate::tables::photons::Photons;
@@ -154,10 +155,23 @@ pub struct Passes {
     pub effort: bool,
     /// Names of instances and materials, for cryptomattes.
     pub mattes: bool,
+    /// How far first surfaces are, for deep pictures.
+    pub deep: Option<Distance>,
     /// What materials compute for passes of their own.
     pub shader: ShaderPasses,
+    /// Light path expressions that are followed along paths.
+    pub expressions: Option<Arc<PathExpressions>>,
     /// Which groups of lights are summed apart.
     pub groups: GroupPasses,
+}
+
+/// What depths of deep pictures are, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distance {
+    /// Along the camera's axis.
+    AlongAxis,
+    /// From the eye, where pictures look all around.
+    FromEye,
 }
 
 /// The mist pass: metres at which it starts, metres until it is full, exponent.

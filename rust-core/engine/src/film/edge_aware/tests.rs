@@ -33,6 +33,7 @@ fn picture(mut pixel: impl FnMut(usize, usize) -> [[f32; 3]; 3]) -> Image {
         samples: 1,
         mean_samples: 1.0,
         manifests: Default::default(),
+        deep: None,
     }
 }
 

@@ -21,6 +21,7 @@ fn picture(pixels: &[[f32; 3]], width: u32) -> Image {
         samples: 1,
         mean_samples: 1.0,
         manifests: Default::default(),
+        deep: None,
     }
 }
 

@@ -14,6 +14,7 @@ use crate::state::queue::Queues;
 use crate::state::queue::branches::Branches;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::vertex::Vertex;
+use crate::tables::expressions::scattering;
 use crate::tables::material::{SurfaceMaterial, threshold};
 use crate::tables::transport::PathFilter;
 use gonio_bsdf::{Lobes, Way};
@@ -149,7 +150,6 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
     if !alive.any() {
         return;
     }
-    let l = chunk.l;
     let counted = match way {
         Way::Mirrored | Way::Coat => 1 << 8,
         Way::Refracted => 1 << 16,
@@ -163,7 +163,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         width: point.width,
         spread: point.spread,
         slot: point.slot,
-        flags: flags(l, chunk.transport.path_filter, point, way),
+        flags: flags(chunk, point, way),
         counts: point.counts + counted,
         medium: if way == Way::Refracted { across.select(point.behind, point.medium) } else { point.medium },
     };
@@ -188,8 +188,9 @@ fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, thr
 
 /// The path flags of a ray that went this way.
 #[inline(always)]
-fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -> U<L> {
-    let all_delta = if path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
+fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way) -> U<L> {
+    let ChunkContext { l, transport, .. } = *chunk;
+    let all_delta = if transport.path_filter == PathFilter::SpecularOnly { l.m(true) } else { point.all_delta };
     let non_specular = all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
@@ -198,5 +199,12 @@ fn flags<L: Lanes>(l: L, path_filter: PathFilter, point: &Vertex<L>, way: Way) -
     };
     let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.flags & (3 << flag::FIRST_SHIFT));
     let before = (point.flags & flag::NON_SPECULAR_SEEN) | non_specular | first;
-    before | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
+    let state = match &transport.passes.expressions {
+        Some(expressions) => {
+            let through = if way == Way::Refracted { scattering::THROUGH } else { 0 };
+            expressions.step(point.flags, l.u(scattering::SHARP + through))
+        }
+        None => l.u(0),
+    };
+    before | state | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
 }

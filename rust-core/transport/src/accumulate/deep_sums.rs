@@ -1,0 +1,157 @@
+//! What camera rays met at which depth, and the light that their samples brought, for deep pictures.
+//!
+//! Contributions know their slot, not their depth. A slot has one sample in a batch, so what a batch adds to it is that sample's.
+
+use gonio_camera::sampler::BATCH;
+use gonio_simd::{Column, F, Lanes, M, U};
+
+/// What a sample brings from some depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeepPart {
+    /// Slot of the pixel.
+    pub slot: u32,
+    /// Metres; infinite behind all surfaces.
+    pub depth: f32,
+    /// Share of the sample that is covered there.
+    pub coverage: f32,
+    /// Radiance.
+    pub light: [f32; 3],
+}
+
+/// A first surface, or a part of one that lets light pass.
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    slot: u32,
+    depth: f32,
+    share: f32,
+}
+
+/// The parts of a block's samples; empty where no deep picture is wanted.
+#[derive(Debug, Default)]
+pub struct DeepSums {
+    /// Batch after batch, by slot.
+    pub parts: Vec<DeepPart>,
+    /// Of the batch under way.
+    met: Vec<Met>,
+    /// Radiance and coverage of all slots before it.
+    before: [Vec<f32>; 4],
+}
+
+impl DeepSums {
+    /// Makes room where a deep picture is wanted.
+    pub(crate) fn prepare(&mut self, wanted: bool) {
+        let room = if wanted { BATCH } else { 0 };
+        self.before.iter_mut().for_each(|column| column.resize(room, 0.0));
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.parts.clear();
+        self.met.clear();
+        self.before.iter_mut().for_each(|column| column.fill(0.0));
+    }
+
+    /// Notes the chosen lanes' surfaces.
+    #[inline(always)]
+    pub(crate) fn add<L: Lanes>(&mut self, slot: U<L>, depth: F<L>, share: F<L>, chosen: M<L>) {
+        let (slots, depths, shares) = (slot.to_array(), depth.to_array(), share.to_array());
+        let mut bits = chosen.bits();
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize;
+            self.met.push(Met { slot: slots[lane], depth: depths[lane], share: shares[lane] });
+            bits &= bits - 1;
+        }
+    }
+
+    /// Shares out what a batch has added to the radiance and the coverage of each slot among what its sample met.
+    pub(crate) fn settle(&mut self, radiance: &[Column; 3], alpha: &Column) {
+        if self.before[3].is_empty() {
+            return;
+        }
+        let [red, green, blue] = radiance;
+        let now = [red, green, blue, alpha];
+        self.met.sort_unstable_by(|a, b| (a.slot, a.depth).partial_cmp(&(b.slot, b.depth)).unwrap_or(std::cmp::Ordering::Equal));
+        let mut rest = self.met.as_slice();
+        for slot in 0..BATCH {
+            let here = rest.iter().take_while(|met| met.slot as usize == slot).count();
+            let (met, behind) = rest.split_at(here);
+            rest = behind;
+            let more = [0, 1, 2, 3].map(|channel| now[channel][slot] - self.before[channel][slot]);
+            if here > 0 || more.iter().any(|value| *value != 0.0) {
+                share_out(slot as u32, met, more, &mut self.parts);
+            }
+        }
+        self.before.iter_mut().zip(now).for_each(|(before, now)| before.copy_from_slice(&now[..BATCH]));
+        self.met.clear();
+    }
+}
+
+/// Parts of a sample that brought `light` and coverage.
+fn share_out(slot: u32, met: &[Met], [red, green, blue, covered]: [f32; 4], parts: &mut Vec<DeepPart>) {
+    let shares: f32 = met.iter().map(|met| met.share).sum();
+    // What is behind all surfaces covers where lights at infinity do, and takes coverage away that clear glass leaves open.
+    let beyond = if covered > shares * (1.0 + 1e-5) { covered - shares } else { 0.0 };
+    let all = shares + beyond;
+    let part =
+        |depth: f32, share: f32, coverage: f32| DeepPart { slot, depth, coverage, light: [red, green, blue].map(|light| light * share) };
+    if all <= 0.0 {
+        parts.push(part(f32::INFINITY, 1.0, 0.0));
+        return;
+    }
+    let kept = if covered < shares { covered.max(0.0) / shares } else { 1.0 };
+    parts.extend(met.iter().filter(|met| met.share > 0.0).map(|met| part(met.depth, met.share / all, met.share * kept)));
+    if beyond > 0.0 {
+        parts.push(part(f32::INFINITY, beyond / all, beyond));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gonio_simd::One;
+
+    /// Sums of a batch whose slot 3 has this radiance and coverage.
+    fn settled(sums: &mut DeepSums, radiance: f32, coverage: f32) -> Vec<DeepPart> {
+        let mut columns: [Column; 3] = std::array::from_fn(|_| Column::new(BATCH));
+        let mut alpha = Column::new(BATCH);
+        columns[0][3] = radiance;
+        alpha[3] = coverage;
+        let first = sums.parts.len();
+        sums.settle(&columns, &alpha);
+        sums.parts[first..].to_vec()
+    }
+
+    fn part(depth: f32, coverage: f32, red: f32) -> DeepPart {
+        DeepPart { slot: 3, depth, coverage, light: [red, 0.0, 0.0] }
+    }
+
+    fn meet(sums: &mut DeepSums, depth: f32, share: f32) {
+        sums.add::<One>(U(3), F(depth), F(share), M(true));
+    }
+
+    #[test]
+    fn a_batch_adds_to_what_its_samples_met() {
+        let mut sums = DeepSums::default();
+        sums.prepare(true);
+        meet(&mut sums, 2.0, 1.0);
+        assert_eq!(settled(&mut sums, 5.0, 1.0), [part(2.0, 1.0, 5.0)]);
+        meet(&mut sums, 4.0, 1.0);
+        assert_eq!(settled(&mut sums, 6.0, 2.0), [part(4.0, 1.0, 1.0)]);
+        // Nothing was met: light from infinity, with coverage and without.
+        assert_eq!(settled(&mut sums, 8.0, 2.0), [part(f32::INFINITY, 0.0, 2.0)]);
+        assert_eq!(settled(&mut sums, 9.0, 3.0), [part(f32::INFINITY, 1.0, 1.0)]);
+        assert_eq!(settled(&mut sums, 9.0, 3.0), []);
+    }
+
+    #[test]
+    fn shares_of_a_sample_stand_one_behind_the_other() {
+        let mut sums = DeepSums::default();
+        sums.prepare(true);
+        meet(&mut sums, 4.0, 0.25);
+        meet(&mut sums, 2.0, 0.5);
+        let expected = [part(2.0, 0.5, 4.0), part(4.0, 0.25, 2.0), part(f32::INFINITY, 0.25, 2.0)];
+        assert_eq!(settled(&mut sums, 8.0, 1.0), expected);
+        // Clear glass before nothing takes its coverage back.
+        meet(&mut sums, 1.0, 1.0);
+        assert_eq!(settled(&mut sums, 10.0, 1.25), [part(1.0, 0.25, 2.0)]);
+    }
+}
