@@ -101,7 +101,6 @@ WORLDS = {
 MATERIALS = {
     "volume": Limit("Volumes of materials", "the inside stays empty; without a surface, rays pass"),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
-    "displacement": Limit("Displacement that moves the surface", "its normals bend, and its shape stays"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "huang": _quietly("Principled Hair BSDF: Huang's model", "Chiang's model of the same colour and roughness; a round section"),

@@ -27,7 +27,9 @@ def _rough(made: dict) -> dict:
 
 def occlusion(description: dict, distance: float) -> dict:
     """Shines where nothing is near."""
+    # Nodes that displace stay.
     graph = Graph()
+    graph.nodes += description["graph"]["nodes"] if description.get("displacement") else []
     fields = {"samples": OCCLUSION_SAMPLES, "inside": False, "only_local": False}
     share = graph.add({"Occlusion": fields}, graph.add("Normal", kind="VECTOR"), graph.scalar(distance), kind="VALUE")
     made = {"weight": WHITE, **closure(graph, "Emission", emission_color=share)}

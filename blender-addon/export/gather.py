@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import bpy
 import numpy as np
 
+from .dicing import dicing_of
 from .random_number import of_name
 from .transforms import usable
 from .visibility import Visibility, combined, is_ordinary
@@ -43,6 +44,8 @@ class Group:
     random: np.ndarray | None = None
     # What the instancer gives each placement, by name.
     instancer: dict = field(default_factory=dict)
+    # How finely the renderer cuts the mesh, as the arguments of `set_dicing`.
+    dicing: tuple | None = None
     # The group of the hair of its particle systems, if there is any.
     hair: "Group | None" = None
 
@@ -52,7 +55,7 @@ class Walk:
 
     def __init__(self, depsgraph, report, part=None):
         self.groups, self.materials = [], {}
-        self._depsgraph, self._visibility = depsgraph, Visibility(depsgraph.view_layer)
+        self._part, self._depsgraph, self._visibility = part, depsgraph, Visibility(depsgraph.view_layer)
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
             count = row + 1
@@ -113,6 +116,7 @@ class Walk:
             self._slots(thing, data),
             not is_instance,
             [row],
+            dicing=None if self._part is not None else dicing_of(thing, self._depsgraph),
         )
 
     def _slots(self, thing, data):

@@ -15,7 +15,7 @@ class Meshes:
 
     def __init__(self, scene, slots, report):
         self._scene, self._slots, self._report = scene, slots, report
-        # (object, data) -> (content, values wanted, what went wrong) as of the last time it was read
+        # (object, data) -> (content, values wanted, how it is cut, what went wrong) as of the last time it was read
         self._known, self._seen = {}, set()
         # (place in memory, values wanted) -> content, within a pass: many objects may show one mesh
         self._read_now = {}
@@ -37,9 +37,9 @@ class Meshes:
         place = (group.object_uid, group.data_uid)
         self._seen.add(place)
         known = self._known.get(place)
-        if known is None or known[1] != primvars:
+        if known is None or known[1:3] != (primvars, group.dicing):
             known = self._known[place] = self._known_now(group, primvars)
-        key, _, problem = known
+        key, _, _, problem = known
         if problem:
             self._report.add("Object", group.name, problem, severity="ERROR")
         return None if key is None else self._slots.take(key)[0]
@@ -47,14 +47,14 @@ class Meshes:
     def _known_now(self, group, primvars):
         """What is known of a group's mesh once it was read; one that cannot be read is left out."""
         try:
-            return self._read(group, primvars), primvars, ""
+            return self._read(group, primvars), primvars, group.dicing, ""
         except Exception as problem:
-            return None, primvars, f"{words_of(problem)}; it is left out"
+            return None, primvars, group.dicing, f"{words_of(problem)}; it is left out"
 
     def _read(self, group, primvars):
         """Reads a mesh and writes it to the scene if nothing like it is there; gives its key."""
         if group.kind == "MESH" and not _is_being_edited(group):
-            here = (group.data.as_pointer(), primvars)
+            here = (group.data.as_pointer(), primvars, group.dicing)
             if here not in self._read_now:
                 self._read_now[here] = self._write(group, group.data, primvars)
             return self._read_now[here]
@@ -67,19 +67,25 @@ class Meshes:
             group.source.to_mesh_clear()
 
     def _write(self, group, mesh, primvars):
-        key = (fingerprint(mesh), frozenset(present(mesh, primvars)))
+        key = (fingerprint(mesh), frozenset(present(mesh, primvars)), group.dicing)
         if key not in self._slots:
             arguments = mesh_arguments(mesh, primvars)
             if arguments is None:
                 return None
             number, _ = self._slots.take(key)
-            self._add(number, group.name, arguments)
+            self._add(number, group, arguments)
         return key
 
-    def _add(self, number, name, arguments):
+    def _add(self, number, group, arguments):
         self.any_written = True
         points, triangles = arguments.pop("points"), arguments.pop("triangles")
-        self._slots.place(lambda index: self._scene.put_mesh(points, triangles, name=name, index=index, **arguments), number)
+
+        def put(index):
+            made = self._scene.put_mesh(points, triangles, name=group.name, index=index, **arguments)
+            if group.dicing is not None:
+                self._scene.set_dicing(made, **dict(group.dicing))
+
+        self._slots.place(put, number)
 
     def blur(self, group, primvars, forms, report):
         """The number of a group's mesh with its forms at even times of the shutter; None where it keeps its form."""
@@ -88,10 +94,10 @@ class Meshes:
             report.add("Object", group.name, "its faces are others at other times of the shutter; its form is not blurred")
         if moving is None:
             return None
-        key = (fingerprint(group.data), frozenset(present(group.data, primvars)), hash(moving["motion"].tobytes()))
+        key = (fingerprint(group.data), frozenset(present(group.data, primvars)), group.dicing, hash(moving["motion"].tobytes()))
         number, is_new = self._slots.take(key)
         if is_new:
-            self._add(number, group.name, moving)
+            self._add(number, group, moving)
         return number
 
     def sweep(self):

@@ -25,6 +25,19 @@ class GONIO_MATERIAL_PT_surface(MaterialPanel, Panel):
             self.layout.prop(context.material, "diffuse_color")
 
 
+class GONIO_MATERIAL_PT_displacement(MaterialPanel, Panel):
+    bl_label = "Displacement"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.material.node_tree is not None
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        draw_shader(self.layout, context.material, "OUTPUT_MATERIAL", "Displacement")
+        self.layout.prop(context.material, "displacement_method", text="Method")
+
+
 class GONIO_MATERIAL_PT_settings(MaterialPanel, Panel):
     bl_label = "Settings"
     bl_options = {"DEFAULT_CLOSED"}
@@ -35,4 +48,4 @@ class GONIO_MATERIAL_PT_settings(MaterialPanel, Panel):
         self.layout.prop(context.material, "pass_index")
 
 
-PANELS = (GONIO_MATERIAL_PT_surface, GONIO_MATERIAL_PT_settings)
+PANELS = (GONIO_MATERIAL_PT_surface, GONIO_MATERIAL_PT_displacement, GONIO_MATERIAL_PT_settings)

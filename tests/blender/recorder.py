@@ -42,6 +42,10 @@ class Recorder:
             check(array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key)
         return self._put("meshes", {**arrays, "primvars": primvars or {}, "name": name}, index)
 
+    def set_dicing(self, mesh, **fields):
+        check(0 <= mesh < len(self.meshes), mesh)
+        self.meshes[mesh]["dicing"] = fields
+
     def put_curves(self, points, counts, widths, *, index=None, **fields):
         check(counts.sum() == len(points), fields["name"])
         return self._put_fibres("curves", points, widths, {**fields, "counts": counts}, index)

@@ -109,7 +109,7 @@ def test_displacement_bends_normals_as_cycles_bends_them(tmp_path):
 
 
 @pytest.mark.blender
-def test_displacement_that_moves_the_surface_is_told_and_bends_the_normal():
+def test_methods_move_the_surface_bend_its_normal_or_both():
     import bpy
     from recorder import translated
 
@@ -118,8 +118,12 @@ def test_displacement_that_moves_the_surface_is_told_and_bends_the_normal():
         made = square(method, CASES["object"], (0, 0, 0))
         made.displacement_method = method
         description, lines = translated(made)
-        assert len(lines) == (method != "BUMP"), lines
-        assert any("PositionStep" in str(node["operation"]) for node in description["graph"]["nodes"])
+        assert not lines, lines
+        moved, operations = description.get("displacement"), str([node["operation"] for node in description["graph"]["nodes"]])
+        assert (moved is not None) == (method != "BUMP")
+        assert moved is None or (moved["kind"], moved["keep_normals"]) == ("World", method == "BOTH")
+        # Heights beside the hit are those of the surface as it was before it moved.
+        assert ("PositionStep" in operations, "'PrimvarStep': {'name': 'blender position'" in operations) == (method == "BUMP", method != "DISPLACEMENT")
 
 
 @pytest.mark.blender

@@ -2,7 +2,7 @@
 
 use gonio::mesh::refine::{Creases, RefineError, RefineOptions, refine};
 use gonio::mesh::{FacePrimvar, Interpolation, MeshProblem, PolygonMesh, Severity, Triangulation, smooth_normals, triangulate};
-use gonio::scene::{Mesh, Origin, Primvar, PrimvarInterpolation};
+use gonio::scene::{Dicing, Mesh, Origin, Primvar, PrimvarInterpolation};
 use std::sync::atomic::AtomicBool;
 
 /// What kind of surface a mesh is the control mesh of.
@@ -10,8 +10,8 @@ use std::sync::atomic::AtomicBool;
 pub enum Surface {
     /// The polygons themselves.
     Polygons,
-    /// A subdivision surface; level 0 means the control mesh with smooth normals.
-    Subdivision(Creases, RefineOptions),
+    /// A subdivision surface; level 0 means the control mesh with smooth normals. It may be cut further to the size of pixels.
+    Subdivision(Creases, RefineOptions, Option<Dicing>),
 }
 
 /// A mesh as read; authored normals are its primvar `normals`.
@@ -52,10 +52,14 @@ pub enum BuildError {
 pub fn build(source: MeshSource, cancel: &AtomicBool) -> Result<BuiltMesh, BuildError> {
     let MeshSource { origin, polygons, surface, face_slots } = source;
     let level_zero = |options: &RefineOptions| options.level == 0;
+    let dicing = match &surface {
+        Surface::Polygons => None,
+        Surface::Subdivision(_, _, dicing) => *dicing,
+    };
     let mut cut = match surface {
         Surface::Polygons => polygons_as_they_are(polygons, false)?,
-        Surface::Subdivision(_, options) if level_zero(&options) => polygons_as_they_are(polygons, true)?,
-        Surface::Subdivision(creases, options) => subdivided(&polygons, &creases, &options, cancel)?,
+        Surface::Subdivision(_, options, _) if level_zero(&options) => polygons_as_they_are(polygons, true)?,
+        Surface::Subdivision(creases, options, _) => subdivided(&polygons, &creases, &options, cancel)?,
     };
     let triangulation = triangulate(&cut.polygons);
     if triangulation.triangles.is_empty() {
@@ -72,6 +76,7 @@ pub fn build(source: MeshSource, cancel: &AtomicBool) -> Result<BuiltMesh, Build
         origin,
         points: cut.polygons.points.into(),
         motion: Vec::new(),
+        dicing,
         normals: normals.and_then(usable_normals),
         primvars: primvars.into_iter().filter(|primvar| primvar.components <= 4).map(|p| over_triangles(p, &triangulation)).collect(),
         slots,
@@ -202,7 +207,7 @@ mod tests {
     #[test]
     fn subdivision_keeps_the_way_back_to_faces() {
         let mut source = quad();
-        source.surface = Surface::Subdivision(Creases::default(), RefineOptions { level: 1, ..RefineOptions::default() });
+        source.surface = Surface::Subdivision(Creases::default(), RefineOptions { level: 1, ..RefineOptions::default() }, None);
         let built = build(source, &AtomicBool::new(false)).expect("valid");
         assert_eq!(built.mesh.triangles.len(), 8);
         assert_eq!(built.mesh.faces.as_deref(), Some(&[0; 8][..]));

@@ -2,12 +2,14 @@
 
 use crate::build::{MeshSource, Surface};
 use crate::context::Context;
+use crate::options::Complexity;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::FromValue;
 use crate::{primvar, subset};
 use gonio::mesh::PolygonMesh;
 use gonio::mesh::refine::{BoundaryInterpolation, Creases, FaceVaryingInterpolation, RefineOptions, Scheme, TriangleRule};
+use gonio::scene::Dicing;
 use pyo3::prelude::*;
 
 /// Most faces that subdivision makes of one mesh; denser meshes are refined less.
@@ -85,7 +87,10 @@ fn surface<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> (Surface, O
         max_faces: MAX_REFINED_FACES,
         ..RefineOptions::default()
     };
-    (Surface::Subdivision(creases(context, prim), options), None)
+    // Triangles of pixels come from the levels that there are, by the camera when the scene is compiled.
+    let dicing =
+        (context.options.complexity == Complexity::Auto).then(|| Dicing { smooth: scheme != Scheme::Bilinear, ..Dicing::default() });
+    (Surface::Subdivision(creases(context, prim), options, dicing), None)
 }
 
 fn boundary<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> BoundaryInterpolation {

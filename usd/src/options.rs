@@ -28,6 +28,8 @@ pub enum Complexity {
     High,
     /// Three levels.
     VeryHigh,
+    /// Two levels, and then as the pixels of the camera ask for.
+    Auto,
 }
 
 impl Complexity {
@@ -38,13 +40,19 @@ impl Complexity {
             "medium" => Self::Medium,
             "high" => Self::High,
             "veryhigh" => Self::VeryHigh,
+            "auto" => Self::Auto,
             _ => return None,
         })
     }
 
     /// Levels of uniform subdivision.
     pub fn levels(self) -> u32 {
-        self as u32
+        match self {
+            Self::Low => 0,
+            Self::Medium => 1,
+            Self::High | Self::Auto => 2,
+            Self::VeryHigh => 3,
+        }
     }
 }
 

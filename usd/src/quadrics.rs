@@ -147,7 +147,7 @@ fn segments(complexity: Complexity) -> u32 {
     match complexity {
         Complexity::Low => 32,
         Complexity::Medium => 64,
-        Complexity::High => 96,
+        Complexity::High | Complexity::Auto => 96,
         Complexity::VeryHigh => 192,
     }
 }

@@ -28,7 +28,7 @@ from . import (  # noqa: F401 (they register their nodes)
     zones,
 )
 from .closures import closure
-from .displacement import bend
+from .displacement import displace
 from .flatten import flatten
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
@@ -55,15 +55,15 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
         return Translated(_plain(material.name, tuple(material.diffuse_color)[:3], material.pass_index))
     t = Translator(material, tree, images, report, measurements=measurements, version=version, surroundings=surroundings)
-    end = active_output(tree, "Material")
+    end, displacement = active_output(tree, "Material"), None
     if end is None:
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
     else:
-        bend(t, end, material)
+        displacement = displace(t, end, material)
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
-    return Translated(_described(t, material, outputs), t.primvars, t.instance_primvars, t.asked)
+    return Translated(_described(t, material, outputs, displacement), t.primvars, t.instance_primvars, t.asked)
 
 
 def _rest(t, end, material):
@@ -76,7 +76,7 @@ def _rest(t, end, material):
     limits.of_material(material, t.report)
 
 
-def _described(t, material, outputs):
+def _described(t, material, outputs, displacement):
     """Closures, AOV outputs and the graph without what nothing needs."""
     wanted = [output[key] for output in outputs for key in ("color", "value")]
     for made in t.closures:
@@ -84,8 +84,12 @@ def _described(t, material, outputs):
         wanted += [{"Node": [made[key], "Rgb"]} for key in ("normal", "coat_normal", "tangent") if made[key] is not None]
     if t.bent is not None:
         wanted.append({"Node": [t.bent.node, "Rgb"]})
+    if displacement is not None:
+        wanted.append(displacement["value"])
     nodes, order = t.graph.reachable(wanted)
+    moved = {} if displacement is None else {"displacement": {**displacement, "value": renumber(displacement["value"], order)}}
     return {
+        **moved,
         "origin": {"name": material.name, "file": ""},
         "graph": {"nodes": nodes},
         # Displacement makes the normal from which others are bent.

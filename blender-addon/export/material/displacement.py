@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Displacement of the material's output as a bent normal, and the nodes that compute it."""
+"""Displacement of the material's output: points that move, normals that bend, and the nodes that compute it."""
 
 from .bump import bent_by
 from .inputs import UV, carried, hit, normal_of
@@ -8,16 +8,39 @@ from .tangent_nodes import tangent_of
 from .translator import value_node
 
 
-def bend(t, end, material):
-    """Bends the normals of everything that is translated from now on as Cycles does for displacement by bump alone."""
+def displace(t, end, material):
+    """What the surface is moved by, for methods that move it; bends the normals of everything that is translated from now on as Cycles does
+    for displacement by bump. Gives the description of the displacement, or None."""
     if not t.linked(end, "Displacement", t.root):
-        return
-    if getattr(material, "displacement_method", "BUMP") != "BUMP":
-        t.tell("displacement", end, t.root)
-    smooth, moved = hit(t, "Normal"), input_socket(end, "Displacement")
-    bent = bent_by(t, smooth, lambda: t.socket(moved, t.root).as_kind("VECTOR").dot(smooth))
-    if bent.node != smooth.node:
-        t.bend(bent)
+        return None
+    method = getattr(material, "displacement_method", "BUMP")
+    socket = input_socket(end, "Displacement")
+    moved, found = method in ("DISPLACEMENT", "BOTH"), None
+    if moved:
+        with t.at_rest():
+            value = t.socket(socket, t.root).as_kind("VECTOR")
+        if not value.is_zero():
+            found = {"value": value.input(), "kind": "World", "keep_normals": method == "BOTH"}
+    if method != "DISPLACEMENT":
+        _bend(t, socket, moved)
+    t.has_moved = found is not None
+    return found
+
+
+def _bend(t, socket, moved):
+    """Normals bent by the heights of the surface as the mesh has it, before it moved."""
+
+    def bent():
+        smooth = hit(t, "Normal")
+        return smooth, bent_by(t, smooth, lambda: t.socket(socket, t.root).as_kind("VECTOR").dot(smooth))
+
+    if moved:
+        with t.at_rest():
+            smooth, normal = bent()
+    else:
+        smooth, normal = bent()
+    if normal.node != smooth.node:
+        t.bend(normal)
 
 
 @value_node("ShaderNodeDisplacement")

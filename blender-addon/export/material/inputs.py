@@ -2,12 +2,11 @@
 """Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
 
 from ..surroundings import LAYER, OBJECT
-from .translator import value_node
+from .translator import POSITION, value_node
 
 # Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
 UV = "st"
 GENERATED = "blender generated"
-POSITION = "blender position"
 RANDOM = "blender random"
 LOCATION = "blender location"
 COLOUR = "blender colour"
@@ -68,7 +67,7 @@ def texture_coordinates(t, node, context, output):
         return given(t, GIVEN_GENERATED) if node.from_instancer else t.primvar(GENERATED)
     if name == "Object":
         if node.object is None:
-            return t.primvar(POSITION)
+            return t.own_position()
         rows = t.ask(f"{OBJECT}{node.object.original.session_uid}") or node.object.matrix_world.inverted_safe()
         return applied(t, rows, hit(t, "Position"))
     if name == "Normal":

@@ -27,6 +27,8 @@ def normal_map(t, node, context, output):
 def _in_tangents(t, vector, uv):
     """The shading normal that a vector in the space of a UV map's tangents stands for, on the side that is seen."""
     along, normal = tangent_of(t, uv), of_mesh(t, SMOOTH_NORMAL)
+    if t.has_moved and t.bent is None:
+        normal = carried(t, hit(t, "Normal") * (hit(t, "FrontFacing") * 2.0 - 1.0), "World", "Object", "Normal")
     across = normal.cross(along) * along.component(3)
     bent = along * vector.component(0) + across * vector.component(1) + normal * vector.component(2)
     return carried(t, bent, "Object", "World", "Normal") * (hit(t, "FrontFacing") * 2.0 - 1.0)

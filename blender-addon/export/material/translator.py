@@ -11,6 +11,9 @@ from ...report import words_of
 from ..colour_management import to_rec709
 from .sockets import ABSENT, KINDS, Context, follow, input_socket
 
+# The points of the mesh itself, as a value that each can give.
+POSITION = "blender position"
+
 # More nodes than this in a row are not followed.
 DEEPEST = 1000
 # More nodes than these of one material, with those of its groups wherever they stand, are not computed.
@@ -94,8 +97,8 @@ class Translator:
         self._values, self._open, self._was_full = {}, set(), False
         # Nodes that something stands in for, and that were told.
         self._stood_in = set()
-        # The shading normal where displacement bends it.
-        self.bent = None
+        # The shading normal where displacement bends it; whether the surface has moved, and whether it is looked at as it was before.
+        self.bent, self.has_moved, self._is_at_rest = None, False, False
         # While a height is taken beside the hit: along which of the two steps, and how far.
         self._step = None
 
@@ -238,6 +241,15 @@ class Translator:
         finally:
             self._step = outer
 
+    @contextmanager
+    def at_rest(self):
+        """Has values computed for the surface as the mesh has it, before displacement moved it."""
+        self._is_at_rest, self._values = True, {}
+        try:
+            yield
+        finally:
+            self._is_at_rest, self._values = False, {}
+
     def bend(self, normal):
         """Has everything that is computed from now on see a bent shading normal."""
         self.bent = normal
@@ -254,11 +266,25 @@ class Translator:
 
     def position(self):
         """The hit's position in the world."""
+        if self._is_at_rest:
+            return self._carried_to_world(self.primvar(POSITION), "Point")
         value = self.graph.add("Position", kind="VECTOR")
         return value if self._step is None else value + self.step(self._step[0]) * self._step[1]
 
+    def own_position(self):
+        """The hit's position in its object's space."""
+        if self.has_moved and not self._is_at_rest:
+            return self.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Point"}}, self.position(), kind="VECTOR")
+        return self.primvar(POSITION)
+
+    def _carried_to_world(self, value, quantity):
+        return self.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": quantity}}, value, kind="VECTOR")
+
     def step(self, axis):
         """The way to the next pixel along one of two directions in the surface, in the world."""
+        if self._is_at_rest:
+            self.primvars.add(POSITION)
+            return self._carried_to_world(self.graph.add({"PrimvarStep": {"name": POSITION, "axis": axis}}, kind="VECTOR"), "Vector")
         return self.graph.add({"PositionStep": {"axis": axis}}, kind="VECTOR")
 
     def instance_primvar(self, name, kind):

@@ -176,6 +176,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
             ComplexityArgument::Medium => Complexity::Medium,
             ComplexityArgument::High => Complexity::High,
             ComplexityArgument::Veryhigh => Complexity::VeryHigh,
+            ComplexityArgument::Auto => Complexity::Auto,
         },
         population_mask: arguments.mask.clone(),
         variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,

@@ -2,7 +2,7 @@
 
 use crate::{
     accel::NONE,
-    compile::{CompiledScene, window},
+    compile::{CompiledScene, is_diced, window},
     error::{Error, Result},
     render::Render,
     scene::{Antialiasing, Aov, Integrator, Projection, Scene, Settings},
@@ -98,6 +98,9 @@ fn places(scene: &Scene, target: &BakeTarget, instance: u32) -> Result<Vec<Optio
     let Some(mesh) = scene.instances[target.instance as usize].geometry.mesh().map(|mesh| &scene.meshes[mesh.index()]) else {
         return Err(Error::setting("instance", "curves and points have no triangles to bake".to_owned()));
     };
+    if is_diced(scene, scene.instances[target.instance as usize].geometry) {
+        return Err(Error::setting("instance", format!("'{}' is diced to pixels, and has no triangles to bake before", mesh.origin)));
+    }
     if let Some(wrong) = target.triangles.iter().find(|triangle| **triangle != NONE && **triangle as usize >= mesh.triangles.len()) {
         let problem = format!("number {wrong} was found, '{}' has {}", mesh.origin, mesh.triangles.len());
         return Err(Error::setting("triangles", problem));

@@ -66,6 +66,7 @@ impl MeshBuffers<'_, '_> {
             triangles: Arc::from(&*triangles),
             primvars,
             faces: topology.faces.map(|(_, of_triangle)| of_triangle),
+            dicing: None,
         })
     }
 }

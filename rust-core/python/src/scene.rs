@@ -14,11 +14,12 @@ use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
     scene::{
-        self, CurvesId, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar, PrimvarInterpolation,
-        Transform,
+        self, CurvesId, Dicing, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar,
+        PrimvarInterpolation, Transform,
     },
 };
 use pyo3::{
+    exceptions::PyValueError,
     prelude::*,
     sync::PyOnceLock,
     types::{PyDict, PyType},
@@ -103,6 +104,20 @@ impl Scene {
         let buffers = MeshBuffers { points, triangles, corners, faces, normals, uvs, primvars, slots, motion, motion_normals };
         let mesh = buffers.mesh(name)?;
         description::put(&mut self.scene.meshes, "mesh", mesh, index)
+    }
+
+    /// Has a mesh cut when the scene is compiled, until no edge is longer than so many pixels of the camera that renders, or, where `length` is
+    /// above 0, than that in the mesh's own units. `levels`: how often an edge is cut in two at most; `smooth`: new points lie on curves through
+    /// the points with their normals.
+    #[pyo3(signature = (mesh, *, pixels = 1.0, length = 0.0, levels = 12, smooth = true))]
+    fn set_dicing(&mut self, mesh: u32, pixels: f32, length: f32, levels: u32, smooth: bool) -> PyResult<()> {
+        if !(pixels.is_finite() && pixels > 0.0 && length.is_finite() && length >= 0.0) {
+            return Err(PyValueError::new_err(format!("pixels {pixels} and length {length} were found, expected above 0 and 0 or more")));
+        }
+        let count = self.scene.meshes.len();
+        let wrong = || PyValueError::new_err(format!("mesh {mesh} was asked for, the scene has {count}"));
+        self.scene.meshes.get_mut(mesh as usize).ok_or_else(wrong)?.dicing = Some(Dicing { pixels, length, levels, smooth });
+        Ok(())
     }
 
     /// Adds curves, or replaces curves `index`; gives their number.

@@ -85,7 +85,8 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             }
             s.time_limit_s = limit;
         }
-        "texture_memory" => s.texture_memory = texture_memory(value)?,
+        "texture_memory" => s.texture_memory = bytes(key, value)?,
+        "displacement_memory" => s.displacement_memory = bytes(key, value)?,
         "texture_cache" => {
             let folder: PathBuf = value.extract()?;
             s.texture_cache = (!folder.as_os_str().is_empty()).then_some(folder);
@@ -105,9 +106,9 @@ fn within(key: &str, value: &Bound<'_, PyAny>, least: f64, most: f64) -> PyResul
 }
 
 /// Bytes, or a text with a unit.
-fn texture_memory(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+fn bytes(key: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     match value.extract::<String>() {
-        Ok(text) => parse_bytes(&text).map_err(|problem| wrong("texture_memory", problem)),
+        Ok(text) => parse_bytes(&text).map_err(|problem| wrong(key, problem)),
         Err(_) => value.extract(),
     }
 }

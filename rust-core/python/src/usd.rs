@@ -35,7 +35,7 @@ pub(crate) fn load_usd<'py>(
     let mut options = StageOptions { strict, render_settings, render_pass, motion_vectors, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
-        .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high or veryhigh")))?;
+        .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high, veryhigh or auto")))?;
     if let Some(tokens) = purposes {
         let purpose = |token: &String| {
             let problem = || setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));

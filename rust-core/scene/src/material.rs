@@ -1,6 +1,6 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{MeasuredId, Origin};
+use super::{Displacement, MeasuredId, Origin};
 use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
 
@@ -183,6 +183,9 @@ pub struct Material {
     /// The shading normal in world space that counts as the surface's own, of displacement that is shown as bump: closures' normals are bent
     /// from it. Closures without a normal of their own name it too.
     pub normal: Option<NodeId>,
+    /// How far the surface lies off the mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<Displacement>,
     /// What the material index pass shows.
     pub pass_index: u32,
     /// What shader passes show; entries of one name add up.
@@ -192,7 +195,15 @@ pub struct Material {
 impl Default for Material {
     fn default() -> Self {
         let closures = vec![Closure::default()];
-        Self { origin: Origin::default(), closures, graph: Graph::default(), normal: None, pass_index: 0, shader_outputs: Vec::new() }
+        Self {
+            origin: Origin::default(),
+            closures,
+            graph: Graph::default(),
+            normal: None,
+            displacement: None,
+            pass_index: 0,
+            shader_outputs: Vec::new(),
+        }
     }
 }
 

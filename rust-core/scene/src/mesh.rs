@@ -1,6 +1,6 @@
 //! Triangle meshes with named values.
 
-use super::Origin;
+use super::{Dicing, Origin};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -42,10 +42,20 @@ impl Primvar {
     pub fn constant(name: &str, value: f32) -> Self {
         Self { name: name.to_owned(), components: 1, values: Arc::from([value]), ..Self::default() }
     }
+    /// Whether both are called alike and hold the very same arrays.
+    pub fn holds_arrays_of(&self, other: &Self) -> bool {
+        (&self.name, self.interpolation, self.components) == (&other.name, other.interpolation, other.components)
+            && Arc::ptr_eq(&self.values, &other.values)
+            && address(self.indices.as_deref()) == address(other.indices.as_deref())
+    }
     /// Bytes held by the arrays.
     pub fn memory(&self) -> usize {
         self.values.len() * 4 + self.indices.as_ref().map_or(0, |i| i.len() * 4)
     }
+}
+
+fn address<T>(array: Option<&[T]>) -> Option<usize> {
+    array.map(|array| array.as_ptr().addr())
 }
 
 /// A mesh at one time of the shutter.
@@ -83,6 +93,9 @@ pub struct Mesh {
     /// Face of the source mesh for each triangle; `None` means the triangle's own number.
     #[serde(default, with = "super::blob::optional")]
     pub faces: Option<Arc<[u32]>>,
+    /// How finely it is cut when the scene is compiled; `None` leaves it as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dicing: Option<Dicing>,
 }
 
 impl Mesh {
@@ -101,6 +114,24 @@ impl Mesh {
         }
         let finite = self.motion.iter().all(|key| key.points.as_flattened().iter().all(|x| x.is_finite()));
         (!finite).then(|| "a motion key is not finite".into())
+    }
+    /// Whether both hold the very same arrays, and are diced alike.
+    pub fn holds_arrays_of(&self, other: &Self) -> bool {
+        let same_normals = match (&self.normals, &other.normals) {
+            (Some(a), Some(b)) => a.holds_arrays_of(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        let same_key = |(a, b): (&MeshKey, &MeshKey)| {
+            Arc::ptr_eq(&a.points, &b.points) && address(a.normals.as_deref()) == address(b.normals.as_deref())
+        };
+        same_normals
+            && Arc::ptr_eq(&self.points, &other.points)
+            && Arc::ptr_eq(&self.triangles, &other.triangles)
+            && address(self.slots.as_deref()) == address(other.slots.as_deref())
+            && self.dicing == other.dicing
+            && (self.motion.len(), self.primvars.len()) == (other.motion.len(), other.primvars.len())
+            && self.motion.iter().zip(&other.motion).all(same_key)
+            && self.primvars.iter().zip(&other.primvars).all(|(a, b)| a.holds_arrays_of(b))
     }
     /// The primvar called `name`.
     pub fn primvar(&self, name: &str) -> Option<&Primvar> {

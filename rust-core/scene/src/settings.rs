@@ -200,6 +200,9 @@ pub struct Settings {
     /// Folder for the tiles of textures, which are made where there is a limit; `None` is the user's folder for caches.
     #[serde(default)]
     pub texture_cache: Option<PathBuf>,
+    /// Bytes that displaced meshes may take; what goes beyond keeps its shape.
+    #[serde(default = "displacement_memory")]
+    pub displacement_memory: u64,
 }
 
 /// Bytes by a number and a unit of powers of 1024: `64M`, `1.5G`, `2 GiB`, `800 MB`; without a unit bytes.
@@ -213,6 +216,13 @@ pub fn parse_bytes(text: &str) -> Result<u64, String> {
     let power = ["", "K", "M", "G", "T"].iter().position(|known| *known == unit).ok_or_else(expected)?;
     let bytes = number * 1024_f64.powi(power as i32);
     if bytes.is_finite() && bytes < 1e18 { Ok(bytes.ceil() as u64) } else { Err(expected()) }
+}
+
+/// Bytes that displaced meshes may take where nothing else is said.
+const DISPLACEMENT_MEMORY: u64 = 4 << 30;
+
+fn displacement_memory() -> u64 {
+    DISPLACEMENT_MEMORY
 }
 
 /// Most samples of one light.
@@ -283,6 +293,7 @@ impl Default for Settings {
             deep_tolerance: deep_tolerance(),
             time_limit_s: 0.0,
             texture_memory: 0,
+            displacement_memory: DISPLACEMENT_MEMORY,
             texture_cache: None,
         }
     }

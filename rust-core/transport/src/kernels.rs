@@ -6,12 +6,14 @@
 //! Arguments are handed on as they came: a pattern among them copies its registers, in two calls of `memcpy`, before the level's instructions are on.
 //! Points that many branches read are passed by reference. By value they would be stored once more before the branches.
 
+use crate::geometry::GeometryTable;
 use crate::graph::{self, Around, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
 use crate::state::paths::PreviousLanes;
 use crate::tables::Tables;
 use gonio_bsdf::{BsdfSample, LightHits, Lobes, ParameterValues, SpecularRay, Surface, Way};
+use gonio_image::texture::TextureTable;
 use gonio_light::{FixedLightSample, LightCache, LightSample};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -199,8 +201,8 @@ pub(crate) fn surface_points<L: Lanes, H: HitSource + ?Sized>(
     );
 }
 
-/// [`graph::evaluate`].
-#[inline(never)]
+/// [`graph::evaluate`] on a scene's tables.
+#[inline(always)]
 pub(crate) fn evaluate<L: Lanes>(
     l: L,
     tables: &Tables,
@@ -210,12 +212,24 @@ pub(crate) fn evaluate<L: Lanes>(
     scratch: &mut GraphScratch,
     outputs: &mut OutputColumns,
 ) {
+    let around = Around { bvh: &tables.bvh, any_transparent: tables.any_transparent };
+    evaluate_on(l, program, &(&tables.geometry, &tables.textures, &around), points, count, scratch, outputs);
+}
+
+/// [`graph::evaluate`].
+#[inline(never)]
+pub(crate) fn evaluate_on<L: Lanes>(
+    l: L,
+    program: &Program,
+    asked: &(&GeometryTable, &TextureTable, &Around<'_>),
+    points: &mut SurfaceColumns,
+    count: usize,
+    scratch: &mut GraphScratch,
+    outputs: &mut OutputColumns,
+) {
     l.vectorize(
         #[inline(always)]
-        || {
-            let around = Around { bvh: &tables.bvh, any_transparent: tables.any_transparent };
-            graph::evaluate(l, program, (&tables.geometry, &tables.textures, &around), points, count, scratch, outputs);
-        },
+        || graph::evaluate(l, program, *asked, points, count, scratch, outputs),
     );
 }
 

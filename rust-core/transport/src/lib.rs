@@ -27,6 +27,7 @@ pub use accumulate::shader_sums::ShaderSums;
 pub use accumulate::tile_sums::TileSums;
 pub use schedule::light::{BatchFlux, LIGHT_BATCH, LightTracer, Receiver};
 pub use schedule::tracer::{Start, Tracer};
+pub use stage::corners::{Corner, CornerRoom, CornerTables};
 pub use stage::emit::{Emission, RayTable};
 pub use stage::forward::{Arriving, Picture, Splat, Wanted};
 pub use stage::generate::{TileArea, generate};

@@ -7,6 +7,7 @@
 mod arnold_nodes;
 mod binding;
 mod definition;
+mod displaced;
 mod document;
 mod emit;
 mod from_usd;
@@ -47,17 +48,23 @@ const RENDER_CONTEXTS: [&str; 3] = ["gonio", "mtlx", ""];
 /// Reflectance of surfaces that say nothing about themselves.
 const FALLBACK_REFLECTANCE: f32 = 0.18;
 
+/// Whether a shader is the surface whose displacement may be an output of it.
+fn is_preview_surface(id: &str) -> bool {
+    matches!(id, "UsdPreviewSurface" | "ND_UsdPreviewSurface_surfaceshader")
+}
+
 fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) -> Option<Material> {
     let origin = Origin::new(path);
     let surfaces = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
     let mut unknown = Vec::new();
-    for (render_context, prim) in surfaces {
-        let document = from_usd::read(prim, &context.time);
+    for (render_context, surface) in surfaces {
+        let document = from_usd::read(surface, &context.time);
         let mut network = Network::new(context, document);
         let shader = network.shader(NodeIndex(0));
         if let Some(closures) = surface::convert(&mut network, &shader) {
-            let graph = network.graph;
-            return Some(Material { origin, closures, graph, ..Material::default() });
+            let mut graph = network.graph;
+            let displacement = displaced::read(context, prim, &mut graph);
+            return Some(Material { origin, closures, graph, displacement, ..Material::default() });
         }
         let name = if shader.id.is_empty() { format!("<{}> without a name", shader.path) } else { format!("'{}'", shader.id) };
         let place = if render_context.is_empty() { String::new() } else { format!(" (render context {render_context})") };

@@ -53,4 +53,6 @@ pub(crate) enum ComplexityArgument {
     High,
     /// Three times.
     Veryhigh,
+    /// Twice, and then until no edge is longer than a pixel of the camera.
+    Auto,
 }

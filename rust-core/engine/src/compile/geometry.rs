@@ -77,7 +77,12 @@ pub(super) fn tables(
 }
 
 /// Appends a mesh; gives its part of its instances' rows.
-fn append_mesh(mesh: &Mesh, names: &[String], table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>) -> Result<InstanceRow> {
+pub(super) fn append_mesh(
+    mesh: &Mesh,
+    names: &[String],
+    table: &mut GeometryTable,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<InstanceRow> {
     let first_point = (table.points.len() / 3) as u64;
     if (first_point + mesh.points.len() as u64) * 3 >= i32::MAX as u64
         || (table.corners.len() + mesh.triangles.len() * 3) >= i32::MAX as usize
@@ -132,7 +137,7 @@ fn append_checked(
 }
 
 /// Room so that no gather finds an empty table, and reading a whole value never leaves it.
-fn pad(table: &mut GeometryTable) {
+pub(super) fn pad(table: &mut GeometryTable) {
     table.points.extend([0.0; 12]);
     table.values.extend([0.0; 4]);
     table.radii.extend([0.0; 4]);

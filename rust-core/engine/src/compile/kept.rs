@@ -35,7 +35,8 @@ impl Stamp {
         };
         Self { source: texture.source.clone(), colour_space: texture.colour_space.clone(), modified }
     }
-    fn is(&self, other: &Self) -> bool {
+    /// Whether both are of the same bytes.
+    pub(super) fn is(&self, other: &Self) -> bool {
         let same_source = match (&self.source, &other.source) {
             (TextureSource::File(a), TextureSource::File(b)) => a == b,
             (TextureSource::Encoded { bytes: a, .. }, TextureSource::Encoded { bytes: b, .. }) => Arc::ptr_eq(a, b),

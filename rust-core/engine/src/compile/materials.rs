@@ -1,5 +1,6 @@
 //! Materials: parameter blocks and programs.
 
+mod displacement;
 mod program;
 
 use super::{measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
@@ -10,6 +11,7 @@ use crate::{
     scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
+pub(super) use displacement::{displaces, program, pruned};
 use gonio_nodes::{Channel, Operand};
 use program::{CompiledGraph, asks_for_ray, compile_graph};
 
@@ -56,7 +58,8 @@ fn nodes_of(material: &Material) -> impl Iterator<Item = NodeId> {
     let closures = &material.closures;
     let parameters = closures.iter().flat_map(|closure| closure.parameters.iter().map(|(_, input)| input).chain([&closure.weight]));
     let outputs = material.shader_outputs.iter().flat_map(|output| [&output.color, &output.value]);
-    let inputs = parameters.chain(outputs).filter_map(|input| match input {
+    let displaced = material.displacement.iter().map(|displacement| &displacement.value);
+    let inputs = parameters.chain(outputs).chain(displaced).filter_map(|input| match input {
         Input::Node(node, _) => Some(*node),
         Input::Constant(_) => None,
     });

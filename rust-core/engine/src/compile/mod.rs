@@ -6,6 +6,8 @@ mod bounds;
 mod casters;
 mod catchers;
 mod cut;
+mod dice;
+mod displace;
 mod expressions;
 mod geometry;
 mod goniograms;
@@ -43,6 +45,7 @@ use numbers::geometry_number;
 
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
+pub(crate) use dice::is_diced;
 pub use luminaires::luminous_fluxes;
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
@@ -83,6 +86,8 @@ pub struct CompiledScene {
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
     smooth: Vec<smooth::KeptSmooth>,
+    diced: Vec<dice::KeptDiced>,
+    displaced: Vec<displace::KeptDisplaced>,
     images: kept::KeptImages,
     kept_lights: lights::KeptLights,
     measured: measured::CompiledMeasured,
@@ -125,12 +130,17 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let scene = adapted.as_ref().unwrap_or(scene);
     let none = (kept::KeptImages::default(), lights::KeptLights::default());
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
+    let diced = dice::apply(scene, previous.map_or(&[], |p| &p.diced), cancel, &mut diagnostics)?;
+    let scene = diced.as_ref().map_or(scene, |diced| &diced.scene);
     let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
     let none = measured::CompiledMeasured::default();
     let measured = measured::compile(scene, previous.map_or(&none, |p| &p.measured), &mut diagnostics);
     let names = primvars::used_names(scene, &measured);
     let materials = materials::compile(scene, &textures, &measured, &names, &mut diagnostics)?;
     check(cancel)?;
+    let laid = displace::Laid { textures: &textures, materials: &materials, names: &names };
+    let displaced = displace::apply(scene, laid, previous.map_or(&[], |p| &p.displaced), cancel, &mut diagnostics)?;
+    let scene = displaced.as_ref().map_or(scene, |displaced| &displaced.scene);
     let trees_start = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
     let cuts = cut::cut_all(scene, &mut diagnostics);
@@ -196,17 +206,20 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         any_absorbing,
         origin,
     };
+    let (cameras, manifests) = (scene.cameras.clone(), Arc::new(Manifests::of(scene)));
     Ok(CompiledScene {
         tables,
-        cameras: scene.cameras.clone(),
+        cameras,
         bounds,
         diagnostics,
         statistics,
-        manifests: Arc::new(Manifests::of(scene)),
+        manifests,
         casters,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         smooth,
+        diced: diced.map(|diced| diced.kept).unwrap_or_default(),
+        displaced: displaced.map(|displaced| displaced.kept).unwrap_or_default(),
         images: textures.kept,
         kept_lights: lights.kept,
         measured,

@@ -3,7 +3,7 @@
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Closure, Input, Model, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
+    scene::{Closure, Input, Mesh, Model, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
 };
 
 /// What texture coordinates are called, the likeliest first.
@@ -66,6 +66,24 @@ impl Elements {
             PrimvarInterpolation::FaceVarying => self.corners,
         }
     }
+}
+
+/// How many elements a mesh has.
+pub(super) fn elements(mesh: &Mesh) -> Elements {
+    Elements { uniform: mesh.triangles.len(), points: mesh.points.len(), corners: mesh.triangles.len() * 3 }
+}
+
+/// A checked primvar's value at a corner of a mesh, three a triangle.
+pub(super) fn at_corner<'a>(primvar: &'a Primvar, corner: usize, mesh: &Mesh) -> &'a [f32] {
+    let element = match primvar.interpolation {
+        PrimvarInterpolation::Constant => 0,
+        PrimvarInterpolation::Uniform => corner / 3,
+        PrimvarInterpolation::Varying | PrimvarInterpolation::Vertex => mesh.triangles[corner / 3][corner % 3] as usize,
+        PrimvarInterpolation::FaceVarying => corner,
+    };
+    let element = primvar.indices.as_ref().map_or(element, |indices| indices[element] as usize);
+    let width = usize::from(primvar.components);
+    &primvar.values[element * width..(element + 1) * width]
 }
 
 /// What is wrong with a primvar's arrays, if anything.

@@ -2,7 +2,7 @@
 
 use super::options::MapOptions;
 use crate::{
-    compile::CompiledScene,
+    compile::{CompiledScene, is_diced},
     error::{Error, Result},
     scene::{MeshId, Origin, Scene, Transform},
 };
@@ -44,6 +44,10 @@ pub(super) fn chosen(scene: &Scene, compiled: &CompiledScene, options: &MapOptio
         }
         let transform = set.transforms[row.number as usize];
         let number = set.geometry.mesh()?;
+        // Its triangles are others when it is rendered.
+        if is_diced(scene, set.geometry) {
+            return None;
+        }
         let mesh = &scene.meshes[number.index()];
         let areas: Vec<f64> = mesh.triangles.iter().map(|corners| area(&mesh.points, *corners, &transform)).collect();
         let surface = MappedSurface {

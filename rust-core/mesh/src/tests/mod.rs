@@ -1,10 +1,12 @@
 //! Tests of the mesh module.
 
+mod dice;
 mod garbage;
 mod polygons;
 mod shapes;
 mod subdivision;
 mod subdivision_rules;
+mod weld;
 
 use super::{FacePrimvar, Interpolation, PolygonMesh};
 

@@ -586,6 +586,9 @@ class Scene:
         name: str = "mesh",
         index: int | None = None,
     ) -> int: ...
+    def set_dicing(
+        self, mesh: int, *, pixels: float = 1.0, length: float = 0.0, levels: int = 12, smooth: bool = True
+    ) -> None: ...
     def put_curves(
         self,
         points: Buffer,
@@ -698,6 +701,7 @@ class Scene:
         mist: tuple[float, float, float] | None = ...,
         time_limit: float | None = ...,
         texture_memory: int | str | None = ...,
+        displacement_memory: int | str | None = ...,
         texture_cache: str | PathLike[str] | None = ...,
         passes: Sequence[str] | None = ...,
         cryptomatte_depth: int | None = ...,

@@ -17,6 +17,7 @@
 
 pub(crate) mod catcher;
 pub(crate) mod closure;
+pub(crate) mod corners;
 pub(crate) mod emit;
 pub(crate) mod exit;
 pub(crate) mod first_surface;

@@ -4,6 +4,7 @@ use crate::material::library::Library;
 use crate::material::mtlx::{self, Stated};
 use crate::material::neutral::{Document, Node, Said, Source, Value};
 use crate::material::xml::{self, Element};
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -71,13 +72,21 @@ fn material(material: &Element, stated: Stated<'_>, libraries: &[&Library], prob
         problems.push(format!("the material '{name}' has no surface shader"));
         return String::new();
     };
-    if material.child_called("displacementshader").is_some() {
-        problems.push(format!("the displacement of the material '{name}' is not supported, it is left out"));
-    }
     let root = format!("/MaterialX/Materials/{name}");
-    let shaders: String = document.nodes.iter().map(|node| shader(&root, node, &document, problems)).collect();
-    let (surface, output) = (identifier(&document.nodes[0].path), identifier(&output));
-    format!("def Material \"{name}\"\n{{\ntoken outputs:mtlx:surface.connect = <{root}/{surface}.outputs:{output}>\n{shaders}}}\n")
+    let mut shaders: String = document.nodes.iter().map(|node| shader(&root, node, &document, problems)).collect();
+    let terminal = |kind: &str, document: &Document, output: &str| {
+        let (end, output) = (identifier(&document.nodes[0].path), identifier(output));
+        format!("token outputs:mtlx:{kind}.connect = <{root}/{end}.outputs:{output}>\n")
+    };
+    let mut terminals = terminal("surface", &document, &output);
+    if let Some((displacing, output)) = mtlx::read(stated, material, "displacementshader", libraries) {
+        // Nodes that both read are there already.
+        let known: HashSet<&str> = document.nodes.iter().map(|node| &*node.path).collect();
+        let others = displacing.nodes.iter().filter(|node| !known.contains(&*node.path));
+        shaders.extend(others.map(|node| shader(&root, node, &displacing, problems)));
+        terminals += &terminal("displacement", &displacing, &output);
+    }
+    format!("def Material \"{name}\"\n{{\n{terminals}{shaders}}}\n")
 }
 
 fn shader(root: &str, node: &Node, document: &Document, problems: &mut Vec<String>) -> String {

@@ -52,9 +52,6 @@ pub(super) fn convert_as(network: &mut Network<'_>, shader: &Shader, names: Name
     closure.set("coat_darkening", 0.0);
     closure.set_input("emission_color", network.colour(shader, "emissiveColor", [0.0; 3]));
     closure.normal = normal(network, shader);
-    if network.input(shader, "displacement").is_some_and(|input| !is_constant(input, 0.0)) {
-        network.unsupported("displacement of UsdPreviewSurface", shader);
-    }
     opacity(network, shader, closure)
 }
 

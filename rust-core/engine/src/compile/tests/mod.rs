@@ -1,3 +1,4 @@
+mod displace;
 mod graph;
 mod luminaire;
 mod quantity;

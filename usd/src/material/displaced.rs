@@ -1,0 +1,71 @@
+//! Displacement: what a material's output of that name reads, in the graph of its surface.
+
+use super::emit::{is_constant, multiply};
+use super::from_usd;
+use super::network::{Network, Shader};
+use super::neutral::NodeIndex;
+use super::{RENDER_CONTEXTS, is_preview_surface};
+use crate::context::Context;
+use crate::prim::Prim;
+use crate::pxr::Module;
+use gonio::scene::{Displacement, DisplacementKind, Graph, Origin};
+use pyo3::{intern, prelude::*};
+
+/// What displaces a material; its nodes are added to the graph.
+pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, graph: &mut Graph) -> Option<Displacement> {
+    let origin = Origin::new(&material.path());
+    let prim = context.attempt(&origin, "the material's displacement cannot be found", source(material))??;
+    let document = from_usd::read(prim, &context.time);
+    let mut network = Network::new(context, document);
+    network.graph = std::mem::take(graph);
+    let shader = network.shader(NodeIndex(0));
+    let found = convert(&mut network, &shader);
+    *graph = network.graph;
+    found.filter(|displacement| !displacement.is_nothing())
+}
+
+/// The shader behind the output, in the render context that goes first.
+fn source<'py>(material: &Prim<'py>) -> PyResult<Option<Prim<'py>>> {
+    let py = material.py();
+    let wrapped = Module::UsdShade.wrap("Material", material.object())?;
+    for render_context in RENDER_CONTEXTS {
+        let output = wrapped.call_method1(intern!(py, "GetDisplacementOutput"), (render_context,))?;
+        // A missing context falls back to the universal one, which has its own turn.
+        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
+            continue;
+        }
+        let shader = wrapped.call_method1(intern!(py, "ComputeDisplacementSource"), (render_context,))?.get_item(0)?;
+        if shader.is_truthy()? {
+            return Ok(Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
+        }
+    }
+    Ok(None)
+}
+
+/// A displacement shader's value; `None` for one that is not known, which is told.
+fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Displacement> {
+    let (value, kind) = match &*shader.id {
+        id if is_preview_surface(id) => (network.scalar(shader, "displacement", 0.0), DisplacementKind::Height),
+        "ND_displacement_float" => {
+            (scaled(network, shader, |network| network.scalar(shader, "displacement", 0.0)), DisplacementKind::Height)
+        }
+        "ND_displacement_vector3" => {
+            (scaled(network, shader, |network| network.colour(shader, "displacement", [0.0; 3])), DisplacementKind::Tangent)
+        }
+        other => {
+            network.unsupported(&format!("the displacement shader '{other}'"), shader);
+            return None;
+        }
+    };
+    Some(Displacement { value, kind, ..Displacement::default() })
+}
+
+fn scaled<'h>(
+    network: &mut Network<'h>,
+    shader: &Shader,
+    value: impl FnOnce(&mut Network<'h>) -> gonio::scene::Input,
+) -> gonio::scene::Input {
+    let value = value(network);
+    let scale = network.scalar(shader, "scale", 1.0);
+    if is_constant(scale, 1.0) { value } else { multiply(&mut network.graph, value, scale) }
+}
