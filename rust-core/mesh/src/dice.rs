@@ -132,12 +132,9 @@ fn bulge(p: Vec3, q: Vec3, n: Vec3, m: Vec3) -> Vec3 {
     if off.iter().all(|x| x.is_finite()) { off } else { [0.0; 3] }
 }
 
-/// The normal in the middle of an edge: that of the ends' mean, mirrored at the edge's middle plane as the surface bends.
-fn normal_between(p: Vec3, q: Vec3, n: Vec3, m: Vec3) -> Vec3 {
-    let (way, sum) = (sub(q, p), add(n, m));
-    let squared = dot(way, way);
-    let turned = if squared > 0.0 { sub(sum, scale(way, 2.0 * dot(way, sum) / squared)) } else { sum };
-    normalized(turned).or_else(|| normalized(sum)).unwrap_or(n)
+/// The normal in the middle of an edge: the mean of those of its ends.
+fn normal_between(n: Vec3, m: Vec3) -> Vec3 {
+    normalized(add(n, m)).unwrap_or(n)
 }
 
 fn cut_edges(triangle: &DicedTriangle, cuts: &Pairs<(Vec3, f32)>, places: &Weld) -> [bool; 3] {
@@ -167,7 +164,7 @@ fn split_all(diced: &mut Diced, places: &mut Weld, cuts: &Pairs<(Vec3, f32)>) {
                 places.place.push(place);
                 diced.points.len() as u32 - 1
             });
-            middle[k] = between(diced, triangle, k, number);
+            middle[k] = between(triangle, k, number);
         }
         split(diced, triangle, cut, middle);
     }
@@ -184,12 +181,11 @@ fn corner(triangle: &DicedTriangle, k: usize) -> Corner {
     Corner { point: triangle.points[k], place: triangle.places[k], normal: triangle.normals[k] }
 }
 
-fn between(diced: &Diced, triangle: &DicedTriangle, k: usize, point: u32) -> Corner {
+fn between(triangle: &DicedTriangle, k: usize, point: u32) -> Corner {
     let [a, b] = [corner(triangle, k), corner(triangle, (k + 1) % 3)];
     let place = [0, 1].map(|axis| 0.5 * (a.place[axis] + b.place[axis]));
-    let [p, q] = [a.point, b.point].map(|point| diced.points[point as usize]);
     let none = a.normal == [0.0; 3] && b.normal == [0.0; 3];
-    let normal = if none { [0.0; 3] } else { normal_between(p, q, a.normal, b.normal) };
+    let normal = if none { [0.0; 3] } else { normal_between(a.normal, b.normal) };
     Corner { point, place, normal }
 }
 
