@@ -67,7 +67,7 @@ fn pieces(complexity: Complexity) -> usize {
     match complexity {
         Complexity::Low => 4,
         Complexity::Medium => 8,
-        Complexity::High => 16,
+        Complexity::High | Complexity::Auto => 16,
         Complexity::VeryHigh => 32,
     }
 }

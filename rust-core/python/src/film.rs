@@ -8,7 +8,8 @@ use crate::{
 use gonio::{
     film::{Image, Layer, channel_names, edge_aware},
     output::{
-        DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_deep_exr, write_exr, write_picture,
+        DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_deep_exr, write_exr,
+        write_picture,
     },
     scene::Aov,
 };

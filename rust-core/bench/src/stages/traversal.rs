@@ -57,7 +57,7 @@ fn of_scene(scene_name: &str, scene: &Scene, cancel: &AtomicBool) -> Result<Vec<
         let count = rays.len();
         let (hits, blocked) = (Hits::default(), vec![0; BATCH]);
         let kernel = Traversal { scene: scene.clone(), rays, query, packets, hits, blocked, found: (0, 0.0) };
-        Case::new(&format!("{scene_name}{name}"), "ray", count, kernel)
+        Case::new(format!("{scene_name}{name}"), "ray", count, kernel)
     };
     Ok(vec![
         case("first bounce", first, Query::Nearest, false),

@@ -1,7 +1,7 @@
 //! C planes and γ angles, and the cells about their directions.
 
-use crate::error::{Error, Result};
 use super::division::{Division, diamond_angle};
+use crate::error::{Error, Result};
 use std::f64::consts::{PI, TAU};
 
 /// Most directions.

@@ -71,13 +71,13 @@ impl DeepSums {
         let now = [red, green, blue, alpha];
         self.met.sort_unstable_by(|a, b| (a.slot, a.depth).partial_cmp(&(b.slot, b.depth)).unwrap_or(std::cmp::Ordering::Equal));
         let mut rest = self.met.as_slice();
-        for slot in 0..BATCH {
-            let here = rest.iter().take_while(|met| met.slot as usize == slot).count();
+        for slot in 0..BATCH as u32 {
+            let here = rest.iter().take_while(|met| met.slot == slot).count();
             let (met, behind) = rest.split_at(here);
             rest = behind;
-            let more = [0, 1, 2, 3].map(|channel| now[channel][slot] - self.before[channel][slot]);
+            let more = [0, 1, 2, 3].map(|channel| now[channel][slot as usize] - self.before[channel][slot as usize]);
             if here > 0 || more.iter().any(|value| *value != 0.0) {
-                share_out(slot as u32, met, more, &mut self.parts);
+                share_out(slot, met, more, &mut self.parts);
             }
         }
         self.before.iter_mut().zip(now).for_each(|(before, now)| before.copy_from_slice(&now[..BATCH]));

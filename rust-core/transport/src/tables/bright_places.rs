@@ -94,7 +94,7 @@ impl BrightPlaces {
         let x = (position.x * self.scale + OFFSET[0]).floor().to_i32();
         let y = (position.y * self.scale + OFFSET[1]).floor().to_i32();
         let z = (position.z * self.scale + OFFSET[2]).floor().to_i32();
-        let key = mixed(x * FACTORS[0] ^ y * FACTORS[1] ^ z * FACTORS[2]);
+        let key = mixed((x * FACTORS[0]) ^ (y * FACTORS[1]) ^ (z * FACTORS[2]));
         let slot = (key & (self.keys.len() as u32 - 1)).keep_if(chosen);
         let known = chosen & l.gather_integers(&self.keys, slot).eq(key);
         l.gather(&self.shares, slot).keep_if(known)

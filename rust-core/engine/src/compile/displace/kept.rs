@@ -46,7 +46,7 @@ impl Ingredients {
             images: images.collect(),
             placements: placed.take(PLACEMENTS).collect(),
             limit: scene.settings.displacement_memory,
-            blurs: super::super::motion::blurs(&scene.settings),
+            blurs: crate::compile::times::blurs(&scene.settings),
         }
     }
 }

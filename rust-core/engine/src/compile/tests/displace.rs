@@ -47,7 +47,9 @@ fn grid() -> Mesh {
 /// A material that is displaced by nodes' last value.
 fn material(nodes: Vec<(Operation, Vec<Input>)>, displacement: Displacement) -> Material {
     let mut material = Material::diffuse(Origin::new("moved"), [0.5; 3]);
-    nodes.into_iter().for_each(|(operation, inputs)| drop(material.graph.add(operation, inputs)));
+    for (operation, inputs) in nodes {
+        let _ = material.graph.add(operation, inputs);
+    }
     material.displacement = Some(displacement);
     material
 }
