@@ -80,9 +80,12 @@ def test_light_goes_to_the_surface_that_sends_it(tmp_path):
     scene.add_instance(scene.add_mesh(FLOOR * np.float32(0.2), QUAD), [gauze], transform=at(0.0, 1.0, 0.0), name="gauze")
     _, pixels, flat = deep(finished(scene), tmp_path)
     front, back = flatten(pixels, 7.5), flat - flatten(pixels, 7.5)
-    middle = (slice(12, 20), slice(12, 20))
+    # Beside the lamp, which the camera sees in the middle; metres from it, on the gauze 7 m below the camera.
+    middle = (slice(18, 21), slice(12, 20))
+    rows, columns = (np.arange(axis.start, axis.stop) + 0.5 - 16 for axis in middle)
+    away = np.hypot(rows[:, None], columns[None]) * 2 * 7 * np.tan(np.radians(20)) / 32
     # Lambert's law under a sphere of 0.1 m and 1000 cd/m2, 1 m above.
-    irradiance = 1000.0 * np.pi * 0.1**2
+    irradiance = (1000.0 * np.pi * 0.1**2 / (1 + away**2) ** 1.5).mean()
     assert front[middle][..., 0].mean() == pytest.approx(0.3 * 0.9 * irradiance / np.pi, rel=0.1)
     assert front[middle][..., 3].mean() == pytest.approx(0.3, abs=0.02)
     ratio = front[middle].mean((0, 1))[:3] / front[middle].mean((0, 1))[0]
@@ -183,7 +186,7 @@ def test_what_has_no_depth_is_refused(tmp_path):
             gonio.Render(scene)
     caught = floor_scene(passes=PASSES)
     mesh = caught.add_mesh(FLOOR, QUAD)
-    caught.put_instances(mesh, [], np.array([at(0, 0.1, 0)], "f8"), shadow_catcher=True)
+    caught.put_instances(mesh, [], np.array([at(0, 0.1, 0)], "f4"), visibility={"shadow_catcher": True})
     with pytest.raises(gonio.SettingError, match="shadow catchers"):
         gonio.Render(caught)
     with pytest.raises(gonio.SettingError, match="deep_tolerance"):

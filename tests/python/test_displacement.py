@@ -115,7 +115,8 @@ def test_a_displaced_ball_keeps_light_inside(own_points, diced):
     scene = lit(samples=16, camera=(0.0, 0.0, 0.1), background=(1e4, 1e4, 1e4))
     scene.set(max_bounces=0)
     points, triangles, st = ball(16, own_points)
-    mesh = scene.add_mesh(points, triangles, uvs=st, normals=points)
+    # Flat: smooth normals of so few triangles let light in between their horizon and the face, displaced or not.
+    mesh = scene.add_mesh(points, triangles, uvs=st)
     if diced:
         scene.set_dicing(mesh, pixels=4.0)
     # Heights that jump at the seam.

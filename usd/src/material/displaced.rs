@@ -13,7 +13,7 @@ use pyo3::{intern, prelude::*};
 
 /// What displaces a material; its nodes are added to the graph.
 pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, graph: &mut Graph) -> Option<Displacement> {
-    let origin = Origin::new(&material.path());
+    let origin = Origin::new(material.path());
     let prim = context.attempt(&origin, "the material's displacement cannot be found", source(material))??;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);

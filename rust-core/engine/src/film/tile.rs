@@ -269,7 +269,8 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
         Aov::DenoisingNormal => copy3(channels, &gathered.guides[1]),
         Aov::Uv => copy3(channels, &gathered.uv),
         Aov::Motion => {
-            for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.motion) {
+            // Columns are empty where things are blurred.
+            for (out, column) in channels.chunks_exact_mut(BATCH).zip(&gathered.motion).filter(|(_, column)| !column.is_empty()) {
                 out.copy_from_slice(&column[..BATCH]);
             }
         }
