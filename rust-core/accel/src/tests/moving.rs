@@ -104,7 +104,7 @@ fn curves_and_points_that_move_are_met_as_they_are_at_the_rays_time() {
     };
     let keys: Vec<Vec<[f32; 4]>> = vec![rest.clone(), moved(&mut random), moved(&mut random)];
     // Strands of four points.
-    let bits = |i: u32| if i % 4 == 0 { FIRST_PIECE } else { 0 } | if i % 4 == 2 { LAST_PIECE } else { 0 };
+    let bits = |i: u32| if i.is_multiple_of(4) { FIRST_PIECE } else { 0 } | if i % 4 == 2 { LAST_PIECE } else { 0 };
     let pieces: Vec<u32> = (0..400).filter(|i| i % 4 < 3).map(|i| i | bits(i)).collect();
     let mut rays = OwnedRays::random(&mut random, 2048, 1.0, true);
     rays.time = (0..2048).map(|i| TIMES[i % 4]).collect();
