@@ -23,7 +23,7 @@ def test_settings_and_passes_that_are_not_followed_leave_a_line(tmp_path):
         wanted.add("Fast GI Approximation")
     scenes.render(tmp_path / "told.exr")
     told = {line.message.split(":")[0] for line in latest().diagnostics}
-    assert told == wanted
+    assert told == wanted, told
 
 
 @pytest.mark.blender

@@ -77,7 +77,8 @@ mod tests {
         let layer = Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 };
         let window = Crop { min: [10, 20], max: [15, 24] };
         let (frame, manifests) = (Frame::default(), Default::default());
-        let image = Image { resolution: [64, 64], window, frame, layers: vec![layer], samples: 1, mean_samples: 1.0, manifests, deep: None };
+        let image =
+            Image { resolution: [64, 64], window, frame, layers: vec![layer], samples: 1, mean_samples: 1.0, manifests, deep: None };
         let mut whole = image.clone();
         crop(&mut whole, &["C".into()]).expect("there");
         assert_eq!(whole.window, Crop { min: [12, 21], max: [14, 23] });
