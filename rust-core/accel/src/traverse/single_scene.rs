@@ -171,14 +171,22 @@ impl<K: Lanes8, C: HitCallback> Visitor<K> for MeshVisitor<'_, C> {
             if self.mesh.is_still() {
                 return intersect_smooth(lanes, self.mesh.smooth.leaf(leaf.index()), ray, self.record.owner(), self.callback);
             }
-            let moved = self.mesh.smooth_at(leaf.index(), self.time);
-            return intersect_smooth(lanes, moved.leaf(), ray, self.record.owner(), self.callback);
+            return self.moved(lanes, ray, leaf.index());
         }
         if self.mesh.is_still() {
             return intersect_leaf(lanes, &self.mesh.blocks[leaf.index()], ray, self.record.owner(), self.callback);
         }
         let block = self.mesh.block_at(leaf.index(), self.time);
         intersect_leaf(lanes, &block, ray, self.record.owner(), self.callback)
+    }
+}
+
+impl<C: HitCallback> MeshVisitor<'_, C> {
+    /// A leaf of curves or points that move; apart, because triangles shall not pay for its room on the stack.
+    #[inline(never)]
+    fn moved<K: Lanes8>(&mut self, lanes: K, ray: &PreparedRay, leaf: usize) -> bool {
+        let moved = self.mesh.smooth_at(leaf, self.time);
+        intersect_smooth(lanes, moved.leaf(), ray, self.record.owner(), self.callback)
     }
 }
 
