@@ -1,4 +1,4 @@
-# Sourced by the scripts beside it: compilers for other systems, with what Debian, PyPI and crates.io have alone. Packages are unpacked beside the
+# Sourced by the scripts beside it: compilers for other systems, with what the usual package registries have. Packages are unpacked beside the
 # build, in target/cross-tools; none is installed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
