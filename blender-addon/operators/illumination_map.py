@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keeps the light that selected surfaces get: images over their UV maps, or attributes of their meshes."""
 
-from concurrent.futures import ThreadPoolExecutor
-from threading import Event
-
 import bpy
 import gonio
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import illumination, measuring, report
+from .beside import Beside
 
 # What the engine and Blender's own meshes and images raise.
 FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError, MemoryError)
-# Seconds between two looks whether the maps are done.
-PAUSE = 0.1
 
 TARGETS = (
     ("IMAGE", "Image", "An image of 32-bit floats over the active UV map, in lux", "IMAGE_DATA", 0),
@@ -33,7 +29,7 @@ SIDES = (
 )
 
 
-class GONIO_OT_illumination_map(bpy.types.Operator):
+class GONIO_OT_illumination_map(Beside, bpy.types.Operator):
     """Trace light to the selected surfaces, and keep how many lux each part of them gets in images or mesh attributes"""
 
     bl_idname = "gonio.illumination_map"
@@ -78,7 +74,6 @@ class GONIO_OT_illumination_map(bpy.types.Operator):
 
     # Whether the user was asked; then light is traced beside Blender.
     _asked = False
-    _worker = None
 
     @classmethod
     def poll(cls, context):
@@ -102,42 +97,17 @@ class GONIO_OT_illumination_map(bpy.types.Operator):
             chosen = illumination.targets(depsgraph, self._things.values(), images=self.target == "IMAGE")
             self._mapping = illumination.Mapping(depsgraph, chosen, self._things)
             if self._asked and not bpy.app.background:
-                return self._start(context)
+                context.workspace.status_text_set("Gonio maps the selected surfaces    ESC: Cancel")
+                return self._go(context, self._mapping.run, **self._options())
             return self._publish(self._mapping.run(**self._options()))
         except FAILURES as problem:
             return self._fail(problem)
 
-    def _start(self, context):
-        """Traces beside Blender."""
-        self._stop, self._worker = Event(), ThreadPoolExecutor(max_workers=1)
-        self._found = self._worker.submit(self._mapping.run, self._stop.is_set, **self._options())
-        self._timer = context.window_manager.event_timer_add(PAUSE, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        context.workspace.status_text_set("Gonio maps the selected surfaces    ESC: Cancel")
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self.cancel(context)
-            return {"CANCELLED"}
-        # Nothing passes through: the objects are still what is mapped when the light comes.
-        if not self._found.done():
-            return {"RUNNING_MODAL"}
-        self.cancel(context)
+    def _arrived(self, context, found):
         try:
-            return self._publish(self._found.result())
+            return self._publish(found.result())
         except FAILURES as problem:
             return self._fail(problem)
-
-    def cancel(self, context):
-        """Ends the tracing and waits for its thread; Blender calls it when it ends the operator itself, and when the dialog is left."""
-        if self._worker is None:
-            return
-        self._stop.set()
-        self._worker.shutdown()
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
 
     def draw(self, context):
         layout = self.layout

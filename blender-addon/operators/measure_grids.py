@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures light on the calculation grids of a scene."""
 
-from concurrent.futures import ThreadPoolExecutor
-from threading import Event
-
 import bpy
 import gonio
 import numpy as np
 from bpy.props import IntProperty
 
 from .. import measuring, report
+from .beside import Beside
 
 # What the engine, the arrays of a mesh and Blender's own meshes and images raise.
 FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError)
-# Seconds between two looks whether the measurement is done.
-PAUSE = 0.1
 
 
-class GONIO_OT_measure_grids(bpy.types.Operator):
+class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
     """Measure light on all calculation grids of the view layer; values and pictures become a text and images of the file"""
 
     bl_idname = "gonio.measure_grids"
@@ -43,33 +39,14 @@ class GONIO_OT_measure_grids(bpy.types.Operator):
             self._meter = _meter(context)
         except FAILURES as error:
             return self._fail(error)
-        self._stop, self._worker = Event(), ThreadPoolExecutor(max_workers=1)
-        self._found = self._worker.submit(self._meter.grids, self.samples, self._stop.is_set)
-        self._timer = context.window_manager.event_timer_add(PAUSE, window=context.window)
-        context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set("Gonio measures the grids    ESC: Cancel")
-        return {"RUNNING_MODAL"}
+        return self._go(context, self._meter.grids, self.samples)
 
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self.cancel(context)
-            return {"CANCELLED"}
-        # Nothing passes through: the grids and the file are still what is measured when the figures come.
-        if not self._found.done():
-            return {"RUNNING_MODAL"}
-        self.cancel(context)
+    def _arrived(self, context, found):
         try:
-            return self._publish(context, self._meter, self._found.result())
+            return self._publish(context, self._meter, found.result())
         except FAILURES as error:
             return self._fail(error)
-
-    def cancel(self, context):
-        """Ends the measurement and waits for its thread; Blender calls it when it ends the operator itself, as before another file."""
-        self._stop.set()
-        self._worker.shutdown()
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
 
     def _publish(self, context, meter, found):
         report.publish(meter.report)

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures how light leaves some of a scene's objects, for light planning."""
 
-from concurrent.futures import ThreadPoolExecutor
 from math import degrees, radians
 from pathlib import Path
-from threading import Event
 
 import bpy
 import gonio
@@ -13,11 +11,10 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from mathutils import Matrix
 
 from .. import goniophotometer, measuring, report
+from .beside import Beside
 
 # What the engine, its files and Blender raise.
 FAILURES = (gonio.Error, OSError, ValueError, TypeError, RuntimeError)
-# Seconds between two looks whether the measurement is done.
-PAUSE = 0.1
 # Least gap in metres between a luminaire and the lamp that is put beside it.
 GAP = 0.1
 
@@ -36,7 +33,7 @@ SYMMETRIES = (
 )
 
 
-class GONIO_OT_measure_luminaire(bpy.types.Operator):
+class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
     """Measure how light leaves lamps, glowing surfaces, reflectors and covers, and write a luminaire's file. Its -Z is nadir, its +X C0"""
 
     bl_idname = "gonio.measure_luminaire"
@@ -104,7 +101,6 @@ class GONIO_OT_measure_luminaire(bpy.types.Operator):
 
     # Whether the user was asked for the file; then light is traced beside Blender.
     _asked = False
-    _worker = None
 
     @classmethod
     def poll(cls, context):
@@ -133,43 +129,20 @@ class GONIO_OT_measure_luminaire(bpy.types.Operator):
         try:
             self._measurement = goniophotometer.Measurement(context.evaluated_depsgraph_get(), luminaire)
             if self._asked and not bpy.app.background:
-                return self._start(context)
+                return self._go(context, self._measurement.run, **self._options(context))
             return self._publish(context, self._measurement.run(**self._options(context)))
         except FAILURES as problem:
             return self._fail(problem, luminaire.name)
 
-    def _start(self, context):
-        """Measures beside Blender."""
-        self._stop, self._worker = Event(), ThreadPoolExecutor(max_workers=1)
-        self._found = self._worker.submit(self._measurement.run, self._stop.is_set, **self._options(context))
-        self._timer = context.window_manager.event_timer_add(PAUSE, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+    def _tell(self, context):
+        words = self._measurement.describe_progress(0.01 * self.error)
+        context.workspace.status_text_set(f"Gonio measures {self._measurement.luminaire.name}: {words}    ESC: Cancel")
 
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self.cancel(context)
-            return {"CANCELLED"}
-        # Nothing passes through: the luminaire and the file are still what is measured when the figures come.
-        if not self._found.done():
-            words = self._measurement.describe_progress(0.01 * self.error)
-            context.workspace.status_text_set(f"Gonio measures {self._measurement.luminaire.name}: {words}    ESC: Cancel")
-            return {"RUNNING_MODAL"}
-        self.cancel(context)
+    def _arrived(self, context, found):
         try:
-            return self._publish(context, self._found.result())
+            return self._publish(context, found.result())
         except FAILURES as problem:
             return self._fail(problem, self._measurement.luminaire.name)
-
-    def cancel(self, context):
-        """Ends the measurement and waits for its thread; Blender calls it when it ends the operator itself, and when no file is chosen."""
-        if self._worker is None:
-            return
-        self._stop.set()
-        self._worker.shutdown()
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
 
     def check(self, context):
         """Files that were named without an ending become EULUMDAT ones."""

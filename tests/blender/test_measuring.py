@@ -57,9 +57,9 @@ def test_grids_are_measured_beside_blender_until_escape():
     floor.gonio.is_grid, floor.gonio.grid_spacing = True, 4.0
     operator = importlib.import_module("gonio_extension.operators.measure_grids").GONIO_OT_measure_grids
     latest = importlib.import_module("gonio_extension.measuring").latest
-    names = ("invoke", "modal", "cancel", "_publish", "_fail")
+    names = ("invoke", "_arrived", "_publish", "_fail")
     said, timers, texts = [], [], []
-    Running = type("Running", (), {**{name: vars(operator)[name] for name in names}, "report": lambda self, kind, text: said.append(text)})
+    Running = type("Running", operator.__bases__[:1], {**{name: vars(operator)[name] for name in names}, "report": lambda self, kind, text: said.append(text)})
     manager = SimpleNamespace(
         event_timer_add=lambda pause, window: timers.append(pause) or pause,
         event_timer_remove=timers.remove,

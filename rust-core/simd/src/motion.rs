@@ -75,16 +75,21 @@ impl Motion {
 
     /// The map at a time; what lies before or behind the shutter counts as its ends.
     pub fn at(&self, time: f32) -> Rows {
-        let place = f64::from(time.clamp(0.0, 1.0)) * self.segments.len() as f64;
-        let number = (place as usize).min(self.segments.len() - 1);
-        self.segments[number].at(place - number as f64)
+        let (segment, t) = self.segment_at(time);
+        segment.at(t)
     }
 
     /// The inverse of the map at a time; `None` where it is flat then.
     pub fn inverse_at(&self, time: f32) -> Option<Rows> {
+        let (segment, t) = self.segment_at(time);
+        segment.inverse_at(t)
+    }
+
+    /// The segment of a time, and the share of the way along it.
+    fn segment_at(&self, time: f32) -> (&Segment, f64) {
         let place = f64::from(time.clamp(0.0, 1.0)) * self.segments.len() as f64;
         let number = (place as usize).min(self.segments.len() - 1);
-        self.segments[number].inverse_at(place - number as f64)
+        (&self.segments[number], place - number as f64)
     }
 
     /// Radians that the thing turns by in a segment.

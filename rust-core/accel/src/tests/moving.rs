@@ -3,6 +3,7 @@
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
 use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, Seen};
+use fearless_simd::Level;
 use gonio_simd::Execution;
 use gonio_simd::motion::{Interpolation, Motion};
 use std::sync::Arc;
@@ -30,6 +31,17 @@ fn built(meshes: &[Arc<Blas>], instances: &[Instance], moving: &[MovingInstance]
     let scene = Tlas::build_moving(meshes.to_vec(), instances, moving, instances.len(), &AtomicBool::new(false)).expect("not cancelled");
     scene.tuners.settle(true);
     scene
+}
+
+/// The nearest hits, on which single rays, packets and streams agree.
+fn hits_of_all_walks(scene: &Tlas, level: Level, rays: &OwnedRays) -> Hits {
+    let single = super::first_hits(scene, level, rays);
+    let (mut packets, mut stream) = (Hits::default(), Hits::default());
+    scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
+    scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
+    assert_eq!(single, packets, "{level:?}");
+    assert_eq!(single, stream, "{level:?}");
+    single
 }
 
 #[test]
@@ -129,12 +141,7 @@ fn curves_and_points_that_move_are_met_as_they_are_at_the_rays_time() {
         };
         let standing: Vec<Hits> = TIMES.map(|time| super::first_hits(&stands(time), levels()[0], &rays)).into();
         for level in levels() {
-            let single = super::first_hits(&scene, level, &rays);
-            let (mut packets, mut stream) = (Hits::default(), Hits::default());
-            scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
-            scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
-            assert_eq!(single, packets, "{level:?}");
-            assert_eq!(single, stream, "{level:?}");
+            let single = hits_of_all_walks(&scene, level, &rays);
             let differs =
                 |i: &usize| standing[i % 4].instance[*i] != single.instance[*i] || standing[i % 4].primitive[*i] != single.primitive[*i];
             let others = (0..2048).filter(differs).count();
@@ -166,12 +173,7 @@ fn meshes_that_deform_are_met_as_they_are_at_the_rays_time() {
     };
     let standing: Vec<Hits> = TIMES.map(|time| super::first_hits(&stands(time), levels()[0], &rays)).into();
     for level in levels() {
-        let single = super::first_hits(&scene, level, &rays);
-        let (mut packets, mut stream) = (Hits::default(), Hits::default());
-        scene.first_hit(Execution::Vector(level), &rays.batch(), true, &mut packets);
-        scene.first_hit(Execution::Vector(level), &rays.batch(), false, &mut stream);
-        assert_eq!(single, packets, "{level:?}");
-        assert_eq!(single, stream, "{level:?}");
+        let single = hits_of_all_walks(&scene, level, &rays);
         let mut any = vec![9; 2048];
         scene.occluded(Execution::Vector(level), &rays.batch(), true, &mut any);
         let differs =
