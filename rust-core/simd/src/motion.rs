@@ -37,6 +37,14 @@ struct Segment {
     back: Option<Matrix>,
 }
 
+/// Between which of evenly spaced keys a time of the shutter lies: the segment's number, and the share of the way along it.
+#[inline(always)]
+pub fn segment_of(time: f32, segments: usize) -> (usize, f32) {
+    let place = time.clamp(0.0, 1.0) * segments as f32;
+    let number = (place as usize).min(segments - 1);
+    (number, place - number as f32)
+}
+
 impl Motion {
     /// The motion through keys; `None` where nothing moves: fewer than two keys, all of them the same, or numbers that are not finite.
     pub fn new(keys: &[Rows], interpolation: Interpolation) -> Option<Self> {

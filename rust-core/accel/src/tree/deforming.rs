@@ -8,6 +8,7 @@ use crate::cancelled::Cancelled;
 use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::ray::NONE;
+use gonio_simd::motion::segment_of;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
 
@@ -43,10 +44,7 @@ impl Blas {
     /// A block of triangles that move, at a time.
     #[inline(never)]
     pub(crate) fn block_at(&self, block: usize, time: f32) -> TriangleBlock {
-        let last = self.keys - 2;
-        let place = time.clamp(0.0, 1.0) * (last + 1) as f32;
-        let number = (place as usize).min(last);
-        let share = place - number as f32;
+        let (number, share) = segment_of(time, self.keys - 1);
         let [from, to] = [0, 1].map(|next| &self.key_blocks[block * self.keys + number + next]);
         let mut between = *from;
         for (corner, rows) in between.vertices.iter_mut().enumerate() {

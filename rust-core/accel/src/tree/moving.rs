@@ -3,7 +3,7 @@
 use super::node::Bounds;
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::transform::{Affine, transformed_bounds};
-use gonio_simd::motion::Motion;
+use gonio_simd::motion::{Motion, segment_of};
 
 /// An instance by its number, and how it moves; its own map is where it rests.
 #[derive(Clone, Debug)]
@@ -51,10 +51,8 @@ impl MovingRecord {
 
     /// Whether a ray of the world meets the box that the instance is in at a time.
     fn is_met(&self, time: f32, ray: &PreparedRay, t_max: f32) -> bool {
-        let last = self.boxes.len() - 2;
-        let place = time.clamp(0.0, 1.0) * (last + 1) as f32;
-        let number = (place as usize).min(last);
-        let (from, to, share) = (&self.boxes[number], &self.boxes[number + 1], place - number as f32);
+        let (number, share) = segment_of(time, self.boxes.len() - 1);
+        let (from, to) = (&self.boxes[number], &self.boxes[number + 1]);
         let (mut enter, mut leave) = (ray.t_min, t_max);
         for axis in 0..3 {
             let low = from.min[axis] + (to.min[axis] - from.min[axis]) * share;

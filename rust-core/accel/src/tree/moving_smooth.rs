@@ -10,6 +10,7 @@ use crate::intersect::point_block::PointBlock;
 use crate::intersect::segment_block::{Segment, SegmentBlock};
 use crate::intersect::smooth::{Smooth, SmoothLeaf};
 use crate::ray::NONE;
+use gonio_simd::motion::segment_of;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
 
@@ -114,10 +115,8 @@ impl MovingSmooth {
     }
 
     fn between(&self, time: f32) -> Between<'_> {
-        let last = self.keys.len() - 2;
-        let place = time.clamp(0.0, 1.0) * (last + 1) as f32;
-        let number = (place as usize).min(last);
-        Between { from: &self.keys[number], to: &self.keys[number + 1], share: place - number as f32 }
+        let (number, share) = segment_of(time, self.keys.len() - 1);
+        Between { from: &self.keys[number], to: &self.keys[number + 1], share }
     }
 
     fn segments(&self, block: &SegmentBlock, time: f32) -> SegmentBlock {

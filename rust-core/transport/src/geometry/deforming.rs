@@ -1,6 +1,7 @@
 //! Points and normals of meshes that change their form, at the times of hits.
 
 use super::{GeometryTable, HitLanes};
+use gonio_simd::motion::segment_of;
 use gonio_simd::{F, Lanes, M, PADDING, U, Vec3};
 
 /// Where a mesh's keys stand; all zero for a mesh that keeps its form.
@@ -27,10 +28,9 @@ struct Between {
 
 impl Between {
     fn new(segments: u32, time: f32, first: u32, stride: u32) -> Self {
-        let place = time.clamp(0.0, 1.0) * segments as f32;
-        let number = (place as u32).min(segments - 1);
-        let from = (first + number * stride) as usize;
-        Self { from, to: from + stride as usize, share: place - number as f32 }
+        let (number, share) = segment_of(time, segments as usize);
+        let from = first as usize + number * stride as usize;
+        Self { from, to: from + stride as usize, share }
     }
 
     fn value(&self, table: &[f32], at: usize) -> [f32; 3] {
