@@ -31,7 +31,9 @@ OBJECTS = {
     "kind of object": Limit("Volumes, grease pencil", "left out"),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
     "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
-    "adaptive subdivision": Limit("Adaptive subdivision", "as many levels as the modifier states"),
+    "adaptive subdivision": _untold(
+        "Dicing camera and offscreen scale of adaptive subdivision", "the camera that renders; four times the length beside its picture"
+    ),
     "culling": Limit("Culling of objects by camera or distance", "nothing is culled"),
     "shadow caustics": _quietly("Marks of shadow caustics on objects and lights", "light paths bring all caustics, where *Caustics* is on"),
     "shadow terminator": _quietly("Shadow terminator offsets", "left out"),

@@ -15,7 +15,6 @@ SCENE = (
 )
 LAYER = ()
 OBJECT = (
-    ("adaptive subdivision", "cycles.use_adaptive_subdivision", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_caster", (False,), ""),
     ("shadow caustics", "cycles.is_caustics_receiver", (False,), ""),
     ("shadow terminator", "shadow_terminator_shading_offset", (0.0,), "Shadow terminator's shading offset"),
@@ -92,8 +91,6 @@ def of_object(group, report):
             report.tell("catcher's lamp", "Object", name)
     elif group.kind not in SHOWN and group.kind not in AS_MESH:
         report.tell("kind of object", "Object", name, f"{KINDS.get(group.kind, group.kind.capitalize())} objects")
-    if any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in source.modifiers):
-        report.tell("adaptive subdivision", "Object", name)
 
 
 KINDS = {"GREASEPENCIL": "Grease pencil", "GPENCIL": "Grease pencil"}

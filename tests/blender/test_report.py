@@ -33,14 +33,14 @@ def test_equal_messages_are_counted(tmp_path):
 
     report = module("report").Report()
     for name in ("A", "B", "C"):
-        report.tell("adaptive subdivision", "Object", name)
+        report.tell("opaque shadows", "Material", name)
     report.add("Object", "D", "dark", severity="ERROR")
     assert [(line.text, line.count) for line in report.counted] == [
         ("D: dark", 1),
-        ("A and 2 more: Adaptive subdivision: not supported; as many levels as the modifier states", 3),
+        ("A and 2 more: Transparent Shadows that are switched off: not supported; light passes what is transparent", 3),
     ]
     assert report.summary() == "D: dark, and 1 more in the Gonio Report panel"
-    report.forget("Object", "A")
+    report.forget("Material", "A")
     assert report.counted[1].text.startswith("B and 1 more: ")
 
 
