@@ -9,15 +9,16 @@ from .translator import value_node
 USUAL_WIDTH = 0.1
 
 
-def bent_by(t, smooth, height, width=USUAL_WIDTH, distance=1.0, strength=1.0):
-    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit; `height` computes one where it is asked."""
+def bent_by(t, smooth, height, width=USUAL_WIDTH, distance=1.0, strength=1.0, steps=None):
+    """Mikkelsen's surface gradient (2010), from heights a part of a pixel beside the hit; `height` computes one where it is asked. `steps`
+    are the ways to the next pixels in the space of the normal, the world unless given."""
     if width <= 0.0:
         return smooth
     here = height()
     rise = [t.stepped(axis, width, height) - here for axis in (0, 1)]
     if all(each.is_zero() for each in rise):
         return smooth
-    steps = [t.step(0), t.step(1)]
+    steps = steps or [t.step(0), t.step(1)]
     across = [steps[1].cross(smooth), smooth.cross(steps[0])]
     area = steps[0].dot(across[0])
     gradient = (across[0] * rise[0] + across[1] * rise[1]) * (1.0 / width)

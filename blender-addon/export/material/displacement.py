@@ -29,18 +29,23 @@ def displace(t, end, material):
 
 def _bend(t, socket, moved):
     """Normals bent by the heights of the surface as the mesh has it, before it moved."""
+    smooth = hit(t, "Normal")
 
-    def bent():
-        smooth = hit(t, "Normal")
-        return smooth, bent_by(t, smooth, lambda: t.socket(socket, t.root).as_kind("VECTOR").dot(smooth))
+    def height():
+        return t.socket(socket, t.root).as_kind("VECTOR").dot(smooth)
 
-    if moved:
-        with t.at_rest():
-            smooth, normal = bent()
-    else:
-        smooth, normal = bent()
-    if normal.node != smooth.node:
-        t.bend(normal)
+    if not moved:
+        normal = bent_by(t, smooth, height)
+        if normal.node != smooth.node:
+            t.bend(normal)
+        return
+    # As in Cycles, in the object's space, though heights are the world's: under a scale normals bend otherwise than by bump alone.
+    with t.at_rest():
+        own = carried(t, smooth, "World", "Object", "Normal")
+        normal = bent_by(t, own, height, steps=[carried(t, t.step(axis), "World", "Object", "Vector") for axis in (0, 1)])
+        bent = carried(t, normal, "Object", "World", "Normal")
+    if normal.node != own.node:
+        t.bend(bent)
 
 
 @value_node("ShaderNodeDisplacement")

@@ -267,7 +267,7 @@ class Translator:
     def position(self):
         """The hit's position in the world."""
         if self._is_at_rest:
-            return self._carried_to_world(self.primvar(POSITION), "Point")
+            return self._carried_to_world(self.own_position(), "Point")
         value = self.graph.add("Position", kind="VECTOR")
         return value if self._step is None else value + self.step(self._step[0]) * self._step[1]
 
@@ -275,7 +275,16 @@ class Translator:
         """The hit's position in its object's space."""
         if self.has_moved and not self._is_at_rest:
             return self.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Point"}}, self.position(), kind="VECTOR")
-        return self.primvar(POSITION)
+        if not self._is_at_rest or self._step is None:
+            return self.primvar(POSITION)
+        # As in Cycles the place is that of the mesh, and the way beside it that of the moved surface.
+        (axis, share), self._step = self._step, None
+        place, way = self.primvar(POSITION), self.graph.add({"PositionStep": {"axis": axis}}, kind="VECTOR")
+        if bpy.app.version < (5, 0, 0):
+            # Before, it was as long as the mesh's ways are in the mean.
+            way = way.normalized() * ((self.step(0).length() + self.step(1).length()) * 0.5)
+        self._step = axis, share
+        return place + self.graph.add({"Transform": {"from": "World", "to": "Object", "quantity": "Vector"}}, way, kind="VECTOR") * share
 
     def _carried_to_world(self, value, quantity):
         return self.graph.add({"Transform": {"from": "Object", "to": "World", "quantity": quantity}}, value, kind="VECTOR")
