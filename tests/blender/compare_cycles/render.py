@@ -38,6 +38,15 @@ def export_usd(scene: str, samples: int, tmp_path: Path) -> None:
     numpy.save(tmp_path / f"{scene}.npy", rendered("GONIO", tmp_path / f"{scene}-addon.exr"))
 
 
+def three_ways(scene: str, samples: int, tmp_path: Path) -> None:
+    """Writes SCENE.usdc with all that Blender's exporter can write, and both engines' pictures of the open file as SCENE-ENGINE.npy."""
+    build("shapes", scene, samples)
+    options = {"export_hair": True, "export_animation": bpy.context.scene.render.use_motion_blur}
+    bpy.ops.wm.usd_export(filepath=str(tmp_path / f"{scene}.usdc"), export_textures_mode="NEW", **options)
+    for engine in ("CYCLES", "GONIO"):
+        numpy.save(tmp_path / f"{scene}-{engine}.npy", rendered(engine, tmp_path / f"{scene}-{engine}.exr"))
+
+
 def build(theme: str, scene: str, samples: int) -> None:
     """Makes a scene the open one."""
     stage.empty()
