@@ -38,6 +38,29 @@ def test_usdrecord_s_short_names(run, tmp_path):
     assert picture.shape == (8, 16) and picture.header["gonio:camera"] == "/Side"
 
 
+def test_usdrecord_s_draw_modes_and_what_only_measures_usd(run, tmp_path):
+    ball = 'def Xform "Model" (kind = "component")\n{\n    token model:drawMode = "origin"\n    def Sphere "Ball"\n    {\n        double radius = 0.3\n    }\n}\n'
+    ball = ball.replace('"component")', '"component"\n    prepend apiSchemas = ["GeomModelAPI"])')
+    stage = pictures.stage(tmp_path / "stage.usda", ball, STILL, pictures.camera())
+    line = [stage, "--imageWidth", 32, "--spp", 4, "--resolver", "root", "--traceToFile", "a", "--traceFormat", "chrome", "--memstats"]
+    axes = done(run("render", *line, tmp_path / "axes.exr"))
+    done(run("render", *line, tmp_path / "ball.exr", "--disableDrawMode"))
+    axes_seen, ball_seen = ((pictures.read(tmp_path / f"{name}.exr")["A"] > 0.5).mean() for name in ("axes", "ball"))
+    assert ball_seen > 2 * axes_seen
+    assert "--memstats (usdrecord) changes nothing" in axes.stderr
+
+
+def test_husk_s_documented_examples(run, tmp_path):
+    moving(tmp_path)
+    line = "-R BRAY_HdKarma -S 25 --complexity low --no-mplay --make-output-path -f 1 -n 2 -o preview/a.$F4.exr stage.usda --res 40 40 -p 1"
+    done(run("render", *line.split(), cwd=tmp_path))
+    assert sorted(path.name for path in (tmp_path / "preview").iterdir()) == ["a.0001.exr", "a.0002.exr"]
+    assert pictures.read(tmp_path / "preview" / "a.0001.exr").shape == (10, 10)
+    line = "-f 1 -n 1 --purpose geometry,render --complexity high -o beauty.$F4.exr -V 5ae --stderr log.txt --fps 24 -j 1 stage.usda -p 1 --res 8 8"
+    said = done(run("render", *line.split(), cwd=tmp_path))
+    assert (tmp_path / "beauty.0001.exr").exists() and "--stderr (husk) changes nothing" in said.stderr
+
+
 def test_husk_s_frames_and_files(run, tmp_path):
     moving(tmp_path)
     line = "-f 1 -n 2 -i 2 --res 20 10 -p 1 -c /Side -R BRAY_HdKarma -V a2 --make-output-path -o new/out.$F4.exr,new/b.<F4>.png stage.usda"

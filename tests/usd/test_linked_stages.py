@@ -148,6 +148,6 @@ def test_the_picture(tmp_path):
 
 
 def test_filters_are_named_by_their_type(tmp_path):
-    lamp = LAMP % ("Lamp", "rel light:filters = [</Lamp/Door>]\n    def PxrBarnLightFilter \"Door\" {}")
+    lamp = LAMP % ("Lamp", "rel light:filters = [</Lamp/Door>]\n    def PxrRodLightFilter \"Door\" {}")
     found = [message for _, message in read(tmp_path, WORLD + lamp).diagnostics]
-    assert any("a light filter of type PxrBarnLightFilter is not supported" in message for message in found), found
+    assert any("a light filter of type PxrRodLightFilter is not supported" in message for message in found), found

@@ -18,6 +18,7 @@ mod goniogram;
 pub mod instancer;
 mod kept;
 pub mod light;
+mod light_filter;
 pub mod material;
 pub mod memory_limit;
 pub mod mesh;

@@ -62,6 +62,8 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
         transform: if is_dome { dome_transform(context, prim, &type_name, transform) } else { *transform },
         visibility: Visibility { camera: is_seen_by_camera(context, prim), ..Visibility::default() },
         casts_shadow: casts_shadow(context, prim),
+        diffuse: multiplier(context, prim, "diffuse"),
+        specular: multiplier(context, prim, "specular"),
         group: group(context, prim),
         ..Light::default()
     };
@@ -248,6 +250,16 @@ fn measured<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc
     goniogram(context, prim, &path, Request { angle_scale: if angle_scale.is_finite() { angle_scale } else { 0.0 }, normalized })
 }
 
+/// The factor on what surfaces scatter of a light in a way.
+fn multiplier<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> f32 {
+    let found: f32 = input(context, prim, name).unwrap_or(1.0);
+    if found.is_finite() && found >= 0.0 {
+        return found;
+    }
+    context.warn(&prim.origin(), format!("{name} is {found}, expected a number of zero or more; 1 is used"));
+    1.0
+}
+
 fn casts_shadow<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
     if !prim.has_authored_prefix("inputs:shadow:") && !prim.has_authored_prefix("shadow:") {
         return true;
@@ -266,19 +278,6 @@ fn casts_shadow<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
 /// Says once by name what changes the light and is not done.
 pub(crate) fn report_left_out<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
     let origin = prim.origin();
-    for name in ["diffuse", "specular"] {
-        if input::<f32>(context, prim, name).is_some_and(|factor| factor != 1.0) {
-            context.unsupported(&format!("the {name} multiplier of lights"), &origin);
-        }
-    }
-    for relationship in ["light:filters", "filters"] {
-        if prim.has_authored(relationship) {
-            for target in prim.targets(relationship) {
-                let kind = context.prim_at(&target).map(|filter| filter.type_name()).filter(|kind| !kind.is_empty());
-                context.unsupported(&format!("a light filter of type {}", kind.as_deref().unwrap_or("unknown")), &origin);
-            }
-        }
-    }
     if prim.has_authored("portals") && !prim.targets("portals").is_empty() {
         context.unsupported("portals of dome lights", &origin);
     }

@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::light::{input, radiance, report_left_out, tint};
+use crate::light_filter;
 use crate::photometry;
 use crate::prim::Prim;
 use gonio::colour::luminance_of_pixel;
@@ -38,6 +39,12 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     radiance = radiance.map(|x| x * dimming);
     photometry::report_unused_of_mesh(context, prim);
     report_left_out(context, prim);
+    light_filter::report(context, prim);
+    for name in ["diffuse", "specular"] {
+        if input::<f32>(context, prim, name).is_some_and(|factor| factor != 1.0) {
+            context.unsupported(&format!("the {name} multiplier of mesh lights"), &prim.origin());
+        }
+    }
     if prim.has_authored_prefix("inputs:shaping:") {
         context.unsupported("shaping of mesh lights", &origin);
     }

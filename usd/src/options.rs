@@ -146,6 +146,8 @@ pub struct StageOptions {
     pub render_pass: Option<String>,
     /// Whether nothing moves while the shutter is open, whatever the render settings say.
     pub disable_motion_blur: bool,
+    /// Whether models are shown themselves, whatever `model:drawMode` says.
+    pub disable_draw_mode: bool,
     /// Whether a pass of motion vectors is asked for: where nothing is blurred, things are then read at the frames before and after too.
     pub motion_vectors: bool,
     /// Whether warnings end the reading.
@@ -171,6 +173,7 @@ impl Default for StageOptions {
             render_settings: None,
             render_pass: None,
             disable_motion_blur: false,
+            disable_draw_mode: false,
             motion_vectors: false,
             strict: false,
             lenient: true,

@@ -9,7 +9,7 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::render_pass::Role;
 use crate::view::shines;
-use crate::{camera, daylight, light, material, mesh_light, meter, primvar};
+use crate::{camera, daylight, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
     Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
@@ -295,11 +295,13 @@ impl<'py> Placer<'_, '_, 'py> {
         let role = self.role(element, placement);
         let Some(prim) = self.context.prim_at(&path).filter(|_| role.rendered) else { return };
         let first = self.context.scene.lights.len();
+        let filters = light_filter::read(self.context, &prim);
         for transform in self.transforms(element, placement) {
             if daylight::is_daylight(&prim) {
                 daylight::add_lights(self.context, &prim, &transform);
             } else if let Some(light) = light::light(self.context, &prim, &transform) {
-                self.context.scene.lights.push(light);
+                let filtered = light_filter::apply(self.context, &filters, light);
+                self.context.scene.lights.extend(filtered);
             }
         }
         if !role.camera {

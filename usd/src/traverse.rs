@@ -190,7 +190,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             stack.extend(children);
             return Ok(());
         }
-        if branch.draw_mode != DrawMode::Default && draw_mode::applies(self.context, prim) {
+        let stands_in = branch.draw_mode != DrawMode::Default && !self.context.options.disable_draw_mode;
+        if stands_in && draw_mode::applies(self.context, prim) {
             return if is_shown { self.stand_in(prim, &branch, model) } else { Ok(()) };
         }
         if is_shown {

@@ -184,6 +184,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         render_settings: arguments.settings.clone(),
         render_pass: arguments.render_pass.clone(),
         disable_motion_blur: arguments.disable_motion_blur,
+        disable_draw_mode: arguments.disable_draw_mode,
         strict: arguments.strict,
         lenient: arguments.lenient,
         ..StageOptions::default()

@@ -39,13 +39,12 @@ impl LightTable {
                 let pdf = if infinite.alone { l.f(f32::MAX) } else { pdf };
                 weight = hit_weight(bsdf_pdf, pdf, weighed);
             }
-            let mut scattered = l.m(infinite.scattered);
-            for number in 0..3 {
-                if infinite.hidden >> number & 1 != 0 {
-                    scattered = scattered.and_not(kind.eq(number));
+            for (number, factor) in (0..3).zip(infinite.factors) {
+                if factor != 1.0 {
+                    weight = kind.eq(number).and_not(first).select(weight * factor, weight);
                 }
             }
-            let seen = (first & l.m(infinite.visible)) | scattered.and_not(first);
+            let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
             sum += (radiance * weight).keep_if(seen & self.sees(l, receiver, l.u(infinite.light)));
         }
         sum

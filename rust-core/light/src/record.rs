@@ -82,8 +82,9 @@ pub struct LightRecord {
     pub visible_to_camera: bool,
     /// Whether scattered rays find the emitter; without it the light is not sampled either.
     pub visible_to_scattered: bool,
-    /// Kinds of scattered rays that do not find the emitter where others do: diffuse, glossy, transmitted. Light samples leave their part out.
-    pub hidden_from: [bool; 3],
+    /// Factors on what is scattered of its light: diffusely, glossily, transmitted. Kinds of scattered rays of factor 0 do not find the emitter.
+    /// Light sampling alone is exact for what is neither 0 nor 1.
+    pub scattered: [f32; 3],
     /// Whether things block it.
     pub casts_shadow: bool,
     /// Whether light sampling alone is to find it, but for what mirrors and smooth glass show: what scattered rays meet tells nothing of what
@@ -111,7 +112,7 @@ impl LightRecord {
             visible_to_camera: true,
             visible_to_scattered: true,
             casts_shadow: true,
-            hidden_from: [false; 3],
+            scattered: [1.0; 3],
             sampled_alone: false,
         }
     }

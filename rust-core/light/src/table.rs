@@ -9,7 +9,7 @@ use super::record::{LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use super::tree::LightTree;
-use gonio_simd::{Lanes, M, U};
+use gonio_simd::{F, Lanes, M, U};
 use std::{borrow::Borrow, sync::Arc};
 
 /// Up to this many lights each point weighs all of them.
@@ -34,8 +34,8 @@ pub(crate) struct InfiniteLight {
     pub(crate) visible: bool,
     /// To scattered rays.
     pub(crate) scattered: bool,
-    /// Bits of the kinds of scattered rays that do not see it.
-    pub(crate) hidden: u32,
+    /// Factors on what kinds of scattered rays find of it.
+    pub(crate) factors: [f32; 3],
     /// Light sampling alone finds it.
     pub(crate) alone: bool,
 }
@@ -54,8 +54,8 @@ pub struct LightTable {
     pub(crate) goniograms: Vec<Arc<Goniogram>>,
     /// Rows of the rectangles that domes are looked for through.
     pub(crate) portals: Vec<u32>,
-    /// By light, bits of the kinds of scattered rays that do not see it; empty where all see all.
-    pub(crate) hidden: Vec<u32>,
+    /// By light, factors on what is scattered of it, three each; empty where all is as it is.
+    pub(crate) factors: Vec<f32>,
     /// Whether light sampling alone finds some light.
     pub(crate) any_alone: bool,
     /// Which receivers see which lights, if they do not all see all.
@@ -101,8 +101,8 @@ impl LightTable {
             kinds |= 1 << record.kind as u32;
             if record.kind.is_infinite() && row[field::FLAGS].to_bits() & (flag::LIT | flag::DELTA) == flag::LIT {
                 let (visible, scattered) = (record.visible_to_camera, record.visible_to_scattered);
-                let (alone, hidden) = (record.sampled_alone, hidden_bits(record));
-                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered, hidden, alone });
+                let (alone, factors) = (record.sampled_alone, record.scattered);
+                infinite.push(InfiniteLight { light: light as u32, kind: record.kind, distribution, visible, scattered, factors, alone });
             }
         }
         // Portals show the whole dome to light sampling.
@@ -115,8 +115,8 @@ impl LightTable {
         }
         let sampler = if records.len() <= MOST_EXHAUSTIVE { LightSampler::Exhaustive } else { LightSampler::Tree(LightTree::new(&rows)) };
         let any_alone = records.iter().any(|record| record.sampled_alone);
-        let any_hidden = records.iter().any(|record| hidden_bits(record) != 0);
-        let hidden = if any_hidden { records.iter().map(hidden_bits).collect() } else { Vec::new() };
+        let any_factor = records.iter().any(|record| record.scattered != [1.0; 3]);
+        let factors = if any_factor { records.iter().flat_map(|record| record.scattered).collect() } else { Vec::new() };
         Self {
             rows,
             count: records.len(),
@@ -126,7 +126,7 @@ impl LightTable {
             infinite,
             goniograms: goniograms.to_vec(),
             portals,
-            hidden,
+            factors,
             any_alone,
             linked: None,
         }
@@ -136,17 +136,17 @@ impl LightTable {
         let linked = LinkedLights::new(links, &self.rows);
         Self { linked: Some(Arc::new(linked)), ..self }
     }
-    /// Whether some kinds of scattered rays do not see some light that others see.
-    pub fn hides_any(&self) -> bool {
-        !self.hidden.is_empty()
+    /// Whether some light counts for some kinds of scattering otherwise than for all.
+    pub fn has_factors(&self) -> bool {
+        !self.factors.is_empty()
     }
-    /// Whether scattered rays of a kind (0 diffuse, 1 glossy, 2 transmitted) do not see each lane's light.
+    /// Factor on what is scattered of each lane's light in a way (0 diffuse, 1 glossy, 2 transmitted); 0 where such rays do not see it.
     #[inline(always)]
-    pub fn hidden_from<L: Lanes>(&self, l: L, light: U<L>, kind: u32) -> M<L> {
-        if self.hidden.is_empty() {
-            return l.m(false);
+    pub fn scattered_factor<L: Lanes>(&self, l: L, light: U<L>, kind: U<L>) -> F<L> {
+        if self.factors.is_empty() {
+            return l.f(1.0);
         }
-        ((l.gather_integers(&self.hidden, light) >> kind) & 1).ne(0)
+        l.gather(&self.factors, light * 3 + kind)
     }
     /// Whether receivers of a class see each lane's light.
     #[inline(always)]
@@ -210,11 +210,6 @@ impl LightTable {
 /// A dome is selected by this times the part of its light that light sampling is to bring, at most by all of it. Least variance on scenes of
 /// `tests/peers/render` (crowd, field, street, car): by all of its light an even sky is drawn in vain, by the part alone a panorama too seldom.
 const SAMPLED_GAIN: f64 = 2.0;
-
-/// The kinds of scattered rays that do not see a light, a bit each.
-fn hidden_bits(record: &LightRecord) -> u32 {
-    record.hidden_from.iter().enumerate().map(|(kind, hidden)| u32::from(*hidden) << kind).sum()
-}
 
 /// Mean luminance over an image.
 fn mean_luminance(image: &LightTexture) -> f64 {

@@ -140,6 +140,10 @@ fn undimmed() -> f32 {
     1.0
 }
 
+fn whole() -> f32 {
+    1.0
+}
+
 fn lambertian_deg() -> f32 {
     180.0
 }
@@ -188,6 +192,12 @@ pub struct Light {
     pub visibility: Visibility,
     /// Whether things block it.
     pub casts_shadow: bool,
+    /// Factor on what surfaces scatter diffusely of its light; no light does that by itself.
+    #[serde(default = "whole")]
+    pub diffuse: f32,
+    /// Factor on what surfaces reflect and transmit of it otherwise.
+    #[serde(default = "whole")]
+    pub specular: f32,
     /// What it lights, and what casts its shadows. Cameras see it either way.
     #[serde(default, skip_serializing_if = "Linking::is_whole")]
     pub linking: Linking,
@@ -213,6 +223,8 @@ impl Default for Light {
             motion: Vec::new(),
             visibility: Visibility::default(),
             casts_shadow: true,
+            diffuse: whole(),
+            specular: whole(),
             linking: Linking::default(),
         }
     }
@@ -234,12 +246,13 @@ mod tests {
         let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
         let mut json = serde_json::to_value(&light).expect("plain data");
         let fields = json.as_object_mut().expect("a structure");
-        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group"] {
+        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group", "diffuse", "specular"] {
             assert!(fields.remove(name).is_some(), "{name}");
         }
         let older: Light = serde_json::from_value(json).expect("older form");
         assert_eq!((older.spot, older.spread_deg, older.portal), (None, 180.0, false));
         assert_eq!((older.quantity, older.dimming), (None, 1.0));
+        assert_eq!((older.diffuse, older.specular), (1.0, 1.0));
         assert_eq!(older.shape, light.shape);
     }
 }

@@ -32,7 +32,7 @@ pub use binding::{bound, bound_all};
 pub use document::{Substitution, substitute_documents};
 pub use library::Library;
 pub use shaded::Shaded;
-pub(crate) use textures::texture;
+pub(crate) use textures::{image_source, texture};
 pub(crate) use value::{stated_colour_space, to_linear_rec709};
 
 use crate::context::Context;

@@ -69,6 +69,12 @@ fn open(py: Python<'_>, place: &str) -> Result<TextureSource, String> {
     Ok(TextureSource::Encoded { name, bytes: Arc::from(bytes) })
 }
 
+/// The content of the file that an attribute names, by a path or by text; an error that names it where there is none.
+pub(crate) fn image_source(py: Python<'_>, path: &AssetPath, attribute: &Attribute<'_>) -> Result<TextureSource, String> {
+    let place = if path.resolved.is_empty() { resolve_text(attribute, &path.authored) } else { path.resolved.clone() };
+    if place.is_empty() { Err(format!("the image '{}' does not exist", path.authored)) } else { open(py, &place) }
+}
+
 /// The image that an asset-valued attribute names, added to the scene once for each file and colour space; `None`, with a warning that names
 /// the prim and the file, where there is no such image.
 pub(crate) fn texture(

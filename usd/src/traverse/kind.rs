@@ -3,7 +3,7 @@
 use super::Walker;
 use crate::prim::Prim;
 use crate::pxr::Module;
-use crate::{curves, light, quadrics};
+use crate::{curves, light, light_filter, quadrics};
 use pyo3::prelude::*;
 
 /// What a prim type means to the traversal.
@@ -63,6 +63,7 @@ impl<'py> Walker<'_, '_, 'py> {
             curves if curves::is_curves(curves) => PrimKind::Curves,
             quadric if quadrics::is_quadric(quadric) => PrimKind::Quadric,
             light if light::is_light(light) => PrimKind::Light,
+            filter if light_filter::is_filter(filter) => PrimKind::Leaf,
             other => self.classify_by_schema(other, prim),
         }
     }

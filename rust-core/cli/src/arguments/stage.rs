@@ -32,6 +32,9 @@ pub(crate) struct StageArguments {
     /// Everything stands still at the frame, whatever the camera's shutter says.
     #[arg(long = "disable-motion-blur", aliases = ["disable-motionblur", "disableMotionBlur"])]
     pub(crate) disable_motion_blur: bool,
+    /// Models are shown themselves, not the cards, boxes and axes that stand for them.
+    #[arg(long = "disable-draw-mode", alias = "disableDrawMode")]
+    pub(crate) disable_draw_mode: bool,
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,

@@ -193,17 +193,25 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
         angle: angle as f32,
         visible_to_camera: light.visibility.camera,
         visible_to_scattered: light.visibility.scattered(),
-        hidden_from: hidden_from(&light.visibility),
+        scattered: scattered(light),
+        sampled_alone: scattered(light).iter().any(|factor| *factor != 0.0 && *factor != 1.0),
         casts_shadow: light.casts_shadow,
         opening: part.opening,
         ..LightRecord::new(kind)
     }
 }
 
-/// Kinds of scattered rays that do not see what others see.
-fn hidden_from(visibility: &Visibility) -> [bool; 3] {
+/// Factors on what is scattered of a light.
+fn scattered(light: &Light) -> [f32; 3] {
+    let factor = |x: f32| if x.is_finite() { x.max(0.0) } else { 1.0 };
+    let [diffuse, glossy, transmitted] = seen_by(&light.visibility);
+    [diffuse * factor(light.diffuse), glossy * factor(light.specular), transmitted * factor(light.specular)]
+}
+
+/// 0 for the kinds of scattered rays that do not see what others see.
+fn seen_by(visibility: &Visibility) -> [f32; 3] {
     let Visibility { diffuse, glossy, transmission, .. } = *visibility;
-    if visibility.scattered() { [!diffuse, !glossy, !transmission] } else { [false; 3] }
+    [diffuse, glossy, transmission].map(|seen| if seen || !visibility.scattered() { 1.0 } else { 0.0 })
 }
 
 /// Says what this kind of light has no use for.
@@ -298,8 +306,8 @@ fn emissive_triangles(
             if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);
-                let hidden_from = hidden_from(&group.visibility);
-                let record = |t: usize| LightRecord { hidden_from, ..triangle_record(mesh, t, &placed, glow(t)) };
+                let scattered = seen_by(&group.visibility);
+                let record = |t: usize| LightRecord { scattered, ..triangle_record(mesh, t, &placed, glow(t)) };
                 records.extend((0..mesh.triangles.len()).map(record));
             } else {
                 first_light.push(NONE);

@@ -122,12 +122,15 @@ impl Integrator for LightIntegrator<'_> {
         if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
             goes |= goes_on(chunk, point, (photons, &sample), going_on.and_not(goes), &mut queues.photons);
         }
-        if chunk.tables.lights.hides_any() {
+        let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
+        if chunk.tables.lights.has_factors() {
             let kind = sample.diffuse.select(l.u(0), sample.transmitted.select(l.u(2), l.u(1)));
             let light = l.gather_integers(&queues.light_paths.starts.light, point.slot);
-            goes = goes.and_not(point.bounces.eq(0) & !sample.straight & unseen_by(chunk, light, kind));
+            let own = chunk.tables.lights.scattered_factor(l, light, kind);
+            let own = (point.bounces.eq(0) & !sample.straight).select(own, l.f(1.0));
+            goes = goes.and_not(own.eq(0.0));
+            factor = factor * own;
         }
-        let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         // Camera paths keep radiance behind an interface without the squared index, so what they take up there is less by it than the flux.
         if let (true, Some(eta)) = (self.wanted.specular_only || self.wanted.picture.is_some(), lobes.eta()) {
             let passed = sample.transmitted.and_not(sample.straight | sample.diffuse);
@@ -151,17 +154,6 @@ fn hidden<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> M<L> {
         return l.m(false);
     }
     l.gather_integers(&geometry.set_hidden, geometry.set_lanes(l, point.instance)).ne(0)
-}
-
-/// Where a light is hidden from a kind of scattering: 0 is diffuse, 1 glossy, 2 transmitted.
-#[inline(always)]
-fn unseen_by<L: Lanes>(chunk: &ChunkContext<'_, L>, light: U<L>, kind: U<L>) -> M<L> {
-    let (l, lights) = (chunk.l, &chunk.tables.lights);
-    let mut unseen = l.m(false);
-    for number in 0..3 {
-        unseen |= kind.eq(number) & lights.hidden_from(l, light, number);
-    }
-    unseen
 }
 
 /// Which light paths of a picture go on where they scatter otherwise than specularly: where much light arrives, camera paths seldom look.
@@ -244,7 +236,7 @@ fn connect<'s, L: Lanes>(
     let scattered = as_radiance(l, lobes, [point.local_wo, local], scattered);
     let starts = &queues.light_paths.starts;
     let light = l.gather_integers(&starts.light, point.slot);
-    let scattered = if chunk.tables.lights.hides_any() {
+    let scattered = if chunk.tables.lights.has_factors() {
         let seen = seen_part(chunk, lobes, [point.local_wo, local], scattered, light);
         point.bounces.eq(0).select(seen, scattered)
     } else {

@@ -110,7 +110,11 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
         let hit = LightHit { light, from, direction, point };
         let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
         let (carried, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
-        let weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
+        let mut weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
+        if tables.lights.has_factors() {
+            let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
+            weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
+        }
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);

@@ -128,7 +128,7 @@ fn queue_shadow_ray<L: Lanes>(
 ) {
     let cosine = point.at.frame.z.dot(sample.wi).max(0.0);
     let usable = point.alive & sample.pdf.gt(0.0) & cosine.gt(0.0) & sample.radiance.is_lit();
-    let usable = usable.and_not(chunk.tables.lights.hidden_from(chunk.l, sample.light, event::DIFFUSE));
+    let usable = usable.and_not(chunk.tables.lights.scattered_factor(chunk.l, sample.light, chunk.l.u(event::DIFFUSE)).eq(0.0));
     if !usable.any() {
         deposits.note_lost(&point.at, point.alive);
         return;

@@ -55,7 +55,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     }
     let wi = point.at.frame.to_local(sample.wi);
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
-    let f = if tables.lights.hides_any() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
+    let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
     let weight = weight.of(sample, pdf);
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
@@ -66,7 +66,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     send(transport, &point.at, sample, &light, lit, shadows, deposits);
 }
 
-/// What is scattered of a light, less by the kinds of scattering that do not see it.
+/// What is scattered of a light, by its factors on the kinds of scattering.
 #[inline(always)]
 pub(crate) fn seen_part<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
@@ -79,9 +79,9 @@ pub(crate) fn seen_part<L: Lanes>(
     let [diffuse, glossy] = shares(l, lobes, wo, wi, all);
     let mut seen = Spectrum::one(l);
     for (kind, share) in [diffuse, glossy, Spectrum::one(l) - diffuse - glossy].into_iter().enumerate() {
-        seen = seen - share.keep_if(lights.hidden_from(l, light, kind as u32));
+        seen = seen - share * (1.0 - lights.scattered_factor(l, light, l.u(kind as u32)));
     }
-    all * seen.saturate()
+    all * seen.max(0.0)
 }
 
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray.
