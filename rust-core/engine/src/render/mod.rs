@@ -6,6 +6,7 @@ mod meter;
 mod photons;
 mod progress;
 mod schedule;
+mod seen;
 mod source;
 mod worker;
 

@@ -3,12 +3,12 @@
 //! The estimate is that of stochastic progressive photon mapping (Hachisuka and Jensen 2009; Knaus and Zwicker 2011): its error from the radius
 //! goes to zero as samples grow.
 
-use super::light_paths::LightPaths;
+use super::{light_paths::LightPaths, seen};
 use crate::{
     compile::{CompiledScene, View},
     transport::{
-        Arrivals, Arriving, DirectFlux, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, Photons, Receiver, Transport, Wanted,
-        Workspace,
+        ArrivalCells, Arrivals, Arriving, Bright, Emission, Escapes, LIGHT_BATCH, LightTracer, Photon, Photons, Receiver, Transport,
+        Wanted, Workspace,
     },
 };
 use std::{
@@ -36,6 +36,8 @@ type Slot = Arc<OnceLock<Option<Arc<Photons>>>>;
 pub(super) struct PhotonMaps {
     /// Of the first block, metres.
     radius: f64,
+    /// That as many pixels as light paths of a sample spread over, m².
+    seen: f64,
     maps: Mutex<BTreeMap<u32, Slot>>,
 }
 
@@ -46,7 +48,8 @@ impl PhotonMaps {
         let pixel = |target: &([f32; 3], f32)| view.camera.pixel_width(target.0).map(f64::from);
         let pixel = scene.casters.targets.iter().filter_map(pixel).fold(f64::INFINITY, f64::min);
         let radius = if pixel.is_finite() { pixel * PIXELS } else { room * 2e-3 };
-        Self { radius: radius.clamp(room * 1e-4, room * 1e-2), maps: Mutex::default() }
+        let radius = radius.clamp(room * 1e-4, room * 1e-2);
+        Self { radius, seen: seen::area(scene, view, surfaces(room)), maps: Mutex::default() }
     }
 
     /// The photons of a block with so many samples; none where making them was cancelled.
@@ -69,7 +72,8 @@ impl PhotonMaps {
         };
         let make = || {
             let batches = (u64::from(samples) * BATCHES_PER_SAMPLE).min(MOST_BATCHES);
-            let mut arrived = Arrived { photons: Vec::new(), direct: DirectFlux::new(scene.bounds.radius()) };
+            let none = || ArrivalCells::new(scene.bounds.radius());
+            let mut arrived = Arrived { photons: Vec::new(), direct: none(), caustic: none() };
             let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
             let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Lights(light_paths.sampler()), wanted };
             for batch in 0..batches {
@@ -81,19 +85,24 @@ impl PhotonMaps {
             }
             let shrinks = f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
-            // Of surfaces about the casters' room as large as its sphere.
-            let area = 4.0 * std::f64::consts::PI * scene.bounds.radius().powi(2);
-            let bright = arrived.direct.bright_places(share, area);
-            Some(Arc::new(Photons::new(&arrived.photons, bright, self.radius * shrinks, shrinks, share, area)))
+            let [direct, caustic] = [&arrived.direct, &arrived.caustic].map(|cells| cells.bright_places(share, self.seen));
+            let area = surfaces(scene.bounds.radius());
+            Some(Arc::new(Photons::new(&arrived.photons, Bright { direct, caustic }, self.radius * shrinks, shrinks, share, area)))
         };
         slot.get_or_init(make).clone()
     }
 }
 
-/// Keeps what arrives: photons after a scattering, and of what comes straight from lights how much it is where.
+/// About the area of the surfaces of a scene of some radius: that of its sphere, m².
+fn surfaces(radius: f64) -> f64 {
+    4.0 * std::f64::consts::PI * radius.powi(2)
+}
+
+/// Keeps what arrives: photons after a scattering, and how much comes where straight from lights and by mirrors and smooth glass.
 struct Arrived {
     photons: Vec<Photon>,
-    direct: DirectFlux,
+    direct: ArrivalCells,
+    caustic: ArrivalCells,
 }
 
 impl Receiver for Arrived {
@@ -101,10 +110,12 @@ impl Receiver for Arrived {
         for entry in 0..arrivals.count {
             let position = [0, 1, 2].map(|axis| arrivals.position[axis][entry]);
             let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
+            let mean = flux.map(f64::from).iter().sum::<f64>() / 3.0;
             if arrivals.bounces(entry) == 0 {
-                self.direct.add(position, flux.map(f64::from).iter().sum::<f64>() / 3.0);
+                self.direct.add(position, mean);
                 continue;
             }
+            self.caustic.add(position, mean);
             let direction = [0, 1, 2].map(|axis| arrivals.direction[axis][entry]);
             self.photons.push(Photon { position, direction, flux, light: arrivals.light[entry] });
         }

@@ -4,7 +4,7 @@ use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
 use crate::accumulate::light_sums::code;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
-use crate::stage::merge::{Found, carried_on, in_share};
+use crate::stage::merge::in_share;
 use crate::stage::nee::{seen_part, shares};
 use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
@@ -17,7 +17,7 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, parameter_values};
-use crate::tables::photons::Photons;
+use crate::tables::photons::Bright;
 use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;
@@ -120,7 +120,7 @@ impl Integrator for LightIntegrator<'_> {
         let sample = kernels::sample(l, lobes, point.local_wo, [u_lobe, u, v]);
         let mut goes = if self.wanted.specular_only { sample.delta } else { l.m(true) };
         if let (true, Some(photons)) = (self.wanted.picture.is_some(), &transport.photons) {
-            goes |= goes_on(chunk, point, (photons, &sample), going_on.and_not(goes), &mut queues.photons);
+            goes |= goes_on(chunk, point, (&photons.bright, &sample), going_on.and_not(goes));
         }
         let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         if chunk.tables.lights.has_factors() {
@@ -156,32 +156,21 @@ fn hidden<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> M<L> {
     l.gather_integers(&geometry.set_hidden, geometry.set_lanes(l, point.instance)).ne(0)
 }
 
-/// Which light paths of a picture go on where they scatter otherwise than specularly: where much light arrives, camera paths seldom look.
+/// Which light paths of a picture go on where they scatter otherwise than specularly: from bright places, which camera paths seldom meet.
 #[inline(always)]
-fn goes_on<L: Lanes>(
-    chunk: &ChunkContext<'_, L>,
-    point: &Vertex<L>,
-    (photons, sample): (&Photons, &BsdfSample<L>),
-    chosen: M<L>,
-    found: &mut Found,
-) -> M<L> {
-    let l = chunk.l;
+fn goes_on<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, (bright, sample): (&Bright, &BsdfSample<L>), chosen: M<L>) -> M<L> {
     // Beyond its first surface that is not specular a path is on its way.
     let under_way = (point.flags & flag::SEEN_DIRECTLY).ne(0);
     // Camera paths find what enters a surface first.
     let first = chosen.and_not(under_way | sample.entered);
-    if !first.any() {
-        return chosen & under_way;
-    }
     let [straight, caustic] = [first & point.bounces.eq(0), first & point.bounces.ne(0)];
-    let mut share = l.f(0.0);
-    if caustic.any() {
-        share = carried_on(l, &photons.coarse, [point.at.position, point.at.geometric], caustic, found).keep_if(caustic);
+    let mut goes = chosen & under_way;
+    for (places, first) in [(&bright.direct, straight), (&bright.caustic, caustic)] {
+        if first.any() && !places.is_empty() {
+            goes |= first & in_share(chunk, point, places.carried_on(point.at.position, first));
+        }
     }
-    if straight.any() && !photons.bright.is_empty() {
-        share = straight.select(photons.bright.carried_on(point.at.position, straight), share);
-    }
-    (chosen & under_way) | (first & in_share(chunk, point, share))
+    goes
 }
 
 /// Notes flux that arrived.

@@ -17,11 +17,11 @@ use std::f32::consts::PI;
 /// Photons about the points of a register.
 pub(crate) type Found = [Vec<u32>; PADDING];
 
-/// Adds the light of photons about the chosen points.
+/// Adds the light of photons about the chosen points, but for what light paths carry on from bright places.
 #[inline(always)]
 pub(crate) fn merge<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
-    map: &PhotonMap,
+    (map, bright): (&PhotonMap, &BrightPlaces),
     point: &Vertex<L>,
     lobes: &Lobes<'_, L>,
     chosen: M<L>,
@@ -29,14 +29,15 @@ pub(crate) fn merge<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, transport, .. } = *chunk;
+    // The rest goes to the first surface by light paths.
+    let seen_directly = chosen & (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    let left = if bright.is_empty() || !seen_directly.any() { l.f(1.0) } else { 1.0 - bright.carried_on(point.at.position, seen_directly) };
+    let chosen = chosen & left.gt(0.0);
     let most = find(l, map, [point.at.position, point.at.geometric], chosen, found);
     if most == 0 {
         return;
     }
-    // The rest goes to the first surface by light paths, which begin where there is much.
-    let seen_directly = (point.flags & flag::SEEN_DIRECTLY).ne(0);
-    let carried_on = map.carried_on(irradiance_of(l, map, found, most, None).mean()).keep_if(seen_directly);
-    let scale = (1.0 - carried_on) * (1.0 / (PI * map.radius() * map.radius()));
+    let scale = left * (1.0 / (PI * map.radius() * map.radius()));
     let value = transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.throughput * scale, point.bounces + 2);
     let code = ((point.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
     let light = Contribution { slot: point.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
@@ -62,7 +63,7 @@ pub(crate) fn irradiance<L: Lanes>(
     found: &mut Found,
 ) -> Spectrum<L> {
     let most = find(l, map, [position, normal], chosen, found);
-    irradiance_of(l, map, found, most, Some(normal))
+    irradiance_of(l, map, found, most, normal)
 }
 
 /// Where light paths bring what comes straight from lights, at random by the share that they carry on from there: surfaces that camera paths
@@ -85,25 +86,14 @@ pub(crate) fn in_share<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>,
     u.lt(share)
 }
 
-/// Share of the flux at each chosen point that light paths carry on, see [`PhotonMap::carried_on`].
+/// Irradiance by listed photons: of those on a normal's side.
 #[inline(always)]
-pub(crate) fn carried_on<L: Lanes>(l: L, map: &PhotonMap, plane: [Vec3<L>; 2], chosen: M<L>, found: &mut Found) -> F<L> {
-    let most = find(l, map, plane, chosen, found);
-    map.carried_on(irradiance_of(l, map, found, most, None).mean())
-}
-
-/// Irradiance by listed photons: of those on a normal's side, or of both sides together.
-#[inline(always)]
-fn irradiance_of<L: Lanes>(l: L, map: &PhotonMap, found: &Found, most: usize, normal: Option<Vec3<L>>) -> Spectrum<L> {
+fn irradiance_of<L: Lanes>(l: L, map: &PhotonMap, found: &Found, most: usize, normal: Vec3<L>) -> Spectrum<L> {
     let mut sum = Spectrum::zero(l);
     for at in 0..most {
         let (number, here) = numbers(l, found, at);
         let photon = map.photons(l, number);
-        let counts = match normal {
-            Some(normal) => here & normal.dot(photon.wi).gt(0.0),
-            None => here,
-        };
-        sum += photon.flux.keep_if(counts);
+        sum += photon.flux.keep_if(here & normal.dot(photon.wi).gt(0.0));
     }
     sum * (1.0 / (PI * map.radius() * map.radius()))
 }

@@ -1,18 +1,23 @@
-//! Bright places: cells of a grid on whose surfaces light falls straight from lights, far more than elsewhere (a candle under its flame, a shade).
+//! Bright places: cells of a grid on whose surfaces light paths arrive more densely than the pixels of the picture lie (a candle under its flame, a
+//! caustic).
 //!
-//! Camera paths seldom meet such a place after they were scattered, and find much when they do. So light paths carry its light on to what the camera
-//! sees, by a share that both sides know of each cell.
+//! What a surface scatters on to others is found from both of its ends: camera paths that were scattered look for the place, or light paths go on
+//! from it to what the camera sees. A density p of light paths on the place and a density q of pixels on what is seen, each a share of all paths
+//! a square metre, leave noise as p to q. So light paths carry the light on by a share that both sides look up in the place's cell.
 
 use gonio_simd::{F, Lanes, M, PADDING, U, Vec3};
-use std::collections::HashMap;
+use std::{
+    collections::HashMap,
+    hash::{BuildHasherDefault, Hasher},
+};
 
-/// Flux that fell straight from lights, cell by cell.
+/// Where light paths arrived, cell by cell.
 #[derive(Clone, Debug)]
-pub struct DirectFlux {
+pub struct ArrivalCells {
     /// Cells a metre.
     scale: f32,
-    cells: HashMap<[i32; 3], f64>,
-    total: f64,
+    /// By the hash of the cell: the sums of flux and of its square.
+    cells: HashMap<u32, [f64; 2], BuildHasherDefault<AsItIs>>,
 }
 
 /// The share of the light from each bright cell that light paths carry on.
@@ -24,46 +29,58 @@ pub struct BrightPlaces {
     shares: Vec<f32>,
 }
 
+/// Hashes of cells are hashes already.
+#[derive(Clone, Copy, Debug, Default)]
+struct AsItIs(u64);
+
 /// Cells along the radius of the scene.
 const CELLS: f64 = 128.0;
-/// A place is bright where its irradiance is so many times the mean over all surfaces.
-const BRIGHT: f64 = 8.0;
-/// Smaller shares are none.
-const LEAST_SHARE: f64 = 0.1;
+/// Smaller shares are none, and larger ones all.
+const SHARES: [f64; 2] = [0.1, 0.95];
 /// Where cells begin, in cells: surfaces at round coordinates are not to lie on borders.
 const OFFSET: [f32; 3] = [0.381_966, 0.236_068, 0.145_898];
 /// Factors of the coordinates, and of their mix.
 const FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 const MIX: u32 = 0x2c1b_3c6d;
 
-impl DirectFlux {
+impl Hasher for AsItIs {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.0 = self.0 << 8 | u64::from(*byte));
+    }
+    fn write_u32(&mut self, hash: u32) {
+        // Tables look at the first bits as well.
+        self.0 = u64::from(hash) << 32 | u64::from(hash);
+    }
+}
+
+impl ArrivalCells {
     /// None yet, in a scene of some radius, metres.
     pub fn new(radius: f64) -> Self {
-        Self { scale: (CELLS / radius.max(f64::MIN_POSITIVE)) as f32, cells: HashMap::new(), total: 0.0 }
+        Self { scale: (CELLS / radius.max(f64::MIN_POSITIVE)) as f32, cells: HashMap::default() }
     }
 
     /// Adds flux (mean of R, G, B) that arrived at a place, rebased world space.
     pub fn add(&mut self, position: [f32; 3], flux: f64) {
         let cell = [0, 1, 2].map(|axis| (position[axis] * self.scale + OFFSET[axis]).floor() as i32);
-        *self.cells.entry(cell).or_default() += flux;
-        self.total += flux;
+        let [sum, squares] = self.cells.entry(hash(cell)).or_default();
+        (*sum, *squares) = (*sum + flux, *squares + flux * flux);
     }
 
-    /// The bright places among them; `share` is the part of a path in all that were traced, `area` about that of the scene's surfaces.
-    pub fn bright_places(&self, share: f64, area: f64) -> BrightPlaces {
-        let of_cell = f64::from(self.scale).powi(2) * share;
-        let bright = (self.total * share / area.max(f64::MIN_POSITIVE) * BRIGHT).max(f64::MIN_POSITIVE);
-        let carried = |flux: f64| {
-            let square = (flux * of_cell / bright).powi(2);
-            if square.is_finite() { square / (square + 1.0) } else { 1.0 }
+    /// The bright places among them; `share` is the part of a path in all that were traced, `seen` the area that pixels spread over, as many as light
+    /// paths of a sample, m².
+    pub fn bright_places(&self, share: f64, seen: f64) -> BrightPlaces {
+        let of_path = f64::from(self.scale).powi(2) * share * seen;
+        let carried = |[sum, squares]: &[f64; 2]| {
+            // As many paths as would be that noisy if each brought as much.
+            let ratio = (sum * sum / squares.max(f64::MIN_POSITIVE) * of_path).powi(2);
+            let share = if ratio.is_finite() { ratio / (ratio + 1.0) } else { 1.0 };
+            if share < SHARES[1] { share } else { 1.0 }
         };
-        let chosen: Vec<(u32, f32)> = self
-            .cells
-            .iter()
-            .map(|(cell, flux)| (hash(*cell), carried(*flux)))
-            .filter(|(_, share)| *share >= LEAST_SHARE)
-            .map(|(key, share)| (key, share as f32))
-            .collect();
+        let shares = self.cells.iter().map(|(key, sums)| (*key, carried(sums)));
+        let chosen: Vec<(u32, f32)> = shares.filter(|(_, share)| *share >= SHARES[0]).map(|(key, share)| (key, share as f32)).collect();
         if chosen.is_empty() {
             return BrightPlaces::default();
         }
@@ -87,7 +104,7 @@ impl BrightPlaces {
         self.keys.is_empty()
     }
 
-    /// Share of the light straight from lights that light paths carry on from chosen points.
+    /// Share of the light at chosen points that light paths carry on from there.
     #[inline(always)]
     pub(crate) fn carried_on<L: Lanes>(&self, position: Vec3<L>, chosen: M<L>) -> F<L> {
         let l = position.x.lanes();
@@ -122,20 +139,31 @@ mod tests {
 
     #[test]
     fn both_sides_know_the_same_share() {
-        let mut flux = DirectFlux::new(20.0);
+        let mut cells = ArrivalCells::new(20.0);
         for number in 0..4000 {
             let x = (number % 63) as f32 * 0.05 - 1.5;
-            flux.add([x, 0.0, (number / 63) as f32 * 0.05 - 1.5], 1.0);
+            cells.add([x, 0.0, (number / 63) as f32 * 0.05 - 1.5], 1.0);
         }
         let spot = [0.3, 0.2, -0.7];
-        (0..4000).for_each(|_| flux.add(spot, 1.0));
-        let places = flux.bright_places(1.0 / 8000.0, 20.0);
+        (0..4000).for_each(|_| cells.add(spot, 1.0));
+        // 0.005 paths of 8000 a square metre elsewhere, half of them on 0.024 m² in the spot, and pixels spread over a square metre.
+        let places = cells.bright_places(1.0 / 8000.0, 1.0);
         dispatch!(Execution::best(), l => {
             let at = |p: [f32; 3]| places.carried_on(Vec3::splat(l, p), l.m(true)).to_array()[0];
-            assert!(at(spot) > 0.99 && at([0.301, 0.2001, -0.701]) > 0.99);
+            assert!(at(spot) == 1.0 && at([0.301, 0.2001, -0.701]) == 1.0);
             assert_eq!((at([0.5, 0.0, 0.5]), at([9.0, 1.0, 3.0])), (0.0, 0.0));
             assert_eq!(places.carried_on(Vec3::splat(l, spot), l.m(false)).to_array()[0], 0.0);
         });
-        assert!(DirectFlux::new(1.0).bright_places(1.0, 1.0).is_empty());
+        assert!(ArrivalCells::new(1.0).bright_places(1.0, 1.0).is_empty());
+    }
+
+    #[test]
+    fn one_path_among_faint_ones_makes_no_place_bright() {
+        let mut cells = ArrivalCells::new(20.0);
+        (0..1000).for_each(|_| cells.add([0.0; 3], 1e-6));
+        cells.add([0.0; 3], 1.0);
+        assert!(cells.bright_places(1e-3, 1.0).is_empty());
+        (0..100).for_each(|_| cells.add([0.0; 3], 1.0));
+        assert!(!cells.bright_places(1e-3, 1.0).is_empty());
     }
 }

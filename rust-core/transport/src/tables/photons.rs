@@ -2,7 +2,7 @@
 
 use crate::tables::bright_places::BrightPlaces;
 use gonio_bsdf::parameter::spectrum;
-use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
+use gonio_simd::{Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
 
 /// Flux that arrived at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,16 +24,23 @@ pub struct Photons {
     pub fine: PhotonMap,
     /// For light that goes on from there to other surfaces: fewer photons, of a radius that always finds some.
     pub coarse: PhotonMap,
-    /// Where light paths carry on what falls straight from lights.
-    pub bright: BrightPlaces,
+    /// Where light paths carry on what falls straight from lights, and what mirrors and smooth glass sent there.
+    pub bright: Bright,
+}
+
+/// Bright places by how light came there.
+#[derive(Clone, Debug, Default)]
+pub struct Bright {
+    /// Straight from lights.
+    pub direct: BrightPlaces,
+    /// By mirrors and smooth glass.
+    pub caustic: BrightPlaces,
 }
 
 /// Photons by cells of a grid whose width is twice the radius: what lies about a point is in eight cells.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
     radius: f32,
-    /// Irradiance above which light paths go on rather than camera paths look for the place, mean of R, G, B.
-    bright: f32,
     /// First photon of each bucket, and the number of all.
     starts: Vec<u32>,
     position: [Vec<f32>; 3],
@@ -42,9 +49,6 @@ pub struct PhotonMap {
     /// Items of fluxes, the fourth word unused.
     flux: Vec<f32>,
 }
-
-/// A place is bright where its irradiance is so many times the mean over all surfaces.
-const BRIGHT: f64 = 8.0;
 
 /// A register of photons.
 #[derive(Clone, Copy, Debug)]
@@ -67,13 +71,13 @@ const FOUND_COARSE: f64 = 16.0;
 impl Photons {
     /// Sorts photons into cells. `radius` is that of the fine map, `shrinks` the part of the coarse map's that later blocks keep; `share` is the part of
     /// a path in all that were traced, `area` about that of the scene's surfaces.
-    pub fn new(photons: &[Photon], bright: BrightPlaces, radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
+    pub fn new(photons: &[Photon], bright: Bright, radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
         let step = photons.len().div_ceil(MOST_COARSE).max(1);
         let some: Vec<Photon> = photons.iter().step_by(step).copied().collect();
         let wide = (FOUND_COARSE * lit_area(&some, area) / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
         Self {
-            fine: PhotonMap::new(photons, radius as f32, share, area),
-            coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64, area),
+            fine: PhotonMap::new(photons, radius as f32, share),
+            coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64),
             bright,
         }
     }
@@ -90,15 +94,13 @@ fn lit_area(photons: &[Photon], area: f64) -> f64 {
 }
 
 impl PhotonMap {
-    /// Sorts photons into cells; `share` is the part of a path in all that were traced, `area` about that of the scene's surfaces.
-    fn new(photons: &[Photon], radius: f32, share: f64, area: f64) -> Self {
+    /// Sorts photons into cells; `share` is the part of a path in all that were traced.
+    fn new(photons: &[Photon], radius: f32, share: f64) -> Self {
         if photons.is_empty() || radius <= 0.0 {
             return Self::default();
         }
         let buckets = photons.len().next_power_of_two().max(16);
-        let flux: f64 = photons.iter().flat_map(|photon| photon.flux).map(f64::from).sum::<f64>() / 3.0 * share;
-        let bright = (flux / area.max(f64::MIN_POSITIVE) * BRIGHT) as f32;
-        let map = Self { radius, bright, starts: vec![0; buckets + 1], ..Self::default() };
+        let map = Self { radius, starts: vec![0; buckets + 1], ..Self::default() };
         let bucket_of = |photon: &Photon| map.bucket(photon.position.map(|x| map.cell(x)));
         let mut starts = map.starts.clone();
         photons.iter().for_each(|photon| starts[bucket_of(photon) + 1] += 1);
@@ -132,14 +134,6 @@ impl PhotonMap {
     /// Radius within which photons are merged, metres.
     pub(crate) fn radius(&self) -> f32 {
         self.radius
-    }
-
-    /// Share of the light from a place of some irradiance that light paths carry on; camera paths that see their first surface directly take the rest.
-    #[inline(always)]
-    pub(crate) fn carried_on<L: Lanes>(&self, irradiance: F<L>) -> F<L> {
-        let ratio = irradiance * self.bright.max(f32::MIN_POSITIVE).recip();
-        let square = ratio * ratio;
-        (square / (square + 1.0)).min(1.0)
     }
 
     fn cell(&self, x: f32) -> i64 {

@@ -64,10 +64,10 @@ impl Integrator for PathIntegrator {
             let unseen = going_on & non_specular & (point.bounces.ne(0) | rough);
             for (map, chosen) in [(&photons.fine, unseen.and_not(rough)), (&photons.coarse, unseen & rough)] {
                 if chosen.any() {
-                    merge(chunk, map, point, lobes, chosen, &mut queues.photons, deposits);
+                    merge(chunk, (map, &photons.bright.caustic), point, lobes, chosen, &mut queues.photons, deposits);
                 }
             }
-            point.direct_brought = direct_brought(chunk, &photons.bright, point, unseen);
+            point.direct_brought = direct_brought(chunk, &photons.bright.direct, point, unseen);
         }
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if self.lit && (non_specular & going_on).any() && !tables.lights.is_empty() {
