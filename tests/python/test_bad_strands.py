@@ -66,14 +66,25 @@ def test_places_that_are_nowhere_are_left_out(kind):
         assert told[0].startswith("8 of 8 places") and not is_seen(image)
 
 
-@pytest.mark.parametrize("basis, counts, few", [("catmullRom", [1] * 8, 8), ("catmullRom", [1, 4, 2, 1], 2), ("catmullRom", [0, 8, 0], 2), ("bezier", [3, 5], 1), ("bspline", [1, 7], 1)])
+@pytest.mark.parametrize(
+    "basis, counts, few",
+    [
+        ("catmullRom", [1] * 8, 8),
+        ("catmullRom", [1, 4, 2, 1], 2),
+        ("catmullRom", [0, 8, 0], 2),
+        ("bezier", [3, 5], 1),
+        ("bspline", [1, 7], 1),
+    ],
+)
 def test_curves_of_too_few_points_are_left_out(basis, counts, few):
     image, told = shown("curves", counts=np.array(counts, "i4"), basis=basis, wrap="pinned" if basis != "bezier" else "nonperiodic")
     assert any(text.startswith(f"{few} of {len(counts)} curves have too few points") for text in told), told
     assert is_seen(image) == (max(counts) > 3)
 
 
-@pytest.mark.parametrize("counts, problem", [([-4, 12], "element 0 is -4"), ([4, 3], "7 points in all"), ([4, 2**31 - 1], "2147483651 points in all")])
+@pytest.mark.parametrize(
+    "counts, problem", [([-4, 12], "element 0 is -4"), ([4, 3], "7 points in all"), ([4, 2**31 - 1], "2147483651 points in all")]
+)
 def test_counts_that_do_not_fit_are_refused(counts, problem):
     with pytest.raises(ValueError, match=problem):
         shown("curves", counts=np.array(counts, "i4"))
@@ -102,7 +113,7 @@ def test_keys_that_cannot_be_used_are_told(kind, name):
 
 @pytest.mark.parametrize("kind", ["curves", "points"])
 def test_keys_beyond_all_bounds_and_of_other_numbers(kind):
-    image, told = shown(kind, motion=np.concatenate([PLACES, PLACES * np.float32(1e30)]))
+    _, told = shown(kind, motion=np.concatenate([PLACES, PLACES * np.float32(1e30)]))
     assert len(told) == 1 and "beyond" in told[0]
     with pytest.raises(ValueError, match="11 points were found, expected 8 a key"):
         shown(kind, motion=np.concatenate([PLACES, PLACES[:3]]))
