@@ -33,7 +33,9 @@ def Camera "Cam"
     uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
 }
 """
-INSIDE = CAMERA.replace("(0, 2.4, 2.4)", "(0.1, 0.05, 0)").replace("focalLength = 30", "focalLength = 8\n    float2 clippingRange = (0.01, 100)")
+INSIDE = CAMERA.replace("(0, 2.4, 2.4)", "(0.1, 0.05, 0)").replace(
+    "focalLength = 30", "focalLength = 8\n    float2 clippingRange = (0.01, 100)"
+)
 PREVIEW = """
     def Shader "Surface"
     {
@@ -62,7 +64,11 @@ def plate(count):
     """A square of side 2 in the plane y = 0: points, faces and coordinates."""
     u, v = (axis.ravel() for axis in np.meshgrid(np.linspace(0, 1, count + 1), np.linspace(0, 1, count + 1), indexing="ij"))
     a = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
-    return np.stack([2 * u - 1, 0 * u, 2 * v - 1], axis=1), np.stack([a, a + 1, a + count + 2, a + count + 1], axis=1), np.stack([u, v], axis=1)
+    return (
+        np.stack([2 * u - 1, 0 * u, 2 * v - 1], axis=1),
+        np.stack([a, a + 1, a + count + 2, a + count + 1], axis=1),
+        np.stack([u, v], axis=1),
+    )
 
 
 def mesh(points, faces, st, *more, scheme="none"):
@@ -128,7 +134,9 @@ def shown(run, tmp_path):
 
     def render(name, *parts, spp=16, options=(), size=64):
         path = pictures.stage(tmp_path / f"{name}.usda", *parts)
-        done = run("render", path, "-v", "-o", tmp_path / f"{name}.exr", "--res", size, size, "--spp", spp, "--aov", "color,depth,P", *options)
+        done = run(
+            "render", path, "-v", "-o", tmp_path / f"{name}.exr", "--res", size, size, "--spp", spp, "--aov", "color,depth,P", *options
+        )
         assert done.returncode == 0, done.stderr
         return pictures.read(tmp_path / f"{name}.exr"), done.stderr
 
@@ -253,7 +261,12 @@ def test_closed_balls_stay_closed_across_faces_and_materials(shown, options, own
     points, faces, st = ball(10, own_points=own_points)
     other = np.flatnonzero((np.arange(len(faces)) // 3) % 2)
     first = materialx("float", [ONCE, "float inputs:scale = 0.3"], *waves_of_materialx())
-    second = first.replace("inputs:scale = 0.3", "inputs:scale = -0.2").replace("(9, 7)", "(31, 23)").replace('Material "M"', 'Material "N"').replace("</M/", "</N/")
+    second = (
+        first.replace("inputs:scale = 0.3", "inputs:scale = -0.2")
+        .replace("(9, 7)", "(31, 23)")
+        .replace('Material "M"', 'Material "N"')
+        .replace("</M/", "</N/")
+    )
     scheme = "none" if options[1] == "low" else "bilinear"
     thing = mesh(points, faces, st, SUBSET.format(rows(other)), scheme=scheme)
     picture, said = shown("ball", thing, first, second, LAMP, INSIDE, options=options, size=96)
@@ -296,8 +309,22 @@ def overflow(factor):
         "float",
         [ONCE],
         shader("/M", "P", "ND_geompropvalue_float", 'string inputs:geomprop = "height"', output="float outputs:out"),
-        shader("/M", "F", "ND_multiply_float", "float inputs:in1.connect = @/P.outputs:out;", f"float inputs:in2 = {factor}", output="float outputs:out"),
-        shader("/M", "H", "ND_multiply_float", "float inputs:in1.connect = @/F.outputs:out;", f"float inputs:in2 = {factor}", output="float outputs:out"),
+        shader(
+            "/M",
+            "F",
+            "ND_multiply_float",
+            "float inputs:in1.connect = @/P.outputs:out;",
+            f"float inputs:in2 = {factor}",
+            output="float outputs:out",
+        ),
+        shader(
+            "/M",
+            "H",
+            "ND_multiply_float",
+            "float inputs:in1.connect = @/F.outputs:out;",
+            f"float inputs:in2 = {factor}",
+            output="float outputs:out",
+        ),
     )
 
 
@@ -324,7 +351,9 @@ def test_heights_that_are_no_numbers_are_told_and_move_nothing(shown, name):
 def test_huge_heights_make_a_picture(shown, height):
     points, faces, st = plate(12)
     text = heights(np.resize([height, -height, 0.0], len(points)))
-    picture, said = shown("huge", mesh(points, faces, st, text, scheme="bilinear"), preview(), LAMP, CAMERA, options=["--complexity", "auto"])
+    picture, said = shown(
+        "huge", mesh(points, faces, st, text, scheme="bilinear"), preview(), LAMP, CAMERA, options=["--complexity", "auto"]
+    )
     assert np.isfinite(picture.rgb).all(), said
 
 

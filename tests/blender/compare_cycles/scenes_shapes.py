@@ -79,7 +79,16 @@ def displaced() -> None:
     moved = node(tree, "ShaderNodeDisplacement", Height=picture.outputs["Color"], Midlevel=0.5, Scale=0.2)
     tree.links.new(moved.outputs[0], end.inputs["Displacement"])
     made.displacement_method = "DISPLACEMENT"
-    shape(bpy.ops.mesh.primitive_grid_add, made, smooth=True, x_subdivisions=80, y_subdivisions=80, size=2.0, location=(-1.1, 0.2, 0.5), rotation=(0.7, 0.0, 0.3))
+    shape(
+        bpy.ops.mesh.primitive_grid_add,
+        made,
+        smooth=True,
+        x_subdivisions=80,
+        y_subdivisions=80,
+        size=2.0,
+        location=(-1.1, 0.2, 0.5),
+        rotation=(0.7, 0.0, 0.3),
+    )
     ball(made, 0.7, location=(1.1, 0.3, 0.8))
 
 
@@ -148,7 +157,16 @@ def moving_things() -> None:
 def deforming() -> None:
     """A plate that a shape key bends."""
     room()
-    shape(bpy.ops.mesh.primitive_grid_add, rough((0.6, 0.3, 0.2)), smooth=True, x_subdivisions=30, y_subdivisions=30, size=1.8, location=(0.0, 0.3, 0.5), rotation=(0.5, 0.0, 0.4))
+    shape(
+        bpy.ops.mesh.primitive_grid_add,
+        rough((0.6, 0.3, 0.2)),
+        smooth=True,
+        x_subdivisions=30,
+        y_subdivisions=30,
+        size=1.8,
+        location=(0.0, 0.3, 0.5),
+        rotation=(0.5, 0.0, 0.4),
+    )
     plate = bpy.context.object
     plate.shape_key_add(name="Basis")
     bent = plate.shape_key_add(name="Bent")
@@ -161,7 +179,15 @@ def deforming() -> None:
 def skinned() -> None:
     """A post that two bones bend."""
     room()
-    shape(bpy.ops.mesh.primitive_cylinder_add, rough((0.2, 0.4, 0.6)), smooth=False, vertices=24, radius=0.2, depth=2.0, location=(0.0, 0.0, 1.0))
+    shape(
+        bpy.ops.mesh.primitive_cylinder_add,
+        rough((0.2, 0.4, 0.6)),
+        smooth=False,
+        vertices=24,
+        radius=0.2,
+        depth=2.0,
+        location=(0.0, 0.0, 1.0),
+    )
     post = bpy.context.object
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.bisect(plane_co=(0, 0, 1), plane_no=(0, 0, 1))

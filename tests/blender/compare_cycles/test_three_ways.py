@@ -19,7 +19,9 @@ MOST_MEDIAN = 0.01
 MOST_PERCENTILE95 = 0.04
 # A shape key is written without the normals that go with it, and those of the mesh at rest are written: shading differs as it bends.
 NORMALS_AT_REST = 0.2
-SCENES = {name: MOST_PERCENTILE95 for name in ("hair_curves", "particle_hair", "points", "displaced", "moving_camera", "moving_things", "skinned")}
+SCENES = {
+    name: MOST_PERCENTILE95 for name in ("hair_curves", "particle_hair", "points", "displaced", "moving_camera", "moving_things", "skinned")
+}
 SCENES["deforming"] = NORMALS_AT_REST
 # Points of a strand's length from 0 to 1, and diameters there.
 HAIR = ((0.0, 1.0), (0.02, 0.01))
