@@ -55,7 +55,7 @@ SCENES = {
         "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
-    "pass": Limit("Passes: Shadow, volume passes", "absent"),
+    "pass": Limit("Volume passes, and the Shadow pass of EEVEE, which Cycles has no more", "absent"),
     "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
     "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
     "kind of camera": Limit("Cameras of custom types", "a perspective one"),
