@@ -75,7 +75,7 @@ const fn third_columns() -> [u32; 32] {
 fn third_generator<L: Lanes>(l: L, x: U<L>) -> U<L> {
     let mut y = l.u(0);
     for (bit, column) in THIRD.iter().enumerate() {
-        y = y ^ l.u(*column).keep_if(((x >> bit as u32) & 1).ne(0));
+        y ^= l.u(*column).keep_if(((x >> bit as u32) & 1).ne(0));
     }
     y
 }
