@@ -18,12 +18,10 @@ pub use sobol::{Sampler, hash};
 
 /// The dimensions a path uses, by name: a pair each, `BOUNCE` times the depth apart.
 pub mod dimension {
-    /// Position in the pixel.
+    /// Position in the pixel, and as a third number when the shutter lets the sample in.
     pub const PIXEL: u32 = 0;
     /// Position on the lens.
     pub const LENS: u32 = 1;
-    /// When the shutter lets the sample in; a number that no bounce and no walk uses.
-    pub const TIME: u32 = (1 << 16) - 1;
     /// First dimension of the first surface.
     pub const FIRST_BOUNCE: u32 = 2;
     /// Dimensions a bounce.

@@ -40,6 +40,44 @@ impl Sampler {
         let second = permute(l, pascal(shuffled), hash(seed ^ 0xe654_6b64)).reverse_bits();
         [to_unit(first), to_unit(second)]
     }
+
+    /// A number in [0, 1) beside a pair: the three of a pixel's samples are spread over a cube together.
+    #[inline(always)]
+    pub fn third<L: Lanes>(&self, l: L, index: U<L>, dimension: u32) -> F<L> {
+        let seed = hash(self.seed ^ dimension.wrapping_mul(0xc2b2_ae35));
+        let shift = MOST_SAMPLE_BITS - self.log2_samples;
+        let shuffled = nested_scramble(l, index << shift, seed) >> shift;
+        to_unit(permute(l, third_generator(l, shuffled), hash(seed ^ 0x7feb_352d)).reverse_bits())
+    }
+}
+
+/// Columns of the generator of Sobol's third dimension, bits reversed: column `i` is what bit `i` of a number adds.
+const THIRD: [u32; 32] = third_columns();
+
+/// The direction numbers of the primitive polynomial x² + x + 1, begun with 1 and 3.
+const fn third_columns() -> [u32; 32] {
+    let mut m = [0u64; 32];
+    let mut columns = [0; 32];
+    (m[0], m[1]) = (1, 3);
+    let mut i = 0;
+    while i < 32 {
+        if i >= 2 {
+            m[i] = (m[i - 1] << 1) ^ (m[i - 2] << 2) ^ m[i - 2];
+        }
+        columns[i] = ((m[i] << (31 - i)) as u32).reverse_bits();
+        i += 1;
+    }
+    columns
+}
+
+/// Multiplies the bits by the generator of Sobol's third dimension before bit reversal.
+#[inline(always)]
+fn third_generator<L: Lanes>(l: L, x: U<L>) -> U<L> {
+    let mut y = l.u(0);
+    for (bit, column) in THIRD.iter().enumerate() {
+        y ^= l.u(*column).keep_if(((x >> bit as u32) & 1).ne(0));
+    }
+    y
 }
 
 /// Multiplies the bits by Pascal's triangle modulo two: the generator of Sobol's second dimension before bit reversal.
@@ -105,6 +143,26 @@ mod tests {
                     filled[(x * columns as f32) as usize * rows + (y * rows as f32) as usize] += 1;
                 }
                 assert!(filled.iter().all(|n| *n == 1), "dimension {dimension}, {columns} columns");
+            }
+        }
+    }
+
+    #[test]
+    fn third_numbers_are_even_and_spread_with_each_of_the_pair() {
+        let sampler = Sampler::new(7, [3, 5], 64);
+        let index = |sample| sampler.index::<One>(U(1234), U(sample));
+        let thirds: Vec<f32> = (0..64).map(|sample| sampler.third(One, index(sample), 0).0).collect();
+        let mut parts: Vec<usize> = thirds.iter().map(|z| (z * 64.0) as usize).collect();
+        parts.sort_unstable();
+        assert_eq!(parts, (0..64).collect::<Vec<_>>());
+        for axis in 0..2 {
+            for columns_log2 in 0..=5 {
+                let (columns, rows) = (1 << columns_log2, 32 >> columns_log2);
+                let mut filled = vec![0; 32];
+                for (pair, z) in points(&sampler, 1234, 64, 0).iter().zip(&thirds) {
+                    filled[(pair[axis] * columns as f32) as usize * rows + (z * rows as f32) as usize] += 1;
+                }
+                assert!(filled.iter().all(|n| *n == 2), "axis {axis}, {columns} columns: {filled:?}");
             }
         }
     }

@@ -177,8 +177,8 @@ pub(super) fn sum(primvar: &Primvar, values: &[(usize, f32); 4], component: usiz
 
 /// Most and fewest pieces of a span of a spline.
 const PIECES: [f32; 2] = [1.0, 16.0];
-/// A piece may leave the curve by this share of the radius.
-const MOST_ERROR: f32 = 0.1;
+/// A piece whose ends are on the curve may be off in its middle by these shares of the radius and of the chord. [`Cutter::fit`] halves that.
+const MOST_OFF: [f32; 2] = [0.2, 2e-3];
 
 /// One curve while it is cut.
 struct Cutter<'a> {
@@ -218,9 +218,25 @@ impl Cutter<'_> {
         // A parabola is off most in the middle, and three quarters of that at the quarters.
         let off = (off(p, 0.25) / 0.75).max(off(q, 0.5)).max(off(r, 0.75) / 0.75);
         let chord = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f32>().sqrt();
-        let allowed = MOST_ERROR * a[3].max(b[3]).max(0.0) + 1e-3 * chord;
+        let allowed = MOST_OFF[0] * a[3].max(b[3]).max(0.0) + MOST_OFF[1] * chord;
         let pieces = (off / allowed.max(f32::MIN_POSITIVE)).sqrt().ceil();
         if pieces.is_finite() { pieces.clamp(PIECES[0], PIECES[1]) as usize } else { 1 }
+    }
+
+    /// Moves the joints off the curve by half of what pieces between points on it are off in their middles: so they are off by half as much there.
+    fn fit(&self, own: &mut [([f32; 4], Place)]) {
+        let bend = |pair: &[([f32; 4], Place)]| {
+            let ([(a, from), (b, to)], mut off) = ([pair[0], pair[1]], [0.0; 3]);
+            let start = if from.span == to.span { from.t } else { 0.0 };
+            let middle = self.at(to.span as usize, 0.5 * (start + to.t));
+            (0..3).for_each(|k| off[k] = middle[k] - 0.5 * (a[k] + b[k]));
+            // What is not finite stays where it is.
+            if off.iter().all(|x| x.is_finite()) { off } else { [0.0; 3] }
+        };
+        let bends: Vec<[f32; 3]> = own.windows(2).map(bend).collect();
+        for ((point, _), around) in own[1..].iter_mut().zip(bends.windows(2)) {
+            (0..3).for_each(|k| point[k] += 0.25 * (around[0][k] + around[1][k]));
+        }
     }
 
     /// Appends the curve.
@@ -236,6 +252,9 @@ impl Cutter<'_> {
         own.dedup_by(|next, kept| next.0[..3] == kept.0[..3]);
         if own.len() < 2 {
             return;
+        }
+        if self.curves.basis != CurveBasis::Linear {
+            self.fit(&mut own);
         }
         let closed = self.curves.wrap == CurveWrap::Periodic;
         let mut first = out.points.len() as u32;

@@ -36,12 +36,12 @@ impl SlotTimes {
     }
 }
 
-/// Even numbers: a pixel's samples have one in each of as many parts.
+/// Even numbers: a pixel's samples have one in each of as many parts, and are spread over the pixel and the time together.
 #[inline(always)]
 fn draw<L: Lanes>(l: L, sampler: &Sampler, runs: &Runs, times: &mut [f32]) {
     for slot in (0..BATCH).step_by(L::COUNT) {
         let index = runs.index(l, sampler, l.iota() + slot as u32);
-        let [u, _] = sampler.pair(l, index, dimension::TIME);
+        let u = sampler.third(l, index, dimension::PIXEL);
         u.store(times, slot);
     }
 }
