@@ -23,7 +23,10 @@ pub use text::heading;
 use gonio::error::Result;
 use gonio::threads::available_threads;
 use kernel::Case;
-use std::{path::PathBuf, sync::atomic::AtomicBool};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
 
 /// What is measured, and for how long.
 #[derive(Clone, Debug)]
@@ -67,6 +70,13 @@ pub fn run(options: &Options, cancel: &AtomicBool, mut on_row: impl FnMut(&Row))
         }
     }
     Ok(report)
+}
+
+/// Writes the paper's three scenes by its renderer into a folder, PNG files of 512 × 384 pixels; their paths.
+///
+/// Fails where a file cannot be written, and with [`gonio::Error::Cancelled`] soon after `cancel` is raised.
+pub fn paper_pictures(folder: &Path, threads: u32, cancel: &AtomicBool) -> Result<Vec<PathBuf>> {
+    stages::paper::write(folder, threads, cancel)
 }
 
 /// The rows of a case: over the scalar level and, where there is such a version, over the standard library's functions.

@@ -57,6 +57,8 @@ impl Variant {
 pub(super) struct Slots {
     /// `seconds[round][variant]`: processor seconds a call, all threads together.
     pub(super) seconds: Vec<Vec<f64>>,
+    /// The same by the clock.
+    pub(super) clock: Vec<Vec<f64>>,
     /// What each version computed.
     pub(super) outcomes: Vec<Outcome>,
 }
@@ -78,7 +80,7 @@ pub(super) fn interleaved(kernel: &mut dyn Kernel, variants: &[Variant], seconds
         // The first call warms caches and branch predictors, the second tells how many make a slot.
         variant.run(kernel)?;
         outcomes.push(kernel.outcome());
-        let once = if seconds > 0.0 { timed(*variant, 1, kernel)? } else { SLOT };
+        let once = if seconds > 0.0 { timed(*variant, 1, kernel)?.0 } else { SLOT };
         calls.push((SLOT / once.max(1e-9)).clamp(1.0, MOST_CALLS).round() as u32);
         if cancel.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);
@@ -86,27 +88,30 @@ pub(super) fn interleaved(kernel: &mut dyn Kernel, variants: &[Variant], seconds
     }
     let least = if seconds > 0.0 { LEAST_ROUNDS } else { 1 };
     let start = Instant::now();
-    let mut rounds: Vec<Vec<f64>> = Vec::new();
+    let (mut rounds, mut clock): (Vec<Vec<f64>>, Vec<Vec<f64>>) = Default::default();
     while rounds.len() < least || start.elapsed().as_secs_f64() < seconds {
-        let mut round = vec![0.0; variants.len()];
+        let mut round = [vec![0.0; variants.len()], vec![0.0; variants.len()]];
         for turn in 0..variants.len() {
             // Each round begins with another version, so that none always follows the same.
             let which = (turn + rounds.len()) % variants.len();
-            round[which] = timed(variants[which], calls[which], kernel)?;
+            (round[0][which], round[1][which]) = timed(variants[which], calls[which], kernel)?;
         }
-        rounds.push(round);
+        let [processor, by_clock] = round;
+        rounds.push(processor);
+        clock.push(by_clock);
         if cancel.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);
         }
     }
-    Ok(Slots { seconds: rounds, outcomes })
+    Ok(Slots { seconds: rounds, clock, outcomes })
 }
 
-/// Processor seconds a call over some calls.
-fn timed(variant: Variant, calls: u32, kernel: &mut dyn Kernel) -> Result<f64> {
-    let start = ProcessTime::now();
+/// Seconds of processor time and by the clock a call, over some calls.
+fn timed(variant: Variant, calls: u32, kernel: &mut dyn Kernel) -> Result<(f64, f64)> {
+    let (start, clock) = (ProcessTime::now(), Instant::now());
     for _ in 0..calls {
         variant.run(black_box(&mut *kernel))?;
     }
-    Ok(start.elapsed().as_secs_f64() / f64::from(calls))
+    let calls = f64::from(calls);
+    Ok((start.elapsed().as_secs_f64() / calls, clock.elapsed().as_secs_f64() / calls))
 }

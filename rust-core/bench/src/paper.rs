@@ -3,7 +3,10 @@
 //! Coherent ray tracing for physically accurate rendering on SSE, four lanes, one thread; its figures are those of its Tables 1 to 4.
 
 use super::report::{Breakdown, Report, Row};
-use super::stages::Stage;
+use super::stages::{
+    Stage,
+    paper::{FRAME, FRAME_THREADS},
+};
 use std::fmt::Write;
 
 /// What the paper gained by four lanes, by stage and row.
@@ -32,13 +35,29 @@ fn gained(row: &Row) -> Option<f64> {
     GAINED.iter().find(|(stage, name, _)| stage.name() == row.stage && *name == row.name).map(|(_, _, ratio)| *ratio)
 }
 
-/// All four tables.
+/// Frames a second at which one can move about.
+const INTERACTIVE: f64 = 10.0;
+
+/// The processors' word for a level.
+fn name_of(level: &str) -> &str {
+    match level {
+        "scalar" => "one lane",
+        "sse4.2" => "SSE4.2",
+        "avx2" => "AVX2",
+        "avx512" => "AVX-512",
+        "neon" => "NEON",
+        other => other,
+    }
+}
+
+/// All four tables, and that of frames.
 pub fn paper(report: &Report) -> String {
     [
         ratios(report, Stage::PaperBrdf, "Table 1: a BRDF of 17 × 7 × 17 × 13 values, looked up"),
         ratios(report, Stage::PaperLight, "Table 2: illumination by kind of light, a million samples"),
         ratios(report, Stage::PaperPicture, "Table 3: pictures of 1024 × 768 pixels"),
         scenes(&report.renders),
+        frames(report),
     ]
     .concat()
 }
@@ -49,7 +68,7 @@ fn ratios(report: &Report, stage: Stage, title: &str) -> String {
     let Some(first) = rows.first() else { return String::new() };
     let levels = first.levels.iter();
     let mut text = format!("## {title}\n\n| | one lane, ms | paper, 4 lanes |");
-    levels.clone().for_each(|figure| _ = write!(text, " {}, {} lanes |", figure.level, figure.lanes));
+    levels.clone().for_each(|figure| _ = write!(text, " {}, {} lanes |", name_of(figure.level), figure.lanes));
     text.push_str(&format!("\n| --- | --- | --- |{}\n", " --- |".repeat(levels.count())));
     for row in rows {
         let units = match stage {
@@ -85,7 +104,7 @@ fn scenes(renders: &[Breakdown]) -> String {
         "## Table 4: the scenes\n\n| | triangles, paper | here | lights, paper | here | depth | camera rays a pixel | tracing, one lane |"
             .to_owned();
     let levels = renders[0].levels.iter().skip(1);
-    levels.clone().for_each(|level| _ = write!(text, " tracing, {} |", level.level));
+    levels.clone().for_each(|level| _ = write!(text, " tracing, {} |", name_of(level.level)));
     text.push_str(&format!("\n|{}\n", " --- |".repeat(8 + levels.count())));
     for render in renders {
         let known = SCENES.iter().find(|scene| scene.0 == render.scene);
@@ -96,6 +115,27 @@ fn scenes(renders: &[Breakdown]) -> String {
             let traced: f64 =
                 level.time.iter().filter(|share| ["intersect", "shadow"].contains(&share.stage)).map(|share| share.share).sum();
             _ = write!(text, " {:.0} % |", traced * 100.0);
+        }
+        text.push('\n');
+    }
+    text.push('\n');
+    text
+}
+
+/// Frames a second by the clock; bold ones are interactive.
+fn frames(report: &Report) -> String {
+    let rows: Vec<&Row> = report.rows.iter().filter(|row| row.stage == Stage::PaperFrame.name()).collect();
+    let Some(first) = rows.first() else { return String::new() };
+    let [width, height] = FRAME;
+    let mut text = format!("## Frames a second: {width} × {height} pixels, {FRAME_THREADS} threads\n\n| | one lane |");
+    first.levels.iter().for_each(|figure| _ = write!(text, " {}, {} lanes |", name_of(figure.level), figure.lanes));
+    text.push_str(&format!("\n| --- | --- |{}\n", " --- |".repeat(first.levels.len())));
+    for row in rows {
+        _ = write!(text, "| {} |", row.name);
+        for ns in std::iter::once(row.baseline_clock_ns).chain(row.levels.iter().map(|figure| figure.clock_ns)) {
+            let rate = 1e9 / ns;
+            let mark = if rate >= INTERACTIVE { "**" } else { "" };
+            _ = write!(text, " {mark}{rate:.1}{mark} |");
         }
         text.push('\n');
     }

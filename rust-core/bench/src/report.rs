@@ -50,6 +50,8 @@ pub struct Row {
     pub baseline: &'static str,
     /// Median nanoseconds of processor time that the baseline takes for one unit.
     pub baseline_ns: f64,
+    /// The same by the clock.
+    pub baseline_clock_ns: f64,
     /// What the baseline computed, see [`Figure::outcome`].
     pub baseline_outcome: f64,
     /// Share of the outcome by which the levels may differ.
@@ -69,6 +71,8 @@ pub struct Figure {
     pub lanes: usize,
     /// Median nanoseconds of processor time a unit.
     pub ns: f64,
+    /// The same by the clock.
+    pub clock_ns: f64,
     /// The baseline's time over this one's, round by round.
     pub ratio: Spread,
     /// A number that the work gives, to tell that all levels do the same.
@@ -172,12 +176,15 @@ impl Machine {
 
 /// The row of a case over the variant numbered `baseline`.
 pub(super) fn row(stage: Stage, case: &Case, variants: &[Variant], baseline: usize, slots: &Slots) -> Row {
-    let of = |variant: usize| -> Vec<f64> { slots.seconds.iter().map(|round| round[variant]).collect() };
-    let ns = |variant: usize| Spread::of(of(variant)).median * 1e9 / case.count.max(1) as f64;
+    let median = |rounds: &[Vec<f64>], variant: usize| {
+        let seconds = rounds.iter().map(|round| round[variant]).collect();
+        Spread::of(seconds).median * 1e9 / case.count.max(1) as f64
+    };
     let figure = |variant: usize| Figure {
         level: variants[variant].name(),
         lanes: variants[variant].lanes(),
-        ns: ns(variant),
+        ns: median(&slots.seconds, variant),
+        clock_ns: median(&slots.clock, variant),
         ratio: Spread::of(slots.seconds.iter().map(|round| round[baseline] / round[variant]).collect()),
         outcome: slots.outcomes[variant].value,
     };
@@ -186,7 +193,8 @@ pub(super) fn row(stage: Stage, case: &Case, variants: &[Variant], baseline: usi
         name: case.name.clone(),
         unit: case.unit,
         baseline: variants[baseline].name(),
-        baseline_ns: ns(baseline),
+        baseline_ns: median(&slots.seconds, baseline),
+        baseline_clock_ns: median(&slots.clock, baseline),
         baseline_outcome: slots.outcomes[baseline].value,
         tolerance: slots.outcomes[baseline].tolerance,
         rounds: slots.seconds.len(),

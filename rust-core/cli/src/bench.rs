@@ -2,12 +2,17 @@
 
 use super::{arguments::BenchOptions, print};
 use gonio::{Error, Result, output::write_atomically};
-use gonio_bench::{Options, Stage, heading, paper, plot, run};
+use gonio_bench::{Options, Stage, heading, paper, paper_pictures, plot, run};
 use std::{io::Write, sync::atomic::AtomicBool};
 
 /// Measures, and prints the table or everything as JSON.
 pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<i32> {
-    let BenchOptions { stage, seconds, threads, scene, paper: as_paper, json, plot: chart } = options;
+    let BenchOptions { stage, seconds, threads, scene, paper: as_paper, pictures, json, plot: chart } = options;
+    if let Some(folder) = pictures {
+        let paths = paper_pictures(folder, *threads, interrupted)?;
+        paths.iter().for_each(|path| print(&path.display().to_string()));
+        return Ok(0);
+    }
     let stages = if *as_paper { Stage::PAPER.to_vec() } else { stage.clone() };
     let wanted = Options { stages, seconds: *seconds, threads: *threads, scene: scene.clone() };
     if !json {

@@ -6,6 +6,7 @@ mod generation;
 mod graph;
 mod light;
 mod light_paths;
+pub(super) mod paper;
 mod render;
 mod texture;
 mod tone;
@@ -49,6 +50,8 @@ pub enum Stage {
     PaperLight,
     /// Its third and fourth: whole pictures.
     PaperPicture,
+    /// Its scenes as frames to move about in.
+    PaperFrame,
 }
 
 impl Stage {
@@ -68,7 +71,7 @@ impl Stage {
     ];
 
     /// The tables of the paper, which are measured where they are asked for alone.
-    pub const PAPER: [Self; 3] = [Self::PaperBrdf, Self::PaperLight, Self::PaperPicture];
+    pub const PAPER: [Self; 4] = [Self::PaperBrdf, Self::PaperLight, Self::PaperPicture, Self::PaperFrame];
 
     /// The name that the command line takes.
     pub fn name(self) -> &'static str {
@@ -87,6 +90,7 @@ impl Stage {
             Self::PaperBrdf => "table 1",
             Self::PaperLight => "table 2",
             Self::PaperPicture => "table 3",
+            Self::PaperFrame => "frames",
         }
     }
 
@@ -116,7 +120,8 @@ impl Stage {
             Self::Render => render::cases(options, cancel),
             Self::PaperBrdf => Ok(bsdf::lookups(&[100_000, 200_000, 400_000])),
             Self::PaperLight => light::paper(cancel),
-            Self::PaperPicture => render::paper(options, cancel),
+            Self::PaperPicture => paper::pictures(options, cancel),
+            Self::PaperFrame => paper::frames(cancel),
         }
     }
 }

@@ -11,8 +11,9 @@ use cpu_time::ProcessTime;
 use gonio::colour::luminance_of_pixel;
 use gonio::compile::CompiledScene;
 use gonio::error::Result;
+use gonio::film::Image;
 use gonio::render::Render;
-use gonio::scene::{Antialiasing, Aov, Filter, Integrator, Scene, Settings, load_bundle};
+use gonio::scene::{Aov, Scene, Settings, load_bundle};
 use gonio::transport::{LaneCount, LaneStage, Stage, Statistics};
 use gonio_simd::Execution;
 use std::{
@@ -25,7 +26,7 @@ use std::{
 const SIDE: u32 = 256;
 const SAMPLES: u32 = 2;
 
-struct Whole {
+pub(super) struct Whole {
     name: String,
     scene: Arc<CompiledScene>,
     settings: Settings,
@@ -46,8 +47,7 @@ struct Total {
 pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
     let case = |name: &str, scene: &Scene| {
         let base = Settings { resolution: [SIDE; 2], samples: SAMPLES, threads: options.workers(), ..scene.settings.clone() };
-        let settings = Settings { aovs: vec![Aov::Color], time_limit_s: 0.0, crop: None, ..base };
-        let kernel = Whole { name: name.into(), scene: compiled(scene, cancel)?, settings, last: None, totals: Vec::new() };
+        let kernel = Whole::new(name, compiled(scene, cancel)?, coloured(base));
         Ok(Case::new(name, "path", (SIDE * SIDE * SAMPLES) as usize, kernel))
     };
     if let Some(path) = &options.scene {
@@ -63,20 +63,21 @@ pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>>
     scenes.iter().map(|(name, scene)| case(name, scene)).collect()
 }
 
-/// The paper's three scenes by its renderer: trees of rays, its depths and its antialiasing, 1024 × 768 pixels.
-pub(super) fn paper(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
-    let scenes = [("car", scenes::car(), 3), ("glass", scenes::glass(), 2), ("room", scenes::room(), 2)];
-    let case = |(name, scene, depth): (&str, Scene, u32)| {
-        let base = Settings { resolution: [1024, 768], threads: options.workers(), max_bounces: depth, ..Settings::default() };
-        let mut settings = Settings { integrator: Integrator::Whitted, light_samples: 1, filter: Filter::Box, filter_width: 1.0, ..base };
-        settings.set_antialiasing(Antialiasing::Paper);
-        let kernel = Whole { name: name.into(), scene: compiled(&scene, cancel)?, settings, last: None, totals: Vec::new() };
-        Ok(Case::new(name, "picture", 1, kernel))
-    };
-    scenes.into_iter().map(case).collect()
+/// The whole picture's colour, without a limit of time.
+pub(super) fn coloured(settings: Settings) -> Settings {
+    Settings { aovs: vec![Aov::Color], time_limit_s: 0.0, crop: None, ..settings }
 }
 
 impl Whole {
+    pub(super) fn new(name: &str, scene: Arc<CompiledScene>, settings: Settings) -> Self {
+        Self { name: name.into(), scene, settings, last: None, totals: Vec::new() }
+    }
+
+    /// The last picture.
+    pub(super) fn image(&self) -> Option<Image> {
+        self.last.as_ref().map(|render| render.film().develop())
+    }
+
     fn pixels(&self) -> f64 {
         self.settings.resolution.map(f64::from).iter().product()
     }
@@ -101,7 +102,7 @@ impl Kernel for Whole {
     }
 
     fn outcome(&self) -> Outcome {
-        let image = self.last.as_ref().map(|render| render.film().develop());
+        let image = self.image();
         let layer = image.as_ref().and_then(|image| image.layer(Aov::Color));
         let pixels = layer.map_or(&[][..], |layer| &layer.values);
         let luminance: Vec<f64> = pixels.chunks_exact(4).map(|p| f64::from(luminance_of_pixel([p[0], p[1], p[2]]))).collect();
