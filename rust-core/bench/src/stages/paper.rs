@@ -24,6 +24,8 @@ const PICTURE: [u32; 2] = [1024, 768];
 /// Pixels of a frame to move about in, and the worker threads that it has.
 pub(crate) const FRAME: [u32; 2] = [512, 384];
 pub(crate) const FRAME_THREADS: u32 = 2;
+/// Pixels of the pictures to be looked at: the scenes' cameras see a square, which the others stretch.
+const SQUARE: [u32; 2] = [384; 2];
 
 /// Names, scenes and depths of the trees of rays.
 fn known() -> [(&'static str, Scene, u32); 3] {
@@ -80,11 +82,11 @@ impl Kernel for Frame {
     }
 }
 
-/// Writes the three scenes into a folder as PNG files, frames with antialiasing; their paths.
+/// Writes the three scenes into a folder as PNG files, antialiased; their paths.
 pub(crate) fn write(folder: &Path, threads: u32, cancel: &AtomicBool) -> Result<Vec<PathBuf>> {
     let execution = Execution::detect();
     let one = |(name, scene, depth): (&str, Scene, u32)| {
-        let mut render = Render::start(compiled(&scene, cancel)?, &settings(depth, FRAME, threads, Antialiasing::Paper), execution)?;
+        let mut render = Render::start(compiled(&scene, cancel)?, &settings(depth, SQUARE, threads, Antialiasing::Paper), execution)?;
         render.finish()?;
         let path = folder.join(format!("paper-{name}.png"));
         write_picture(&path, &render.film().develop(), &Look::default(), execution)?;
