@@ -54,6 +54,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
         return;
     }
     let wi = point.at.frame.to_local(sample.wi);
+    let usable = usable.and_not(leaks(l, point, lobes, [sample.wi, wi]));
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
     let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
     let weight = weight.of(sample, pdf);
@@ -64,6 +65,14 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     send(transport, &point.at, sample, &light, lit, shadows, deposits);
+}
+
+/// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring
+/// light into what is closed. Sampled directions are held to the same.
+#[inline(always)]
+fn leaks<L: Lanes>(l: L, point: &Vertex<L>, lobes: &Lobes<'_, L>, [world, local]: [Vec3<L>; 2]) -> M<L> {
+    // Fibres scatter about their tangent: no side is the wrong one.
+    if lobes.has_fibre() { l.m(false) } else { point.at.geometric.dot(world).lt(0.0) & local.z.gt(0.0) }
 }
 
 /// What is scattered of a light, by its factors on the kinds of scattering.
