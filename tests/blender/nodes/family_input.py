@@ -82,7 +82,7 @@ NODES = {
     "ShaderNodeBevel": Node(
         "Bevel",
         FAMILY,
-        reason="few rays are spread otherwise; of faces that coincide one counts",
+        remark="as Cycles' Tabulated Sobol spreads rays; means of 4 are up to 10 % apart with its blue noise; of faces that coincide one counts",
         cases=tuple(
             Case(f"{samples} samples", {"samples": samples}, {"Radius": 0.15}, stage="floor", tolerance=0.04, steps=0.07)
             for samples in (4, 16)
