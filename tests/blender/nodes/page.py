@@ -26,6 +26,7 @@ FAMILIES = ["Input", "Texture", "Color", "Vector", "Converter", "Shader", "Volum
 HEAD = """# Shader nodes
 
 Each shader node of Blender 4.5 and 5.0, held to Cycles of the same Blender: both engines render one scene, and what they show is compared.
+The one node that only Blender 5.2 has stands by itself.
 The page is written by `python tests/blender/nodes/page.py` from `tests/blender/nodes/measured`.
 
 {counts}
