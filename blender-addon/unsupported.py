@@ -101,14 +101,12 @@ WORLDS = {
 }
 
 MATERIALS = {
-    "volume": Limit("Volumes of materials", "the inside stays empty; without a surface, rays pass"),
+    "volume": Limit("Volumes of materials beyond even absorption", "the inside stays empty; without a surface, rays pass"),
+    "camera in volume": _untold("Cameras and sensors within a volume", "what they stand in absorbs nothing before the first surface"),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "huang": _quietly("Principled Hair BSDF: Huang's model", "Chiang's model of the same colour and roughness; a round section"),
-    "strands on meshes": _untold(
-        "Shaders of hair on meshes: along the first edge of each triangle, as in Cycles", "along the first texture coordinate"
-    ),
     "closure": Limit("Other shaders that are named in the report", "a diffuse surface of its colour"),
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
     "blurred bevel": _untold("Bevel in blurred reflections of glossy surfaces", "edges are rounded there too"),

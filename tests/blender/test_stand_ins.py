@@ -86,7 +86,12 @@ def test_rays_pass_what_is_a_volume_alone(tmp_path):
         description, lines = translated(made)
         [closure] = description["closures"]
         assert closure["model"] == "Transparent" and constant(closure, "base_color")[:3] == [1.0] * 3
-        assert len(lines) == 1 and lines[0].endswith("Volume: not supported; the inside stays empty; without a surface, rays pass")
+        if kind == "VolumeAbsorption":
+            # Even absorption fills the inside.
+            assert not lines and description["absorption"] == pytest.approx([0.2] * 3)
+        else:
+            assert len(lines) == 1 and lines[0].endswith("Volume: not supported; the inside stays empty; without a surface, rays pass")
+            assert "absorption" not in description
         # A mix that leads to nothing is no surface either.
         mix = tree.nodes.new("ShaderNodeMixShader")
         mix.inputs["Fac"].default_value = 0.0
@@ -230,3 +235,28 @@ def test_the_report_counts_nodes_that_are_exact(tmp_path):
         exported.sync(depsgraph())
         # Huang's hair is not exact; what nothing reads does not count.
         assert report.nodes == (3, 4), report.nodes
+
+
+@pytest.mark.blender
+def test_even_absorption_is_what_volume_shaders_add_up_to(tmp_path):
+    from recorder import empty, material, translated
+
+    empty()
+    made, tree, end = material("Filled")
+    first, second, both = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("VolumeAbsorption", "VolumeCoefficients", "AddShader"))
+    first.inputs["Color"].default_value, first.inputs["Density"].default_value = (0.5, 0.25, 1.0, 1.0), 2.0
+    second.inputs["Absorption Coefficients"].default_value = (0.5, 0.0, 0.125)
+    second.inputs["Scatter Coefficients"].default_value = (0.0, 0.0, 0.0)
+    tree.links.new(first.outputs[0], both.inputs[0])
+    tree.links.new(second.outputs[0], both.inputs[1])
+    tree.links.new(both.outputs[0], end.inputs["Volume"])
+    description, lines = translated(made)
+    assert description["absorption"] == pytest.approx([1.5, 1.5, 0.125]) and not lines
+    # What scatters is not even absorption, and what varies neither.
+    second.inputs["Scatter Coefficients"].default_value = (0.1, 0.0, 0.0)
+    description, lines = translated(made)
+    assert "absorption" not in description and len(lines) == 1
+    tree.links.new(first.outputs[0], end.inputs["Volume"])
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Fac"], first.inputs["Density"])
+    description, lines = translated(made)
+    assert "absorption" not in description and len(lines) == 1

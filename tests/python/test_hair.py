@@ -124,3 +124,27 @@ def test_scales_that_lean_to_the_root_reflect_light_from_there():
     root, tip = reflected_towards(-1.0, 0.2), reflected_towards(1.0, 0.2)
     assert root > 20.0 * tip > 0.0, (root, tip)
     assert reflected_towards(1.0, -0.2) == pytest.approx(root, rel=0.02)
+
+
+def triangle_of_fibres(fibres, uvs, normals=None):
+    """A triangle whose sides differ, under a sun, of the older lobe: what it shows hangs on where fibres lie."""
+    scene = gonio.Scene()
+    scene.set(width=16, height=16, samples=32)
+    lobe = {**closure("HairReflection", base_color=1.0, hair_widths=[0.2, 0.3, 0.0]), "fibres": fibres}
+    corners = np.array([[-3, 0, 3], [3, 0, 3], [-1, 0, -4]], "f4")
+    mesh = scene.add_mesh(corners, np.array([[0, 1, 2]], "i4"), uvs=np.array(uvs, "f4"), normals=normals)
+    scene.add_instance(mesh, [scene.put_material({"origin": "hair", "closures": [lobe]})])
+    scene.add_light("distant", [3] * 3, angle=20, transform=[[1, 0, 0, 0], [0, 0.6, 0.8, 0], [0, -0.8, 0.6, 0], [0, 0, 0, 1]])
+    scene.add_camera([[1, 0, 0, 0], [0, 0, 1, 8], [0, -1, 0, 0], [0, 0, 0, 1]], fov=5)
+    return picture(scene)
+
+
+def test_fibres_lie_along_an_edge_of_a_triangle():
+    first, second = [[0, 0], [1, 0], [0, 1]], [[0, 0], [0, 1], [1, 0]]
+    along = {edge: triangle_of_fibres(edge, first) for edge in ("Coordinate", "FirstEdge", "SecondEdge")}
+    assert along["FirstEdge"].mean() > 0.0 and np.allclose(along["FirstEdge"], along["Coordinate"], rtol=1e-4)
+    assert np.allclose(along["SecondEdge"], triangle_of_fibres("Coordinate", second), rtol=1e-4)
+    assert not np.allclose(along["SecondEdge"].mean(), along["FirstEdge"].mean(), rtol=0.05)
+    # They lie about the triangle's own normal.
+    leaning = np.array([[0.3, 1.0, 0.0]] * 3, "f4")
+    assert np.array_equal(along["FirstEdge"], triangle_of_fibres("FirstEdge", first, leaning))

@@ -30,6 +30,7 @@ from . import (  # noqa: F401 (they register their nodes)
 from .closures import closure
 from .displacement import displace
 from .flatten import flatten
+from .interior import absorption
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
@@ -55,28 +56,32 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
         return Translated(_plain(material.name, tuple(material.diffuse_color)[:3], material.pass_index))
     t = Translator(material, tree, images, report, measurements=measurements, version=version, surroundings=surroundings)
-    end, displacement = active_output(tree, "Material"), None
+    end, displacement, inside = active_output(tree, "Material"), None, None
     if end is None:
         report.add("Material", material.name, "the node tree has no output; the surface is black", material=material.name)
     else:
         displacement = displace(t, end, material)
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
-        _rest(t, end, material)
+        inside = _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
-    return Translated(_described(t, material, outputs, displacement), t.primvars, t.instance_primvars, t.asked)
+    return Translated(_described(t, material, outputs, displacement, inside), t.primvars, t.instance_primvars, t.asked)
 
 
 def _rest(t, end, material):
-    """What an output node has beside its surface; rays pass what is a volume alone."""
+    """What an output node has beside its surface; rays pass what is a volume alone. Gives what the inside absorbs a metre, if anything."""
+    inside = None
     if t.linked(end, "Volume", t.root):
-        t.tell("volume", end, t.root, "Volume")
+        inside = absorption(t, input_socket(end, "Volume"), t.root)
+        if inside is None:
+            t.tell("volume", end, t.root, "Volume")
         # As in Cycles a surface that comes to nothing counts as none.
         if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
     limits.of_material(material, t.report)
+    return inside
 
 
-def _described(t, material, outputs, displacement):
+def _described(t, material, outputs, displacement, inside):
     """Closures, AOV outputs and the graph without what nothing needs."""
     wanted = [output[key] for output in outputs for key in ("color", "value")]
     for made in t.closures:
@@ -90,6 +95,7 @@ def _described(t, material, outputs, displacement):
     moved = {} if displacement is None else {"displacement": {**displacement, "value": renumber(displacement["value"], order)}}
     return {
         **moved,
+        **({"absorption": list(inside)} if inside is not None and any(inside) else {}),
         "origin": {"name": material.name, "file": ""},
         "graph": {"nodes": nodes},
         # Displacement makes the normal from which others are bent.

@@ -37,6 +37,8 @@ def principled_hair(t, node, context):
             hair_scale=t.graph.combine(*(widths.component(1),) * 3),
             hair_tilt=t.input(node, "Offset", context),
             specular_ior=t.input(node, "IOR", context, 1.55),
+            # On meshes, as in Cycles.
+            fibres="FirstEdge",
             **tints,
         )
     ]
@@ -79,6 +81,11 @@ def _of_colour(t, colour, around):
 
 @closure_node("ShaderNodeBsdfHair")
 def hair(t, node, context):
+    # The middle of the half angle; Cycles' scales lean towards the root too.
+    tilt, is_along = -t.input(node, "Offset", context), t.linked(node, "Tangent", context)
+    if not is_along and not tilt.is_zero():
+        # Cycles has none on meshes.
+        tilt = tilt * t.primvar(STRAND["Is Strand"], kind="VALUE")
     return [
         closure(
             t.graph,
@@ -87,9 +94,9 @@ def hair(t, node, context):
             hair_widths=t.graph.combine(
                 t.input(node, "RoughnessU", context, 0.1), t.input(node, "RoughnessV", context, 1.0), t.graph.scalar(0.0)
             ),
-            # The middle of the half angle; Cycles' scales lean towards the root too.
-            hair_tilt=-t.input(node, "Offset", context),
-            tangent=t.input(node, "Tangent", context).node if t.linked(node, "Tangent", context) else None,
+            hair_tilt=tilt,
+            tangent=t.input(node, "Tangent", context).node if is_along else None,
+            fibres="SecondEdge",
         )
     ]
 

@@ -54,7 +54,7 @@ pub use light::{DomeFormat, Emission, Light, LightShape, Shaping, Spot};
 pub use light_path::{LightPath, LightSource, MOST_EXPRESSIONS, MOST_STATES, PathAutomaton, SCATTERINGS, STEPS, light_path};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use linking::{Link, Linking};
-pub use material::{Closure, Distribution, Material, Model, ShaderOutput, SubsurfaceMethod};
+pub use material::{Closure, Distribution, FibreDirection, Material, Model, ShaderOutput, SubsurfaceMethod};
 pub use measured::MeasuredBsdf;
 pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};

@@ -90,6 +90,18 @@ pub enum SubsurfaceMethod {
     Burley,
 }
 
+/// What the fibres of hair models lie along on triangles; strands have a direction of their own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FibreDirection {
+    /// The first texture coordinate.
+    #[default]
+    Coordinate,
+    /// The way from the triangle's first corner to its second, about the triangle's own normal.
+    FirstEdge,
+    /// The way from its first corner to its third, likewise.
+    SecondEdge,
+}
+
 /// One way in which a surface scatters or emits, and how much of it there is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -106,6 +118,8 @@ pub struct Closure {
     pub coat_normal: Option<NodeId>,
     /// Direction of anisotropy in world space; along the first texture coordinate without it.
     pub tangent: Option<NodeId>,
+    /// What fibres lie along on triangles where no tangent is given.
+    pub fibres: FibreDirection,
     /// The surface is a sheet: light that passes is not bent.
     pub thin_walled: bool,
     /// Opacity below this counts as 0, else as 1; 0 means opacity is as it is.
@@ -128,6 +142,7 @@ impl Default for Closure {
             normal: None,
             coat_normal: None,
             tangent: None,
+            fibres: FibreDirection::default(),
             thin_walled: false,
             opacity_threshold: 0.0,
             distribution: Distribution::default(),
@@ -186,10 +201,17 @@ pub struct Material {
     /// How far the surface lies off the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Displacement>,
+    /// Absorption a metre of what fills the closed mesh that the surface is of; straight light, too, loses it.
+    #[serde(skip_serializing_if = "is_clear")]
+    pub absorption: [f32; 3],
     /// What the material index pass shows.
     pub pass_index: u32,
     /// What shader passes show; entries of one name add up.
     pub shader_outputs: Vec<ShaderOutput>,
+}
+
+fn is_clear(absorption: &[f32; 3]) -> bool {
+    absorption.iter().all(|x| *x == 0.0)
 }
 
 impl Default for Material {
@@ -201,6 +223,7 @@ impl Default for Material {
             graph: Graph::default(),
             normal: None,
             displacement: None,
+            absorption: [0.0; 3],
             pass_index: 0,
             shader_outputs: Vec::new(),
         }

@@ -113,7 +113,8 @@ def averaged(mine: dict, theirs: dict, case: Case, pixels=None) -> dict:
 
 
 # By the scene that shows it.
-WAYS = {"tiles": tile, "balls": ball, "near": ball, "particles": ball, "lit": lit, "filled": lit, "floor": averaged, "mirror": lit}
+WAYS = {"tiles": tile, "balls": ball, "near": ball, "particles": ball, "floor": averaged, "mirror": lit}
+WAYS |= {"lit": lit, "found": lit, "filled": lit}
 
 
 def _slopes(values: numpy.ndarray) -> tuple[list, list]:

@@ -12,17 +12,17 @@ def _lit(name: str, *cases: Case, family: str = SURFACE, **rest) -> Node:
 
 def _case(mode: str, inputs: dict, seen: str = "shader", **rest) -> Case:
     """A case by the means of 16 blocks: one of them may be beyond."""
-    stage = "filled" if seen == "volume" else "lit"
+    stage = rest.pop("stage", "filled" if seen == "volume" else "lit")
     return Case(mode, rest.pop("fields", {}), inputs, (0,), stage=stage, seen=seen, tolerance=0.04, steps=0.07, **rest)
 
 
-def _distributions(names: list[str], inputs: dict, field: str = "distribution") -> tuple[Case, ...]:
-    return tuple(_case(name, inputs, fields={field: name}) for name in names)
+def _distributions(names: list[str], inputs: dict, field: str = "distribution", **rest) -> tuple[Case, ...]:
+    return tuple(_case(name, inputs, fields={field: name}, **rest) for name in names)
 
 
 ROUGH = {"Color": COLOUR, "Roughness": 0.35}
 METAL = {"Base Color": COLOUR, "Edge Tint": (0.9, 0.7, 0.5), "Roughness": 0.3}
-ON_MESHES = "on meshes, where Cycles lays fibres along the first edge of each triangle; strands are told of in [Hair](hair.md)"
+ON_MESHES = "on meshes, whose fibres lie along an edge of each triangle; strands are told of in [Hair](hair.md)"
 PHASES = ["HENYEY_GREENSTEIN", "FOURNIER_FORAND", "DRAINE", "RAYLEIGH", "MIE"]
 
 NODES = {
@@ -58,10 +58,16 @@ NODES = {
         _case("GLOSSY, smooth", {"Color": COLOUR, "Size": 0.2, "Smooth": 0.5}, fields={"component": "GLOSSY"}),
     ),
     "ShaderNodeBsdfHair": _lit(
-        "Hair BSDF", *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component"), remark=ON_MESHES
+        "Hair BSDF",
+        *_distributions(["Reflection", "Transmission"], {"Color": COLOUR}, "component", stage="found"),
+        *(
+            _case(f"{name}, narrow", {"Color": COLOUR, "RoughnessU": 0.2, "RoughnessV": 0.3}, fields={"component": name}, stage="found")
+            for name in ("Reflection", "Transmission")
+        ),
+        remark=ON_MESHES,
     ),
     "ShaderNodeBsdfHairPrincipled": _lit(
-        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model"), remark=ON_MESHES
+        "Principled Hair BSDF", *_distributions(["CHIANG", "HUANG"], {"Color": COLOUR}, "model", stage="found"), remark=ON_MESHES
     ),
     "ShaderNodeBsdfRayPortal": _lit(
         "Ray Portal BSDF",

@@ -13,7 +13,8 @@ import scenes  # noqa: E402
 from nodes import catalogue, compare, results, stage, stage_rays, tree  # noqa: E402
 
 SCENES = {
-    **{"tiles": stage.tiles, "balls": stage.balls, "near": stage.balls, "lit": stage.lit, "filled": stage.filled},
+    **{"tiles": stage.tiles, "balls": stage.balls, "near": stage.balls, "lit": stage.lit},
+    **{"found": stage.found, "filled": stage.filled},
     **{"floor": stage_rays.floor, "mirror": stage_rays.mirror, "particles": stage_rays.particles},
 }
 

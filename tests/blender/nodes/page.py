@@ -17,6 +17,8 @@ from nodes import catalogue, results  # noqa: E402
 from nodes.case import STRUCTURE, VALUE, Node  # noqa: E402
 
 PAGE = ROOT / "docs" / "nodes.md"
+# The first Blender of which only what it has beyond those before it is measured.
+LATER = (5, 1)
 # Where the part on Blender ends.
 OTHERS = "\n## MaterialX"
 FAMILIES = ["Input", "Texture", "Color", "Vector", "Converter", "Shader", "Volume", "Structure", "Not for materials"]
@@ -24,6 +26,7 @@ FAMILIES = ["Input", "Texture", "Color", "Vector", "Converter", "Shader", "Volum
 HEAD = """# Shader nodes
 
 Each shader node of Blender 4.5 and 5.0, held to Cycles of the same Blender: both engines render one scene, and what they show is compared.
+The one node that only Blender 5.2 has stands by itself.
 The page is written by `python tests/blender/nodes/page.py` from `tests/blender/nodes/measured`.
 
 {counts}
@@ -39,6 +42,9 @@ How it is tested:
   pixel apart. Skies of atmospheres are held so too.
 - **particles**: the same with balls that particles instance.
 - **light**: a ball under a soft sky; means of 16 blocks, which hold noise, within 4 % but for one.
+- **found light**: the same, but Cycles does not sample the sky as a light. Where it does, it leaves out what fibres on meshes send to the
+  other side of smooth normals, and its picture darkens by up to 16 % (Hair BSDF) or 4 % (Principled Hair BSDF, 5.0 alone): it then
+  differs that much from the same Cycles without, and from Gonio, which counts all light.
 - **rays**: the same for outputs that rays find out, or that depend on the kind of ray: blocks beside a floor, or a mirror.
 - **tree**: a tree built with the node, by texels.
 
@@ -46,7 +52,8 @@ A node is *exact* where every output of every mode is within 1e-4 of Cycles' (1e
 the value or to the usual value of the case. Steps such as the borders of cells may fall to the other side in a few texels of a thousand;
 *at steps* counts them. *Approximated* says that some outputs differ, *not* that something stands in for the node.
 """
-WAYS = {"balls": "ball", "near": "ball", "particles": "particles", "lit": "light", "filled": "light", "floor": "rays", "mirror": "rays"}
+WAYS = {"balls": "ball", "near": "ball", "particles": "particles", "lit": "light", "floor": "rays", "mirror": "rays"}
+WAYS |= {"found": "found light", "filled": "light"}
 
 
 def how(node: Node) -> str:
@@ -111,18 +118,32 @@ def differing(verdicts: dict, family: str) -> list[str]:
 
 def page() -> str:
     """The page."""
-    verdicts = results.all_verdicts()
+    every = results.all_verdicts()
+    verdicts = {version: found for version, found in every.items() if version < LATER}
     parts = [HEAD.format(counts=counts(verdicts))]
     versions = " | ".join(".".join(str(part) for part in version) for version in verdicts)
     for family in FAMILIES:
-        rows = [row(name, node, verdicts) for name, node in catalogue.NODES.items() if node.family == family]
+        rows = [row(name, node, verdicts) for name, node in catalogue.NODES.items() if node.family == family and node.since < LATER]
         head = f"| node | {versions} | outputs exact | tested by | largest difference | at steps | remark |"
         rule = "| --- " * (6 + len(verdicts)) + "|"
         parts.append("\n".join([f"## {family}", "", head, rule, *rows, ""]))
         lines = differing(verdicts, family)
         if lines:
             parts.append("\n".join(["What differs, with the largest relative difference:", "", *lines, ""]))
-    return "\n".join(parts) + rest()
+    return "\n".join(parts + later(every)) + rest()
+
+
+def later(every: dict) -> list[str]:
+    """Nodes that only later Blenders have, of which no others are measured."""
+    parts = []
+    for version, found in every.items():
+        names = [name for name, node in catalogue.NODES.items() if LATER <= node.since <= version]
+        if version >= LATER and names:
+            title = f"Only in Blender {'.'.join(map(str, version))}"
+            rows = [row(name, catalogue.NODES[name], {version: found}) for name in names]
+            head = f"| node | {'.'.join(map(str, version))} | outputs exact | tested by | largest difference | at steps | remark |"
+            parts.append("\n".join([f"## {title}", "", head, "| --- " * 7 + "|", *rows, ""]))
+    return parts
 
 
 def rest() -> str:

@@ -5,14 +5,15 @@ import bpy
 from . import stage
 
 # Samples a pixel.
-SAMPLES = 64
-MIRROR_SAMPLES = 256
+SAMPLES = 256
 
 
 def floor(materials: list) -> stage.Grid:
     """Cubes in a corner of floor and walls that are part of them."""
     found = stage.balls(materials, _corner, stage.LIT_BALL)
     _often(bpy.context.scene)
+    # The mean of a few normals depends on how their rays are spread together.
+    bpy.context.scene.cycles.sampling_pattern = "TABULATED_SOBOL"
     return found
 
 
@@ -21,7 +22,6 @@ def mirror(materials: list) -> stage.Grid:
     found = stage.balls(materials, side=stage.LIT_BALL)
     scene = bpy.context.scene
     _often(scene)
-    scene.cycles.samples = MIRROR_SAMPLES
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = 2
     size = 2.0 * found.columns + 4.0
     mesh = bpy.data.meshes.new("Mirror")

@@ -8,7 +8,7 @@ use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Program, Wanted},
-    scene::{self, Closure, Input, Material, Model, NodeId, Origin, Scene},
+    scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
@@ -146,6 +146,7 @@ fn surface(
     wanted.smooth_normal = direction(material.normal);
     wanted.coat_normal = direction(closure.coat_normal);
     wanted.tangent = direction(closure.tangent);
+    wanted.edge = edge(closure);
     let mut program = Program::new(code, &wanted);
     // Shader outputs run on the same surface points.
     program.light_path |= !material.shader_outputs.is_empty() && asks_for_ray(code);
@@ -157,6 +158,7 @@ fn surface(
     SurfaceMaterial {
         transparent: surface.is_see_through(),
         emissive: lobes.emission,
+        interior: interior(material),
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
@@ -165,6 +167,22 @@ fn surface(
         program,
         opacity_threshold: closure.opacity_threshold,
     }
+}
+
+/// The edge of triangles that fibres lie along.
+fn edge(closure: &Closure) -> Option<usize> {
+    let fibre = matches!(closure.model, Model::Hair | Model::HairReflection | Model::HairTransmission);
+    match closure.fibres {
+        FibreDirection::FirstEdge if fibre && closure.tangent.is_none() => Some(0),
+        FibreDirection::SecondEdge if fibre && closure.tangent.is_none() => Some(1),
+        _ => None,
+    }
+}
+
+/// What fills the mesh, if it absorbs anything.
+fn interior(material: &Material) -> Option<[f32; 3]> {
+    let absorption = material.absorption.map(|x| finite(x).max(0.0));
+    absorption.iter().any(|x| *x > 0.0).then_some(absorption)
 }
 
 fn finite(value: f32) -> f32 {

@@ -177,8 +177,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         build_s: built,
         total_s: start.elapsed().as_secs_f64(),
     };
-    let any_absorbing =
-        scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
+    let any_volume = materials.surfaces.iter().any(|surface| surface.interior.is_some());
+    let any_absorbing = any_volume
+        || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let emits = |number: usize| materials.even_emission(materials.number(number)).is_some();
     smooth::report_emission(scene, emits, &mut diagnostics);
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
@@ -204,6 +205,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         matte_names: matte_names(scene),
         any_transparent,
         any_absorbing,
+        any_volume,
         origin,
     };
     let (cameras, manifests) = (scene.cameras.clone(), Arc::new(Manifests::of(scene)));

@@ -56,6 +56,10 @@ impl SpectrumColumns {
     pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {
         self.0.iter_mut().zip(&factors.0).for_each(|(column, factors)| column[at] *= factors[from]);
     }
+    /// Adds one spectrum of others so many times.
+    pub fn add(&mut self, at: usize, others: &Self, from: usize, times: f32) {
+        self.0.iter_mut().zip(&others.0).for_each(|(column, others)| column[at] += others[from] * times);
+    }
     /// Copies one spectrum over another.
     pub fn copy(&mut self, from: usize, to: usize) {
         self.0.iter_mut().for_each(|column| column[to] = column[from]);

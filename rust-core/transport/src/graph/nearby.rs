@@ -10,6 +10,7 @@
 use super::columns::load3;
 use super::hit_step::Points;
 use super::nearby_rays::{Around, NearbyRays, store3};
+use super::shading::beside;
 use crate::geometry::offset_ray_origin;
 use crate::state::flag::{self, event};
 use crate::state::rays::RayLanes;
@@ -201,11 +202,12 @@ pub(super) fn rounded_normal<L: Lanes>(
 /// A disc's frame, its axis last, and how likely each of its axes is taken for one: half of the discs lie in the surface.
 #[inline(always)]
 fn disc<L: Lanes>(normal: Vec3<L>, choice: F<L>) -> ([Vec3<L>; 3], [F<L>; 3]) {
-    let (l, frame) = (choice.lanes(), Frame::from_normal(normal));
+    // Means of few normals depend on the frame.
+    let (l, [x, y]) = (choice.lanes(), beside(normal));
     let (flat, first) = (choice.lt(0.5), choice.lt(0.75));
-    let axis = flat.select(frame.z, first.select(frame.x, frame.y));
-    let along = (first.and_not(flat)).select(frame.z, frame.x);
-    let across = first.select(frame.y, frame.z);
+    let axis = flat.select(normal, first.select(x, y));
+    let along = (first.and_not(flat)).select(normal, x);
+    let across = first.select(y, normal);
     ([along, across, axis], [likelihood(l, first.and_not(flat)), likelihood(l, !first), likelihood(l, flat)])
 }
 

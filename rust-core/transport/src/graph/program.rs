@@ -25,6 +25,8 @@ pub struct Wanted {
     pub coat_normal: Option<Value>,
     /// The direction of anisotropy.
     pub tangent: Option<Value>,
+    /// The edge of triangles that fibres lie along, 0 or 1, about the triangles' normals.
+    pub edge: Option<usize>,
     /// Whether the normal is taken as it is; else it is turned so that mirror directions leave the surface.
     pub free_normal: bool,
     /// Primvar column that tangents and footprints follow.
@@ -51,6 +53,8 @@ pub struct Program {
     pub coat_normal: Option<Direction>,
     /// The direction of anisotropy.
     pub tangent: Option<Direction>,
+    /// The edge of triangles that fibres lie along, 0 or 1, about the triangles' normals.
+    pub edge: Option<usize>,
     /// Primvar column that tangents and footprints follow.
     pub uv: Option<usize>,
     /// Whether surface points keep the ray, for this program or for one that runs on the same points.
@@ -72,7 +76,8 @@ impl Program {
         let mut direction = |value: Option<Value>| value.map(|_| std::array::from_fn(|_| sources.next().unwrap_or(Source::Constant(0.0))));
         let [normal, smooth_normal, coat_normal, tangent] = directions.map(&mut direction);
         let light_path = steps.kernels().any(|kernel| matches!(kernel, Kernel::Hit(step) if step.asks_for_ray()));
-        Self { steps, outputs, normal, smooth_normal, free_normal: wanted.free_normal, coat_normal, tangent, uv: wanted.uv, light_path }
+        let Wanted { free_normal, edge, uv, .. } = *wanted;
+        Self { steps, outputs, normal, smooth_normal, free_normal, coat_normal, tangent, edge, uv, light_path }
     }
     /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {

@@ -39,17 +39,22 @@ pub(super) fn point_value<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, op
     from_vector(l, vector)
 }
 
-/// The way to the next pixel along one of two perpendicular directions in the surface that depend on its normal alone: those of Cycles, and as
-/// wide as the ray's cone, for heights beside the hit are taken there.
+/// Two perpendicular directions in the surface that depend on its normal alone: those of Cycles.
 #[inline(always)]
-fn step<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, axis: u8) -> Vec3<L> {
-    let normal = load3(l, &points.geometric_normal, at);
+pub(super) fn beside<L: Lanes>(normal: Vec3<L>) -> [Vec3<L>; 2] {
     // Perpendicular to (1, 1, 1), but for normals along that.
     let along = normal.x.eq(normal.y) & normal.x.eq(normal.z);
     let usual = Vec3::new(normal.z - normal.y, normal.x - normal.z, normal.y - normal.x);
     let other = Vec3::new(normal.z - normal.y, normal.x + normal.z, -normal.y - normal.x);
     let first = along.select(other, usual).normalize_or(Frame::from_normal(normal).x);
-    let direction = if axis == 0 { first } else { normal.cross(first) };
+    [first, normal.cross(first)]
+}
+
+/// The way to the next pixel along one of the directions of [`beside`], as wide as the ray's cone, for heights beside the hit are taken there.
+#[inline(always)]
+fn step<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, axis: u8) -> Vec3<L> {
+    let [first, second] = beside(load3(l, &points.geometric_normal, at));
+    let direction = if axis == 0 { first } else { second };
     let least = load3(l, &points.position, at).max_abs().max(1.0) * LEAST_STEP;
     direction * l.load(&points.cone, at).max(least)
 }

@@ -8,6 +8,7 @@ use crate::stage::merge::in_share;
 use crate::stage::nee::{seen_part, shares};
 use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
+use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
 use crate::state::light_paths::ArrivalLanes;
@@ -241,11 +242,12 @@ fn connect<'s, L: Lanes>(
     let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
+    let medium = volume::start(chunk.tables, point, to);
     queues
         .light_paths
         .connections
         .rays
-        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares, receiver: None }, lit);
+        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares, receiver: None, medium }, lit);
 }
 
 /// Flux that an interface sends to its other side as the radiance that camera paths keep there, without the squared index.

@@ -8,6 +8,7 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::accumulate::light_sums::code;
 use crate::kernels::{self, LightHit};
+use crate::stage::volume;
 use crate::state::columns::gather3;
 use crate::state::flag;
 use crate::state::light_paths::{Escapes, LightStarts};
@@ -115,6 +116,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
+        let radiance = if tables.any_volume { radiance * volume::left(l, paths, path, l.gather(&hits.t, path)) } else { radiance };
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);
@@ -194,6 +196,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                 sent = brought.select((sent - part).max(0.0), sent);
             }
         }
+        let throughput = if tables.any_volume { throughput * volume::left(l, paths, path, l.f(f32::MAX)) } else { throughput };
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let expressions = transport.passes.expressions.as_deref();

@@ -138,7 +138,9 @@ fn queue_shadow_ray<L: Lanes>(
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
-    send(chunk.transport, &point.at, sample, &light, lit, shadows, deposits);
+    // What sensors stand in is not known.
+    let medium = if chunk.tables.any_volume { Some(Spectrum::zero(chunk.l)) } else { None };
+    send(chunk.transport, &point.at, (sample, medium), &light, lit, shadows, deposits);
 }
 
 #[inline(always)]

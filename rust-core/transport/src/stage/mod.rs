@@ -11,7 +11,7 @@
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
 //! - [`merge`] takes up photons behind mirrors and smooth glass.
-//! - [`shadow`] traces shadow rays and adds what arrives.
+//! - [`shadow`] traces shadow rays and adds what arrives; [`volume`] says what light loses in what fills meshes.
 //!
 //! `schedule/light` starts light paths by [`emit`], and shades by [`forward`].
 
@@ -39,3 +39,4 @@ pub(crate) mod shadow;
 pub(crate) mod sort;
 pub(crate) mod subsurface;
 pub(crate) mod surface;
+pub(crate) mod volume;

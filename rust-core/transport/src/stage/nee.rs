@@ -4,6 +4,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::vertex::{Interaction, Vertex};
@@ -64,7 +65,8 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.flags), point.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
-    send(transport, &point.at, sample, &light, lit, shadows, deposits);
+    let medium = volume::start(tables, point, sample.wi);
+    send(transport, &point.at, (sample, medium), &light, lit, shadows, deposits);
 }
 
 /// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring
@@ -93,12 +95,13 @@ pub(crate) fn seen_part<L: Lanes>(
     all * seen.max(0.0)
 }
 
-/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray.
+/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray, which starts in a medium where
+/// anything fills meshes.
 #[inline(always)]
 pub(crate) fn send<L: Lanes>(
     transport: &Transport,
     at: &Interaction<L>,
-    sample: &LightSample<L>,
+    (sample, medium): (&LightSample<L>, Option<Spectrum<L>>),
     light: &Contribution<L>,
     lit: M<L>,
     shadows: &mut ShadowRays,
@@ -107,7 +110,7 @@ pub(crate) fn send<L: Lanes>(
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares, receiver };
+    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares, receiver, medium };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -51,7 +51,7 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
         slot: point.slot,
         flags: point.flags,
         counts: point.counts + (1 << 24),
-        medium: point.medium,
+        medium: if chunk.tables.any_volume { point.behind } else { point.medium },
     };
     next.append(&state, chosen);
 }
@@ -227,7 +227,7 @@ pub(crate) fn send_on<L: Lanes>(
         slot: point.slot,
         flags: straight.select(point.flags | non_specular, scattered),
         counts: point.counts + straight.select(l.u(1 << 24), counted),
-        medium: across.and_not(straight).select(point.behind, point.medium),
+        medium: (if chunk.tables.any_volume { across } else { across.and_not(straight) }).select(point.behind, point.medium),
     };
     next.append(&state, alive);
 }

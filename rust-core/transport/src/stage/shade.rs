@@ -12,6 +12,7 @@ use crate::kernels::{self, LightHit};
 use crate::stage::catcher;
 use crate::stage::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::integrator::Integrator;
+use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
 use crate::state::flag;
@@ -139,9 +140,14 @@ fn absorb<L: Lanes>(
     point.medium = chunk.paths.medium.gather(l, point.path);
     let distance = l.gather(&chunk.hits.t, point.path);
     point.throughput = point.throughput * (point.medium * -distance).exp();
-    // Leaving a solid leads to the open.
     let inside = material.surface.absorption(l, values, at);
-    point.behind = inside.keep_if(l.load(&chunk.columns.surface.side, at).gt(0.0));
+    let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
+    point.behind = if chunk.tables.any_volume {
+        volume::beyond(point.medium, inside, material.interior, entering)
+    } else {
+        // Leaving a solid leads to the open.
+        inside.keep_if(entering)
+    };
 }
 
 /// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.

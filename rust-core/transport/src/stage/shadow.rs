@@ -8,6 +8,7 @@ use crate::kernels;
 use crate::stage::catcher;
 use crate::stage::linked_shadow;
 use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::volume;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
 use crate::state::queue::shadow_order::ShadowOrder;
@@ -88,7 +89,10 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
-    let ShadowTrace { passed, weights, factors, .. } = trace;
+    if tables.any_volume {
+        dispatch!(transport.execution, l => volume::begin(l, shadows, trace));
+    }
+    let mut passed = std::mem::take(&mut trace.passed);
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
     // The distance settles the order, and numbers where it is the same, so that the product is the same however the tree was walked.
     let numbers = |hit: &TransparentHit| (hit.instance, hit.primitive);
@@ -99,8 +103,12 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
     for hits in passed.chunk_by(|a, b| material_of(a) == material_of(b)) {
         let material = material_of(&hits[0]);
         for chunk in hits.chunks(CHUNK) {
-            dispatch!(transport.execution, l => dim_chunk(l, tables, material, chunk, (weights, factors), shadows, columns));
+            dispatch!(transport.execution, l => dim_chunk(l, tables, material, chunk, trace, shadows, columns));
         }
+    }
+    trace.passed = passed;
+    if tables.any_volume {
+        dispatch!(transport.execution, l => volume::dim(l, shadows, trace));
     }
 }
 
@@ -110,10 +118,11 @@ fn dim_chunk<L: Lanes>(
     tables: &Tables,
     material: u32,
     hits: &[TransparentHit],
-    (weights, factors): (&mut Vec<f32>, &mut SpectrumColumns),
+    trace: &mut ShadowTrace,
     shadows: &mut ShadowRays,
     columns: &mut ChunkColumns,
 ) {
+    let ShadowTrace { weights, factors, .. } = trace;
     let mut order = [0; CHUNK];
     for (i, place) in order[..hits.len()].iter_mut().enumerate() {
         *place = i as u32;
@@ -135,6 +144,9 @@ fn dim_chunk<L: Lanes>(
     }
     for (i, hit) in hits.iter().enumerate() {
         shadows.contribution.multiply(hit.ray as usize, factors, i);
+    }
+    if let Some(interior) = tables.materials.interior(material) {
+        volume::pass(l, interior, hits, &columns.surface.side, trace);
     }
 }
 

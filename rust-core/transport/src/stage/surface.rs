@@ -159,7 +159,6 @@ fn surface_lanes<L: Lanes>(
     store3(point.position, &mut out.position, at);
     point.error.store(&mut out.error, at);
     store3(point.geometric_normal * side, &mut out.geometric_normal, at);
-    store3(point.shading_normal * side, &mut out.shading_normal, at);
     side.store(&mut out.side, at);
     store3(wo, &mut out.wo, at);
     let (tangent, density) = match program.uv {
@@ -170,8 +169,18 @@ fn surface_lanes<L: Lanes>(
         }
         None => (Vec3::splat(l, [0.0; 3]), l.f(0.0)),
     };
-    let tangent = if geometry.any_smooth() { hit.smooth.shape.ne(0).select(point.tangent, tangent) } else { tangent };
+    let (tangent, shading) = match program.edge {
+        Some(edge) => (point.edges[edge] * side, point.geometric_normal),
+        None => (tangent, point.shading_normal),
+    };
+    let (tangent, shading) = if geometry.any_smooth() {
+        let smooth = hit.smooth.shape.ne(0);
+        (smooth.select(point.tangent, tangent), smooth.select(point.shading_normal, shading))
+    } else {
+        (tangent, shading)
+    };
     store3(tangent, &mut out.tangent, at);
+    store3(shading * side, &mut out.shading_normal, at);
     // A pixel's cone meets an inclined surface in a longer ellipse; its shorter axis would blur less, its longer one more.
     let cosine = point.geometric_normal.dot(wo).abs().max(0.05);
     width.store(&mut out.cone, at);

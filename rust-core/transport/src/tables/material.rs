@@ -19,6 +19,8 @@ pub struct SurfaceMaterial {
     pub transparent: bool,
     /// Whether it may emit.
     pub emissive: bool,
+    /// Absorption a metre of what fills the closed mesh, if anything does.
+    pub interior: Option<[f32; 3]>,
     /// Whether the shading frame's tangent matters.
     pub anisotropic: bool,
     /// Whether it cuts a hole into the coverage.
@@ -90,6 +92,14 @@ impl MaterialTable {
             None => Shading::Surface(number),
             Some(mix) => Shading::Mix(mix),
         }
+    }
+    /// Absorption a metre of what fills meshes of a material of the geometry.
+    pub fn interior(&self, number: u32) -> Option<[f32; 3]> {
+        let surface = match self.shading(number) {
+            Shading::Surface(surface) => surface,
+            Shading::Mix(mix) => self.mixes[mix as usize].first,
+        };
+        self.surfaces.get(surface as usize)?.interior
     }
     /// Whether a material of the geometry may let straight light pass.
     pub fn transparent(&self, number: u32) -> bool {

@@ -57,6 +57,8 @@ pub struct Tables {
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.
     pub any_absorbing: bool,
+    /// Whether any material fills meshes with what absorbs straight light, too.
+    pub any_volume: bool,
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }

@@ -165,7 +165,11 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         slot: point.slot,
         flags: flags(chunk, point, way),
         counts: point.counts + counted,
-        medium: if way == Way::Refracted { across.select(point.behind, point.medium) } else { point.medium },
+        medium: if way == Way::Refracted || (way == Way::Straight && chunk.tables.any_volume) {
+            across.select(point.behind, point.medium)
+        } else {
+            point.medium
+        },
     };
     branches.ways[way as usize].append(&state, alive);
 }

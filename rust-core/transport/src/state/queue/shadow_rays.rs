@@ -26,6 +26,8 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) shares: Option<[Spectrum<L>; 2]>,
     /// Class of the receiver, where the light cache learns.
     pub(crate) receiver: Option<U<L>>,
+    /// Absorption a metre where it starts, where anything fills meshes.
+    pub(crate) medium: Option<Spectrum<L>>,
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -44,6 +46,8 @@ pub(crate) struct ShadowRays {
     pub(crate) shares: [SpectrumColumns; 2],
     /// Classes of receivers; filled where the light cache learns.
     pub(crate) receiver: Column<u32>,
+    /// Absorption a metre where rays start; filled where anything fills meshes.
+    pub(crate) medium: SpectrumColumns,
 }
 
 impl Default for ShadowRays {
@@ -65,6 +69,7 @@ impl ShadowRays {
             light: Column::new(room),
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
             receiver: Column::new(room),
+            medium: SpectrumColumns::new(room),
         }
     }
 
@@ -102,6 +107,9 @@ impl ShadowRays {
         }
         if let Some(receiver) = ray.receiver {
             receiver.append(chosen, &mut self.receiver, n);
+        }
+        if let Some(medium) = ray.medium {
+            self.medium.append(medium, chosen, n);
         }
         self.count += chosen.count();
     }

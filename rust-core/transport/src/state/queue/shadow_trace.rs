@@ -6,7 +6,7 @@ use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
 use crate::tables::ray_mask;
 use gonio_accel::TransparentHit;
-use gonio_simd::SpectrumColumns;
+use gonio_simd::{PADDING, SpectrumColumns};
 
 /// Scratch of the shadow stage.
 #[derive(Debug)]
@@ -20,6 +20,11 @@ pub(crate) struct ShadowTrace {
     pub(crate) weights: Vec<f32>,
     /// What a chunk of such hits lets pass.
     pub(crate) factors: SpectrumColumns,
+    /// By shadow ray, optical depth of what fills meshes, and absorption a metre where the ray ends; used where anything does.
+    pub(crate) depth: SpectrumColumns,
+    pub(crate) around: SpectrumColumns,
+    /// Absorption a metre of one such filling.
+    pub(crate) interior: SpectrumColumns,
     pub(crate) linked: LinkedTrace,
 }
 
@@ -40,7 +45,7 @@ impl ShadowTrace {
     /// Makes room for so many rays: none has passed anything, and beyond them all are blocked.
     pub(crate) fn begin(&mut self, rays: usize) {
         self.blocked.clear();
-        self.blocked.resize(rays + gonio_simd::PADDING, 1);
+        self.blocked.resize(rays + PADDING, 1);
         self.passed.clear();
     }
 }
@@ -60,6 +65,9 @@ impl Default for ShadowTrace {
             passed: Vec::new(),
             weights: Vec::new(),
             factors: SpectrumColumns::new(CHUNK),
+            depth: SpectrumColumns::new(SHADOW_ROOM),
+            around: SpectrumColumns::new(SHADOW_ROOM),
+            interior: SpectrumColumns::new(PADDING),
             linked: LinkedTrace::default(),
         }
     }

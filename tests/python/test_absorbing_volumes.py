@@ -1,0 +1,116 @@
+"""Absorbing volumes against Beer's and Lambert's law: what cameras see through them, and what lights send through them."""
+
+import gonio
+import numpy as np
+import pytest
+from small_scenes import FLOOR, QUAD, above, at, finished
+
+ABSORPTION = (0.3, 0.8, 1.5)
+CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (0, 1) for z in (-1, 1)], "f4")
+SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+BOX = np.array([half for a, b, c, d in SIDES for half in ((a, b, c), (a, c, d))], "i4")
+
+
+def constant(value):
+    return {"Constant": [*(value if isinstance(value, tuple) else (value,) * 3), 1.0]}
+
+
+def closure(model, **parameters):
+    return {"weight": constant(1.0), "model": model, "parameters": [[name, constant(value)] for name, value in parameters.items()]}
+
+
+def filled(scene, *places, stretch=(1, 1, 1), closures=(), absorption=ABSORPTION):
+    """Boxes of 2 m by 1 m by 2 m that stand at places and are full of what absorbs."""
+    surface = list(closures) or [closure("Transparent", base_color=1.0)]
+    material = scene.put_material({"origin": "filling", "closures": surface, "absorption": list(absorption)})
+    mesh = scene.add_mesh(CORNERS * np.array(stretch, "f4"), BOX)
+    for place in places:
+        scene.add_instance(mesh, [material], transform=at(*place))
+
+
+def shining_floor(**settings):
+    """A floor of radiance 1, seen from 8 m above."""
+    scene = gonio.Scene()
+    scene.set(width=8, height=8, samples=16, passes=["color"], **settings)
+    floor = scene.put_material({"origin": "floor", "closures": [closure("Emission", emission_color=1.0)]})
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD), [floor])
+    scene.add_camera(above(8), fov=1)
+    return scene
+
+
+def seen(scene):
+    return np.asarray(finished(scene)["color"])[..., :3].mean((0, 1))
+
+
+def left(metres):
+    return np.exp(-np.array(ABSORPTION) * metres)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_straight_light_is_absorbed(integrator):
+    scene = shining_floor(integrator=integrator)
+    filled(scene, (0, 1, 0))
+    assert np.allclose(seen(scene), left(1.0), rtol=2e-4)
+
+
+def test_volumes_that_overlap_add_up():
+    scene = shining_floor()
+    filled(scene, (0, 1, 0), (0, 1.5, 0), (0, 4, 0))
+    assert np.allclose(seen(scene), left(3.0), rtol=5e-3)
+
+
+def test_what_a_cut_out_leaves_open_is_absorbed_too():
+    scene = shining_floor()
+    filled(scene, (0, 1, 0), closures=[closure("OpenPbr", geometry_opacity=0.0)])
+    assert np.allclose(seen(scene), left(1.0), rtol=2e-4)
+
+
+def test_without_absorption_nothing_is_lost():
+    scene = shining_floor()
+    filled(scene, (0, 1, 0), absorption=(0.0, 0.0, 0.0))
+    assert np.array_equal(seen(scene), np.ones(3))
+
+
+def lit_floor(light, box=None, **rest):
+    """A white floor's middle, seen past a box from aside."""
+    scene = gonio.Scene()
+    scene.set(width=8, height=8, samples=64, passes=["color"], max_bounces=0)
+    white = scene.put_material({"origin": "floor", "closures": [closure("Diffuse", base_color=1.0)]})
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD), [white])
+    if box is not None:
+        filled(scene, box, **rest)
+    light(scene)
+    # From 3 m aside of the middle, 1 m up, below boxes that stand higher.
+    back = np.array([3.0, 1.0, 0.0]) / np.sqrt(10.0)
+    right = np.array([0.0, 0.0, -1.0])
+    up = np.cross(back, right)
+    matrix = np.eye(4)
+    matrix[:3, 0], matrix[:3, 1], matrix[:3, 2], matrix[:3, 3] = right, up, back, 0.8 * back * np.sqrt(10.0)
+    scene.add_camera(matrix.tolist(), fov=0.5)
+    return seen(scene)
+
+
+def sun(scene):
+    # Straight down.
+    scene.add_light("distant", (3.0,) * 3, angle=0.5, transform=[[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+
+
+def lamp(scene):
+    scene.add_light("sphere", (1000.0,) * 3, radius=0.02, transform=at(0, 4.5, 0))
+
+
+@pytest.mark.parametrize("light", [sun, lamp])
+def test_shadow_rays_are_dimmed(light):
+    assert np.allclose(lit_floor(light, (0, 2, 0)) / lit_floor(light), left(1.0), rtol=2e-3)
+
+
+def test_lights_within_are_dimmed_by_what_is_before_them():
+    # The lamp's middle is half a metre above the lower side, what shines down some two thirds of its radius lower.
+    assert np.allclose(lit_floor(lamp, (0, 4, 0)) / lit_floor(lamp), left(0.487), rtol=3e-3)
+
+
+def test_surfaces_within_are_lit_through_it():
+    # Lamp and floor are within: light goes 4.48 m to the floor, and 1.054 m from there to the box's side.
+    around = {"stretch": (1, 9, 1), "absorption": (0.1, 0.2, 0.4)}
+    expected = np.exp(-np.array(around["absorption"]) * (4.48 + 1.054))
+    assert np.allclose(lit_floor(lamp, (0, -0.5, 0), **around) / lit_floor(lamp), expected, rtol=5e-3)
