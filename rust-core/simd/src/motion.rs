@@ -24,18 +24,33 @@ pub struct Motion {
     segments: Vec<Segment>,
 }
 
-/// From one key to the next: `translation · rotation · stretch`, each but the rotation a start and a change.
+/// From one key to the next.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
-    /// Unit quaternion (w, x, y, z) of the first key, and the one a quarter turn of the great circle further on.
-    rotation: [Quaternion; 2],
-    /// Angle between the quaternions of the keys: half of what the thing turns by.
-    half_angle: f64,
+    /// Where it is moved to at the first key, and the change.
     translation: [[f64; 3]; 2],
-    stretch: [Matrix; 2],
-    /// The inverse of a stretch that does not change.
-    back: Option<Matrix>,
+    /// Half of the radians that it turns by.
+    half_angle: f64,
+    linear: LinearPart,
 }
+
+/// The part of a segment's map that is not translation.
+#[derive(Clone, Copy, Debug)]
+enum LinearPart {
+    /// What turns and keeps its stretch, which has an inverse: the map and its inverse.
+    Turning([Wave; 2]),
+    /// `rotation · stretch`, both of which may change.
+    Other {
+        /// Unit quaternion (w, x, y, z) of the first key, and the one a quarter turn of the great circle further on.
+        rotation: [Quaternion; 2],
+        /// A start and a change.
+        stretch: [Matrix; 2],
+    },
+}
+
+/// A matrix that changes with an angle: a constant, and what the cosine and the sine of the angle are multiplied by.
+#[derive(Clone, Copy, Debug)]
+struct Wave([Matrix; 3]);
 
 /// Between which of evenly spaced keys a time of the shutter lies: the segment's number, and the share of the way along it.
 #[inline(always)]
@@ -71,7 +86,11 @@ impl Motion {
             let (from, to) = (translation(&keys[i]), translation(&keys[i + 1]));
             let change = change_of_stretch(s, s1);
             let back = if change == [[0.0; 3]; 3] { inverse(s) } else { None };
-            Segment { rotation, half_angle, translation: [from, std::array::from_fn(|k| to[k] - from[k])], stretch: [*s, change], back }
+            let linear = match back {
+                Some(back) => LinearPart::Turning(waves(&rotation, s, &back)),
+                None => LinearPart::Other { rotation, stretch: [*s, change] },
+            };
+            Segment { translation: [from, std::array::from_fn(|k| to[k] - from[k])], half_angle, linear }
         };
         Some(Self { segments: (0..keys.len() - 1).map(segment).collect() })
     }
@@ -110,10 +129,15 @@ impl Motion {
     /// A way's distance from its chord is at most an eighth of the greatest second derivative. That of R S p is at most φ² |S p| + 2 φ |ΔS p| for
     /// a turn by φ. Over the n-th part of a segment it is n² times smaller.
     pub fn bow(&self, segment: usize, points: &[[f64; 3]]) -> f64 {
-        let Segment { half_angle, stretch: [first, change], .. } = &self.segments[segment];
+        let Segment { half_angle, linear, .. } = &self.segments[segment];
         let turn = 2.0 * half_angle;
+        let [first, change] = match linear {
+            // As long as without its turn.
+            LinearPart::Turning([wave, _]) => [wave.at(&(0.0, 1.0)), [[0.0; 3]; 3]],
+            LinearPart::Other { stretch, .. } => *stretch,
+        };
         let of_point = |p: &[f64; 3]| {
-            let (start, moved) = (product(first, p), product(change, p));
+            let (start, moved) = (product(&first, p), product(&change, p));
             let end = std::array::from_fn(|k| start[k] + moved[k]);
             turn * turn * length(&start).max(length(&end)) + 2.0 * turn * length(&moved)
         };
@@ -123,36 +147,72 @@ impl Motion {
 
 impl Segment {
     fn at(&self, t: f64) -> Rows {
-        let stretch: Matrix = std::array::from_fn(|i| std::array::from_fn(|k| self.stretch[0][i][k] + t * self.stretch[1][i][k]));
-        let turned = match self.rotation_at(t) {
-            Some(rotation) => matrix_product(&rotation, &stretch),
-            None => stretch,
+        let linear = match &self.linear {
+            LinearPart::Turning([wave, _]) => wave.at(&self.sin_cos_at(t)),
+            LinearPart::Other { rotation, stretch } => self.other_at(rotation, stretch, t),
         };
-        with_translation(&turned, &self.translation_at(t))
+        with_translation(&linear, &self.translation_at(t))
     }
 
     fn inverse_at(&self, t: f64) -> Option<Rows> {
-        let linear = match (self.back, self.rotation_at(t)) {
-            (Some(back), Some(rotation)) => matrix_product(&back, &transposed(&rotation)),
-            (Some(back), None) => back,
-            _ => inverse(&linear_part(&self.at(t)))?,
+        let linear = match &self.linear {
+            LinearPart::Turning([_, wave]) => wave.at(&self.sin_cos_at(t)),
+            LinearPart::Other { rotation, stretch } => inverse(&self.other_at(rotation, stretch, t))?,
         };
         let moved = product(&linear, &self.translation_at(t));
         Some(with_translation(&linear, &moved.map(|x| -x)))
     }
 
-    /// `None` for no rotation.
-    fn rotation_at(&self, t: f64) -> Option<Matrix> {
-        if self.half_angle == 0.0 && self.rotation[0][0] == 1.0 {
-            return None;
+    /// Sine and cosine of the angle that the thing has turned by.
+    fn sin_cos_at(&self, t: f64) -> (f64, f64) {
+        if self.half_angle == 0.0 {
+            return (0.0, 1.0);
         }
         let (sin, cos) = sin_cos(self.half_angle * t);
-        Some(rotation_matrix(&std::array::from_fn(|k| self.rotation[0][k] * cos + self.rotation[1][k] * sin)))
+        (2.0 * sin * cos, 1.0 - 2.0 * sin * sin)
+    }
+
+    fn other_at(&self, rotation: &[Quaternion; 2], stretch: &[Matrix; 2], t: f64) -> Matrix {
+        let stretch: Matrix = std::array::from_fn(|i| std::array::from_fn(|k| stretch[0][i][k] + t * stretch[1][i][k]));
+        if self.half_angle == 0.0 && rotation[0][0] == 1.0 {
+            return stretch;
+        }
+        let (sin, cos) = sin_cos(self.half_angle * t);
+        let turned = rotation_matrix(&std::array::from_fn(|k| rotation[0][k] * cos + rotation[1][k] * sin));
+        matrix_product(&turned, &stretch)
     }
 
     fn translation_at(&self, t: f64) -> [f64; 3] {
         std::array::from_fn(|i| self.translation[0][i] + t * self.translation[1][i])
     }
+}
+
+impl Wave {
+    #[inline(always)]
+    fn at(&self, (sin, cos): &(f64, f64)) -> Matrix {
+        let [still, by_cos, by_sin] = &self.0;
+        std::array::from_fn(|i| std::array::from_fn(|k| still[i][k] + (by_cos[i][k] * cos + by_sin[i][k] * sin)))
+    }
+}
+
+/// What turns along a great circle of quaternions after a stretch, and the inverse of that, by the angle.
+///
+/// A rotation's matrix is 1 + B(q, q) with a form B of two quaternions. On the great circle q is a cos φ/2 + b sin φ/2, so that its products are
+/// sums of 1, cos φ and sin φ.
+fn waves([a, b]: &[Quaternion; 2], stretch: &Matrix, back: &Matrix) -> [Wave; 2] {
+    let form = |q: &Quaternion| {
+        let mut matrix = rotation_matrix(q);
+        (0..3).for_each(|k| matrix[k][k] -= 1.0);
+        matrix
+    };
+    let (of_a, of_b, of_both) = (form(a), form(b), form(&std::array::from_fn(|k| a[k] + b[k])));
+    let part = |of: &dyn Fn(usize, usize) -> f64| -> Matrix { std::array::from_fn(|i| std::array::from_fn(|k| of(i, k))) };
+    let turn = [
+        part(&|i, k| f64::from(u8::from(i == k)) + 0.5 * (of_a[i][k] + of_b[i][k])),
+        part(&|i, k| 0.5 * (of_a[i][k] - of_b[i][k])),
+        part(&|i, k| 0.5 * (of_both[i][k] - of_a[i][k] - of_b[i][k])),
+    ];
+    [Wave(turn.map(|matrix| matrix_product(&matrix, stretch))), Wave(turn.map(|matrix| matrix_product(back, &transposed(&matrix))))]
 }
 
 fn with_translation(linear: &Matrix, [x, y, z]: &[f64; 3]) -> Rows {

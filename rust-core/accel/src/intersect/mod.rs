@@ -1,6 +1,7 @@
 //! Tests of a ray against eight boxes, eight triangles, eight pieces of curves or points, and analytic shapes, at one lane and in registers.
 
 pub(crate) mod block_tests;
+pub(crate) mod joint;
 pub(crate) mod lanes8;
 pub(crate) mod line_ray;
 pub(crate) mod point_block;

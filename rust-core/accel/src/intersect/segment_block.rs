@@ -1,9 +1,10 @@
-//! Leaf of a tree of curves: up to eight pieces, each a cone with rounded ends or a flat ribbon.
+//! Leaf of a tree of curves: up to eight pieces, each a cone with rounded ends or a flat ribbon; five cache lines.
 //!
 //! A piece is what a sphere sweeps whose centre goes from one end to the other while its radius changes evenly: the envelope is a cone that is
 //! tangent to both end spheres. Pieces of a curve share their end spheres, so that the whole has no gaps. Of a shared sphere one piece has what lies
 //! beyond both cones; surfaces are met from outside alone.
 
+use super::joint::Joint;
 use crate::ray::NONE;
 use crate::tree::node::WIDTH;
 use bytemuck::{Pod, Zeroable};
@@ -18,12 +19,8 @@ pub(crate) struct SegmentBlock {
     pub(crate) axis: [[f32; WIDTH]; 3],
     /// Radius at the first end, and how much more it is at the second.
     pub(crate) radius: [[f32; WIDTH]; 2],
-    /// Unit direction of the next piece; zero at the end of a curve.
-    pub(crate) next: [[f32; WIDTH]; 3],
-    /// Of the second end's sphere this piece has what lies no farther than this along `next`.
-    pub(crate) limit: [f32; WIDTH],
-    /// 1 for the first piece of a curve, which has the rounding of its first end, else 0.
-    pub(crate) first: [f32; WIDTH],
+    /// How pieces are joined to their neighbours: [`Joint`].
+    pub(crate) joint: [u32; WIDTH],
     /// Numbers of the pieces, [`NONE`] in unused lanes.
     pub(crate) primitives: [u32; WIDTH],
 }
@@ -39,18 +36,13 @@ pub(crate) struct Segment {
     pub(crate) first: bool,
 }
 
-/// What a piece has of a shared sphere beyond its share, over the radius and over the coordinates: no ray passes between two pieces for rounding.
-pub(super) const OVERLAP: [f32; 2] = [1e-3, 4.0 * f32::EPSILON];
-
 impl SegmentBlock {
     /// A block without pieces.
     pub(crate) const EMPTY: SegmentBlock = SegmentBlock {
         start: [[f32::NAN; WIDTH]; 3],
         axis: [[f32::NAN; WIDTH]; 3],
         radius: [[f32::NAN; WIDTH]; 2],
-        next: [[0.0; WIDTH]; 3],
-        limit: [0.0; WIDTH],
-        first: [0.0; WIDTH],
+        joint: [Joint::ALONE.0; WIDTH],
         primitives: [NONE; WIDTH],
     };
 
@@ -61,17 +53,7 @@ impl SegmentBlock {
             self.axis[k][lane] = b[k] - a[k];
         }
         (self.radius[0][lane], self.radius[1][lane]) = (a[3], b[3] - a[3]);
-        self.first[lane] = f32::from(segment.first);
-        if let Some(next) = segment.next {
-            let way = [0, 1, 2].map(|k| next[k] - b[k]);
-            let length = way.iter().map(|x| x * x).sum::<f32>().sqrt();
-            if length > 0.0 {
-                let largest = b[..3].iter().fold(0.0f32, |most, x| most.max(x.abs()));
-                (0..3).for_each(|k| self.next[k][lane] = way[k] / length);
-                // Where the next cone begins to touch the sphere.
-                self.limit[lane] = b[3] * ((b[3] - next[3]) / length) + OVERLAP[0] * b[3] + OVERLAP[1] * largest;
-            }
-        }
+        self.joint[lane] = Joint::new(&b, segment.next, segment.first).0;
         self.primitives[lane] = primitive;
     }
 

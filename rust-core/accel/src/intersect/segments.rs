@@ -2,9 +2,10 @@
 //!
 //! All is worked out about the point of the axis that is nearest to the ray: numbers are as small as the radius there, and so are errors.
 
+use super::joint::{Joints, firsts};
 use super::line_ray::{END_CAP, LineRay, START_CAP, SmoothHits, UNSEEN, Vec8, along, dot, load3, sphere, store};
 use super::prepared::PreparedRay;
-use super::segment_block::{OVERLAP, SegmentBlock};
+use super::segment_block::SegmentBlock;
 use fearless_simd::{f32x8, mask32x8, prelude::*};
 
 #[inline(always)]
@@ -76,7 +77,7 @@ pub(super) fn intersect_tubes<S: Simd>(simd: S, block: &SegmentBlock, ray: &Prep
     t = end.select(end_t, t);
     let mut share = end.select(f32x8::splat(simd, END_CAP), body_share);
     let mut out = select3(end, end_out, body_out);
-    let first = f32x8::from_slice(simd, &block.first).simd_gt(0.0);
+    let first = firsts(simd, &block.joint);
     if first.to_bitmask() != 0 {
         let (start_t, start_out, start) = start_cap(simd, &near, &ray);
         let start = start & first & start_t.simd_lt(t);
@@ -126,8 +127,9 @@ fn end_cap<S: Simd>(simd: S, block: &SegmentBlock, near: &Approach<S>, ray: &Lin
     let (t, out, met) = sphere(near.start.0 + near.along_ray, to, radius, ray);
     let beyond = radius.mul_add(near.radius[1], dot(near.axis, out));
     let slack = radius * dot(near.axis, near.axis).sqrt() * -SEAM;
-    let next = dot(load3(simd, &block.next), out);
-    (t, out, met & beyond.simd_ge(slack) & next.simd_le(f32x8::from_slice(simd, &block.limit)))
+    let end = along(load3(simd, &block.start), near.axis, f32x8::splat(simd, 1.0));
+    let size = end[0].abs().max(end[1].abs()).max(end[2].abs());
+    (t, out, met & beyond.simd_ge(slack) & Joints::new(simd, &block.joint).has(out, radius, size))
 }
 
 /// Where the ray enters the first end's sphere, and whether that is the piece's part of it.
@@ -146,18 +148,21 @@ pub(super) fn intersect_ribbons<S: Simd>(simd: S, block: &SegmentBlock, ray: &Pr
     let ray = LineRay::new(simd, ray, t_max);
     let near = Approach::new(simd, block, &ray);
     let radius = near.near_radius();
-    let next = load3(simd, &block.next);
-    // Between two pieces a part of a disc, so that there is no gap on the outer side of a bend.
-    let outer = dot(next, next).simd_gt(0.0) & dot(next, near.out).simd_le(radius * OVERLAP[0]);
-    let goes_on = outer | near.share[0].simd_le(1.0);
     let squared = radius * radius;
     let behind = ray.t_min.max(squared.sqrt() * ray.inverse.sqrt() * UNSEEN);
     let hit = dot(near.out, near.out).simd_le(squared)
         & radius.simd_gt(0.0)
         & near.share[0].simd_ge(0.0)
-        & goes_on
         & near.t.simd_gt(behind)
         & near.t.simd_le(ray.t_max);
-    store(hits, near.t, near.share[1], near.out);
-    hit.to_bitmask() as u32
+    let within = hit & near.share[0].simd_le(1.0);
+    let mut mask = within.to_bitmask();
+    if mask != hit.to_bitmask() {
+        // Between two pieces a part of a disc, so that there is no gap on the outer side of a bend.
+        mask = (within | (hit & Joints::new(simd, &block.joint).is_outer(near.out, radius))).to_bitmask();
+    }
+    if mask != 0 {
+        store(hits, near.t, near.share[1], near.out);
+    }
+    mask as u32
 }

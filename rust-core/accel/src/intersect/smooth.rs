@@ -172,8 +172,8 @@ fn turn(x: f32, y: f32) -> f32 {
     if x >= 0.0 { share } else { 2.0f32.copysign(y) - share }
 }
 
-/// The octahedral coordinates of a unit vector, −1 to 1 (Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014).
-fn octahedral(n: [f32; 3]) -> [f32; 2] {
+/// The octahedral coordinates of a vector of any length, −1 to 1 (Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014).
+pub(super) fn octahedral(n: [f32; 3]) -> [f32; 2] {
     let sum = n[0].abs() + n[1].abs() + n[2].abs();
     let [x, y] = [n[0] / sum, n[1] / sum];
     if n[2] >= 0.0 { [x, y] } else { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] }

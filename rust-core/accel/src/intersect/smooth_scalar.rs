@@ -1,9 +1,10 @@
 //! The tests of curves and points in plain Rust, for the scalar level: see `segments.rs` and `point_block.rs`.
 
+use super::joint::{Joint, OVERLAP};
 use super::line_ray::{END_CAP, START_CAP, SmoothHits, UNSEEN};
 use super::point_block::PointBlock;
 use super::prepared::PreparedRay;
-use super::segment_block::{OVERLAP, SegmentBlock};
+use super::segment_block::SegmentBlock;
 use super::segments::SEAM;
 use super::smooth::{SmoothLeaf, dot};
 use crate::tree::node::WIDTH;
@@ -98,9 +99,9 @@ fn ribbon(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
     let share = raw.clamp(0.0, 1.0);
     let out = along(to, across, share).map(|x| -x);
     let (_, radius) = block.lane(lane, share);
-    let next = of_lane(&block.next, lane);
     let t = foot + share * along_ray;
-    let goes_on = raw <= 1.0 || (dot(next, next) > 0.0 && dot(next, out) <= OVERLAP[0] * radius);
+    let is_outer = |(next, length, _): ([f32; 3], f32, f32)| dot(next, out) <= OVERLAP[0] * radius * length;
+    let goes_on = raw <= 1.0 || Joint(block.joint[lane]).next().is_some_and(is_outer);
     let hit = dot(out, out) <= radius * radius && raw >= 0.0 && goes_on && ray.behind(t, radius);
     hit.then_some((t, share, out))
 }
@@ -124,14 +125,15 @@ fn tube(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
             best = Some((t, share, out));
         }
     };
-    let end = radius + growth;
+    let (end, joint, start) = (radius + growth, Joint(block.joint[lane]), of_lane(&block.start, lane));
+    let size = (0..3).fold(0.0f32, |most, k| most.max((start[k] + axis[k]).abs()));
     if let Some((t, out)) = ray.sphere(foot + along_ray, along(to, across, 1.0), end)
         && end * growth + dot(axis, out) >= -end * slack
-        && dot(of_lane(&block.next, lane), out) <= block.limit[lane]
+        && joint.next().is_none_or(|(next, length, taper)| dot(next, out) <= (end * (taper + OVERLAP[0]) + size * OVERLAP[1]) * length)
     {
         keep(t, END_CAP, out);
     }
-    if block.first[lane] > 0.0
+    if joint.is_first()
         && let Some((t, out)) = ray.sphere(foot, to, radius)
         && radius * growth + dot(axis, out) <= radius * slack
     {

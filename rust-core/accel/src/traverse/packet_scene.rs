@@ -128,7 +128,11 @@ impl<S: Simd, const ANY: bool> PacketVisitor<S> for SceneVisitor<'_, ANY> {
         }
         let t_max = f32x16::from_slice(simd, &self.hits.t);
         let rays = if record.map == MapKind::Moving {
-            moved(simd, self.scene.moving(record.id), rays, self.times, &self.hits.t, lanes)
+            let moved = moved(simd, self.scene.moving(record.id), rays, self.times, &self.hits.t, lanes);
+            if moved.lanes == 0 {
+                return;
+            }
+            moved
         } else {
             rays.transformed(simd, &record.world_to_object, t_max, lanes)
         };
