@@ -1,5 +1,6 @@
 //! Image file formats, told apart by their first bytes.
 
+mod avif;
 mod bitmap;
 mod exr;
 mod hdr;
@@ -13,7 +14,7 @@ use super::image::Image;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What `decode` reads, for messages.
-const KNOWN: &str = "PNG, JPEG, TIFF, OpenEXR, Radiance HDR, WebP, TGA, BMP, GIF or DDS";
+const KNOWN: &str = "PNG, JPEG, TIFF, OpenEXR, Radiance HDR, WebP, AVIF, TGA, BMP, GIF or DDS";
 
 /// Decodes an image of a known format from memory.
 ///
@@ -29,6 +30,7 @@ pub fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
         [b'G', b'I', b'F', b'8', ..] => bitmap::decode_gif,
         [b'B', b'M', ..] => bitmap::decode_bmp,
         [b'D', b'D', b'S', b' ', ..] => bitmap::decode_dds,
+        [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', b'f' | b's', ..] => avif::decode,
         _ if bitmap::is_tga(bytes) => bitmap::decode_tga,
         _ => return Err(unknown(bytes)),
     };
@@ -42,7 +44,6 @@ fn unknown(bytes: &[u8]) -> TextureError {
         [] => return TextureError::malformed("the file is empty"),
         [0xab, b'K', b'T', b'X', ..] => "a KTX file",
         [b'8', b'B', b'P', b'S', ..] => "a Photoshop file",
-        [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', ..] => "an AVIF file",
         [_, _, _, _, b'f', b't', b'y', b'p', ..] => "a HEIF or movie file",
         [b'S', b'D', b'P', b'X', ..] | [b'X', b'P', b'D', b'S', ..] => "a DPX file",
         [b'v', b'e', b'r', b's', b'i', b'o', b'n', b' ', ..] => "a Git LFS pointer, not the image itself",

@@ -12,6 +12,7 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
         ("hdr", hdr(24, 20, &[[0.25, 1.5, 3.0]; 480])),
         ("tiff", tiff_of(&bytes(24, 20, 3, 3))),
         ("webp", coded(ImageFormat::WebP)),
+        ("avif", include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/usd/images/half_clear.avif")).to_vec()),
         ("gif", coded(ImageFormat::Gif)),
         ("bmp", coded(ImageFormat::Bmp)),
         ("tga", coded(ImageFormat::Tga)),
@@ -87,7 +88,7 @@ pub(super) fn crc32(bytes: &[u8]) -> u32 {
 fn other_formats_are_named() {
     for (file, name) in [
         (&b"8BPS\0\x01"[..], "Photoshop"),
-        (b"\0\0\0\x1cftypavif", "AVIF"),
+        (b"\0\0\0\x1cftypavif", "AVIF boxes"),
         (b"version https://git-lfs", "Git LFS"),
         (b"garbage", "no known"),
         (b"", "empty"),

@@ -75,6 +75,45 @@ fn webp_tga_bmp_and_gif() {
     assert_eq!(gif.texels, Texels::Byte(expected));
 }
 
+/// A picture of the hosts' tests; another encoder has written them.
+macro_rules! avif {
+    ($name:literal) => {
+        decode(include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/usd/images/", $name))).unwrap()
+    };
+}
+
+#[test]
+fn avif_of_each_kind() {
+    let near = |image: &Image, x: usize, expected: [f32; 4]| {
+        let found = image.rgba(8 * image.width as usize + x);
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.012), "{found:?}, expected {expected:?}");
+    };
+    // Half the chroma both ways, by the matrix of Rec.601.
+    let (image, lossless) = (avif!("picture.avif"), avif!("picture.png"));
+    let differences =
+        (0..image.len()).flat_map(|k| (0..3).map(move |c| (k, c))).map(|(k, c)| (image.rgba(k)[c] - lossless.rgba(k)[c]).abs());
+    let mean = differences.sum::<f32>() / (3 * image.len()) as f32;
+    assert!(mean < 0.02 && image.len() == lossless.len(), "{mean}");
+    let image = avif!("half_clear.avif");
+    assert_eq!((image.width, image.height, image.channels, image.is_byte()), (32, 32, 4, true));
+    near(&image, 4, [200.0 / 255.0, 40.0 / 255.0, 20.0 / 255.0, 0.25]);
+    near(&image, 28, [20.0 / 255.0, 60.0 / 255.0, 220.0 / 255.0, 1.0]);
+    let image = avif!("ten_bits.avif");
+    assert_eq!((image.channels, image.is_byte(), &image.stated), (3, false, &Stated::srgb()));
+    near(&image, 4, [0.6, 0.2, 0.1, 1.0]);
+    near(&image, 28, [0.1, 0.8, 0.3, 1.0]);
+}
+
+#[test]
+fn avif_that_claims_another_size_is_refused() {
+    let mut file = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/usd/images/picture.avif")).to_vec();
+    let at = file.windows(4).position(|name| name == b"ispe").unwrap() + 8;
+    for (width, kind) in [(32_u32, TextureErrorKind::Malformed), (100_000, TextureErrorKind::TooLarge)] {
+        file[at..at + 4].copy_from_slice(&width.to_be_bytes());
+        assert_eq!(decode(&file).unwrap_err().kind, kind, "{width}");
+    }
+}
+
 #[test]
 fn dds_with_block_compression() {
     // 8 × 4 texels in two blocks of BC1 between red and blue: all red, all blue.

@@ -49,7 +49,7 @@ fn folders_and_bad_bytes_are_named() {
     let error = load_image(&Source::Bytes { name: Arc::from("x.png"), bytes: Arc::from(&b"8BPS"[..]) }).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "x.png: the file is a Photoshop file, expected PNG, JPEG, TIFF, OpenEXR, Radiance HDR, WebP, TGA, BMP, GIF or DDS; convert it to one of these"
+        "x.png: the file is a Photoshop file, expected PNG, JPEG, TIFF, OpenEXR, Radiance HDR, WebP, AVIF, TGA, BMP, GIF or DDS; convert it to one of these"
     );
 }
 
