@@ -35,6 +35,7 @@ struct Segment {
 }
 
 /// The part of a segment's map that is not translation.
+#[expect(clippy::large_enum_variant, reason = "most of what moves turns, and a box would cost each ray a load")]
 #[derive(Clone, Copy, Debug)]
 enum LinearPart {
     /// What turns and keeps its stretch, which has an inverse: the map and its inverse.
