@@ -56,7 +56,7 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// `range` is whether numbers use their full range; `is_chroma` whether they lie around their middle.
+    /// `is_full` says whether numbers use their full range, `is_chroma` whether they lie around their middle.
     pub(super) fn new(picture: &Picture, component: PlanarImageComponent, is_full: bool, is_chroma: bool) -> Self {
         let is_luma = component == PlanarImageComponent::Y;
         let halved = match picture.pixel_layout() {

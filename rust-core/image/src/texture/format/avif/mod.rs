@@ -9,6 +9,7 @@ use crate::texture::image::{Image, Texels};
 use crate::texture::limits::check_size;
 use colour::{Matrix, Samples};
 use container::{Meta, Name};
+use re_rav1d::pixel::YUVRange;
 use re_rav1d::{Decoder, Picture, PixelLayout, PlanarImageComponent, Settings};
 
 /// What an alpha plane calls itself.
@@ -105,7 +106,7 @@ impl Colours {
         let is_grey = picture.pixel_layout() == PixelLayout::I400;
         let mut numbers =
             [picture.color_primaries() as u16, picture.transfer_characteristic() as u16, picture.matrix_coefficients() as u16];
-        let mut is_full = format!("{:?}", picture.color_range()) == "Full";
+        let mut is_full = picture.color_range() == YUVRange::Full;
         let mut profile = None;
         for data in meta.properties(item, *b"colr") {
             match data.split_first_chunk::<4>() {
@@ -136,7 +137,7 @@ fn assemble(picture: &Picture, alpha: Option<&Picture>, colours: &Colours) -> Re
     let plane = |component, is_chroma| Samples::new(picture, component, colours.is_full, is_chroma);
     let luma = plane(Y, false);
     let chroma = (!is_grey).then(|| [plane(U, is_difference), plane(V, is_difference)]);
-    let opacity = alpha.map(|alpha| Samples::new(alpha, Y, format!("{:?}", alpha.color_range()) == "Full", false));
+    let opacity = alpha.map(|alpha| Samples::new(alpha, Y, alpha.color_range() == YUVRange::Full, false));
     let (width, height) = (picture.width(), picture.height());
     let channels = if is_grey { 1 } else { 3 } + u32::from(opacity.is_some());
     let mut values = Vec::with_capacity(width as usize * height as usize * channels as usize);
