@@ -7,7 +7,7 @@
 //! | 31 | the curve begins here |
 
 use super::line_ray::Vec8;
-use super::smooth::octahedral;
+use super::octahedral::{from_octahedral, octahedral};
 use crate::tree::node::WIDTH;
 use fearless_simd::{f32x8, mask32x8, prelude::*, u32x8};
 
@@ -49,9 +49,7 @@ impl Joint {
             return None;
         }
         let [x, y] = [0, 12].map(|shift| ((self.0 >> shift) & COORDINATE) as f32 * (2.0 / COORDINATE as f32) - 1.0);
-        let z = 1.0 - x.abs() - y.abs();
-        let fold = (-z).max(0.0);
-        let way = [x - fold.copysign(x), y - fold.copysign(y), z];
+        let way = from_octahedral([x, y]);
         Some((way, way.iter().map(|x| x * x).sum::<f32>().sqrt(), taper as f32 / STEPS - 1.0))
     }
 }

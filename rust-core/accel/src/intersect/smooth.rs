@@ -13,6 +13,7 @@
 //! of `gonio-transport`.
 
 use super::line_ray::{END_CAP, START_CAP, SmoothHits};
+use super::octahedral::{from_octahedral, octahedral};
 use super::point_block::{PointBlock, intersect_discs, intersect_spheres};
 use super::prepared::PreparedRay;
 use super::segment_block::SegmentBlock;
@@ -172,20 +173,6 @@ fn turn(x: f32, y: f32) -> f32 {
     if x >= 0.0 { share } else { 2.0f32.copysign(y) - share }
 }
 
-/// The octahedral coordinates of a vector of any length, −1 to 1 (Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014).
-pub(super) fn octahedral(n: [f32; 3]) -> [f32; 2] {
-    let sum = n[0].abs() + n[1].abs() + n[2].abs();
-    let [x, y] = [n[0] / sum, n[1] / sum];
-    if n[2] >= 0.0 { [x, y] } else { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] }
-}
-
-/// The vector of octahedral coordinates, as the reader finds it.
-fn from_octahedral([x, y]: [f32; 2]) -> [f32; 3] {
-    let z = 1.0 - x.abs() - y.abs();
-    let fold = (-z).max(0.0);
-    unit([x - fold.copysign(x), y - fold.copysign(y), z])
-}
-
 /// The largest of 15 bits.
 const FIFTEEN: f32 = 32767.0;
 
@@ -220,6 +207,6 @@ fn on_disc(radius: f32, ray: &PreparedRay, out: [f32; 3]) -> (f32, f32) {
     let back = unit([-ray.direction[0], -ray.direction[1], -ray.direction[2]]);
     let [a, b] = octahedral(back);
     // Axes of the normal that the reader finds.
-    let [x, y] = frame(from_octahedral([in_fifteen_bits(a), in_fifteen_bits(b)]));
+    let [x, y] = frame(unit(from_octahedral([in_fifteen_bits(a), in_fifteen_bits(b)])));
     (packed(dot(out, x) / radius, dot(out, y) / radius), packed(a, b))
 }
