@@ -77,7 +77,7 @@ LIGHTS = {
         "Textures and other values that vary over suns, discs, lamps in photometric units or with an IES texture",
         "it shines evenly with their mean",
     ),
-    "light falloff": Limit("Light falloffs that are not quadratic, or smooth", "light falls with the square of the distance"),
+    "light falloff": Limit("Light falloffs of suns, several in one lamp, or with smoothing that varies", "suns stay even, the first one counts, unsmoothed"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
     "ies elsewhere": Limit(

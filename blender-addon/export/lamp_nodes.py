@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A lamp's nodes: what they multiply its strength by, over directions or over its surface, or by the mean over all that leaves the lamp."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import acos, cos, degrees, pi, tan
 
 import numpy as np
@@ -30,11 +30,25 @@ class Part:
     colour: np.ndarray
     goniogram: dict | None = None
     pixels: np.ndarray | None = None
+    falloff: dict | None = None
+
+
+# What light is multiplied by, as a power of the distance, by the outputs of Light Falloff.
+POWERS = {"Quadratic": 0, "Linear": 1, "Constant": 2}
 
 
 def emission(lamp, matrix, images, report, has_pattern=True):
     """The parts of a lamp's light by its nodes; without `has_pattern` what varies is taken by its mean."""
     t = Translator(lamp, lamp.node_tree, Pictures(images, report), report, kind="Light")
+    parts = _parts(t, lamp, matrix, has_pattern)
+    if t.falloff is None:
+        return parts
+    output, smooth = t.falloff
+    falloff = {"power": POWERS[output], "smooth": max(smooth, 0.0)}
+    return [replace(part, falloff=falloff) for part in parts]
+
+
+def _parts(t, lamp, matrix, has_pattern):
     end = active_output(lamp.node_tree, "Light")
     if end is None:
         return [Part(np.zeros(3))]

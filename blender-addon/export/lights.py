@@ -53,6 +53,7 @@ def _described(group, place, images, report, part):
         "spread_deg": 180.0,
         "portal": False,
         "goniogram": part.goniogram,
+        "falloff": part.falloff or {"power": 0, "smooth": 0.0},
         "group": group.source.lightgroup,
         **extra,
     }

@@ -78,26 +78,56 @@ def test_a_textured_lamp_throws_its_pattern(tmp_path):
 
 
 @pytest.mark.blender
-def test_light_falloffs_pass_their_strength_on(tmp_path):
+@pytest.mark.parametrize("kind, size", [("POINT", 0.0), ("AREA", 0.5)])
+def test_lamps_fall_off_as_in_cycles(tmp_path, kind, size):
     import bpy
     import numpy as np
-    from recorder import depsgraph, empty, exporter, link
+    from beside_cycles import both, link, scene
 
-    for output, lines in (("Quadratic", 0), ("Linear", 1), ("Constant", 1)):
-        empty()
-        lamp = bpy.data.lights.new("Lamp", "POINT")
-        link(bpy.data.objects.new("Lamp", lamp))
-        full = exporter()[0].sync(depsgraph()).lights[0]["emission"]["radiance"]
+    for output, smooth in (("Quadratic", 2.0), ("Linear", 0.0), ("Linear", 0.7), ("Constant", 0.0)):
+        made = scene(8, 8, samples=256 if size else 4)
+        made.cycles.max_bounces = 0
+        bpy.ops.mesh.primitive_plane_add(size=20.0)
+        lamp = bpy.data.lights.new("Lamp", kind)
+        lamp.energy = 40.0
+        if kind == "POINT":
+            lamp.shadow_soft_size = size
+        else:
+            lamp.size = size
+        placed = link(bpy.data.objects.new("Lamp", lamp))
+        placed.location = (1.0, -0.5, 1.5)
 
-        def falloff(tree, light, output=output):
+        def falloff(tree, light, output=output, smooth=smooth):
             node = tree.nodes.new("ShaderNodeLightFalloff")
-            node.inputs["Strength"].default_value = 3.0
+            node.inputs["Strength"].default_value, node.inputs["Smooth"].default_value = 3.0, smooth
             tree.links.new(node.outputs[output], light.inputs["Strength"])
 
         lit(lamp, falloff)
+        cycles, gonio = both(tmp_path)
+        assert gonio == pytest.approx(cycles, rel=0.03 if size else 2e-3), (output, smooth)
+        assert gonio.mean() == pytest.approx(cycles.mean(), rel=5e-3)
+        assert np.ptp(gonio) > 0.1 * gonio.mean()
+
+
+@pytest.mark.blender
+def test_one_falloff_for_a_lamp(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link
+
+    def two(tree, light):
+        node, part = tree.nodes.new("ShaderNodeLightFalloff"), tree.nodes.new("ShaderNodeMath")
+        tree.links.new(node.outputs["Linear"], part.inputs[0])
+        tree.links.new(node.outputs["Constant"], part.inputs[1])
+        tree.links.new(part.outputs[0], light.inputs["Strength"])
+
+    for kind, lines in (("POINT", 1), ("SUN", 2)):
+        empty()
+        lamp = bpy.data.lights.new("Lamp", kind)
+        link(bpy.data.objects.new("Lamp", lamp))
+        lit(lamp, two)
         made, report = exporter()
-        assert np.divide(made.sync(depsgraph()).lights[0]["emission"]["radiance"], full) == pytest.approx([3.0] * 3)
-        assert len(report.diagnostics) == lines, output
+        assert made.sync(depsgraph()).lights[0]["falloff"] == {"power": 1, "smooth": 0.0}
+        assert 1 <= len(report.diagnostics) <= lines, [line.message for line in report.diagnostics]
 
 
 @pytest.mark.blender

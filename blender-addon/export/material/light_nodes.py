@@ -52,9 +52,12 @@ def light_falloff(t, node, context, output):
     if t.is_world:
         return strength
     if t.kind == "Light":
-        # A lamp's light falls with the square of the distance always.
-        if output.identifier != "Quadratic" or not smooth.is_zero():
+        falls = (output.identifier, float(smooth.constant[0]) if smooth.is_constant else 0.0)
+        # The renderer multiplies the lamp's whole light by one law.
+        is_sun = getattr(t.owner, "type", None) == "SUN" and falls != ("Quadratic", 0.0)
+        if is_sun or not smooth.is_constant or t.falloff not in (None, falls):
             t.tell("light falloff", node, context, f"Light Falloff: {output.name}")
+        t.falloff = t.falloff or falls
         return strength
     length = ray_length(t)
     squared = length * length

@@ -94,6 +94,8 @@ class Translator:
         self._surroundings, self.asked = surroundings, {}
         # Of a lamp's IES texture.
         self.goniogram = None
+        # By which output of Light Falloff a lamp's light falls, and how smoothly.
+        self.falloff = None
         self._values, self._open, self._was_full = {}, set(), False
         # Nodes that something stands in for, and that were told.
         self._stood_in = set()

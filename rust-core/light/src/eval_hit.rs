@@ -88,7 +88,8 @@ impl LightTable {
         if self.any_alone {
             pdf = light.flag(flag::ALONE).select(l.f(f32::MAX), pdf);
         }
-        (self.le(l, &light, wi, uv).keep_if(valid), pdf.keep_if(valid))
+        let sent = self.le(l, &light, wi, uv) * self.falloff(l, index, (hit - from).length());
+        (sent.keep_if(valid), pdf.keep_if(valid))
     }
 
     /// Runs one kind's density where some lane has it.

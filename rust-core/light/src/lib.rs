@@ -19,6 +19,7 @@ mod emitter;
 mod eval_escaped;
 mod eval_hit;
 mod facing_disk;
+mod falloff;
 mod far_field;
 mod fixed_samples;
 mod goniogram;
@@ -51,6 +52,7 @@ mod tests;
 
 pub use blackbody::blackbody_rgb;
 pub use emit::{AIMED, EmissionSampler, EmittedRay};
+pub use falloff::Falloff;
 pub use far_field::FarField;
 pub use fixed_samples::FixedLightSample;
 pub use goniogram::{AngularType, Goniogram};

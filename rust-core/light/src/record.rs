@@ -1,5 +1,6 @@
 //! Light records: what the compile step says about each light, in plain data.
 
+use super::falloff::Falloff;
 use super::light_kind::LightKind;
 use super::projected_area::ProjectedArea;
 
@@ -85,6 +86,8 @@ pub struct LightRecord {
     /// Factors on what is scattered of its light: diffusely, glossily, transmitted. Kinds of scattered rays of factor 0 do not find the emitter.
     /// Light sampling alone is exact for what is neither 0 nor 1.
     pub scattered: [f32; 3],
+    /// How it falls with distance; lights at infinity have no use for it.
+    pub falloff: Falloff,
     /// Whether things block it.
     pub casts_shadow: bool,
     /// Whether light sampling alone is to find it, but for what mirrors and smooth glass show: what scattered rays meet tells nothing of what
@@ -113,6 +116,7 @@ impl LightRecord {
             visible_to_scattered: true,
             casts_shadow: true,
             scattered: [1.0; 3],
+            falloff: Falloff::NATURAL,
             sampled_alone: false,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::build::fill_row;
 use super::dome::{DomeDistribution, EVEN_SAMPLED_PART};
+use super::falloff::Falloff;
 use super::goniogram::Goniogram;
 use super::light_kind::LightKind;
 use super::links::{LightLinks, LinkedLights};
@@ -57,6 +58,8 @@ pub struct LightTable {
     /// By light, factors on what is scattered of it, three each; empty where all is as it is.
     pub(crate) factors: Vec<f32>,
     /// Whether light sampling alone finds some light.
+    /// By light, the two numbers of its falloff; empty where all fall by nature.
+    pub(crate) falloffs: Vec<f32>,
     pub(crate) any_alone: bool,
     /// Which receivers see which lights, if they do not all see all.
     pub(crate) linked: Option<Arc<LinkedLights>>,
@@ -117,6 +120,9 @@ impl LightTable {
         let any_alone = records.iter().any(|record| record.sampled_alone);
         let any_factor = records.iter().any(|record| record.scattered != [1.0; 3]);
         let factors = if any_factor { records.iter().flat_map(|record| record.scattered).collect() } else { Vec::new() };
+        let falloff = |record: &LightRecord| if record.kind.is_infinite() { Falloff::NATURAL } else { record.falloff };
+        let any_falloff = records.iter().any(|record| falloff(record) != Falloff::NATURAL);
+        let falloffs = if any_falloff { records.iter().flat_map(|record| falloff(record).words()).collect() } else { Vec::new() };
         Self {
             rows,
             count: records.len(),
@@ -127,6 +133,7 @@ impl LightTable {
             goniograms: goniograms.to_vec(),
             portals,
             factors,
+            falloffs,
             any_alone,
             linked: None,
         }

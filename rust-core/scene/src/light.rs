@@ -148,6 +148,17 @@ fn lambertian_deg() -> f32 {
     180.0
 }
 
+/// How light falls with distance where that is not nature's way: the radiance is multiplied by the distance in metres to a power, and by
+/// d² / (smooth + d²).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Falloff {
+    /// 0 is nature's way (the square of the distance), 1 makes light fall linearly, 2 not at all.
+    pub power: u32,
+    /// Keeps the light's strength near by within bounds, m²; 0 does nothing.
+    #[serde(default)]
+    pub smooth: f32,
+}
+
 /// A light source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Light {
@@ -198,6 +209,9 @@ pub struct Light {
     /// Factor on what surfaces reflect and transmit of it otherwise.
     #[serde(default = "whole")]
     pub specular: f32,
+    /// How it falls with distance; lights at infinity, light paths and luminaires that are measured have no use for it.
+    #[serde(default)]
+    pub falloff: Falloff,
     /// What it lights, and what casts its shadows. Cameras see it either way.
     #[serde(default, skip_serializing_if = "Linking::is_whole")]
     pub linking: Linking,
@@ -225,6 +239,7 @@ impl Default for Light {
             casts_shadow: true,
             diffuse: whole(),
             specular: whole(),
+            falloff: Falloff::default(),
             linking: Linking::default(),
         }
     }
@@ -246,13 +261,13 @@ mod tests {
         let light = Light::new(Origin::new("lamp"), LightShape::Disk { radius: 2.0 }, Transform::IDENTITY);
         let mut json = serde_json::to_value(&light).expect("plain data");
         let fields = json.as_object_mut().expect("a structure");
-        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group", "diffuse", "specular"] {
+        for name in ["spot", "spread_deg", "portal", "goniogram", "quantity", "dimming", "group", "diffuse", "specular", "falloff"] {
             assert!(fields.remove(name).is_some(), "{name}");
         }
         let older: Light = serde_json::from_value(json).expect("older form");
         assert_eq!((older.spot, older.spread_deg, older.portal), (None, 180.0, false));
         assert_eq!((older.quantity, older.dimming), (None, 1.0));
-        assert_eq!((older.diffuse, older.specular), (1.0, 1.0));
+        assert_eq!((older.diffuse, older.specular, older.falloff), (1.0, 1.0, Falloff::default()));
         assert_eq!(older.shape, light.shape);
     }
 }

@@ -16,8 +16,8 @@ use crate::{
     accel::{Geometry, Instance, Shape},
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
-    light::{Goniogram, LightKind, LightLinks, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
-    scene::{Light, LightShape, Mesh, Scene, Transform, Visibility},
+    light::{Falloff, Goniogram, LightKind, LightLinks, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
+    scene::{self, Light, LightShape, Mesh, Scene, Transform, Visibility},
     transport::{LightGroups, MaterialTable, ray_mask},
 };
 use std::sync::Arc;
@@ -195,10 +195,23 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
         visible_to_scattered: light.visibility.scattered(),
         scattered: scattered(light),
         sampled_alone: scattered(light).iter().any(|factor| *factor != 0.0 && *factor != 1.0),
+        falloff: falloff(light, diagnostics),
         casts_shadow: light.casts_shadow,
         opening: part.opening,
         ..LightRecord::new(kind)
     }
+}
+
+/// How a light falls with distance.
+fn falloff(light: &Light, diagnostics: &mut Vec<Diagnostic>) -> Falloff {
+    let scene::Falloff { power, smooth } = light.falloff;
+    if power <= 2 && smooth.is_finite() && smooth >= 0.0 {
+        return Falloff { power, smooth };
+    }
+    let problem =
+        format!("its falloff has the power {power} and is smoothed by {smooth}, expected 0, 1 or 2, and 0 m² or more; it falls by nature");
+    diagnostics.push(Diagnostic::warning(&light.origin, problem));
+    Falloff::NATURAL
 }
 
 /// Factors on what is scattered of a light.

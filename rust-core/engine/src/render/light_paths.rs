@@ -49,8 +49,9 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> O
         return None;
     }
     let lights = &scene.tables.lights;
-    // Rays that look for a wide sky find it better than its paths find the picture.
-    let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(!lights.is_dome(light))).collect();
+    // Rays that look for a wide sky find it better than its paths find the picture. Light that falls otherwise than by nature has no flux to carry.
+    let starts = |light: u32| !lights.is_dome(light) && !lights.has_falloff(light);
+    let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(starts(light))).collect();
     let numbers: Vec<u32> = (0..lights.len() as u32).filter(|light| started[*light as usize] != 0).collect();
     let sampler = EmissionSampler::new(lights, Some(&numbers), sphere(scene), &scene.casters.targets);
     (!sampler.is_empty()).then_some((LightPaths { sampler, caustics: true }, started))
