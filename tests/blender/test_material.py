@@ -268,3 +268,20 @@ def test_a_bump_of_the_base_leaves_the_coat_smooth(tmp_path):
     tree.links.new(bump.outputs[0], shader.inputs["Coat Normal"])
     (closure,) = translated(made)[0]["closures"]
     assert closure["normal"] == closure["coat_normal"]
+
+
+@pytest.mark.blender
+def test_what_has_no_material_is_as_in_cycles(tmp_path):
+    import bpy
+    from beside_cycles import both, link, scene
+
+    made = scene(8, 8, samples=256)
+    made.cycles.max_bounces = 0
+    bpy.ops.mesh.primitive_plane_add(size=20.0)
+    lamp = bpy.data.lights.new("Lamp", "AREA")
+    lamp.size, lamp.energy = 0.5, 40.0
+    link(bpy.data.objects.new("Lamp", lamp)).location = (1.0, -0.5, 1.5)
+    cycles, gonio = both(tmp_path)
+    # Since Blender 5.0 that is a Principled BSDF, before a diffuse one: 7 % apart under the lamp.
+    assert gonio == pytest.approx(cycles, rel=0.04)
+    assert gonio.mean() == pytest.approx(cycles.mean(), rel=5e-3)

@@ -29,7 +29,7 @@ from . import (  # noqa: F401 (they register their nodes)
 )
 from .closures import closure
 from .displacement import displace
-from .flatten import flatten
+from .flatten import GREY, flatten
 from .interior import absorption
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
@@ -50,7 +50,7 @@ class Translated:
 def translate(material, images, measurements, report, version=None, shader_aovs=frozenset(), surroundings=None):
     """A material's description with the AOV Output nodes of these names; None stands for no material at all (Blender's default grey)."""
     if material is None:
-        return Translated(_plain("default", (0.8, 0.8, 0.8)))
+        return Translated(_default())
     tree = material.node_tree
     # Since 5.0 a material has nodes always, and asking is deprecated.
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
@@ -113,6 +113,15 @@ def _renumbered(made, order):
         "parameters": [[name, renumber(source, order)] for name, source in made["parameters"]],
         **{key: None if made[key] is None else order[made[key]] for key in ("normal", "coat_normal", "tangent")},
     }
+
+
+def _default():
+    """What has no material: since 5.0 a new Principled BSDF."""
+    if bpy.app.version < (5, 0, 0):
+        return _plain("default", GREY)
+    values = {"specular_roughness": 0.5, "specular_ior": 1.5, "specular_weight": 1.0, "coat_darkening": 0.0, "metal_edge_tint": (1.0, 1.0, 1.0)}
+    made = {"weight": {"Constant": [1.0] * 4}, **closure(Graph(), "Principled", base_color=GREY, **values)}
+    return {**_plain("default", GREY), "closures": [made]}
 
 
 def _plain(name, rgb, pass_index=0):
