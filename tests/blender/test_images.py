@@ -270,3 +270,39 @@ def test_a_box_looks_as_in_cycles(tmp_path, blend):
     difference = numpy.abs(seen["GONIO"] - seen["CYCLES"])[ball]
     # Edges between colours differ by their noise.
     assert numpy.median(difference) < 0.01 and difference.mean() < 0.05, (numpy.median(difference), difference.mean())
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("is_packed", [False, True])
+def test_tiles_lie_side_by_side_as_in_cycles(tmp_path, is_packed):
+    import bpy
+    import numpy
+    from beside_cycles import both, close, scene, shining
+    from recorder import link
+
+    made = scene(8, 8, scale=2.0)
+    colours = {1001: (0.9, 0.4, 0.1), 1002: (0.1, 0.6, 0.6), 1011: (0.2, 0.2, 0.8), 1012: (0.8, 0.8, 0.1)}
+    for number, colour in colours.items():
+        _file(tmp_path / f"tile.{number}.png", colour)
+    image = bpy.data.images.load(str(tmp_path / "tile.1001.png"))
+    image.source = "TILED"
+    for number in (1002, 1011, 1012):
+        image.tiles.new(number)
+    image.filepath = str(tmp_path / "tile.<UDIM>.png")
+    if is_packed:
+        image.pack()
+        for number in colours:
+            (tmp_path / f"tile.{number}.png").unlink()
+    mesh = bpy.data.meshes.new("Quad")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", [0, 0, 2, 0, 2, 2, 0, 2])
+    material, tree, colour = shining()
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image, texture.interpolation = image, "Closest"
+    tree.links.new(texture.outputs["Color"], colour)
+    mesh.materials.append(material)
+    link(bpy.data.objects.new("Quad", mesh))
+    made.cycles.samples = 4
+    pair = both(tmp_path)
+    assert len(numpy.unique(pair[0].round(2).reshape(-1, 3), axis=0)) == 4
+    close(pair)
