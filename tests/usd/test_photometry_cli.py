@@ -216,7 +216,8 @@ def test_a_beam_ends_where_the_curve_is_half(run, tmp_path, angles, candela, bea
 def test_a_beam_that_is_not_round_ends_where_its_curves_are_half(run, tmp_path):
     head = "ACME;2;4;4;90;10;10;report 8;Oval;OV-1;ov.ldt;today;200;0;50;180;0;0;0;0;0;100;100;1;0;1"
     planes = [100, 80, 30, *[0] * 7], [100, 95, 85, 45, 5, *[0] * 5]
-    lines = [*head.split(";"), *"1;LED;1000;3000 K;90;10".split(";"), *["0.5"] * 10, 0, 90, 180, 270, *range(0, 100, 10), *sum(planes, [])]
+    lamps = [1, "LED", 1000, "3000 K", 90, 10]
+    lines = [*head.split(";"), *lamps, *[0.5] * 10, 0, 90, 180, 270, *range(0, 100, 10), *planes[0], *planes[1]]
     oval = tmp_path / "oval.ldt"
     oval.write_text("\r\n".join(map(str, lines)))
     found = facts(run, oval)
