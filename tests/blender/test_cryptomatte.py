@@ -66,12 +66,47 @@ def add_readers():
     sys.path.append(str(Path(__file__).parents[1] / "python"))
 
 
+def scene_of_things(samples=64):
+    """A curve, a text, and two instances of a collection of a cube and a ball, seen from above before nothing."""
+    import bpy
+    import scenes
+
+    scene = scene_of_sheets(samples)
+    for thing in [each for each in scene.objects if each.type in ("MESH", "EMPTY")]:
+        bpy.data.objects.remove(thing)
+    paint, stone = bpy.data.materials["Paint"], scenes.diffuse("Marble", (0.9, 0.9, 0.9))
+    bpy.ops.curve.primitive_bezier_circle_add(radius=0.7)
+    bpy.context.object.name, bpy.context.object.data.bevel_depth = "Ring", 0.1
+    bpy.context.object.data.materials.append(paint)
+    bpy.ops.object.text_add(location=(-0.6, -0.9, 0.2))
+    bpy.context.object.name, bpy.context.object.data.size = "Text", 0.5
+    bpy.context.object.data.materials.append(stone)
+    inside = bpy.data.collections.new("Inside")
+    for name, add, x in (("Cube", bpy.ops.mesh.primitive_cube_add, 0.0), ("Ball", bpy.ops.mesh.primitive_ico_sphere_add, 0.3)):
+        add(location=(x, 0.1, 0.0), scale=(0.15, 0.15, 0.15))
+        thing = bpy.context.object
+        thing.name = name
+        thing.data.materials.append(stone if name == "Cube" else paint)
+        scene.collection.objects.unlink(thing)
+        inside.objects.link(thing)
+    for number in range(2):
+        holder = bpy.data.objects.new(f"Holder {number}", None)
+        holder.instance_type, holder.instance_collection = "COLLECTION", inside
+        holder.location, holder.rotation_euler = (0.7 * number - 0.5, 0.4 - 0.5 * number, 0.5), (0, 0, 0.4 + number)
+        scene.collection.objects.link(holder)
+    return scene
+
+
+SCENES = {"sheets": scene_of_sheets, "things": scene_of_things}
+
+
 @pytest.mark.blender
-def test_mattes_are_those_of_cycles(tmp_path):
+@pytest.mark.parametrize("kind", list(SCENES))
+def test_mattes_are_those_of_cycles(tmp_path, kind):
     import scenes
 
     add_readers()
-    scene = scene_of_sheets()
+    scene = SCENES[kind]()
     scene.gonio.pixel_filter_type, scene.gonio.filter_width = "BLACKMAN_HARRIS", 1.5
     scenes.render(tmp_path / "gonio.exr")
     mine = mattes(tmp_path / "gonio.exr")
@@ -88,8 +123,9 @@ def test_mattes_are_those_of_cycles(tmp_path):
                 # Cycles lists what shows nothing, and so may we: never what shows.
                 assert cover.max() == 0.0, (matte, name)
                 continue
-            assert abs(cover - other).max() < 0.25 and abs(cover - other).mean() < 0.003, (matte, name)
-    assert mine[f"{LAYER}.CryptoAsset"]["Parent"].max() == 1.0 and mine[f"{LAYER}.CryptoObject"]["Größe"].max() == 1.0
+            assert abs(cover - other).max() < 0.25 and abs(cover - other).mean() < 0.004, (matte, name)
+    wanted = {"sheets": {"CryptoAsset": "Parent", "CryptoObject": "Größe"}, "things": {"CryptoMaterial": "Marble", "CryptoObject": "Ring"}}
+    assert all(mine[f"{LAYER}.{matte}"][name].max() == 1.0 for matte, name in wanted[kind].items())
 
 
 def matte_node(scene, kind, name, picture=None):
@@ -160,6 +196,36 @@ def test_blenders_node_pulls_the_matte_of_a_file_of_gonio(tmp_path):
     matte_node(scene, "CryptoObject", "/World/wire", bpy.data.images.load(str(tmp_path / "mattes.exr")))
     found = composited(tmp_path / "matte.exr")
     assert expected.max() > 0.8 and abs(found - expected).max() <= 1 / 255
+
+
+def occlusion(path):
+    """The Ambient Occlusion pass of a render (height, width)."""
+    import bpy
+    import scenes
+
+    scenes.render(path)
+    return scenes.read(path)[f"{LAYER}.{'Ambient Occlusion' if bpy.app.version >= (5, 0, 0) else 'AO'}.R"]
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("distance", [0.3, 10.0])
+def test_occlusion_is_that_of_cycles(tmp_path, distance):
+    import bpy
+    import scenes
+
+    scene = scenes.empty(width=32, height=32, samples=256)
+    bpy.ops.mesh.primitive_plane_add(size=10.0)
+    bpy.ops.mesh.primitive_cube_add(size=1.0, location=(-0.8, 0, 0.5))
+    bpy.ops.mesh.primitive_torus_add(location=(1.0, 0, 0.4), major_radius=0.6, minor_radius=0.2)
+    bpy.ops.object.camera_add(location=(0, -3, 4), rotation=(0.6435, 0, 0))
+    scene.camera = bpy.context.object
+    scene.world.light_settings.distance = distance
+    scene.view_layers[0].use_pass_ambient_occlusion = True
+    mine = occlusion(tmp_path / "gonio.exr")
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 256, False
+    theirs = occlusion(tmp_path / "cycles.exr")
+    apart = abs((mine - theirs).reshape(8, 4, 8, 4).mean(axis=(1, 3)))
+    assert theirs.min() < 0.6 and apart.max() < 0.04 and abs(mine.mean() - theirs.mean()) < 0.005, (apart.max(), mine.mean(), theirs.mean())
 
 
 @pytest.mark.blender

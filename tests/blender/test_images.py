@@ -232,33 +232,38 @@ def test_weights_of_a_boxs_sides(tmp_path):
 
 
 @pytest.mark.blender(seconds=240)
-@pytest.mark.parametrize("blend", [0.0, 0.4])
-def test_a_box_looks_as_in_cycles(tmp_path, blend):
+@pytest.mark.parametrize(("form", "blend"), [("ball", 0.0), ("ball", 0.4), ("turned cube", 0.2)])
+def test_a_box_looks_as_in_cycles(tmp_path, form, blend):
     import bpy
     import numpy
     from scenes import empty, read, render
 
-    scene = empty(width=48, height=48, samples=16)
-    picture = bpy.data.images.new("Quarters", 8, 8, float_buffer=True)
+    scene = empty(width=48, height=48, samples=128)
+    picture = bpy.data.images.new("Quarters", 8, 8, float_buffer=form == "ball")
     pixels = numpy.ones((8, 8, 4), dtype=numpy.float32)
     pixels[:4, :4, :3], pixels[:4, 4:, :3], pixels[4:, :4, :3] = (1, 0, 0), (0, 1, 0), (0, 0, 1)
     picture.pixels.foreach_set(pixels.ravel())
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=32, ring_count=16, radius=1.0)
-    bpy.ops.object.shade_smooth()
+    if form == "ball":
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=32, ring_count=16, radius=1.0)
+        bpy.ops.object.shade_smooth()
+    else:
+        # Bytes, and a box along the object's own axes.
+        picture.pack()
+        bpy.ops.mesh.primitive_cube_add(size=1.6, rotation=(0.3, 0.5, 0.9))
     sphere = bpy.data.materials.new("Box")
     sphere.use_nodes = True
     tree = sphere.node_tree
     tree.nodes.clear()
     place, image, light, end = (tree.nodes.new(f"ShaderNode{each}") for each in ("TexCoord", "TexImage", "Emission", "OutputMaterial"))
     image.image, image.projection, image.projection_blend, image.interpolation = picture, "BOX", blend, "Closest"
-    tree.links.new(place.outputs["Generated"], image.inputs["Vector"])
+    tree.links.new(place.outputs["Generated" if form == "ball" else "Object"], image.inputs["Vector"])
     tree.links.new(image.outputs["Color"], light.inputs["Color"])
     tree.links.new(light.outputs[0], end.inputs["Surface"])
     bpy.context.object.data.materials.append(sphere)
     bpy.ops.object.camera_add(location=(4, -5, 3.5))
     scene.camera = bpy.context.object
     scene.camera.rotation_euler = (-scene.camera.location).to_track_quat("-Z", "Y").to_euler()
-    scene.cycles.samples, scene.cycles.use_denoising = 64, False
+    scene.cycles.samples, scene.cycles.use_denoising = 128, False
     seen = {}
     for engine in ("GONIO", "CYCLES"):
         scene.render.engine = engine
@@ -270,3 +275,39 @@ def test_a_box_looks_as_in_cycles(tmp_path, blend):
     difference = numpy.abs(seen["GONIO"] - seen["CYCLES"])[ball]
     # Edges between colours differ by their noise.
     assert numpy.median(difference) < 0.01 and difference.mean() < 0.05, (numpy.median(difference), difference.mean())
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("is_packed", [False, True])
+def test_tiles_lie_side_by_side_as_in_cycles(tmp_path, is_packed):
+    import bpy
+    import numpy
+    from beside_cycles import both, close, scene, shining
+    from recorder import link
+
+    made = scene(8, 8, scale=2.0)
+    colours = {1001: (0.9, 0.4, 0.1), 1002: (0.1, 0.6, 0.6), 1011: (0.2, 0.2, 0.8), 1012: (0.8, 0.8, 0.1)}
+    for number, colour in colours.items():
+        _file(tmp_path / f"tile.{number}.png", colour)
+    image = bpy.data.images.load(str(tmp_path / "tile.1001.png"))
+    image.source = "TILED"
+    for number in (1002, 1011, 1012):
+        image.tiles.new(number)
+    image.filepath = str(tmp_path / "tile.<UDIM>.png")
+    if is_packed:
+        image.pack()
+        for number in colours:
+            (tmp_path / f"tile.{number}.png").unlink()
+    mesh = bpy.data.meshes.new("Quad")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", [0, 0, 2, 0, 2, 2, 0, 2])
+    material, tree, colour = shining()
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image, texture.interpolation = image, "Closest"
+    tree.links.new(texture.outputs["Color"], colour)
+    mesh.materials.append(material)
+    link(bpy.data.objects.new("Quad", mesh))
+    made.cycles.samples = 4
+    pair = both(tmp_path)
+    assert len(numpy.unique(pair[0].round(2).reshape(-1, 3), axis=0)) == 4
+    close(pair)

@@ -161,3 +161,83 @@ def test_objects_of_instanced_collections_have_the_attribute_of_their_instance(t
         for matrix, value in zip(entry["transforms"], entry["primvars"]["instancer tint"], strict=True):
             found[tuple(float(x) for x in matrix[:2, 3])] = float(value[0])
     assert found == {(float(x), y): float(x) for x in range(3) for y in (0.0, 2.0)} and not report.diagnostics
+
+
+def waved():
+    """A tree of geometry nodes that stores the places of points as the attribute `wave`."""
+    import bpy
+
+    tree = bpy.data.node_groups.new("Waved", "GeometryNodeTree")
+    for side in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    names = ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeInputPosition", "GeometryNodeStoreNamedAttribute")
+    start, stop, place, store = (tree.nodes.new(each) for each in names)
+    store.data_type, store.domain = "FLOAT_VECTOR", "POINT"
+    store.inputs["Name"].default_value = "wave"
+    tree.links.new(start.outputs[0], store.inputs[0])
+    tree.links.new(place.outputs[0], store.inputs["Value"])
+    tree.links.new(store.outputs[0], stop.inputs[0])
+    return tree
+
+
+@pytest.mark.blender
+def test_curves_are_instancers_too(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, link, quad
+
+    for kind in ("NURBS", "POLY"):
+        empty()
+        thing = link(bpy.data.objects.new("Thing", quad()))
+        thing.data.materials.append(tinted())
+        thing.location.z = -50.0
+        curve = bpy.data.curves.new("Way", "CURVE")
+        curve.dimensions = "3D"
+        line = curve.splines.new(kind)
+        line.points.add(4)
+        for number, point in enumerate(line.points):
+            point.co = (float(number), 0.2 * number * number, 1.0, 1.0)
+        if kind == "NURBS":
+            line.use_endpoint_u = True
+        holder = link(bpy.data.objects.new("Way", curve))
+        group, info = instances_with("tint", "FLOAT_VECTOR", lambda tree: tree.nodes.new("GeometryNodeInputPosition").outputs[0])
+        holder.modifiers.new("Nodes", "NODES").node_group = group
+        info.inputs[0].default_value = thing
+        made, report = exporter()
+        scene = made.sync(depsgraph())
+        seen = 0
+        for entry in scene.instances:
+            assert len(entry["materials"]) == 1, kind
+            for matrix, tint in zip(entry["transforms"], entry["primvars"]["instancer tint"], strict=True):
+                if matrix[2, 3] == 1.0:
+                    assert tuple(tint[:3]) == pytest.approx(tuple(matrix[:3, 3]), abs=1e-5), kind
+                    seen += 1
+        assert seen >= 5 and not report.diagnostics, (kind, seen, report.diagnostics)
+
+
+@pytest.mark.blender
+def test_materials_see_attributes_that_geometry_nodes_store(tmp_path):
+    import bpy
+    import numpy as np
+    from beside_cycles import both, close, scene, shining
+    from recorder import link
+
+    made = scene(8, 4, scale=8.0)
+    for number, place in enumerate(((-2.0, 0.0, 0.0), (2.0, 0.0, 0.0))):
+        if number:
+            bpy.ops.mesh.primitive_cube_add(size=1.9, location=place)
+            thing = bpy.context.object
+        else:
+            mesh = bpy.data.meshes.new("Quad")
+            mesh.from_pydata([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)], [], [(0, 1, 2, 3)])
+            thing = link(bpy.data.objects.new("Quad", mesh))
+            thing.location = place
+        material, tree, colour = shining()
+        attribute = tree.nodes.new("ShaderNodeAttribute")
+        attribute.attribute_name = "wave"
+        tree.links.new(attribute.outputs["Vector"], colour)
+        thing.data.materials.append(material)
+        thing.modifiers.new("Nodes", "NODES").node_group = waved()
+    made.cycles.samples = 256
+    pair = [np.maximum(picture, 0.0) for picture in both(tmp_path)]
+    assert pair[0].max() > 0.9
+    close(pair, 0.02)

@@ -172,3 +172,66 @@ def test_a_pattern_of_colours_shines_in_three_parts(tmp_path):
     lights = made.sync(depsgraph()).lights
     assert [np.flatnonzero(light["emission"]["radiance"]).tolist() for light in lights] == [[0], [1], [2]]
     assert all(0.9 < max(light["goniogram"]["factors"]) <= 1.0 + 1e-6 for light in lights) and not report.diagnostics
+
+
+def _rays(tree, light):
+    """A picture that the direction of the light places: four quarters of the cone."""
+    import bpy
+    import numpy as np
+
+    picture = bpy.data.images.new("Quarters", 2, 2, float_buffer=True)
+    pixels = np.array([(1.0, 0.1, 0.1, 1.0), (0.1, 1.0, 0.1, 1.0), (0.1, 0.1, 1.0, 1.0), (1.0, 1.0, 0.2, 1.0)], np.float32)
+    picture.pixels.foreach_set(pixels.ravel())
+    place, move, texture = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "Mapping", "TexImage"))
+    move.inputs["Location"].default_value = (0.5, 0.5, 0.0)
+    texture.image, texture.interpolation = picture, "Closest"
+    tree.links.new(place.outputs["Normal"], move.inputs["Vector"])
+    tree.links.new(move.outputs["Vector"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], light.inputs["Color"])
+
+
+def _cells(tree, light):
+    """Warm and cold cells over the sphere, brighter to one side."""
+    place, cells, split, ramp = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "TexChecker", "SeparateXYZ", "MapRange"))
+    warm = tree.nodes.new("ShaderNodeBlackbody")
+    warm.inputs[0].default_value = 2500.0
+    cells.inputs["Scale"].default_value, cells.inputs["Color2"].default_value = 3.0, (0.1, 0.3, 1.0, 1.0)
+    ramp.inputs["From Min"].default_value, ramp.inputs["To Min"].default_value = -1.0, 0.2
+    tree.links.new(warm.outputs[0], cells.inputs["Color1"])
+    tree.links.new(place.outputs["Normal"], cells.inputs["Vector"])
+    tree.links.new(place.outputs["Normal"], split.inputs[0])
+    tree.links.new(split.outputs["X"], ramp.inputs["Value"])
+    tree.links.new(cells.outputs["Color"], light.inputs["Color"])
+    tree.links.new(ramp.outputs[0], light.inputs["Strength"])
+
+
+PATTERNS = {"SPOT": _rays, "POINT": _cells}
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("kind", list(PATTERNS))
+def test_patterns_fall_where_cycles_throws_them(tmp_path, kind):
+    import bpy
+    import numpy as np
+    from beside_cycles import both, scene
+    from recorder import link, material
+
+    made = scene(32, 32, scale=6.0, samples=256)
+    bpy.ops.mesh.primitive_plane_add(size=20.0)
+    white, tree, end = material()
+    tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], end.inputs["Surface"])
+    bpy.context.object.data.materials.append(white)
+    lamp = bpy.data.lights.new("Lamp", kind)
+    lamp.energy, lamp.shadow_soft_size = 100.0, 0.0
+    if kind == "SPOT":
+        lamp.spot_size, lamp.spot_blend = 1.2, 0.2
+    thing = link(bpy.data.objects.new("Lamp", lamp))
+    thing.location, thing.rotation_euler = (0.4, -0.3, 3.0), (0.2, -0.15, 0.7)
+    lit(lamp, PATTERNS[kind])
+    made.cycles.max_bounces = 0
+    cycles, gonio = both(tmp_path)
+    assert cycles.std() > 0.2 * cycles.mean() > 0.0
+    # Pixels on the edges of cells are means of a few directions.
+    apart = np.abs(cycles - gonio).max(axis=-1) / cycles.max()
+    assert np.quantile(apart, 0.8) < 0.02 and apart.mean() < 0.015, (np.quantile(apart, 0.8), apart.mean())
+    assert np.allclose(gonio.mean(axis=(0, 1)), cycles.mean(axis=(0, 1)), rtol=0.02), (gonio.mean(axis=(0, 1)), cycles.mean(axis=(0, 1)))

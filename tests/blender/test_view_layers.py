@@ -145,6 +145,42 @@ def test_glass_before_a_transparent_film(tmp_path: Path):
 
 
 @pytest.mark.blender
+def test_rough_and_tinted_glass_is_clear_to_the_film_as_in_cycles(tmp_path: Path):
+    import unittest
+
+    import bpy
+    import numpy as np
+    import scenes
+
+    scene = scenes.empty(samples=256, width=16, height=8)
+    if not hasattr(scene, "cycles"):
+        raise unittest.SkipTest("this bpy has no Cycles")
+    # Left of the middle below the limit of roughness, right of it above.
+    for name, x, roughness in (("Smooth", -5.0, 0.15), ("Rough", 5.0, 0.4)):
+        bpy.ops.mesh.primitive_cube_add(size=2.0, location=(x, 0, 0), scale=(5.0, 5.0, 0.1))
+        glass = bpy.data.materials.new(name)
+        glass.use_nodes = True
+        inputs = next(node for node in glass.node_tree.nodes if node.type == "BSDF_PRINCIPLED").inputs
+        inputs["Base Color"].default_value = (0.5, 0.8, 0.9, 1.0)
+        inputs["Transmission Weight"].default_value, inputs["Roughness"].default_value = 1.0, roughness
+        bpy.context.object.data.materials.append(glass)
+    bpy.ops.object.camera_add(location=(0, 0, 5))
+    scene.camera = bpy.context.object
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 4.0
+    scene.render.film_transparent = True
+    settings = scene.cycles
+    settings.samples, settings.use_denoising, settings.use_adaptive_sampling = 256, False, False
+    settings.film_transparent_glass, settings.film_transparent_roughness = True, 0.2
+    scene.render.engine = "CYCLES"
+    theirs = picture(tmp_path / "cycles.exr")[..., 3]
+    assert bpy.ops.gonio.settings_from_cycles() == {"FINISHED"}
+    scene.render.engine = "GONIO"
+    mine = picture(tmp_path / "gonio.exr")[..., 3]
+    sides = [[float(alpha[:, columns].mean()) for columns in (slice(0, 7), slice(9, 16))] for alpha in (mine, theirs)]
+    assert np.allclose(*sides, atol=0.02) and sides[0][0] < 0.6 and sides[0][1] > 0.99, sides
+
+
+@pytest.mark.blender
 def test_what_is_not_carried_over_from_cycles_is_said(tmp_path: Path):
     import unittest
 

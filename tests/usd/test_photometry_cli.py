@@ -192,3 +192,40 @@ def test_flux_codes_and_bug_rating(run, luminaire, tmp_path):
     assert facts(run, point)["beam_angle_deg"] == [180, 180]
     wrong = run("photometry", point, "--ugr-table")
     assert wrong.returncode == 1 and "no luminous opening" in wrong.stderr
+
+
+# Nodes and candelas of a globe, and of one with few angles; of a pole's lantern that ends above the horizon; of a cosine.
+ROUND = [
+    ("0 180", "100 100", 180),
+    ("0 45 90 135 180", "100 95 90 80 50", 180),
+    (" ".join(str(7 * i) for i in range(16)), "100 " * 13 + "80 40 0", 180),
+    ("0 20 40 60 80 100", "100 94 77 50 17 0", 120),
+    # Half is between 10 and 20 degrees, at 16; once from nadir, once from zenith.
+    ("0 10 20 30 90", "100 80 30 0 0", 32),
+    ("90 150 160 170 180", "0 0 30 80 100", 32),
+]
+
+
+@pytest.mark.parametrize(("angles", "candela", "beam"), ROUND)
+def test_a_beam_ends_where_the_curve_is_half(run, tmp_path, angles, candela, beam):
+    path = tmp_path / "round.ies"
+    path.write_text(f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(angles.split())} 1 1 2 0 0 0\n1 1 10\n{angles}\n0\n{candela}\n")
+    assert facts(run, path)["beam_angle_deg"] == pytest.approx([beam, beam], abs=1e-9)
+
+
+def test_a_beam_that_is_not_round_ends_where_its_curves_are_half(run, tmp_path):
+    head = "ACME;2;4;4;90;10;10;report 8;Oval;OV-1;ov.ldt;today;200;0;50;180;0;0;0;0;0;100;100;1;0;1"
+    planes = [100, 80, 30, *[0] * 7], [100, 95, 85, 45, 5, *[0] * 5]
+    lamps = [1, "LED", 1000, "3000 K", 90, 10]
+    lines = [*head.split(";"), *lamps, *[0.5] * 10, 0, 90, 180, 270, *range(0, 100, 10), *planes[0], *planes[1]]
+    oval = tmp_path / "oval.ldt"
+    oval.write_text("\r\n".join(map(str, lines)))
+    found = facts(run, oval)
+    assert found["beam_angle_deg"] == pytest.approx([2 * 16, 2 * 28.75], abs=1e-9)
+    assert found["field_angle_deg"] == pytest.approx([2 * (20 + 20 / 3), 2 * 38.75], abs=1e-9)
+    # A wall washer, whose sides differ: 51.4 degrees to the wall, 12 from it; each plane's half is of its own greatest.
+    washer = tmp_path / "washer.ies"
+    washer.write_text(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 5 3 1 2 0 0 0\n1 1 10\n0 20 40 60 80\n0 90 180\n80 100 90 20 0\n80 60 35 0 0\n80 30 0 0 0\n"
+    )
+    assert facts(run, washer)["beam_angle_deg"] == pytest.approx([12 + 40 + 20 * 40 / 70, 2 * 36], abs=1e-9)

@@ -4,6 +4,7 @@ import json
 import math
 
 import numpy as np
+import pictures
 import pytest
 
 gonio = pytest.importorskip("gonio")
@@ -143,20 +144,58 @@ def test_weather_of_elsewhere_is_told(run, stage, tmp_path):
     assert "Berlin" not in told
 
 
-def picture(path, header="", width=64, height=32, pixel=(128, 128, 128, 129)):
+DOME = 'def DomeLight "Sky" {\n    asset inputs:texture:file = @sky.hdr@\n    token inputs:texture:format = "latlong"\n}\n'
+
+
+def picture(path, header="", width=64, height=32, pixel=(128, 128, 128, 129), kind="rgbe"):
     """A Radiance picture of one value: 128 · 2^(129 − 136) is 1."""
-    text = f"#?RADIANCE\n{header}FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
+    text = f"#?RADIANCE\n{header}FORMAT=32-bit_rle_{kind}\n\n-Y {height} +X {width}\n"
     path.write_bytes(text.encode() + bytes(pixel) * (width * height))
 
 
 def test_a_dome_shows_what_was_before_the_exposure(run, tmp_path):
     path = tmp_path / "sky.usda"
-    dome = 'def DomeLight "Sky" {\n    asset inputs:texture:file = @sky.hdr@\n    token inputs:texture:format = "latlong"\n}\n'
-    path.write_text(HEAD + FLOOR % "" + dome)
+    path.write_text(HEAD + FLOOR % "" + DOME)
     for header, factor in (("", 1), ("EXPOSURE=2\n", 2), ("EXPOSURE=4\nEXPOSURE=0.5\n", 2), ("COLORCORR=2 2 2\n", 2)):
         picture(tmp_path / "sky.hdr", header)
         found, _ = at(run, path, point="0,0,0.01")
         assert found == pytest.approx(math.pi / factor, rel=0.01), header
+
+
+REC709 = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06)], (0.3127, 0.3290)
+BRADFORD = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]])
+
+
+def xyz_of(x, y):
+    return np.array([x / y, 1, (1 - x - y) / y])
+
+
+def to_xyz(primaries, white):
+    columns = np.array([xyz_of(*xy) for xy in primaries]).T
+    return columns * np.linalg.solve(columns, xyz_of(*white))
+
+
+def shown(xyz, white):
+    """Linear Rec.709 of a colour beside a white, in double precision; red is below zero where green or blue lies outside the gamut."""
+    scale = (BRADFORD @ xyz_of(*REC709[1])) / (BRADFORD @ xyz_of(*white))
+    return np.linalg.solve(to_xyz(*REC709), np.linalg.solve(BRADFORD, scale * (BRADFORD @ xyz)))
+
+
+def test_a_dome_shows_the_colours_of_its_space(run, tmp_path):
+    (tmp_path / "sky.usda").write_text(HEAD + FLOOR % "" + DOME)
+    even, wide = (1 / 3, 1 / 3), ([(0.708, 0.292), (0.17, 0.797), (0.131, 0.046)], (0.3127, 0.3290))
+    stated = "PRIMARIES= 0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n"
+    for header, kind, bytes_, expected in (
+        ("", "xyze", (64, 128, 32), shown([0.5, 1, 0.25], even)),
+        ("", "xyze", (128, 128, 128), [1, 1, 1]),
+        ("EXPOSURE=2\n", "xyze", (128, 64, 32), shown([0.5, 0.25, 0.125], even)),
+        (stated, "rgbe", (128, 32, 64), shown(to_xyz(*wide) @ [1, 0.25, 0.5], wide[1])),
+        (stated, "rgbe", (0, 128, 0), shown(to_xyz(*wide) @ [0, 1, 0], wide[1])),
+    ):
+        picture(tmp_path / "sky.hdr", header, pixel=(*bytes_, 129), kind=kind)
+        assert run("render", tmp_path / "sky.usda", "-o", tmp_path / "sky.exr", "-w", 32, "--spp", 4).returncode == 0
+        assert pictures.read(tmp_path / "sky.exr").rgb[0, 0] == pytest.approx(expected, abs=2e-6), (header, bytes_)
+    assert shown([0.5, 1, 0.25], even) == pytest.approx([-0.21318, 1.46794, 0.10498], abs=1e-5)
 
 
 def test_glare_and_false_colour_of_radiance_pictures(run, tmp_path):
