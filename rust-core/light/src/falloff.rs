@@ -1,25 +1,8 @@
 //! How the light of lamps falls with distance where that is not nature's way (Blender's Light Falloff): a factor on what arrives from so far.
 
+use super::record::Falloff;
 use super::table::LightTable;
 use gonio_simd::{F, Lanes, U};
-
-/// A factor by distance on a light's radiance: d to a power, times d² / (smooth + d²).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Falloff {
-    /// 0 is nature's way, 1 makes light fall linearly, 2 not at all.
-    pub power: u32,
-    /// Keeps the light's strength near by within bounds, m²; 0 does nothing.
-    pub smooth: f32,
-}
-
-impl Falloff {
-    /// Nature's way.
-    pub const NATURAL: Self = Self { power: 0, smooth: 0.0 };
-
-    pub(crate) fn words(self) -> [f32; 2] {
-        [self.power as f32, self.smooth]
-    }
-}
 
 impl LightTable {
     /// Whether a light falls with distance otherwise than by nature.
@@ -43,7 +26,7 @@ impl LightTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{light_kind::LightKind, record::LightRecord, record::LightTexture};
+    use crate::{LightKind, LightRecord, LightTexture};
     use gonio_simd::{One, Vec3};
 
     /// What a point light of 1 cd with a falloff sends to facing surfaces at a distance, lx.

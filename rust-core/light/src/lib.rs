@@ -52,7 +52,6 @@ mod tests;
 
 pub use blackbody::blackbody_rgb;
 pub use emit::{AIMED, EmissionSampler, EmittedRay};
-pub use falloff::Falloff;
 pub use far_field::FarField;
 pub use fixed_samples::FixedLightSample;
 pub use goniogram::{AngularType, Goniogram};
@@ -60,7 +59,7 @@ pub use light_kind::LightKind;
 pub use links::LightLinks;
 pub use mis::{SampleWeight, hit_weight, power_heuristic};
 pub use projected_area::{Outline, ProjectedArea};
-pub use record::{LightRecord, LightTexture, OpeningPart, Shaping, Spot};
+pub use record::{Falloff, LightRecord, LightTexture, OpeningPart, Shaping, Spot};
 pub use sample::LightSample;
 pub use size::size_factor;
 pub use table::LightTable;

@@ -1,6 +1,5 @@
 //! Light records: what the compile step says about each light, in plain data.
 
-use super::falloff::Falloff;
 use super::light_kind::LightKind;
 use super::projected_area::ProjectedArea;
 
@@ -45,6 +44,24 @@ pub struct OpeningPart {
     pub share: f32,
     /// Axes x, y and z of the luminaire, which shaping, spot and goniogram refer to.
     pub axes: [[f32; 3]; 3],
+}
+
+/// A factor by distance on a light's radiance: d to a power, times d² / (smooth + d²).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falloff {
+    /// 0 is nature's way, 1 makes light fall linearly, 2 not at all.
+    pub power: u32,
+    /// Keeps the light's strength near by within bounds, m²; 0 does nothing.
+    pub smooth: f32,
+}
+
+impl Falloff {
+    /// Nature's way.
+    pub const NATURAL: Self = Self { power: 0, smooth: 0.0 };
+
+    pub(crate) fn words(self) -> [f32; 2] {
+        [self.power as f32, self.smooth]
+    }
 }
 
 /// A light, in world space and metres.

@@ -2,11 +2,10 @@
 
 use super::build::fill_row;
 use super::dome::{DomeDistribution, EVEN_SAMPLED_PART};
-use super::falloff::Falloff;
 use super::goniogram::Goniogram;
 use super::light_kind::LightKind;
 use super::links::{LightLinks, LinkedLights};
-use super::record::{LightRecord, LightTexture};
+use super::record::{Falloff, LightRecord, LightTexture};
 use super::row::{ROW, Reader, field, flag};
 use super::texture::{Placed, TexturePool};
 use super::tree::LightTree;
