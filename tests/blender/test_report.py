@@ -65,7 +65,7 @@ def test_what_is_gone_is_told_no_more(tmp_path):
     tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], end.inputs["Volume"])
     thing = link(bpy.data.objects.new("Box", quad()))
     thing.data.materials.append(made)
-    lamp = bpy.data.lights.new("Lamp", "POINT")
+    lamp = bpy.data.lights.new("Lamp", "SUN")
     lamp.use_nodes = True
     lamp.node_tree.nodes.clear()
     falloff, output = (lamp.node_tree.nodes.new(f"ShaderNode{name}") for name in ("LightFalloff", "OutputLight"))
@@ -112,7 +112,7 @@ NEED_NO_LINE = {
         *("*_cull_margin", "rolling_shutter_*", "fast_gi_method", "ao_bounces*"),
     ),
     "layer": ("rna_type", "name", "use_denoising", "use_pass_*", "pass_render_time"),
-    "object": ("rna_type", "name", "*motion*", "*_cull", "ao_distance", "dicing_rate", "shadow_terminator_*"),
+    "object": ("rna_type", "name", "*motion*", "*_cull", "ao_distance", "dicing_rate", "use_adaptive_subdivision", "shadow_terminator_*"),
     "light": ("rna_type", "name", "use_multiple_importance_sampling"),
     "world": ("rna_type", "name", "sampling_method", "sample_map_resolution", "volume_*", "homogeneous_volume"),
     "material": ("rna_type", "name", "emission_sampling", "volume_*", "homogeneous_volume"),
