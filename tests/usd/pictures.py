@@ -2,6 +2,7 @@
 
 import dataclasses
 import struct
+import zlib
 
 import numpy as np
 import OpenEXR
@@ -171,6 +172,20 @@ def same(first, second):
     return first.channels.keys() == second.channels.keys() and all(
         np.array_equal(first[name], second[name], equal_nan=True) for name in first.channels
     )
+
+
+def write_png(path, pixels):
+    """Bytes (height, width, channels) as a PNG file: one channel is grey, three are colours, the fourth is alpha. Gives its path."""
+    pixels = np.asarray(pixels, dtype="u1")
+    height, width, channels = pixels.shape
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return path
 
 
 def png_size(path):

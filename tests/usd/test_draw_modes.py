@@ -1,8 +1,5 @@
 """Models drawn as cards, boxes or axes in place of their geometry."""
 
-import struct
-import zlib
-
 import numpy as np
 import pictures
 import pytest
@@ -76,15 +73,6 @@ def test_the_origin_is_three_axes(tmp_path):
     assert found.max() == pytest.approx(1, abs=0.01) and found.min() == pytest.approx(0, abs=0.01)
 
 
-def png(path, rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 6, 0, 0, 0)
-    lines = b"".join(b"\x00" + bytes(sum(map(list, row), [])) for row in rows)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
-
-
 RED, GREEN, BLUE, CLEAR = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (255, 255, 255, 0)
 CAMERA = """
 def Camera "Cam"
@@ -108,7 +96,7 @@ ALONG = {
 @pytest.mark.parametrize("face", ["YPos", "XNeg"])
 @pytest.mark.parametrize("geometry", ["cross", "box"])
 def test_cards_show_pictures_upright(picture, tmp_path, face, geometry):
-    png(tmp_path / "card.png", [[RED, GREEN], [BLUE, CLEAR]])
+    pictures.write_png(tmp_path / "card.png", [[RED, GREEN], [BLUE, CLEAR]])
     extra = f'asset model:cardTexture{face} = @card.png@\n    uniform token model:cardGeometry = "{geometry}"'
     text = MODEL.replace("KIND", "component").replace("MODE", "cards").replace("EXTRA", extra)
     stage = pictures.stage(tmp_path / "stage.usda", text, CAMERA.replace("MATRIX", ALONG[face]))

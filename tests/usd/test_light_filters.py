@@ -1,9 +1,7 @@
 """Light filters of UsdLux against closed forms: barn doors, pictures, what is multiplied, and what is left out by name."""
 
-import struct
-import zlib
-
 import numpy as np
+import pictures
 import pytest
 
 gonio = pytest.importorskip("gonio")
@@ -56,9 +54,7 @@ def filter_of(kind, body, name="Filter", z=-1.0):
 
 
 def read(tmp_path, text):
-    path = tmp_path / "stage.usda"
-    path.write_text(f'#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n{FLOOR}{text}')
-    return gonio.load_usd(str(path))
+    return gonio.load_usd(str(pictures.stage(tmp_path / "stage.usda", FLOOR, text, up="Z")))
 
 
 def irradiance(tmp_path, text, samples=16):
@@ -77,17 +73,6 @@ def expected():
     middle = (np.arange(PICTURE) + 0.5) / 8 - 4
     x, y = np.meshgrid(middle, middle)
     return x, y, INTENSITY * HEIGHT / (x * x + y * y + HEIGHT**2) ** 1.5
-
-
-def png(path, rows):
-    """A PNG of 8 bits, RGB."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
-    lines = b"".join(b"\0" + bytes(value for texel in row for value in texel) for row in rows)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
 
 
 BARN = "PxrBarnLightFilter"
@@ -126,7 +111,7 @@ COLOURS = [[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]]
 
 @pytest.mark.parametrize("kind", ["PxrCookieLightFilter", "PxrGoboLightFilter"])
 def test_a_picture_is_thrown_in_colour(tmp_path, kind):
-    png(tmp_path / "slide.png", COLOURS)
+    pictures.write_png(tmp_path / "slide.png", COLOURS)
     body = 'asset inputs:ri:lightFilter:map = @./slide.png@\n    float inputs:ri:lightFilter:width = 2\n    float inputs:ri:lightFilter:height = 2'
     found = irradiance(tmp_path, point("</Lamp/Filter>", filter_of(kind, body)), samples=256)
     x, y, bare = expected()
@@ -140,7 +125,7 @@ def test_a_picture_is_thrown_in_colour(tmp_path, kind):
 
 
 def test_fill_density_and_inversion(tmp_path):
-    png(tmp_path / "slide.png", [[(255, 255, 255)]])
+    pictures.write_png(tmp_path / "slide.png", [[(255, 255, 255)]])
     body = (
         "asset inputs:ri:lightFilter:map = @./slide.png@\n    color3f inputs:ri:lightFilter:fillColor = (0.5, 0.5, 0.5)\n"
         "    float inputs:ri:lightFilter:density = 0.5\n    bool inputs:ri:lightFilter:invert = 1"
@@ -176,7 +161,7 @@ def RectLight "Lamp"
 
 
 def test_a_picture_on_a_rectangle_s_face(tmp_path):
-    png(tmp_path / "slide.png", [[(255, 255, 255), (0, 0, 0)]])
+    pictures.write_png(tmp_path / "slide.png", [[(255, 255, 255), (0, 0, 0)]])
     body = 'asset inputs:ri:lightFilter:map = @./slide.png@\n    float inputs:ri:lightFilter:width = 0.4\n    float inputs:ri:lightFilter:height = 0.4'
     whole = irradiance(tmp_path, RECT.replace("    rel light:filters = </Lamp/Filter>\n", "") % "", samples=256)
     half = irradiance(tmp_path, RECT % filter_of("PxrCookieLightFilter", body, z=0), samples=256)
@@ -255,10 +240,8 @@ def SphereLight "Lamp"
 """
 
     def mean(factors):
-        path = tmp_path / "stage.usda"
-        head = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
-        path.write_text(head + MIRROR % roughness + "def Camera" + FLOOR.split("def Camera")[1] + lamp % factors)
-        scene = gonio.load_usd(str(path))
+        parts = MIRROR % roughness, "def Camera" + FLOOR.split("def Camera")[1], lamp % factors
+        scene = gonio.load_usd(str(pictures.stage(tmp_path / "stage.usda", *parts, up="Z")))
         scene.set(width=32, height=32, samples=256, max_bounces=1, passes=["color"])
         with gonio.Render(scene) as rendering:
             rendering.wait()

@@ -1,8 +1,6 @@
 """Surfaces of other renderers: known shaders in any render context, closures of MaterialX, materials of phones, Arnold and Omniverse."""
 
-import struct
-import zlib
-
+import pictures
 import pytest
 
 gonio = pytest.importorskip("gonio")
@@ -99,14 +97,7 @@ def test_what_is_there_is_said_where_nothing_is_known(tmp_path):
 
 def png(path):
     """Writes a picture of one colour, (0.5, 0.25, 1) as it is encoded."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    pixels = zlib.compress(b"\x00" + bytes([128, 64, 255]))
-    head = struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
-    return path
+    return pictures.write_png(path, [[(128, 64, 255)]])
 
 
 @pytest.fixture

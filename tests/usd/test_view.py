@@ -3,10 +3,8 @@
 import os
 import pathlib
 import signal
-import struct
 import subprocess
 import time
-import zlib
 
 import numpy as np
 import pictures
@@ -172,14 +170,7 @@ def test_saved_stages_are_read_anew(seat, own_room):
 
 def png(path, level):
     """A grey picture of 4 × 4 pixels."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = zlib.compress((b"\0" + bytes([level] * 4)) * 4)
-    path.write_bytes(
-        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 0, 0, 0, 0)) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
-    )
+    pictures.write_png(path, np.full((4, 4, 1), level))
 
 
 TILED = """

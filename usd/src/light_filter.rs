@@ -165,9 +165,8 @@ fn plane<'a>(filter: &'a Filter, placed: &Transform) -> Option<Plane<'a>> {
     // Mirrored lights stay mirrored.
     let side = if placed.determinant() < 0.0 { -1.0 } else { 1.0 };
     let y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]].map(|v| v * side);
-    let axes = [x, y, z].map(|axis| from_world.vector(axis));
+    let from_light = from_world.after(&Transform { columns: [x, y, z, middle] });
     let face = [placed.columns[0], placed.columns[1]].map(|axis| from_world.vector(axis));
-    let middle = from_world.point(middle);
-    let is_finite = axes.iter().chain(&face).chain([&middle]).flatten().all(|x| x.is_finite());
-    is_finite.then_some(Plane { slide: &filter.slide, strength: filter.strength, middle, axes, face })
+    let is_finite = from_light.is_finite() && face.iter().flatten().all(|x| x.is_finite());
+    is_finite.then_some(Plane { slide: &filter.slide, strength: filter.strength, from_light, face })
 }

@@ -72,7 +72,7 @@ pub fn run(options: &Options, cancel: &AtomicBool, mut on_row: impl FnMut(&Row))
     Ok(report)
 }
 
-/// Writes the paper's three scenes by its renderer into a folder, PNG files of 512 × 384 pixels; their paths.
+/// Writes the paper's three scenes by its renderer into a folder, PNG files of 384 × 384 pixels; their paths.
 ///
 /// Fails where a file cannot be written, and with [`gonio::Error::Cancelled`] soon after `cancel` is raised.
 pub fn paper_pictures(folder: &Path, threads: u32, cancel: &AtomicBool) -> Result<Vec<PathBuf>> {

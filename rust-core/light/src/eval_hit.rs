@@ -88,7 +88,7 @@ impl LightTable {
         if self.any_alone {
             pdf = light.flag(flag::ALONE).select(l.f(f32::MAX), pdf);
         }
-        let sent = self.le(l, &light, wi, uv) * self.falloff(l, index, (hit - from).length());
+        let sent = self.fallen(l, index, hit - from, self.le(l, &light, wi, uv));
         (sent.keep_if(valid), pdf.keep_if(valid))
     }
 

@@ -2,7 +2,7 @@
 
 use super::record::Falloff;
 use super::table::LightTable;
-use gonio_simd::{F, Lanes, U};
+use gonio_simd::{Lanes, Spectrum, U, Vec3};
 
 impl LightTable {
     /// Whether a light falls with distance otherwise than by nature.
@@ -10,16 +10,17 @@ impl LightTable {
         self.falloffs.get(2 * light as usize..2 * light as usize + 2).is_some_and(|words| words != Falloff::NATURAL.words())
     }
 
-    /// The factors on what arrives from lights at distances in metres.
+    /// What arrives of lights at points, by the way from there in metres.
     #[inline(always)]
-    pub(crate) fn falloff<L: Lanes>(&self, l: L, light: U<L>, distance: F<L>) -> F<L> {
+    pub(crate) fn fallen<L: Lanes>(&self, l: L, light: U<L>, way: Vec3<L>, sent: Spectrum<L>) -> Spectrum<L> {
         if self.falloffs.is_empty() {
-            return l.f(1.0);
+            return sent;
         }
+        let distance = way.length();
         let (power, smooth) = (l.gather(&self.falloffs, light << 1), l.gather(&self.falloffs, (light << 1) + 1));
         let squared = distance * distance;
         let factor = power.gt(1.5).select(squared, power.gt(0.5).select(distance, l.f(1.0)));
-        factor * smooth.gt(0.0).select(squared / (squared + smooth), l.f(1.0))
+        sent * (factor * smooth.gt(0.0).select(squared / (squared + smooth), l.f(1.0)))
     }
 }
 
@@ -27,7 +28,7 @@ impl LightTable {
 mod tests {
     use super::*;
     use crate::{LightKind, LightRecord, LightTexture};
-    use gonio_simd::{One, Vec3};
+    use gonio_simd::One;
 
     /// What a point light of 1 cd with a falloff sends to facing surfaces at a distance, lx.
     fn sent(falloff: Falloff, distance: f32) -> f32 {

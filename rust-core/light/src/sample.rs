@@ -83,7 +83,7 @@ impl LightTable {
         } else {
             sent
         };
-        let radiance = radiance * self.falloff(l, index, aim.distance);
+        let radiance = self.fallen(l, index, aim.wi * aim.distance, radiance);
         let pdf = aim.pdf * probability;
         let facing = light.is_kind(LightKind::FacingDisk);
         let enclosed = if facing.any() { facing & facing_disk::encloses(light, *p) } else { facing };

@@ -136,10 +136,6 @@ fn unit_stretch() -> [f32; 2] {
     [1.0; 2]
 }
 
-fn undimmed() -> f32 {
-    1.0
-}
-
 fn whole() -> f32 {
     1.0
 }
@@ -172,7 +168,7 @@ pub struct Light {
     #[serde(default)]
     pub quantity: Option<LightQuantity>,
     /// Factor on its strength, as a dimmer's and its maintenance's (CIE 97) make it.
-    #[serde(default = "undimmed")]
+    #[serde(default = "whole")]
     pub dimming: f32,
     /// Narrowing of the beam.
     pub shaping: Shaping,
@@ -225,7 +221,7 @@ impl Default for Light {
             shape: LightShape::Point,
             emission: Emission::default(),
             quantity: None,
-            dimming: undimmed(),
+            dimming: whole(),
             shaping: Shaping::default(),
             spot: None,
             group: String::new(),

@@ -1,7 +1,7 @@
 //! Filters of a light as seen from its middle: factors by direction, which a goniogram holds, or over the face of a rectangle.
 
 use super::slide::{Passed, Slide};
-use gonio::scene::{Goniogram, PhotometricType};
+use gonio::scene::{Goniogram, PhotometricType, Transform};
 use rayon::prelude::*;
 
 /// Intervals of a grid across what a filter shows.
@@ -42,10 +42,8 @@ impl Strength {
 pub(super) struct Plane<'a> {
     pub(super) slide: &'a Slide,
     pub(super) strength: Strength,
-    /// The light's middle in the filter's space.
-    pub(super) middle: [f64; 3],
-    /// The light's axes in the filter's space, each a metre long.
-    pub(super) axes: [[f64; 3]; 3],
+    /// The light's space, with axes a metre long each, to the filter's.
+    pub(super) from_light: Transform,
     /// What its axes x and y are in the filter's space as they are, with the light's own units.
     pub(super) face: [[f64; 3]; 2],
 }
@@ -53,10 +51,10 @@ pub(super) struct Plane<'a> {
 impl Plane<'_> {
     /// What passes towards a direction in the light's space.
     fn towards(&self, direction: [f64; 3]) -> Passed {
-        let [x, y, z]: [f64; 3] = std::array::from_fn(|k| (0..3).map(|axis| direction[axis] * self.axes[axis][k]).sum());
-        let distance = -self.middle[2] / z;
+        let ([x, y, z], middle) = (self.from_light.vector(direction), self.middle());
+        let distance = -middle[2] / z;
         let passed = if distance > 0.0 && distance.is_finite() {
-            self.slide.at([self.middle[0] + distance * x, self.middle[1] + distance * y])
+            self.slide.at([middle[0] + distance * x, middle[1] + distance * y])
         } else {
             self.slide.behind()
         };
@@ -65,26 +63,37 @@ impl Plane<'_> {
 
     /// What passes at a place in the light's space, which lies on the filter's plane.
     fn on_face(&self, place: [f64; 2]) -> Passed {
-        let [x, y] = std::array::from_fn(|k| self.middle[k] + place[0] * self.face[0][k] + place[1] * self.face[1][k]);
+        let middle = self.middle();
+        let [x, y] = std::array::from_fn(|k| middle[k] + place[0] * self.face[0][k] + place[1] * self.face[1][k]);
         self.strength.on(self.slide.at([x, y]))
     }
 
     /// Whether the plane is the one that the light's axes x and y span.
     pub(super) fn is_face(&self) -> bool {
-        let size = self.axes.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        [self.middle[2], self.axes[0][2], self.axes[1][2]].iter().all(|z| z.abs() <= 1e-6 * size)
+        let [x, y, _, middle] = self.from_light.columns;
+        [middle[2], x[2], y[2]].iter().all(|z| self.is_small(*z))
     }
 
     /// Whether the plane goes through the light's middle, from where nothing can be thrown.
     pub(super) fn is_in_the_middle(&self) -> bool {
-        let size = self.axes.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        *self.slide != Slide::Even && self.middle[2].abs() <= 1e-6 * size
+        *self.slide != Slide::Even && self.is_small(self.middle()[2])
+    }
+
+    /// The light's middle in the filter's space.
+    fn middle(&self) -> [f64; 3] {
+        self.from_light.columns[3]
+    }
+
+    /// Whether a length in the filter's space is nothing beside a metre of the light's.
+    fn is_small(&self, length: f64) -> bool {
+        let metre = self.from_light.columns[..3].iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        length.abs() <= 1e-6 * metre
     }
 
     /// The angles that the slide's frame spans; none where it is endless, or is not all in front of the light.
     fn span(&self) -> Option<[[f64; 2]; 2]> {
         let ([low, high], _) = self.slide.frame()?;
-        let inverse = inverse(self.axes)?;
+        let to_light = self.from_light.inverse()?;
         let mut span = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         for number in 0..=256 {
             let along = f64::from(number % 64) / 64.0;
@@ -94,8 +103,7 @@ impl Plane<'_> {
                 2 => [high[0] - along * (high[0] - low[0]), high[1]],
                 _ => [low[0], high[1] - along * (high[1] - low[1])],
             };
-            let there = [x - self.middle[0], y - self.middle[1], -self.middle[2]];
-            let [x, y, z]: [f64; 3] = std::array::from_fn(|k| (0..3).map(|axis| inverse[k][axis] * there[axis]).sum());
+            let [x, y, z] = to_light.point([x, y, 0.0]);
             if z >= 0.0 {
                 return None;
             }
@@ -111,15 +119,6 @@ impl Plane<'_> {
         let around = self.slide.frame().map(|(_, around)| around);
         around.is_some_and(|around| [around, self.slide.behind()].into_iter().all(|passed| self.strength.on(passed) == [0.0; 3]))
     }
-}
-
-/// Rows of the inverse of the matrix whose columns are the axes.
-fn inverse(axes: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    let cross = |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    let [x, y, z] = axes;
-    let rows = [cross(y, z), cross(z, x), cross(x, y)];
-    let determinant: f64 = (0..3).map(|k| x[k] * rows[0][k]).sum();
-    (determinant != 0.0 && determinant.is_finite()).then(|| rows.map(|row| row.map(|v| v / determinant)))
 }
 
 /// Lines of a grid between two angles, close together in a span.
@@ -224,9 +223,9 @@ mod tests {
     }
 
     fn plane(slide: &Slide) -> Plane<'_> {
-        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let strength = Strength { density: 1.0, factor: [1.0; 3], inverted: false };
-        Plane { slide, strength, middle: [0.0, 0.0, 1.0], axes, face: [axes[0], axes[1]] }
+        let from_light = Transform::translation([0.0, 0.0, 1.0]);
+        Plane { slide, strength, from_light, face: [from_light.columns[0], from_light.columns[1]] }
     }
 
     /// The integral of a goniogram over the sphere, by its cells.

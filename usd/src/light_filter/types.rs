@@ -46,8 +46,8 @@ fn report_left_out<'py>(context: &mut Context<'_, 'py>, filter: &Prim<'py>) {
     if is_link_authored(filter, "filterLink") {
         context.unsupported("the collection filterLink of light filters", &origin);
     }
-    for names in [["barnMode", "barnMode"], ["cookieMode", "cookieMode"]] {
-        if choice(context, filter, &names, &["physical", "analytic"]) == 1 {
+    for name in ["barnMode", "cookieMode"] {
+        if choice(context, filter, &[name], &["physical", "analytic"]) == 1 {
             let message = "the analytic mode of light filters is not supported, they are thrown from the light's middle";
             context.once("filter mode", "analytic", &origin, || message.to_owned());
         }

@@ -21,7 +21,7 @@ pub(crate) struct BenchOptions {
     /// The tables of the paper that gonio descends from, as Markdown beside its figures; instead of stages.
     #[arg(long, conflicts_with_all = ["stage", "scene"])]
     pub(crate) paper: bool,
-    /// Only write the paper's three scenes by its renderer into this folder, as PNG files of 512 x 384 pixels.
+    /// Only write the paper's three scenes by its renderer into this folder, as PNG files of 384 x 384 pixels.
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["stage", "scene", "paper", "json", "plot"])]
     pub(crate) pictures: Option<PathBuf>,
     /// For machines: everything as JSON, once all is measured.

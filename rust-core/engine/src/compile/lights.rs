@@ -176,7 +176,7 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
             radiance = [0.0; 3];
         }
     }
-    let shaping = &light.shaping;
+    let (shaping, scattered) = (&light.shaping, scattered(light));
     LightRecord {
         to_world: placed.columns.map(|column| column.map(|x| x as f32)),
         radiance,
@@ -193,8 +193,8 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
         angle: angle as f32,
         visible_to_camera: light.visibility.camera,
         visible_to_scattered: light.visibility.scattered(),
-        scattered: scattered(light),
-        sampled_alone: scattered(light).iter().any(|factor| *factor != 0.0 && *factor != 1.0),
+        sampled_alone: scattered.iter().any(|factor| *factor != 0.0 && *factor != 1.0),
+        scattered,
         falloff: falloff(light, diagnostics),
         casts_shadow: light.casts_shadow,
         opening: part.opening,
