@@ -134,8 +134,8 @@ STAND_INS = {
     "ShaderNodeTexMusgrave": ("Musgrave Texture", 0.5),
     "ShaderNodeTexPointDensity": ("Point Density", 0.0),
     "ShaderNodeCameraData": ("Camera Data in worlds and lamps", 1.0),
-    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in worlds, lamps and panoramas", 0.5),
-    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in worlds and lamps", 0.5),
+    ("ShaderNodeTexCoord", "Window"): ("Texture Coordinate: Window in lamps and panoramas, and in worlds without perspective", 0.5),
+    ("ShaderNodeTexCoord", "Camera"): ("Texture Coordinate: Camera in lamps", 0.5),
 }
 
 

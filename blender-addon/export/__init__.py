@@ -39,7 +39,7 @@ class Exporter:
         self._fibres = Fibres(self.scene, report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
-        self._camera, self._follows_view, self._synced = None, False, False
+        self._camera, self._world_asked, self._follows_view, self._synced = None, {}, False, False
         # Where cameras that move are at even times of the shutter, by session_uid.
         self._camera_motion = {}
         # Values that materials want of meshes, by the keys of groups.
@@ -179,9 +179,11 @@ class Exporter:
         shown = (getattr(layer, "world_override", None) or depsgraph.scene_eval.world) if layer.use_sky else None
         self._lights.domes([])
         self.report.forget_all("World")
+        self._world_asked = {}
         if shown is not None:
             with self.report.guard("World", shown.name, "the world is black"):
-                self._lights.domes(world.domes(shown, self._images, self.report))
+                descriptions, self._world_asked = world.domes(shown, self._images, self.report, self._surroundings(depsgraph))
+                self._lights.domes(descriptions)
 
     def _moves(self, depsgraph, changes, moved):
         """New places of objects; everything is walked over where they may take others along."""
@@ -257,7 +259,11 @@ class Exporter:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)
         self._camera = description
-        self._materials.look_around(self._surroundings(depsgraph), depsgraph)
+        surroundings = self._surroundings(depsgraph)
+        self._materials.look_around(surroundings, depsgraph)
+        if not surroundings.answers(self._world_asked):
+            self._world(depsgraph)
+            self._lights.write()
         return True
 
     def _surroundings(self, depsgraph):

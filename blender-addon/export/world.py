@@ -76,26 +76,27 @@ class WorldTranslator(Translator):
         return None
 
 
-def domes(world, images, report):
-    """Descriptions of the domes that a world amounts to."""
+def domes(world, images, report, surroundings=None):
+    """Descriptions of the domes that a world amounts to, and what its nodes asked of the scene, with the answers."""
     if world is None:
-        return []
+        return [], {}
     report.forget("World", world.name)
     if world.gonio.use_daylight:
-        return _with_visibility(world, daylight.lights(world, images, report))
+        return _with_visibility(world, daylight.lights(world, images, report)), {}
     tree = world.node_tree
     if tree is None or not _uses_nodes(world):
-        return _with_visibility(world, [_even(world, np.array(to_rec709(world.color)))])
-    seen, t = _dome(world, tree, images, report, is_camera_ray=False)
+        return _with_visibility(world, [_even(world, np.array(to_rec709(world.color)))]), {}
+    around = (images, report, surroundings)
+    seen, t = _dome(world, tree, around, is_camera_ray=False)
     if not t.asked_for_ray:
-        return _with_visibility(world, seen)
+        return _with_visibility(world, seen), t.asked
     # Camera rays see another world than the one that lights the scene.
-    shown, _ = _dome(world, tree, images, report, is_camera_ray=True)
+    shown, of_camera = _dome(world, tree, around, is_camera_ray=True)
     for dome in seen:
         dome["visibility"]["camera"] = False
     for dome in shown:
         dome["visibility"].update({ray: ray == "camera" for ray in RAYS})
-    return _with_visibility(world, [*seen, *shown])
+    return _with_visibility(world, [*seen, *shown]), t.asked | of_camera.asked
 
 
 def _uses_nodes(world):
@@ -116,8 +117,10 @@ def _with_visibility(world, descriptions):
     return [dome for dome in descriptions if any(dome["visibility"][ray] for ray in RAYS[:4])]
 
 
-def _dome(world, tree, images, report, is_camera_ray):
-    t = WorldTranslator(world, tree, Pictures(images, report), report, kind="World", is_world=True, is_camera_ray=is_camera_ray)
+def _dome(world, tree, around, is_camera_ray):
+    images, report, surroundings = around
+    known = {"kind": "World", "is_world": True, "is_camera_ray": is_camera_ray, "surroundings": surroundings}
+    t = WorldTranslator(world, tree, Pictures(images, report), report, **known)
     end = active_output(tree, "World")
     if end is None:
         return [], t

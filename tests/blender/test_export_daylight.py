@@ -21,7 +21,7 @@ def world_with(build=None, **settings):
         setattr(world.gonio, name, value)
     scene, report = Recorder(), module("report").Report()
     images = module("export.images").Images(scene, module("export.slots").Slots())
-    return module("export.world").domes(world, images, report), scene, report
+    return module("export.world").domes(world, images, report)[0], scene, report
 
 
 @pytest.mark.blender
@@ -118,7 +118,7 @@ def test_edits_leave_no_pictures_behind(tmp_path):
     found = []
     for hour in (9.0, 10.0, 10.0, 11.0, 12.0):
         world.gonio.hour = hour
-        (dome,) = domes(world, images, report)
+        ((dome,), _) = domes(world, images, report)
         found.append((dome["texture"], float(scene.textures[dome["texture"]]["pixels"][0, 0, 1])))
     # Another hour is another number, and a brighter sky.
     assert [number for number, _ in found] == [0, 1, 1, 0, 1] and len(scene.textures) == 2

@@ -106,7 +106,7 @@ def world_of(build):
     tree.links.new(build(tree), tree.nodes.new("ShaderNodeOutputWorld").inputs["Surface"])
     scene, report = Recorder(), module("report").Report()
     images = module("export.images").Images(scene, module("export.slots").Slots())
-    return module("export.world").domes(world, images, report), scene, report
+    return module("export.world").domes(world, images, report)[0], scene, report
 
 
 def looked_up(dome, pixels, direction):

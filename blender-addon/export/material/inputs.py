@@ -83,11 +83,16 @@ def texture_coordinates(t, node, context, output):
 def _world_coordinates(t, node, name):
     if name == "Object" and node.object is not None:
         return applied(t, node.object.matrix_world.inverted_safe(), direction(t), is_point=False)
-    if name in ("Generated", "Object", "Normal"):
+    if name in ("Generated", "Object"):
         return direction(t)
-    if name == "Reflection":
+    if name in ("Normal", "Reflection"):
+        # What surrounds a scene faces it.
         return -direction(t)
-    return None
+    if name == "UV":
+        return t.graph.vector((0.0, 0.0, 0.0))
+    from .camera_nodes import in_camera, in_picture
+
+    return in_camera(t) if name == "Camera" else in_picture(t)
 
 
 def applied(t, matrix, value, is_point=True):
