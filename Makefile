@@ -19,7 +19,7 @@ FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax
 $(VENV)/ready: pyproject.toml
 	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(VENV) || python3 -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "materialx>=1.39,<2" "pyoidn>=2.5,<3" "PySide6-Essentials>=6.6" numpy pytest pytest-timeout openexr mypy
+	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "materialx>=1.39,<2" "pyoidn>=2.5,<3" "PySide6-Essentials>=6.6" numpy pytest pytest-timeout pytest-xdist openexr mypy
 	touch $@
 
 # The wheel of this machine, which the gate's tests install everywhere, so that the engine's code is generated once.
@@ -88,8 +88,11 @@ lint-workflows: $(VENV)/ready
 test-rust: $(VENV)/ready
 	cargo test --release --quiet --workspace --exclude gonio-python
 
+# Two files at a time: starting processes and reading files leaves cores idle.
+AT_ONCE := --numprocesses 2 --dist loadfile
+
 test-python: build
-	$(BIN)/python -m pytest tests/python tests/usd tests/docs
+	$(BIN)/python -m pytest $(AT_ONCE) tests/python tests/usd tests/docs
 
 # What renders at every level of this machine, as other machines would, and on one core.
 LEVELS := scalar sse4.2 avx2
@@ -105,7 +108,7 @@ blender: build $(addsuffix /ready,$(BPY))
 
 # Each test in a Blender of its own, both versions.
 test-blender: blender
-	$(BIN)/python -m pytest tests/blender -m "not validate"
+	$(BIN)/python -m pytest $(AT_ONCE) tests/blender -m "not validate"
 
 # The same files in Cycles and in gonio, block by block; pictures and figures in out/compare-cycles/index.html.
 compare-cycles: blender
