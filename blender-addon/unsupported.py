@@ -36,7 +36,7 @@ OBJECTS = {
     ),
     "culling": Limit("Culling of objects by camera or distance", "nothing is culled"),
     "shadow caustics": _quietly("Marks of shadow caustics on objects and lights", "light paths bring all caustics, where *Caustics* is on"),
-    "shadow terminator": _quietly("Shadow terminator offsets", "left out"),
+    "shadow terminator": _quietly("Shading offset of the shadow terminator", "left out; the geometry offset is followed"),
 }
 
 SCENES = {

@@ -30,6 +30,8 @@ class Entry:
     pass_index: int
     light_group: str
     asset: str
+    # The cosine under which light grazes that starts from the curved surface, as in Cycles.
+    terminator: float
     wanted: frozenset
     transforms: np.ndarray
     values: dict
@@ -49,6 +51,7 @@ class Entry:
             and self.light_group == other.light_group
             and self.linking == other.linking
             and self.asset == other.asset
+            and self.terminator == other.terminator
             and _same(self.transforms, other.transforms)
             and (self.motion is None) == (other.motion is None)
             and (self.motion is None or _same(self.motion, other.motion))
@@ -111,7 +114,8 @@ class Instances:
         if group.kept is not None and not self._leave_out(group):
             return
         values = _values(group, wanted) if wanted else NO_VALUES
-        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup, group.asset)
+        terminator = min(group.source.shadow_terminator_geometry_offset, 1.0)
+        of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup, group.asset, terminator)
         if is_single:
             self._single[group.object_uid] = len(made)
         if group.is_itself and (group.kept is None or group.kept[0]):
@@ -192,6 +196,7 @@ class Instances:
             light_group=entry.light_group,
             linking=None if entry.linking is ALL else entry.linking,
             asset=entry.asset,
+            shadow_terminator=entry.terminator,
             index=number if known else None,
             **({} if kind == "mesh" else {kind: shown}),
         )

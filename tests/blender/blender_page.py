@@ -17,7 +17,8 @@ REASONS = (
     (("volume_*", "homogeneous_volume"), "of volumes"),
     (("dicing_rate", "preview_dicing_rate", "max_subdivisions"), "followed"),
     (("*dicing*",), "not followed: the camera that renders counts"),
-    (("shadow_terminator_*",), "of the shadow terminator"),
+    (("shadow_terminator_geometry_*",), "followed"),
+    (("shadow_terminator_*",), "not followed, leaves a line"),
     (("bake_type",), "a setting of Gonio's own in the *Bake* panel"),
     (("denoiser", "denoising_*", "preview_denois*", "use_denoising"), "Open Image Denoise, chosen by Gonio"),
 )

@@ -99,3 +99,29 @@ def test_rims_of_smooth_glass_are_those_of_cycles(tmp_path):
     blocks = [picture.reshape(2, SIZE // 8, SIZE // 4, 4, 3).mean(axis=(1, 3, 4)) for picture in (found, expected)]
     assert blocks[0] == pytest.approx(blocks[1], rel=0.1)
     assert found.mean() == pytest.approx(expected.mean(), rel=0.02)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("kind", ["SUN", "AREA"])
+def test_light_grazes_coarse_balls_as_in_cycles(tmp_path, kind):
+    import bpy
+    import scenes
+
+    samples = 256
+    scene = scenes.empty(width=SIZE, height=SIZE, samples=samples)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=8)
+    bpy.ops.object.shade_smooth()
+    bpy.context.object.data.materials.append(shader("Diffuse", Color=(1, 1, 1, 1)))
+    bpy.ops.object.light_add(type=kind, location=(5, -1, 1.5), rotation=(0, 1.3, -0.2))
+    bpy.context.object.data.energy = 3.0 if kind == "SUN" else 300.0
+    seen((0, -5, 1), (0, 0, 0), 2.2)
+    scene.gonio.pixel_filter_type, scene.gonio.filter_width = "BOX", 1.0
+    shown = {offset: (tmp_path / f"{offset}.exr") for offset in (0.1, 0.0)}
+    found = {}
+    for offset, path in shown.items():
+        bpy.data.objects["Sphere"].shadow_terminator_geometry_offset = offset
+        found[offset] = colour(path)
+    bpy.data.objects["Sphere"].shadow_terminator_geometry_offset = 0.1
+    expected = from_cycles(tmp_path / "cycles.exr", samples)
+    off = {offset: abs(picture - expected).mean() / expected.mean() for offset, picture in found.items()}
+    assert off[0.1] < 0.01 and off[0.0] > 2.0 * off[0.1], off

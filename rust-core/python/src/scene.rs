@@ -175,8 +175,9 @@ impl Scene {
     /// shadow), all by default, and `holdout` and `shadow_catcher`; linking: what is lit by what they emit, and what casts shadows of it, described
     /// as in `to_dict`; asset: what the asset matte calls them, their name if empty; primvars: values by name, one a placement, for materials where
     /// the mesh has none of the name.
+    /// shadow_terminator: the cosine under which light grazes that starts from the surface that smooth normals tell of, not from the triangles.
     /// motion: float buffer (K, N, 4, 4), the same at K evenly spaced times over the shutter.
-    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", linking = None, asset = "", index = None))]
+    #[pyo3(signature = (mesh, materials, transforms, *, curves = None, points = None, motion = None, name = "instances", visibility = None, primvars = None, pass_index = 0, light_group = "", linking = None, asset = "", shadow_terminator = 0.0, index = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_instances(
         &mut self,
@@ -193,8 +194,12 @@ impl Scene {
         light_group: &str,
         linking: Option<&Bound<'_, PyAny>>,
         asset: &str,
+        shadow_terminator: f32,
         index: Option<u32>,
     ) -> PyResult<u32> {
+        if !(0.0..=1.0).contains(&shadow_terminator) {
+            return Err(setting("shadow_terminator", format!("{shadow_terminator} was found, expected a cosine from 0 to 1")));
+        }
         let geometry = self.geometry(mesh, curves, points)?;
         if let Some(material) = materials.iter().find(|material| **material as usize >= self.scene.materials.len()) {
             return Err(setting("materials", format!("{material} was found, the scene has {} materials", self.scene.materials.len())));
@@ -227,6 +232,7 @@ impl Scene {
             visibility,
             holdout,
             shadow_catcher,
+            shadow_terminator,
             pass_index,
             light_group: light_group.to_owned(),
             linking: linking.map(|linking| description::read(linking, "linking")).transpose()?.unwrap_or_default(),

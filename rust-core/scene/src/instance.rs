@@ -103,6 +103,9 @@ pub struct Instances {
     /// Shows the camera nothing but how much darker the other objects make it.
     #[serde(default)]
     pub shadow_catcher: bool,
+    /// Cosine under which grazing light starts from the surface that smooth normals tell of, not from the triangles; 0 is never.
+    #[serde(default)]
+    pub shadow_terminator: f32,
     /// What the object index pass shows.
     #[serde(default)]
     pub pass_index: u32,
@@ -130,6 +133,7 @@ impl Instances {
             visibility: Visibility::default(),
             holdout: false,
             shadow_catcher: false,
+            shadow_terminator: 0.0,
             pass_index: 0,
             light_group: String::new(),
             linking: Linking::default(),

@@ -70,6 +70,9 @@ pub(super) fn tables(
     if scene.instances.iter().any(|group| group.shadow_catcher) {
         table.set_catcher = scene.instances.iter().map(|group| u32::from(group.shadow_catcher)).chain([0]).collect();
     }
+    if scene.instances.iter().any(|group| group.shadow_terminator > 0.0) {
+        table.set_terminator = scene.instances.iter().map(|group| group.shadow_terminator.clamp(0.0, 1.0)).chain([0.0]).collect();
+    }
     pad(&mut table);
     motion::fill(&mut table, &moving, instances.len());
     let first_light = instances.len() as u32;

@@ -632,6 +632,7 @@ class Scene:
         light_group: str = "",
         linking: Mapping[str, Any] | None = None,
         asset: str = "",
+        shadow_terminator: float = 0.0,
         index: int | None = None,
     ) -> int: ...
     def link(

@@ -7,6 +7,7 @@ mod moving;
 mod primvar;
 mod smooth;
 mod surface_point;
+mod terminator;
 
 pub use deforming::MeshKeys;
 pub use derivatives::UvDerivatives;
@@ -74,6 +75,8 @@ pub struct GeometryTable {
     pub set_hidden: Vec<u32>,
     /// 1 for sets that catch shadows, else 0; empty where there is none.
     pub set_catcher: Vec<u32>,
+    /// By set, the cosine under which light grazes that starts from the curved surface ([`Self::lift`]), or 0; empty where all are.
+    pub set_terminator: Vec<f32>,
     /// Material numbers by slot.
     pub materials: Vec<u32>,
 }

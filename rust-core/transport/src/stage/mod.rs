@@ -6,7 +6,7 @@
 //! - [`intersect`] traces them and adds the light of lights they hit; paths fork at shadow catchers ([`catcher`]).
 //! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
 //! - [`surface`] computes the surface points of a chunk.
-//! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`])
+//! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`], [`terminator`])
 //!   and BSDF sampling ([`scatter`]), or sends paths on through portals ([`portal`]).
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
@@ -39,4 +39,5 @@ pub(crate) mod shadow;
 pub(crate) mod sort;
 pub(crate) mod subsurface;
 pub(crate) mod surface;
+pub(crate) mod terminator;
 pub(crate) mod volume;

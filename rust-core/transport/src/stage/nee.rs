@@ -4,6 +4,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::terminator::Lifted;
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
@@ -55,10 +56,16 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
         return;
     }
     let wi = point.at.frame.to_local(sample.wi);
-    let usable = usable.and_not(leaks(l, point, lobes, [sample.wi, wi]));
+    let leaks = leaks(l, point, lobes, [sample.wi, wi]);
+    let lifted = Lifted::of(chunk, point, sample.wi, usable);
+    let usable = usable.and_not(match &lifted {
+        Some(lifted) => leaks.and_not(lifted.any),
+        None => leaks,
+    });
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
     let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
-    let weight = weight.of(sample, pdf);
+    // BSDF sampling finds nothing below the triangle.
+    let weight = weight.of(sample, pdf.keep_if(!leaks));
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
@@ -66,7 +73,11 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
-    send(transport, &point.at, (sample, medium), &light, lit, shadows, deposits);
+    let (mut at, mut sample) = (point.at, *sample);
+    if let Some(lifted) = lifted {
+        lifted.start(&mut at, &mut sample);
+    }
+    send(transport, &at, (&sample, medium), &light, lit, shadows, deposits);
 }
 
 /// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring

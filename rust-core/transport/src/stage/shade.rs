@@ -72,6 +72,7 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
     Vertex {
         alive: l.first(chunk.count - at),
         path,
+        place: at,
         at: Interaction {
             position: load3(l, &surface.position, at),
             error: l.load(&surface.error, at),

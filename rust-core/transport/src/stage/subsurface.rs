@@ -164,6 +164,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
     Vertex {
         alive: l.first(chunk.count - at),
         path: l.u(0),
+        place: at,
         at: Interaction {
             position: load3(l, &surface.position, at),
             error: l.load(&surface.error, at),

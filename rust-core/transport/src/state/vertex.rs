@@ -58,6 +58,8 @@ impl<L: Lanes> Interaction<L> {
 pub(crate) struct Vertex<L: Lanes> {
     pub(crate) alive: M<L>,
     pub(crate) path: U<L>,
+    /// Of the register's first lane in the columns of the chunk.
+    pub(crate) place: usize,
     pub(crate) at: Interaction<L>,
     /// Unit direction to the previous vertex: world space, and in the frame of `at`.
     pub(crate) wo: Vec3<L>,

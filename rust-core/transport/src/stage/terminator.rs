@@ -1,0 +1,65 @@
+//! Where shadow rays start on coarse smooth meshes whose objects ask for it: from the curved surface, where light grazes the triangles.
+
+use crate::kernels;
+use crate::state::chunk::ChunkContext;
+use crate::state::vertex::{Interaction, Vertex};
+use gonio_light::LightSample;
+use gonio_simd::{F, Lanes, M, Vec3};
+
+/// Beyond this many metres a light is a direction.
+const FAR: f32 = 1e9;
+/// Shading normals this near to their triangle's, as 1 − cosine, are flat.
+const FLAT: f32 = 1e-4;
+
+/// Grazing light that starts from the curved surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lifted<L: Lanes> {
+    /// Where it does.
+    pub(crate) any: M<L>,
+    /// From the triangle to where it starts, metres.
+    by: Vec3<L>,
+}
+
+impl<L: Lanes> Lifted<L> {
+    /// From where light in the directions `wi` starts at a point; None where no object asks for it, or no light grazes.
+    #[inline(always)]
+    pub(crate) fn of(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, wi: Vec3<L>, usable: M<L>) -> Option<Self> {
+        let ChunkContext { l, tables, .. } = *chunk;
+        let geometry = &tables.geometry;
+        if geometry.set_terminator.is_empty() {
+            return None;
+        }
+        let [cosine, flat] = [point.at.frame.z.dot(wi), point.at.geometric.dot(wi)];
+        let bent = (1.0 - point.at.frame.z.dot(point.at.geometric)).gt(FLAT);
+        let instance = point.instance.keep_if(usable);
+        let from = l.gather(&geometry.set_terminator, geometry.set_lanes(l, instance));
+        let amount = share(cosine, flat, from);
+        let any = usable & bent & from.gt(0.0) & cosine.gt(0.0) & amount.gt(0.0);
+        if !any.any() {
+            return None;
+        }
+        let lift = kernels::lift(l, &tables.geometry, &chunk.columns.surface, point.place, &point.at.geometric);
+        Some(Self { any, by: lift * amount.keep_if(any) })
+    }
+
+    /// The point and the light sample as the shadow ray sees them. It stays on the side that is seen: from behind, the triangle blocks it.
+    #[inline(always)]
+    pub(crate) fn start(&self, at: &mut Interaction<L>, sample: &mut LightSample<L>) {
+        let way = sample.wi * sample.distance - self.by;
+        let near = self.any & sample.distance.lt(FAR);
+        let length = near.select(way.length(), sample.distance);
+        sample.wi = near.select(way * length.max(f32::MIN_POSITIVE).recip(), sample.wi);
+        sample.distance = length;
+        let behind = self.any & at.geometric.dot(sample.wi).lt(0.0);
+        let off = (at.error * 4.0).keep_if(behind);
+        at.position = at.geometric.mul_add(off, at.position + self.by);
+    }
+}
+
+/// The part of the lift: all of it where light comes from below the triangle, none from `from` above it on.
+#[inline(always)]
+fn share<L: Lanes>(cosine: F<L>, flat: F<L>, from: F<L>) -> F<L> {
+    let steep = 1.0 - flat / from;
+    let slanting = 2.0 - (flat + cosine) / from;
+    cosine.lt(from).select(slanting, steep).clamp(0.0, 1.0)
+}
