@@ -53,6 +53,13 @@ def demand(holds: bool, problem: str) -> None:
         raise Broken(problem)
 
 
+def check_exports(names: Iterable[str], init: str = INIT) -> None:
+    """A module shows what Python calls, and nothing else."""
+    exported = set(names)
+    demand(init in exported, f"no symbol {init}")
+    demand(exported == {init}, f"it exports {len(exported)} symbols, such as {sorted(exported - {init})[:3]}")
+
+
 def check_python(names: Iterable[str]) -> None:
     """What a module takes from Python must be of the stable interface."""
     taken = set(names)
@@ -64,7 +71,7 @@ def check_elf(module: "lief.ELF.Binary", _code: bytes, arm: bool, oldest: tuple[
     """The libraries of a Linux module."""
     machine = lief.ELF.ARCH.AARCH64 if arm else lief.ELF.ARCH.X86_64
     demand(module.header.machine_type == machine, f"it is for {module.header.machine_type}")
-    demand(INIT in {s.name for s in module.exported_symbols}, f"no symbol {INIT}")
+    check_exports(s.name for s in module.exported_symbols)
     check_python(s.name for s in module.dynamic_symbols if s.shndx == 0 and re.match(r"_?Py", s.name))
     newest = (0, 0)
     for need in module.symbols_version_requirement:
@@ -84,7 +91,7 @@ def check_mach(module: "lief.MachO.Binary", code: bytes, arm: bool, oldest: tupl
     mach = lief.MachO
     machine = mach.Header.CPU_TYPE.ARM64 if arm else mach.Header.CPU_TYPE.X86_64
     demand(module.header.cpu_type == machine, f"it is for {module.header.cpu_type}")
-    demand(f"_{INIT}" in {s.name for s in module.exported_symbols}, f"no symbol {INIT}")
+    check_exports((s.name for s in module.exported_symbols), f"_{INIT}")
     kind = module.header.file_type
     demand(kind in (mach.Header.FILE_TYPE.DYLIB, mach.Header.FILE_TYPE.BUNDLE), f"it is of type {kind}")
     demand(module.has_code_signature or not arm, "it is not signed, and Apple's processors load nothing without")
@@ -114,7 +121,7 @@ def check_pe(module: "lief.PE.Binary", _code: bytes, arm: bool, _oldest: tuple[i
     """The libraries of a Windows module."""
     machine = lief.PE.Header.MACHINE_TYPES.ARM64 if arm else lief.PE.Header.MACHINE_TYPES.AMD64
     demand(module.header.machine == machine, f"it is for {module.header.machine}")
-    demand(INIT in {entry.name for entry in module.get_export().entries}, f"no symbol {INIT}")
+    check_exports(entry.name for entry in module.get_export().entries)
     libraries = [library.name.lower() for library in module.imports]
     others = [name for name in libraries if name not in WINDOWS and not WINDOWS_SETS.fullmatch(name)]
     demand(not others, f"it imports {others}")
