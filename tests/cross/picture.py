@@ -1,6 +1,6 @@
-"""A picture of the NEON level, rendered in an emulator, beside the one of this machine's own level: the same within noise.
+"""Pictures by another system's gonio, rendered in an emulator, beside the one of this machine's own level: the same within noise.
 
-    python picture.py --emulated "qemu-aarch64-static ... bundle_picture" --output out/arm
+    python picture.py --emulated "qemu-aarch64-static ... bundle_picture" --output out/arm --levels neon scalar
 
 Each level renders with seeds of its own, several times. Blocks' means are compared by Student's t, the variance pooled over all levels; the
 family of all blocks, colours and levels has a confidence of 99.9 %. Needs gonio, NumPy and OpenEXR in this Python.
@@ -82,13 +82,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--emulated", required=True, help="the command that renders a bundle at a level of the other machine")
     parser.add_argument("--output", type=Path, default=Path("out/arm"))
+    parser.add_argument("--levels", nargs="+", default=["neon", "scalar"], help="of the other machine")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     scene, command = bundle(arguments.output), shlex.split(arguments.emulated)
     own = f"{gonio.simd_level} here"
     films = [here(scene, 1 + seed) for seed in range(SEEDS)]
     pictures = {own: [colour(film) for film in films]}
-    for row, level in enumerate(("neon", "scalar"), 1):
+    for row, level in enumerate(arguments.levels, 1):
         pictures[f"{level} there"] = [there(command, scene, level, 1 + row * SEEDS + seed) for seed in range(SEEDS)]
     for level, several in pictures.items():
         show(films[0], np.mean(several, axis=0), arguments.output / f"{level.replace(' ', '-')}.png")

@@ -65,11 +65,11 @@ cross() {
         "$program" "$command" -Zbuild-std=std,panic_abort --target "$target" --target-dir target/cross "$@"
 }
 
-# zig, a linker for every system, and what hands it to cargo.
+# zig, a linker for every system, what hands it to cargo, and what looks into the modules that come out.
 python_tools() {
     if [ ! -e "$tools/python/ready" ]; then
         "${PYTHON:-python3}" -m venv "$tools/python"
-        "$tools/python/bin/python" -m pip install --quiet ziglang cargo-zigbuild 'maturin>=1.9,<2'
+        "$tools/python/bin/python" -m pip install --quiet ziglang cargo-zigbuild 'maturin>=1.9,<2' lief==1.0.0 abi3info==2026.9.25
         touch "$tools/python/ready"
     fi
     export PATH=$tools/python/bin:$PATH

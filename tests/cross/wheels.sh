@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Wheels and Blender extensions for every system, built on this one, and what is in them: `wheels.sh [SYSTEM ...]`, all four without. PROFILE=quick
-# is a trial that takes less time.
+# is a trial that takes less time. Where GONIO_BPY names a Python that has Blender, Blender's own tool validates and packs the extensions.
 #
-# What is built for macOS and Windows cannot be run here: the release workflow builds each on its own system, and tries it there.
+# What is built for macOS cannot be run here, and for Windows in Wine alone (wine.sh): the release workflow builds each on its own system, and tries it
+# there.
 source "$(dirname "$0")/tools.sh"
 [ $# -gt 0 ] || set -- linux-x64 linux-arm64 macos-arm64 windows-x64
 python_tools
-"$tools/python/bin/python" -m pip install --quiet lief==1.0.0
 export MACOSX_DEPLOYMENT_TARGET=11.0
 mkdir -p dist/wheels
 for system; do
@@ -18,8 +18,11 @@ for system; do
         linux-*) options+=(--compatibility manylinux_2_28) ;;
         *) options+=(--compatibility pypi) ;;
     esac
+    case $system in
+        windows-*) options+=(-- -C "link-arg=$PWD/tests/cross/windows.def") ;;
+    esac
     cross "$target" maturin "${options[@]}"
-    "$tools/python/bin/python" blender-addon/build.py "$new"/*.whl --output-dir dist
+    "${GONIO_BPY:-$tools/python/bin/python}" blender-addon/build.py "$new"/*.whl --output-dir dist
     mv "$new"/*.whl dist/wheels
     rmdir "$new"
 done
