@@ -3,6 +3,7 @@
 
 import bpy
 
+from ..properties.followed import followed
 from ..units import LUMENS_PER_WATT
 
 FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris", "TENT": "tent"}
@@ -42,7 +43,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "caustics": CAUSTICS.get(ask("caustics", "AUTO"), "auto"),
         "reflective_caustics": bool(ask("caustics_reflective", True)),
         "refractive_caustics": bool(ask("caustics_refractive", True)),
-        "clear_roughness": float(ask("film_transparent_roughness", 0.1)) if ask("film_transparent_glass", False) else None,
+        "clear_roughness": _clear_roughness(own),
         "max_bounces": int(ask("max_bounces", 12)),
         "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
         "max_glossy_bounces": int(ask("glossy_bounces", 4)),
@@ -74,6 +75,13 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
     if mist is not None and "mist" in passes:
         arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])
     return arguments
+
+
+def _clear_roughness(own):
+    """Up to what roughness glass is transparent to the film; None where it is not."""
+    if own is None or not followed(own, "film_transparent_glass"):
+        return None
+    return float(followed(own, "film_transparent_roughness"))
 
 
 def _subset(ask, samples):

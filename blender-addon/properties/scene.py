@@ -5,6 +5,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .appearance import AppearanceSettings
+from .followed import shown_share, shown_switch
 from .switch import switch
 from .tag import tag_data
 
@@ -179,6 +180,17 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
         max=1.0,
         default=0.1,
         update=tag_data,
+    )
+    # What the panel shows of the two: Cycles' values until they are set.
+    shown_transparent_glass: shown_switch(
+        "Transparent Glass",
+        "Glass before a transparent film lets what is composited behind it be seen; Cycles' setting until it is set here",
+        "film_transparent_glass",
+    )
+    shown_transparent_roughness: shown_share(
+        "Roughness Threshold",
+        "Glass of at most this roughness is transparent; Cycles' setting until it is set here",
+        "film_transparent_roughness",
     )
     bake_type: EnumProperty(name="Bake Type", description="What is baked", items=BAKES, default="COMBINED")
     pixel_filter_type: EnumProperty(

@@ -24,10 +24,10 @@ class GONIO_RENDER_PT_film_transparency(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.active = scene.render.film_transparent
-        layout.prop(scene.gonio, "film_transparent_glass", text="Transparent Glass")
+        layout.prop(scene.gonio, "shown_transparent_glass")
         row = layout.row()
-        row.active = scene.gonio.film_transparent_glass
-        row.prop(scene.gonio, "film_transparent_roughness")
+        row.active = scene.gonio.shown_transparent_glass
+        row.prop(scene.gonio, "shown_transparent_roughness")
 
 
 class GONIO_RENDER_PT_film_pixel_filter(RenderPanel, Panel):

@@ -173,11 +173,17 @@ def test_rough_and_tinted_glass_is_clear_to_the_film_as_in_cycles(tmp_path: Path
     settings.film_transparent_glass, settings.film_transparent_roughness = True, 0.2
     scene.render.engine = "CYCLES"
     theirs = picture(tmp_path / "cycles.exr")[..., 3]
-    assert bpy.ops.gonio.settings_from_cycles() == {"FINISHED"}
+    # As the file is: nothing was set here, so Cycles' settings count, and the panel shows them.
     scene.render.engine = "GONIO"
+    scene.gonio.samples = 256
+    assert scene.gonio.shown_transparent_glass and abs(scene.gonio.shown_transparent_roughness - 0.2) < 1e-6
     mine = picture(tmp_path / "gonio.exr")[..., 3]
     sides = [[float(alpha[:, columns].mean()) for columns in (slice(0, 7), slice(9, 16))] for alpha in (mine, theirs)]
     assert np.allclose(*sides, atol=0.02) and sides[0][0] < 0.6 and sides[0][1] > 0.99, sides
+    assert bpy.ops.gonio.settings_from_cycles() == {"FINISHED"}
+    assert abs(picture(tmp_path / "taken.exr")[..., 3].mean() - mine.mean()) < 0.02
+    scene.gonio.shown_transparent_glass = False
+    assert not scene.gonio.film_transparent_glass and picture(tmp_path / "opaque.exr")[..., 3].min() == 1.0
 
 
 @pytest.mark.blender

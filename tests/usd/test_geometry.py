@@ -394,13 +394,79 @@ def test_skinning_at_and_between_samples(tmp_path, frame, degrees, instanced):
         one = 'def "{}" ( instanceable = true\nreferences = @skinned.usda@</R> )\n{{\n}}\n'
         path.write_text("#usda 1.0\n(\n    metersPerUnit = 1\n)\n" + "".join(one.format(name) for name in "ab"))
     before = (tmp_path / "skinned.usda").read_text()
-    meshes = gonio.load_usd(str(path), frame=frame).to_dict()["meshes"]
+    scene = gonio.load_usd(str(path), frame=frame).to_dict()
+    meshes = scene["meshes"]
     turn = math.radians(degrees)
     expected = [math.cos(turn) - math.sin(turn), 1 + math.cos(turn) + math.sin(turn), 0]
-    assert len(meshes) == (2 if instanced else 1)
-    for m in meshes:
-        assert m["points"][2] == pytest.approx(expected, abs=1e-5)
+    # Instances that skin alike show one mesh.
+    assert len(meshes) == 1 and sum(len(each["transforms"]) for each in scene["instances"]) == (2 if instanced else 1)
+    assert meshes[0]["points"][2] == pytest.approx(expected, abs=1e-5)
     assert (tmp_path / "skinned.usda").read_text() == before
+
+
+CROWD = """#usda 1.0
+(
+    metersPerUnit = 1
+)
+def Material "Red"
+{
+    token outputs:surface.connect = </Red/S.outputs:surface>
+    def Shader "S"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (1, 0, 0)
+        token outputs:surface
+    }
+}
+def SkelAnimation "Still"
+{
+    uniform token[] joints = ["a", "a/b"]
+    float3[] translations = [(0, 0, 0), (0, 1, 0)]
+    quatf[] rotations = [(1, 0, 0, 0), (1, 0, 0, 0)]
+    half3[] scales = [(1, 1, 1), (1, 1, 1)]
+}
+def Scope "Moved" ( prepend apiSchemas = ["SkelBindingAPI"] )
+{
+    rel skel:animationSource = </Still>
+    %s
+}
+%s
+"""
+
+
+def member(name, place, more=""):
+    return f"""def "{name}" (
+    prepend apiSchemas = ["SkelBindingAPI", "MaterialBindingAPI"]
+    instanceable = true
+    references = @skinned.usda@</R>
+)
+{{
+    double3 xformOp:translate = ({place}, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    {more}
+}}
+"""
+
+
+def test_instances_that_skin_alike_share_a_mesh_and_others_do_not(tmp_path):
+    skinned(tmp_path / "skinned.usda")
+    # The first is bound to a material, which the others must not get; the last one's weights are a property of its own.
+    red = "rel material:binding = </Red>"
+    weights = "float[] primvars:skel:geomBind = [1]"
+    crowd = member("A", 0, red) + member("B", 3) + member("C", 6) + member("D", 9, weights)
+    (tmp_path / "crowd.usda").write_text(CROWD % (member("E", 12), crowd))
+    found = gonio.load_usd(str(tmp_path / "crowd.usda"), frame=10)
+    scene = found.to_dict()
+    placed = {}
+    for each in scene["instances"]:
+        for transform in each["transforms"]:
+            material = scene["materials"][each["materials"][0]]["origin"]["name"]
+            placed[round(transform["columns"][3][0])] = (each["mesh"], material)
+    assert set(placed) == {0, 3, 6, 9, 12}, placed
+    assert placed[0][0] == placed[3][0] == placed[6][0] and len({mesh for mesh, _ in placed.values()}) == 3 == len(scene["meshes"])
+    assert [placed[place][1] for place in (0, 3, 6)] == ["/Red", "displayColor", "displayColor"]
+    assert all(mesh["points"][2] == pytest.approx([-1, 2, 0], abs=1e-5) for mesh in scene["meshes"])
+    assert any("show what these are skinned to" in message for _, message in found.diagnostics)
 
 
 # How shapes look: what an orthographic camera four units wide sees of them.

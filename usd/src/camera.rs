@@ -111,8 +111,12 @@ fn exposure<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
     1.0
 }
 
-/// The name that USD gives a stage's main camera.
-pub fn primary_camera_name(py: Python<'_>) -> String {
+/// The name that USD gives the main one of a stage's cameras; empty where there are no two to choose from.
+pub fn primary_camera_name(py: Python<'_>, cameras: usize) -> String {
+    // The module takes a while to import.
+    if cameras < 2 {
+        return String::new();
+    }
     let name = || -> PyResult<String> { Module::UsdUtils.item(py, "GetPrimaryCameraName")?.call0()?.extract() };
     name().unwrap_or_else(|_| "main_cam".to_owned())
 }

@@ -47,6 +47,8 @@ pub struct Context<'a, 'py> {
     pub scene: Scene,
     /// What prims are in the render pass.
     pub roles: Roles<'py>,
+    /// Instances that show what another is skinned to, see [`crate::skeleton::Alike`].
+    pub alike: Arc<HashMap<String, String>>,
     /// Metres in a unit of the stage; all transforms handed on contain it already.
     pub metres_per_unit: f64,
     /// The stage's vertical axis.
@@ -96,6 +98,7 @@ impl<'a, 'py> Context<'a, 'py> {
             options,
             scene: Scene::default(),
             roles: Roles::default(),
+            alike: Arc::default(),
             metres_per_unit: 0.01,
             up_axis: UpAxis::Y,
             material_ids: HashMap::new(),

@@ -155,7 +155,7 @@ impl<'py> Prim<'py> {
         read().unwrap_or_default()
     }
 
-    /// Whether the prim is of this schema or one derived from it (a class of `pxr`, such as `UsdGeom.Gprim`).
+    /// Whether the prim is of this schema or one derived from it (a class of `pxr`, such as `UsdGeom.Gprim`, or its name).
     pub fn is_a(&self, class: &Bound<'py, PyAny>) -> bool {
         self.object.call_method1(intern!(self.py(), "IsA"), (class,)).and_then(|flag| flag.is_truthy()).unwrap_or(false)
     }

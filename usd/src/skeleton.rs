@@ -1,11 +1,16 @@
 //! Skinning: skinned points are written by `UsdSkel.BakeSkinning` into an anonymous layer over the stage, never into files.
 
+mod alike;
+
+pub use alike::Alike;
+
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use gonio::scene::Origin;
 use pyo3::intern;
 use pyo3::prelude::*;
+use std::collections::HashMap;
 
 /// Attributes of a SkelAnimation that move with time.
 const CHANNELS: [&str; 4] = ["translations", "rotations", "scales", "blendShapeWeights"];
@@ -14,7 +19,8 @@ const MAX_ROUNDS: usize = 16;
 
 /// Whether a prim holds skinned meshes.
 pub fn is_root(prim: &Prim<'_>) -> bool {
-    Module::UsdSkel.item(prim.py(), "Root").is_ok_and(|class| prim.is_a(&class))
+    // By its name: most stages need not import the module.
+    prim.is_a(intern!(prim.py(), "SkelRoot"))
 }
 
 /// Skins the meshes below all `SkelRoot`s at the context's time, in one go: each writing makes `pxr` compose anew. Where that fails meshes stay in
@@ -24,8 +30,11 @@ pub fn bake<'py>(context: &mut Context<'_, 'py>) {
     let time = pinned_time(context);
     let Some(time) = context.attempt(&stage, "skinning failed, the meshes are in their bind pose", time) else { return };
     let whole = || -> PyResult<bool> {
+        let usd = Module::Usd.import(context.py)?;
         let root = context.stage.call_method0(intern!(context.py, "GetPseudoRoot"))?;
-        let range = Module::Usd.item(context.py, "PrimRange")?.call1((root,))?;
+        // What is left of instances with skeletons shows what others are skinned to; writing to them would fail.
+        let written = usd.getattr("PrimDefaultPredicate")?.bitand(usd.getattr("PrimIsInstance")?.call_method0("__invert__")?)?;
+        let range = usd.getattr("PrimRange")?.call1((root, written))?;
         write_skinned_points(context, &range, time)
     };
     if !whole().unwrap_or(false) {
@@ -84,34 +93,48 @@ fn pin<'py>(context: &Context<'_, 'py>, animation: &Prim<'py>, name: &str) -> Py
     }
 }
 
-/// Takes native instances that hold a skeleton apart, because prototypes cannot be written to. The stage's edit target gets the opinions.
-pub fn take_instances_apart(stage: &Bound<'_, PyAny>) -> PyResult<Vec<Origin>> {
-    let mut apart = Vec::new();
-    let class = Module::UsdSkel.item(stage.py(), "Root")?;
+/// What became of native instances that hold skeletons.
+#[derive(Debug, Default)]
+pub struct Apart {
+    /// Those that were taken apart, because prototypes cannot be written to.
+    pub apart: Vec<Origin>,
+    /// Those that are skinned alike, where there are several, and which of them was taken apart.
+    pub alike: Alike,
+}
+
+/// Takes native instances that hold a skeleton apart, one of those that skin alike. The stage's edit target gets the opinions.
+pub fn take_instances_apart(stage: &Bound<'_, PyAny>) -> PyResult<Apart> {
+    let mut done = Apart::default();
     let layer = stage.call_method0("GetEditTarget")?.call_method0("GetLayer")?;
     for _ in 0..MAX_ROUNDS {
-        let found = instances_with_skeletons(stage, &class)?;
+        let found = instances_with_skeletons(stage, &mut done.alike)?;
         if found.is_empty() {
             break;
         }
         write_apart(&layer, &found)?;
-        apart.extend(found.iter().map(Prim::origin));
+        done.apart.extend(found.iter().map(Prim::origin));
     }
-    Ok(apart)
+    Ok(done)
 }
 
-fn instances_with_skeletons<'py>(stage: &Bound<'py, PyAny>, class: &Bound<'py, PyAny>) -> PyResult<Vec<Prim<'py>>> {
+/// The instances that are to be taken apart; those that show what one of them is skinned to are noted.
+fn instances_with_skeletons<'py>(stage: &Bound<'py, PyAny>, alike: &mut Alike) -> PyResult<Vec<Prim<'py>>> {
     let mut found = Vec::new();
+    let mut above = HashMap::new();
     for prototype in stage.call_method0("GetPrototypes")?.try_iter()? {
-        let prototype = prototype?;
-        let is_held = holds(&prototype, class)?;
-        for instance in prototype.call_method0("GetInstances")?.try_iter()? {
+        let prototype = Prim::new(prototype?);
+        let is_held = holds(prototype.object())?;
+        let mut skinned = Vec::new();
+        for instance in prototype.object().call_method0("GetInstances")?.try_iter()? {
             let instance = Prim::new(instance?);
             // The root of a prototype has no type, its instances have.
-            if (is_held || instance.is_a(class)) && !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
-                found.push(instance);
+            let is_skinned = is_held || is_root(&instance);
+            let is_known = !alike.is_empty() && alike.contains_key(&instance.path());
+            if is_skinned && !is_known && !instance.object().call_method0("IsInPrototype")?.is_truthy()? {
+                skinned.push(instance);
             }
         }
+        found.extend(if skinned.len() > 1 { alike::one_of_each(&prototype, skinned, &mut above, alike)? } else { skinned });
     }
     Ok(found)
 }
@@ -128,12 +151,12 @@ fn write_apart(layer: &Bound<'_, PyAny>, instances: &[Prim<'_>]) -> PyResult<()>
     written
 }
 
-fn holds<'py>(prototype: &Bound<'py, PyAny>, class: &Bound<'py, PyAny>) -> PyResult<bool> {
+fn holds(prototype: &Bound<'_, PyAny>) -> PyResult<bool> {
     if !prototype.is_truthy()? {
         return Ok(false);
     }
     for prim in Module::Usd.wrap("PrimRange", prototype)?.try_iter()? {
-        if Prim::new(prim?).is_a(class) {
+        if is_root(&Prim::new(prim?)) {
             return Ok(true);
         }
     }

@@ -27,7 +27,7 @@ use problem::{composition_errors, passed_on, unreadable};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// A stage as a scene.
@@ -60,6 +60,8 @@ pub struct Stage {
     diagnostics: Vec<Diagnostic>,
     /// Layers that stand in for MaterialX documents for as long as the stage is open.
     documents: Option<material::Substitution>,
+    /// Instances that show what another is skinned to.
+    alike: Arc<skeleton::Alike>,
     /// What the last reading left.
     kept: Mutex<Option<Kept>>,
 }
@@ -85,7 +87,7 @@ impl Stage {
         let mut diagnostics = Vec::new();
         let opened = open_prepared(py, path, options, &mut diagnostics);
         let mut messages = trap.release();
-        let Prepared { stage, baked, documents } = opened?;
+        let Prepared { stage, baked, documents, alike } = opened?;
         if let Some(documents) = &documents {
             messages.retain(|message| !documents.explains(message));
         }
@@ -100,6 +102,7 @@ impl Stage {
             info,
             diagnostics,
             documents,
+            alike,
             kept: Mutex::default(),
         })
     }
@@ -217,6 +220,7 @@ impl Stage {
         context.metres_per_unit = self.info.metres_per_unit;
         context.up_axis = self.info.up_axis;
         context.roles = pass.roles;
+        context.alike = self.alike.clone();
         context.material_definitions = self.documents.as_ref().map(|documents| documents.definitions().to_vec()).unwrap_or_default();
         if self.info.has_skeletons {
             skeleton::bake(&mut context);

@@ -60,6 +60,8 @@ pub struct Walker<'w, 'a, 'py> {
     kinds: HashMap<String, PrimKind>,
     prototypes: HashMap<String, Rc<Model>>,
     open_prototypes: Vec<String>,
+    /// Paths of skinned instances for whose prims materials may be bound above.
+    bound_above: HashSet<String>,
     quadrics: HashMap<String, MeshId>,
     pending: Pending,
     failed: HashSet<MeshId>,
@@ -86,6 +88,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             kinds: HashMap::new(),
             prototypes: HashMap::new(),
             open_prototypes: Vec::new(),
+            bound_above: HashSet::new(),
             quadrics: HashMap::new(),
             pending: Pending::default(),
             failed: HashSet::new(),
@@ -196,6 +199,9 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         }
         if is_shown {
             self.read(prim, &type_name, kind, &branch, model)?;
+        }
+        if let Some(shown) = self.skinned_as(prim) {
+            return self.alike_instance(prim, &shown, &branch, model);
         }
         if prim.is_instance() {
             return self.native_instance(prim, &branch, model);

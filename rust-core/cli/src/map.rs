@@ -71,7 +71,8 @@ fn run(
         camera_light: false,
         ..ViewOptions::default()
     };
-    complete(&mut loaded, &Python::attach(camera::primary_camera_name), &camera)?;
+    let primary = Python::attach(|py| camera::primary_camera_name(py, loaded.scene.cameras.len()));
+    complete(&mut loaded, &primary, &camera)?;
     options.work.apply(&mut loaded.scene.settings);
     options.textures.apply(&mut loaded.scene.settings);
     if !options.quiet {

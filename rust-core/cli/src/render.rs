@@ -264,7 +264,8 @@ impl Job<'_> {
             data_window: options.crop.is_none(),
             product,
         };
-        for note in complete(loaded, &Python::attach(camera::primary_camera_name), &view)? {
+        let primary = Python::attach(|py| camera::primary_camera_name(py, loaded.scene.cameras.len()));
+        for note in complete(loaded, &primary, &view)? {
             if !options.quiet {
                 say(&note.to_string());
             }

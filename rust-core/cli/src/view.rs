@@ -43,7 +43,8 @@ pub fn view_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
         data_window: false,
         ..view::ViewOptions::default()
     };
-    let notes = complete(&mut loaded, &camera::primary_camera_name(py), &wanted)?;
+    let primary = camera::primary_camera_name(py, loaded.scene.cameras.len());
+    let notes = complete(&mut loaded, &primary, &wanted)?;
     loaded.diagnostics.extend(notes);
     options.work.apply(&mut loaded.scene.settings);
     options.textures.apply(&mut loaded.scene.settings);

@@ -45,7 +45,8 @@ pub(crate) fn load_usd<'py>(
     }
     let mut loaded = load_stage(py, &path, &options, &AtomicBool::new(false)).map_err(exception)?;
     let view = ViewOptions { camera, camera_light, ..ViewOptions::default() };
-    let notes = complete(&mut loaded, &primary_camera_name(py), &view).map_err(exception)?;
+    let primary = primary_camera_name(py, loaded.scene.cameras.len());
+    let notes = complete(&mut loaded, &primary, &view).map_err(exception)?;
     loaded.diagnostics.extend(notes);
     Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
 }

@@ -1,6 +1,7 @@
 //! What a stage says about itself.
 
 use super::problem::file_origin;
+use crate::camera::primary_camera_name;
 use crate::context::UpAxis;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -79,7 +80,7 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
         }
     }
     let (cameras, skeleton_roots) = survey(stage)?;
-    let primary: String = Module::UsdUtils.import(stage.py())?.call_method0("GetPrimaryCameraName")?.extract()?;
+    let primary = primary_camera_name(stage.py(), cameras.len());
     let default_camera = cameras.iter().find(|camera| camera.name == primary).or(cameras.first()).map(|camera| camera.path.clone());
     Ok(StageInfo {
         up_axis: if axis == "Z" { UpAxis::Z } else { UpAxis::Y },

@@ -10,12 +10,14 @@ use gonio::{Diagnostic, Error, Result};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A stage with its layer for skinned points.
 pub(super) struct Prepared<'py> {
     pub(super) stage: Bound<'py, PyAny>,
     pub(super) baked: Bound<'py, PyAny>,
     pub(super) documents: Option<material::Substitution>,
+    pub(super) alike: Arc<skeleton::Alike>,
 }
 
 /// The stage with variants chosen and skeletons' instances taken apart, and the layer for skinned points, which is the edit target.
@@ -34,12 +36,14 @@ pub(super) fn open_prepared<'py>(
     let stage = open_layers(py, path, options, &session)?;
     select_variants(&stage, options)?;
     let documents = material::substitute_documents(&stage, diagnostics);
-    let apart = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
+    let skeleton::Apart { apart, alike } = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
     if let Some(first) = apart.first() {
-        diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one", apart.len())));
+        let shown = alike.iter().filter(|(instance, shown)| instance != shown).count();
+        let others = if shown > 0 { format!(", {shown} more show what these are skinned to") } else { String::new() };
+        diagnostics.push(Diagnostic::info(first, format!("{} instances hold skeletons and are read one by one{others}", apart.len())));
     }
     stage.call_method1("SetEditTarget", (&baked,)).map_err(unreadable)?;
-    Ok(Prepared { stage, baked, documents })
+    Ok(Prepared { stage, baked, documents, alike: Arc::new(alike) })
 }
 
 /// The stage, with the session layer as the edit target.

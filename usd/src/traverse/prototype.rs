@@ -70,9 +70,44 @@ impl<'py> Walker<'_, '_, 'py> {
                 walked
             }
         };
+        self.push_instance(prim, branch, prototype, model);
+        Ok(())
+    }
+
+    /// The path of the instance whose skinned points a prim shows, its own where that is the one.
+    pub(super) fn skinned_as(&self, prim: &Prim<'py>) -> Option<String> {
+        let alike = &self.context.alike;
+        if alike.is_empty() { None } else { alike.get(&prim.path()).cloned() }
+    }
+
+    /// Adds one of several instances that are skinned alike: what stands below that which was taken apart is their prototype.
+    pub(super) fn alike_instance(&mut self, prim: &Prim<'py>, shown: &str, branch: &Branch, model: &mut Model) -> Result<()> {
+        let known = self.prototypes.get(shown).cloned();
+        let prototype = match known {
+            Some(known) => known,
+            None => {
+                let kept = self.context.kept.root(self.context.py, shown);
+                let Some(root) = kept.or_else(|| self.context.prim_at(shown)) else { return Ok(()) };
+                self.context.kept.keep_root(shown, &root);
+                let predicate = self.displayed.clone();
+                let below = self.children(&root, &predicate, &Rc::new(Branch::root(false)));
+                let walked = Rc::new(self.walk(shown, below, &predicate)?);
+                self.prototypes.insert(shown.to_owned(), walked.clone());
+                if std::iter::successors(Some(root), Prim::parent).any(|above| above.has_authored_prefix("material:binding")) {
+                    self.bound_above.insert(shown.to_owned());
+                }
+                walked
+            }
+        };
+        // Materials were looked up below the one that is shown: what is bound above it must not count for the others.
+        let is_bound = branch.is_bound || self.bound_above.contains(shown);
+        self.push_instance(prim, &Branch { is_bound, ..branch.clone() }, prototype, model);
+        Ok(())
+    }
+
+    fn push_instance(&mut self, prim: &Prim<'py>, branch: &Branch, prototype: Rc<Model>, model: &mut Model) {
         let own = primvar::handed_down(self.context, prim, &branch.primvars);
         let group = Group { model: prototype, transforms: vec![Transform::IDENTITY], primvars: Vec::new(), instance: Some(prim.path()) };
         push(model, prim, &Branch { primvars: own, ..branch.clone() }, Kind::Group(group));
-        Ok(())
     }
 }

@@ -8,6 +8,8 @@ from ._gonio import _main
 
 # 128 + SIGINT, as shells have it.
 INTERRUPTED = 130
+# Windows and clusters have ends of their own to come to.
+CLOSED_IN_ORDER = ("view", "--dask")
 
 
 def main() -> int:
@@ -16,7 +18,7 @@ def main() -> int:
     if status is not None:
         return status
     status = _main(["gonio", *sys.argv[1:]])
-    if status == INTERRUPTED:
+    if status == INTERRUPTED or not any(word.startswith(CLOSED_IN_ORDER) for word in sys.argv[1:]):
         # Somebody waits, all files are closed, and taking the modules of pxr apart takes longer than writing a picture.
         sys.stdout.flush()
         sys.stderr.flush()
