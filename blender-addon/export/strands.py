@@ -168,17 +168,15 @@ def _with_facts(strands, wanted, first):
         return None
     ends = np.cumsum(strands.counts)
     begins = ends - strands.counts
-    steps = np.linalg.norm(np.diff(strands.points.astype(np.float64), axis=0, prepend=strands.points[:1]), axis=1)
-    steps[begins] = 0.0
-    along = np.cumsum(steps)
-    along -= np.repeat(along[begins], strands.counts)
-    lengths = along[ends - 1]
+    # As long as the points, in double precision: only where somebody asks.
+    asked = STRAND["Intercept"] in wanted or STRAND["Length"] in wanted
+    along, lengths = _along(strands, begins, ends) if asked else (None, None)
     facts = {
-        "Is Strand": lambda: np.ones(len(lengths)),
+        "Is Strand": lambda: np.ones(len(ends)),
         "Intercept": lambda: along / np.maximum(np.repeat(lengths, strands.counts), 1e-30),
         "Length": lambda: lengths,
         "Thickness": lambda: strands.radii * 2.0,
-        "Random": lambda: of_word_arrays(first + np.arange(len(lengths), dtype=np.uint32)) / 0xFFFFFFFF,
+        "Random": lambda: of_word_arrays(first + np.arange(len(ends), dtype=np.uint32)) / 0xFFFFFFFF,
     }
     for name, fact in facts.items():
         if STRAND[name] in wanted:
@@ -186,6 +184,15 @@ def _with_facts(strands, wanted, first):
     if STRAND["Tangent"] in wanted:
         strands.values[STRAND["Tangent"]] = _tangents(strands.points, begins, ends)
     return strands
+
+
+def _along(strands, begins, ends):
+    """How far along its strand each point lies, and the length of each strand."""
+    steps = np.linalg.norm(np.diff(strands.points.astype(np.float64), axis=0, prepend=strands.points[:1]), axis=1)
+    steps[begins] = 0.0
+    along = np.cumsum(steps)
+    along -= np.repeat(along[begins], strands.counts)
+    return along, along[ends - 1]
 
 
 def _tangents(points, begins, ends):

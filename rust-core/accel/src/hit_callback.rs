@@ -144,6 +144,10 @@ impl HitCallback for UntilOpaque {
         if transparent {
             let Hit { t, u, v, primitive, instance } = hit;
             let hit = TransparentHit { ray: self.ray, instance, primitive, u, v, t };
+            if self.hits.iter().any(|known| (known.primitive, known.instance) == (primitive, instance)) {
+                // Long triangles lie in several leaves.
+                return false;
+            }
             match hit.is_on_edge().then(|| self.twin(&hit)).flatten() {
                 // The lower number, so that the order of traversal does not show.
                 Some(twin) if hit.primitive < self.hits[twin].primitive => self.hits[twin] = hit,

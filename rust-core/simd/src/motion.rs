@@ -6,6 +6,9 @@
 /// Rows of an affine map, the last column the translation.
 pub type Rows = [[f64; 4]; 3];
 
+/// Columns of an affine map, the last one the translation, each with a zero behind it.
+pub type Columns = [[f64; 4]; 4];
+
 type Matrix = [[f64; 3]; 3];
 type Quaternion = [f64; 4];
 
@@ -49,9 +52,10 @@ enum LinearPart {
     },
 }
 
-/// A matrix that changes with an angle: a constant, and what the cosine and the sine of the angle are multiplied by.
+/// A matrix that changes with an angle: a constant, and what the cosine and the sine of the angle are multiplied by. Each is kept by columns with a zero
+/// behind them, which registers hold as they are.
 #[derive(Clone, Copy, Debug)]
-struct Wave([Matrix; 3]);
+struct Wave([[[f64; 4]; 3]; 3]);
 
 /// Between which of evenly spaced keys a time of the shutter lies: the segment's number, and the share of the way along it.
 #[inline(always)]
@@ -109,11 +113,19 @@ impl Motion {
 
     /// The inverse of the map at a time; `None` where it is flat then.
     pub fn inverse_at(&self, time: f32) -> Option<Rows> {
+        let columns = self.inverse_columns_at(time)?;
+        Some(std::array::from_fn(|row| columns.map(|column| column[row])))
+    }
+
+    /// The same by columns.
+    #[inline]
+    pub fn inverse_columns_at(&self, time: f32) -> Option<Columns> {
         let (segment, t) = self.segment_at(time);
         segment.inverse_at(t)
     }
 
     /// The segment of a time, and the share of the way along it.
+    #[inline]
     fn segment_at(&self, time: f32) -> (&Segment, f64) {
         let place = f64::from(time.clamp(0.0, 1.0)) * self.segments.len() as f64;
         let number = (place as usize).min(self.segments.len() - 1);
@@ -155,16 +167,22 @@ impl Segment {
         with_translation(&linear, &self.translation_at(t))
     }
 
-    fn inverse_at(&self, t: f64) -> Option<Rows> {
-        let linear = match &self.linear {
-            LinearPart::Turning([_, wave]) => wave.at(&self.sin_cos_at(t)),
-            LinearPart::Other { rotation, stretch } => inverse(&self.other_at(rotation, stretch, t))?,
+    #[inline]
+    fn inverse_at(&self, t: f64) -> Option<Columns> {
+        let [x, y, z] = match &self.linear {
+            LinearPart::Turning([_, wave]) => wave.columns_at(&self.sin_cos_at(t)),
+            LinearPart::Other { rotation, stretch } => columns(&inverse(&self.other_at(rotation, stretch, t))?),
         };
-        let moved = product(&linear, &self.translation_at(t));
-        Some(with_translation(&linear, &moved.map(|x| -x)))
+        let from = self.translation_at(t);
+        let mut moved = [0.0; 4];
+        for k in 0..4 {
+            moved[k] = -(x[k] * from[0] + y[k] * from[1] + z[k] * from[2]);
+        }
+        Some([x, y, z, moved])
     }
 
     /// Sine and cosine of the angle that the thing has turned by.
+    #[inline]
     fn sin_cos_at(&self, t: f64) -> (f64, f64) {
         if self.half_angle == 0.0 {
             return (0.0, 1.0);
@@ -183,6 +201,7 @@ impl Segment {
         matrix_product(&turned, &stretch)
     }
 
+    #[inline]
     fn translation_at(&self, t: f64) -> [f64; 3] {
         std::array::from_fn(|i| self.translation[0][i] + t * self.translation[1][i])
     }
@@ -190,9 +209,21 @@ impl Segment {
 
 impl Wave {
     #[inline(always)]
-    fn at(&self, (sin, cos): &(f64, f64)) -> Matrix {
+    fn at(&self, angle: &(f64, f64)) -> Matrix {
+        let columns = self.columns_at(angle);
+        std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]))
+    }
+
+    #[inline(always)]
+    fn columns_at(&self, (sin, cos): &(f64, f64)) -> [[f64; 4]; 3] {
         let [still, by_cos, by_sin] = &self.0;
-        std::array::from_fn(|i| std::array::from_fn(|k| still[i][k] + (by_cos[i][k] * cos + by_sin[i][k] * sin)))
+        let mut out = [[0.0; 4]; 3];
+        for k in 0..3 {
+            for i in 0..4 {
+                out[k][i] = still[k][i] + (by_cos[k][i] * cos + by_sin[k][i] * sin);
+            }
+        }
+        out
     }
 }
 
@@ -213,12 +244,19 @@ fn waves([a, b]: &[Quaternion; 2], stretch: &Matrix, back: &Matrix) -> [Wave; 2]
         part(&|i, k| 0.5 * (of_a[i][k] - of_b[i][k])),
         part(&|i, k| 0.5 * (of_both[i][k] - of_a[i][k] - of_b[i][k])),
     ];
-    [Wave(turn.map(|matrix| matrix_product(&matrix, stretch))), Wave(turn.map(|matrix| matrix_product(back, &transposed(&matrix))))]
+    let forth = turn.map(|matrix| columns(&matrix_product(&matrix, stretch)));
+    [Wave(forth), Wave(turn.map(|matrix| columns(&matrix_product(back, &transposed(&matrix)))))]
 }
 
 fn with_translation(linear: &Matrix, [x, y, z]: &[f64; 3]) -> Rows {
     let row = |[a, b, c]: [f64; 3], moved: f64| [a, b, c, moved];
     [row(linear[0], *x), row(linear[1], *y), row(linear[2], *z)]
+}
+
+/// Columns with a zero behind each.
+#[inline]
+fn columns(m: &Matrix) -> [[f64; 4]; 3] {
+    std::array::from_fn(|k| [m[0][k], m[1][k], m[2][k], 0.0])
 }
 
 fn transposed(m: &Matrix) -> Matrix {
@@ -236,6 +274,7 @@ fn change_of_stretch(from: &Matrix, to: &Matrix) -> Matrix {
 const ROUNDING: f64 = 5e-7;
 
 /// Sine and cosine of an angle from 0 to π/2 by their series about the middle; the platform's own differ from one to the other.
+#[inline]
 fn sin_cos(angle: f64) -> (f64, f64) {
     let x = angle - std::f64::consts::FRAC_PI_4;
     let y = x * x;

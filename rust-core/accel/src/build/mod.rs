@@ -8,5 +8,6 @@ mod emit;
 mod flat_tree;
 mod join;
 mod part;
+pub(crate) mod split;
 mod top;
 pub(crate) mod wide_tree;

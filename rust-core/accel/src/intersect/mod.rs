@@ -9,6 +9,7 @@ pub(crate) mod point_block;
 pub(crate) mod prepared;
 pub(crate) mod scalar;
 pub(crate) mod segment_block;
+pub(crate) mod segment_leaves;
 mod segments;
 pub(crate) mod shape;
 pub(crate) mod smooth;

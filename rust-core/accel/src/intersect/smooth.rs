@@ -16,7 +16,8 @@ use super::line_ray::{END_CAP, START_CAP, SmoothHits};
 use super::octahedral::{from_octahedral, octahedral};
 use super::point_block::{PointBlock, intersect_discs, intersect_spheres};
 use super::prepared::PreparedRay;
-use super::segment_block::SegmentBlock;
+use super::segment_block::Segments;
+use super::segment_leaves::SegmentLeaves;
 use super::segments::{intersect_ribbons, intersect_tubes};
 use super::smooth_scalar;
 use crate::ray::NONE;
@@ -30,8 +31,8 @@ pub(crate) enum Smooth {
     /// A tree of triangles has none.
     #[default]
     Nothing,
-    Tubes(Vec<SegmentBlock>),
-    Ribbons(Vec<SegmentBlock>),
+    Tubes(SegmentLeaves),
+    Ribbons(SegmentLeaves),
     Spheres(Vec<PointBlock>),
     Discs(Vec<PointBlock>),
 }
@@ -44,7 +45,7 @@ impl Smooth {
     pub(crate) fn is_empty(&self) -> bool {
         match self {
             Smooth::Nothing => true,
-            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => blocks.is_empty(),
+            Smooth::Tubes(leaves) | Smooth::Ribbons(leaves) => leaves.is_empty(),
             Smooth::Spheres(blocks) | Smooth::Discs(blocks) => blocks.is_empty(),
         }
     }
@@ -53,7 +54,7 @@ impl Smooth {
     pub(crate) fn memory(&self) -> usize {
         match self {
             Smooth::Nothing => 0,
-            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => blocks.capacity() * size_of::<SegmentBlock>(),
+            Smooth::Tubes(leaves) | Smooth::Ribbons(leaves) => leaves.memory(),
             Smooth::Spheres(blocks) | Smooth::Discs(blocks) => blocks.capacity() * size_of::<PointBlock>(),
         }
     }
@@ -63,7 +64,7 @@ impl Smooth {
     pub(crate) fn fetch(&self, index: usize) {
         match self {
             Smooth::Nothing => {}
-            Smooth::Tubes(blocks) | Smooth::Ribbons(blocks) => prefetch(blocks, index),
+            Smooth::Tubes(leaves) | Smooth::Ribbons(leaves) => leaves.fetch(index),
             Smooth::Spheres(blocks) | Smooth::Discs(blocks) => prefetch(blocks, index),
         }
     }
@@ -73,8 +74,8 @@ impl Smooth {
     pub(crate) fn leaf(&self, index: usize) -> SmoothLeaf<'_> {
         match self {
             Smooth::Nothing => SmoothLeaf::Nothing,
-            Smooth::Tubes(blocks) => SmoothLeaf::Tubes(&blocks[index]),
-            Smooth::Ribbons(blocks) => SmoothLeaf::Ribbons(&blocks[index]),
+            Smooth::Tubes(leaves) => SmoothLeaf::Tubes(leaves.leaf(index)),
+            Smooth::Ribbons(leaves) => SmoothLeaf::Ribbons(leaves.leaf(index)),
             Smooth::Spheres(blocks) => SmoothLeaf::Spheres(&blocks[index]),
             Smooth::Discs(blocks) => SmoothLeaf::Discs(&blocks[index]),
         }
@@ -85,8 +86,8 @@ impl Smooth {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SmoothLeaf<'a> {
     Nothing,
-    Tubes(&'a SegmentBlock),
-    Ribbons(&'a SegmentBlock),
+    Tubes(Segments<'a>),
+    Ribbons(Segments<'a>),
     Spheres(&'a PointBlock),
     Discs(&'a PointBlock),
 }
@@ -99,8 +100,8 @@ impl SmoothLeaf<'_> {
             #[inline(always)]
             || match self {
                 SmoothLeaf::Nothing => 0,
-                SmoothLeaf::Tubes(block) => intersect_tubes(simd, block, ray, t_max, hits),
-                SmoothLeaf::Ribbons(block) => intersect_ribbons(simd, block, ray, t_max, hits),
+                SmoothLeaf::Tubes(leaf) => intersect_tubes(simd, leaf, ray, t_max, hits),
+                SmoothLeaf::Ribbons(leaf) => intersect_ribbons(simd, leaf, ray, t_max, hits),
                 SmoothLeaf::Spheres(block) => intersect_spheres(simd, block, ray, t_max, hits),
                 SmoothLeaf::Discs(block) => intersect_discs(simd, block, ray, t_max, hits),
             },
@@ -110,7 +111,7 @@ impl SmoothLeaf<'_> {
     /// The distance where a ray that enters the shape of a lane at `t` leaves it; of what is flat `t`.
     pub(crate) fn leaves(self, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
         match self {
-            SmoothLeaf::Tubes(block) => smooth_scalar::leaves(block, lane, ray).max(t),
+            SmoothLeaf::Tubes(leaf) => smooth_scalar::leaves(leaf, lane, ray).max(t),
             _ => t,
         }
     }
@@ -121,14 +122,14 @@ impl SmoothLeaf<'_> {
         let out = [hits.out[0][lane], hits.out[1][lane], hits.out[2][lane]];
         match self {
             SmoothLeaf::Nothing => (NONE, 0.0, 0.0),
-            SmoothLeaf::Tubes(block) => {
-                let (axis, _) = block.lane(lane, 0.0);
+            SmoothLeaf::Tubes(leaf) => {
+                let (axis, _) = leaf.lane(lane, 0.0);
                 let (u, v) = on_tube(axis, hits.along[lane], out);
-                (block.primitives[lane], u, v)
+                (leaf.primitive(lane), u, v)
             }
-            SmoothLeaf::Ribbons(block) => {
-                let (axis, radius) = block.lane(lane, hits.along[lane]);
-                (block.primitives[lane], hits.along[lane], on_ribbon(axis, radius, ray, out))
+            SmoothLeaf::Ribbons(leaf) => {
+                let (axis, radius) = leaf.lane(lane, hits.along[lane]);
+                (leaf.primitive(lane), hits.along[lane], on_ribbon(axis, radius, ray, out))
             }
             SmoothLeaf::Spheres(block) => {
                 let [u, v] = octahedral(unit(out));

@@ -1,10 +1,10 @@
 //! The tests of curves and points in plain Rust, for the scalar level: see `segments.rs` and `point_block.rs`.
 
-use super::joint::{Joint, OVERLAP};
+use super::joint::OVERLAP;
 use super::line_ray::{END_CAP, START_CAP, SmoothHits, UNSEEN};
 use super::point_block::PointBlock;
 use super::prepared::PreparedRay;
-use super::segment_block::SegmentBlock;
+use super::segment_block::Segments;
 use super::segments::SEAM;
 use super::smooth::{SmoothLeaf, dot};
 use crate::tree::node::WIDTH;
@@ -63,8 +63,8 @@ pub(crate) fn intersect(leaf: SmoothLeaf<'_>, ray: &PreparedRay, t_max: f32, hit
     for lane in 0..WIDTH {
         let found = match leaf {
             SmoothLeaf::Nothing => None,
-            SmoothLeaf::Tubes(block) => tube(block, lane, &ray),
-            SmoothLeaf::Ribbons(block) => ribbon(block, lane, &ray),
+            SmoothLeaf::Tubes(leaf) => tube(leaf, lane, &ray),
+            SmoothLeaf::Ribbons(leaf) => ribbon(leaf, lane, &ray),
             SmoothLeaf::Spheres(block) => ball(block, lane, &ray, false),
             SmoothLeaf::Discs(block) => ball(block, lane, &ray, true),
         };
@@ -90,26 +90,31 @@ fn ball(block: &PointBlock, lane: usize, ray: &LineRay, facing: bool) -> Option<
     ray.sphere(foot, to, radius).map(|(t, out)| (t, 0.0, out))
 }
 
-fn ribbon(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
-    let axis = of_lane(&block.axis, lane);
-    let (foot, to) = ray.foot(of_lane(&block.start, lane));
+fn ribbon(leaf: Segments<'_>, lane: usize, ray: &LineRay) -> Option<Found> {
+    if lane >= leaf.count() {
+        return None;
+    }
+    let axis = leaf.axis(lane);
+    let (foot, to) = ray.foot(leaf.start(lane));
     let along_ray = dot(axis, ray.direction) / ray.squared;
     let across = along(axis, ray.direction, -along_ray);
     let raw = -dot(to, across) / dot(across, across).max(f32::MIN_POSITIVE);
     let share = raw.clamp(0.0, 1.0);
     let out = along(to, across, share).map(|x| -x);
-    let (_, radius) = block.lane(lane, share);
+    let (_, radius) = leaf.lane(lane, share);
     let t = foot + share * along_ray;
     let is_outer = |(next, length, _): ([f32; 3], f32, f32)| dot(next, out) <= OVERLAP[0] * radius * length;
-    let goes_on = raw <= 1.0 || Joint(block.joint[lane]).next().is_some_and(is_outer);
+    let goes_on = raw <= 1.0 || leaf.joint(lane).next().is_some_and(is_outer);
     let hit = dot(out, out) <= radius * radius && raw >= 0.0 && goes_on && ray.behind(t, radius);
     hit.then_some((t, share, out))
 }
 
-fn tube(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
-    let axis = of_lane(&block.axis, lane);
-    let [radius, growth] = [block.radius[0][lane], block.radius[1][lane]];
-    let (foot, to) = ray.foot(of_lane(&block.start, lane));
+fn tube(leaf: Segments<'_>, lane: usize, ray: &LineRay) -> Option<Found> {
+    if lane >= leaf.count() {
+        return None;
+    }
+    let (axis, [radius, growth]) = (leaf.axis(lane), leaf.radius(lane));
+    let (foot, to) = ray.foot(leaf.start(lane));
     let along_ray = dot(axis, ray.direction) / ray.squared;
     let across = along(axis, ray.direction, -along_ray);
     let share = (-dot(to, across) / dot(across, across).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -125,7 +130,7 @@ fn tube(block: &SegmentBlock, lane: usize, ray: &LineRay) -> Option<Found> {
             best = Some((t, share, out));
         }
     };
-    let (end, joint, start) = (radius + growth, Joint(block.joint[lane]), of_lane(&block.start, lane));
+    let (end, joint, start) = (radius + growth, leaf.joint(lane), leaf.start(lane));
     let size = (0..3).fold(0.0f32, |most, k| most.max((start[k] + axis[k]).abs()));
     if let Some((t, out)) = ray.sphere(foot + along_ray, along(to, across, 1.0), end)
         && end * growth + dot(axis, out) >= -end * slack
@@ -164,11 +169,10 @@ fn cone(axis: [f32; 3], [start, growth]: [f32; 2], ray: &LineRay, near: Found, [
 }
 
 /// The distance where a ray leaves a rounded cone that it has entered: the last of the spheres at its ends and of the cone between them.
-pub(super) fn leaves(block: &SegmentBlock, lane: usize, ray: &PreparedRay) -> f32 {
+pub(super) fn leaves(leaf: Segments<'_>, lane: usize, ray: &PreparedRay) -> f32 {
     let ray = LineRay::new(ray, f32::INFINITY);
-    let axis = of_lane(&block.axis, lane);
-    let [radius, growth] = [block.radius[0][lane], block.radius[1][lane]];
-    let (foot, to) = ray.foot(of_lane(&block.start, lane));
+    let (axis, [radius, growth]) = (leaf.axis(lane), leaf.radius(lane));
+    let (foot, to) = ray.foot(leaf.start(lane));
     let along_ray = dot(axis, ray.direction) / ray.squared;
     let across = along(axis, ray.direction, -along_ray);
     let sphere = |foot: f32, to: [f32; 3], radius: f32| foot + ((radius * radius - dot(to, to)) / ray.squared).sqrt();

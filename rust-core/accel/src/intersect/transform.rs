@@ -21,6 +21,19 @@ impl Affine {
         numbers.iter().all(|x| x.is_finite()).then_some(Affine(numbers))
     }
 
+    /// The map of these columns, a zero behind each, unless a number of it is too large.
+    #[inline(always)]
+    pub(crate) fn of_columns(columns: &[[f64; 4]; 4]) -> Option<Self> {
+        let mut numbers = [0.0; 13];
+        for (number, column) in columns.iter().enumerate() {
+            // The zero is written over by the next column.
+            for k in 0..4 {
+                numbers[3 * number + k] = column[k] as f32;
+            }
+        }
+        numbers.iter().all(|x| x.is_finite()).then_some(Affine(numbers))
+    }
+
     #[inline(always)]
     fn column(&self, column: usize) -> Padded {
         let first = 3 * column;

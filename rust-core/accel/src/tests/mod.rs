@@ -10,6 +10,7 @@ mod refit;
 mod robust;
 mod scenes;
 mod smooth;
+mod split;
 mod watertight;
 
 use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, Tlas};

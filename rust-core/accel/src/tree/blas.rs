@@ -5,6 +5,7 @@ use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, R
 use crate::build::collapse::LeafMaker;
 use crate::build::division::Source;
 use crate::build::effort::Effort;
+use crate::build::split::Parts;
 use crate::build::wide_tree::{WideTree, build};
 use crate::cancelled::Cancelled;
 use crate::intersect::smooth::Smooth;
@@ -45,7 +46,7 @@ pub struct Blas {
 pub enum Care {
     /// As quick to build as rays through many triangles are worth.
     Quick,
-    /// Several times as long, for rays that are about a tenth faster.
+    /// Several times as long, for rays that are about a tenth faster; long triangles that lie askew are put into several leaves each.
     Thorough,
 }
 
@@ -104,7 +105,12 @@ impl Blas {
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         assert!(triangles.len() <= MAX_INDEX, "a mesh holds at most {MAX_INDEX} triangles");
         let mesh = Triangles { positions, triangles };
-        let WideTree { nodes, leaves: blocks, bounds, primitives } = build(&mesh, &mesh, care.effort(), cancel)?;
+        let parts = if care == Care::Thorough { Parts::of(&mesh) } else { None };
+        let tree = match &parts {
+            Some(parts) => WideTree { primitives: parts.triangles, ..build(parts, parts, care.effort(), cancel)? },
+            None => build(&mesh, &mesh, care.effort(), cancel)?,
+        };
+        let WideTree { nodes, leaves: blocks, bounds, primitives } = tree;
         let sah_cost = sah_cost(&nodes, &bounds);
         let outline = outline(&nodes, bounds);
         Ok(Blas {

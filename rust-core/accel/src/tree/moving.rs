@@ -1,7 +1,7 @@
 //! Instances that move while the shutter is open: where they are at a ray's time, and the boxes that they stay within.
 
 use super::node::Bounds;
-use crate::intersect::prepared::PreparedRay;
+use crate::intersect::prepared::{Padded, PreparedRay};
 use crate::intersect::transform::{Affine, transformed_bounds};
 use gonio_simd::motion::{Motion, segment_of};
 
@@ -18,8 +18,9 @@ pub struct MovingInstance {
 #[derive(Clone, Debug)]
 pub(crate) struct MovingRecord {
     motion: Motion,
-    /// Boxes at evenly spaced times. Between two of them the instance is within the box that goes straight from one to the next.
-    boxes: Vec<Bounds>,
+    /// Boxes at evenly spaced times: lowest and highest corners, and numbers that mean nothing. Between two of them the instance is within the box that
+    /// goes straight from one to the next.
+    boxes: Vec<[Padded; 2]>,
 }
 
 /// A box spans a turn of about so many radians at most.
@@ -41,26 +42,32 @@ impl MovingRecord {
         };
         let boxes: Vec<Bounds> = (0..=count).map(at).collect();
         let whole = boxes.iter().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+        let padded = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
+        let boxes = boxes.iter().map(|bounds| [padded(bounds.min), padded(bounds.max)]).collect();
         (Self { motion: motion.clone(), boxes }, whole)
     }
 
     /// The map from the world to the instance's space at a time; `None` where it is flat then.
+    #[inline(always)]
     pub(crate) fn world_to_object(&self, time: f32) -> Option<Affine> {
-        Affine::new(&self.motion.inverse_at(time)?)
+        Affine::of_columns(&self.motion.inverse_columns_at(time)?)
     }
 
     /// Whether a ray of the world meets the box that the instance is in at a time.
+    #[inline(always)]
     fn is_met(&self, time: f32, ray: &PreparedRay, t_max: f32) -> bool {
         let (number, share) = segment_of(time, self.boxes.len() - 1);
-        let (from, to) = (&self.boxes[number], &self.boxes[number + 1]);
-        let (mut enter, mut leave) = (ray.t_min, t_max);
-        for axis in 0..3 {
-            let low = from.min[axis] + (to.min[axis] - from.min[axis]) * share;
-            let high = from.max[axis] + (to.max[axis] - from.max[axis]) * share;
-            let (near, far) = if ray.reciprocal[axis] < 0.0 { (high, low) } else { (low, high) };
-            enter = enter.max(near * ray.reciprocal[axis] + ray.near_offset[axis]);
-            leave = leave.min(far * ray.reciprocal[axis] + ray.far_offset[axis]);
+        let ([low, high], [next_low, next_high]) = (&self.boxes[number], &self.boxes[number + 1]);
+        let (mut enters, mut leaves) = ([0.0f32; 4], [0.0f32; 4]);
+        // All four at once, though the last means nothing.
+        for k in 0..4 {
+            let low = low[k] + (next_low[k] - low[k]) * share;
+            let high = high[k] + (next_high[k] - high[k]) * share;
+            let backwards = ray.reciprocal[k] < 0.0;
+            enters[k] = if backwards { high } else { low } * ray.reciprocal[k] + ray.near_offset[k];
+            leaves[k] = if backwards { low } else { high } * ray.reciprocal[k] + ray.far_offset[k];
         }
+        let [enter, leave] = [ray.t_min.max(enters[0]).max(enters[1]).max(enters[2]), t_max.min(leaves[0]).min(leaves[1]).min(leaves[2])];
         enter <= leave
     }
 

@@ -7,7 +7,7 @@ use crate::build::division::Source;
 use crate::build::wide_tree::build;
 use crate::cancelled::Cancelled;
 use crate::intersect::point_block::PointBlock;
-use crate::intersect::segment_block::{Segment, SegmentBlock};
+use crate::intersect::segment_block::{Segment, SegmentBlock, Segments};
 use crate::intersect::smooth::{Smooth, SmoothLeaf};
 use crate::ray::NONE;
 use gonio_simd::motion::segment_of;
@@ -36,8 +36,8 @@ impl MovedLeaf {
     pub(crate) fn leaf(&self) -> SmoothLeaf<'_> {
         match self {
             MovedLeaf::Nothing => SmoothLeaf::Nothing,
-            MovedLeaf::Tubes(block) => SmoothLeaf::Tubes(block),
-            MovedLeaf::Ribbons(block) => SmoothLeaf::Ribbons(block),
+            MovedLeaf::Tubes(block) => SmoothLeaf::Tubes(block.segments()),
+            MovedLeaf::Ribbons(block) => SmoothLeaf::Ribbons(block.segments()),
             MovedLeaf::Spheres(block) => SmoothLeaf::Spheres(block),
             MovedLeaf::Discs(block) => SmoothLeaf::Discs(block),
         }
@@ -59,7 +59,7 @@ impl Blas {
         let first = Pieces { points: &keys[0], pieces };
         let all = Keys(keys.iter().map(|points| Pieces { points, pieces }).collect());
         let tree = build(&all, &first, care.effort(), cancel)?;
-        let tree = Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Tubes(leaves) } else { Smooth::Ribbons(leaves) });
+        let tree = Blas::segments(tree, &first, seen);
         Ok(tree.moving(MovingSmooth { keys, pieces: pieces.to_vec() }))
     }
 
@@ -82,8 +82,8 @@ impl Blas {
         let Some(moving) = &self.moving_smooth else { return MovedLeaf::Nothing };
         match &self.smooth {
             Smooth::Nothing => MovedLeaf::Nothing,
-            Smooth::Tubes(blocks) => MovedLeaf::Tubes(moving.segments(&blocks[leaf], time)),
-            Smooth::Ribbons(blocks) => MovedLeaf::Ribbons(moving.segments(&blocks[leaf], time)),
+            Smooth::Tubes(leaves) => MovedLeaf::Tubes(moving.segments(leaves.leaf(leaf), time)),
+            Smooth::Ribbons(leaves) => MovedLeaf::Ribbons(moving.segments(leaves.leaf(leaf), time)),
             Smooth::Spheres(blocks) => MovedLeaf::Spheres(moving.points(&blocks[leaf], time)),
             Smooth::Discs(blocks) => MovedLeaf::Discs(moving.points(&blocks[leaf], time)),
         }
@@ -119,11 +119,11 @@ impl MovingSmooth {
         Between { from: &self.keys[number], to: &self.keys[number + 1], share }
     }
 
-    fn segments(&self, block: &SegmentBlock, time: f32) -> SegmentBlock {
-        let (between, mut moved) = (self.between(time), SegmentBlock::EMPTY);
+    fn segments(&self, leaf: Segments<'_>, time: f32) -> SegmentBlock {
+        let (between, mut moved) = (self.between(time), SegmentBlock::empty());
         let pieces = Pieces { points: &[], pieces: &self.pieces };
-        for lane in (0..WIDTH).filter(|lane| block.primitives[*lane] != NONE) {
-            let piece = block.primitives[lane];
+        for lane in 0..leaf.count() {
+            let piece = leaf.primitive(lane);
             let (first, is_first, is_last) = pieces.place(piece);
             let (Some(start), Some(end)) = (between.point(first), between.point(first + 1)) else { continue };
             let next = if is_last { None } else { between.point(first + 2) };

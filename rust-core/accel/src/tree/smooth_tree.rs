@@ -1,14 +1,16 @@
 //! Trees of curves and points: what they are built over and put together from.
 
 use super::blas::{Blas, Care, outline, sah_cost};
-use super::node::{Kind, LARGEST_COORDINATE, MAX_INDEX, ROUNDING_PAD};
+use super::node::{ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, ROUNDING_PAD, WIDTH};
 use crate::build::collapse::LeafMaker;
 use crate::build::division::Source;
 use crate::build::wide_tree::{WideTree, build};
 use crate::cancelled::Cancelled;
 use crate::intersect::point_block::PointBlock;
-use crate::intersect::segment_block::{Segment, SegmentBlock};
+use crate::intersect::segment_block::Segment;
+use crate::intersect::segment_leaves::SegmentLeaves;
 use crate::intersect::smooth::Smooth;
+use crate::ray::NONE;
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
@@ -39,7 +41,16 @@ impl Blas {
         assert!(pieces.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} pieces of curves");
         let curves = Pieces { points, pieces };
         let tree = build(&curves, &curves, care.effort(), cancel)?;
-        Ok(Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Tubes(leaves) } else { Smooth::Ribbons(leaves) }))
+        Ok(Blas::segments(tree, &curves, seen))
+    }
+
+    /// The tree of curves over leaves that are known by their pieces.
+    pub(super) fn segments(mut tree: WideTree<[u32; WIDTH]>, curves: &Pieces<'_>, seen: Seen) -> Blas {
+        let (leaves, numbers) = SegmentLeaves::pack(&tree.leaves, |piece| curves.segment(piece));
+        for child in tree.nodes.iter_mut().flat_map(|node| &mut node.children).filter(|child| child.is(Kind::Smooth)) {
+            *child = ChildRef::new(Kind::Smooth, numbers[child.index()] as usize);
+        }
+        Blas::smooth(tree, |_| if seen == Seen::Solid { Smooth::Tubes(leaves) } else { Smooth::Ribbons(leaves) })
     }
 
     /// Builds the tree of points: centres and radii. Those without a positive radius, or not finite or beyond 1e12, are left out.
@@ -131,17 +142,16 @@ impl Pieces<'_> {
 }
 
 impl LeafMaker for Pieces<'_> {
-    type Leaf = SegmentBlock;
+    // The pieces alone: how long a leaf is has to be known before it is written.
+    type Leaf = [u32; WIDTH];
     const CAPACITY: u32 = 8;
     const KIND: Kind = Kind::Smooth;
     const COST: f32 = 2.0;
 
-    fn leaf(&self, primitives: &[u32]) -> SegmentBlock {
-        let mut block = SegmentBlock::EMPTY;
-        for (lane, &piece) in primitives.iter().enumerate() {
-            block.set(lane, &self.segment(piece), piece);
-        }
-        block
+    fn leaf(&self, primitives: &[u32]) -> [u32; WIDTH] {
+        let mut pieces = [NONE; WIDTH];
+        pieces[..primitives.len()].copy_from_slice(primitives);
+        pieces
     }
 }
 
