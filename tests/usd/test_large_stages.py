@@ -4,6 +4,7 @@ import os
 import re
 import statistics
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -68,8 +69,8 @@ def test_200_thousand_instances_stay_under_a_gigabyte(command, tmp_path):
     assert usage.ru_maxrss * 1024 < MOST_BYTES, usage.ru_maxrss
 
 
-def unique_blocks(stage, count, material_count=200):
-    """Blocks of points of their own, each with a place and a material, half of them with a primvar."""
+def unique_blocks(stage, count, material_count=200, parent="/World/Row{row}"):
+    """Blocks of points of their own, each with a place and a material, half of them with a primvar; a hundred a row."""
     chance = np.random.default_rng(7)
     materials = []
     for number in range(material_count):
@@ -83,7 +84,7 @@ def unique_blocks(stage, count, material_count=200):
     corners = np.array([(x, y, z) for x in (-0.4, 0.4) for y in (-0.4, 0.4) for z in (-0.4, 0.4)], dtype="f4")
     faces = Vt.IntArray([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
     for number in range(count):
-        mesh = UsdGeom.Mesh.Define(stage, f"/World/Row{number // 100}/Block{number}")
+        mesh = UsdGeom.Mesh.Define(stage, parent.format(row=number // 100, number=number) + f"/Block{number}")
         mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy((corners * chance.uniform(0.6, 1, (8, 3))).astype("f4")))
         mesh.CreateFaceVertexCountsAttr(Vt.IntArray([4] * 6))
         mesh.CreateFaceVertexIndicesAttr(faces)
@@ -100,6 +101,57 @@ def unique_blocks(stage, count, material_count=200):
             places = Vt.Vec2fArray.FromNumpy(chance.random((24, 2)).astype("f4"))
             primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "faceVarying").Set(places)
         UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(materials[number % material_count])
+
+
+def placed_prototypes(stage, count, prototype_count=50):
+    """Native instances of a few prototypes, each with a place."""
+    unique_blocks(stage, prototype_count, prototype_count, "/Prototypes/P{number}")
+    for number in range(count):
+        prim = stage.DefinePrim(f"/Placed/Row{number // 100}/P{number}", "Xform")
+        prim.GetReferences().AddInternalReference(f"/Prototypes/P{number % prototype_count}")
+        prim.SetInstanceable(True)
+        UsdGeom.XformCommonAPI(prim).SetTranslate(Gf.Vec3d(number % 150, 2, number // 150))
+
+
+def processor_seconds(line):
+    """What a process takes of the processors, and what it told."""
+    process = subprocess.Popen([str(word) for word in line], stderr=subprocess.PIPE, text=True)
+    with process.stderr:
+        told = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0, told
+    return usage.ru_utime + usage.ru_stime, told
+
+
+OPENING = "import sys; from pxr import Usd, UsdGeom, UsdShade; stage = Usd.Stage.Open(sys.argv[1])"
+
+
+@pytest.mark.parametrize("what", ["200 materials", "a material each", "instances"])
+def test_20_thousand_prims_take_a_second_and_a_half_beyond_opening(command, tmp_path, what):
+    """Of the processors, from the opened stage to the first ray: all that a tiny picture takes, less what an empty stage's takes, less what
+    opening alone takes more than for an empty stage."""
+    stage = lit(tmp_path / "many.usdc")
+    if what == "instances":
+        placed_prototypes(stage, 20_000)
+    else:
+        unique_blocks(stage, 20_000, 20_000 if what == "a material each" else 200)
+    stage.Save()
+    lit(tmp_path / "none.usdc").Save()
+
+    def taken(name):
+        stage = tmp_path / name
+        rendered, told = processor_seconds([*command, "render", stage, "-o", tmp_path / "a.exr", "--res", 64, 64, "--spp", 1, "--verbose"])
+        return rendered - processor_seconds([sys.executable, "-c", OPENING, stage])[0], told
+
+    seconds = []
+    for _ in range(3):
+        (many, told), (none, _) = taken("many.usdc"), taken("none.usdc")
+        assert ("1200 triangles in 20050" if what == "instances" else "240000 triangles in 20000") in told, told
+        seconds.append(many - none)
+    print(f"{what}: {seconds}")
+    # A material is two prims more.
+    assert min(seconds) < LONGEST_INGEST_S * (3 if what == "a material each" else 1), seconds
 
 
 def test_20_thousand_prims_are_ready_to_render_in_a_second_and_a_half(run, tmp_path):
