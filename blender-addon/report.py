@@ -102,7 +102,8 @@ class Report:
         """What the renderer itself has to say, pairs of origin and message, in the place of what it said before."""
         self.forget_all("Render")
         for origin, message in diagnostics:
-            self.add("Render", origin, message)
+            # That light paths run by themselves is no fault.
+            self.add("Render", origin, message, severity="INFO" if message.endswith("(caustics)") else "WARNING")
 
     def add_texture_notes(self, statistics: dict[str, Any] | None) -> None:
         """What came up while textures were read within a memory limit; to be called when the render has ended."""

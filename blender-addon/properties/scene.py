@@ -21,7 +21,7 @@ PIXEL_FILTERS = (
 )
 
 CAUSTICS = (
-    ("AUTO", "Automatic", "Where a lamp stands within something that refracts, as a bulb in its globe", 0),
+    ("AUTO", "Automatic", "Where a few light paths tell that they pay: a bulb in its globe, the sun through water", 0),
     ("ON", "On", "Wherever mirrors and clear glass throw light onto what the camera sees", 1),
     ("OFF", "Off", "Never: camera paths show what they happen to find", 2),
 )

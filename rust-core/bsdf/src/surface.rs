@@ -86,10 +86,6 @@ impl Surface {
     pub fn is_see_through(&self) -> bool {
         self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
     }
-    /// Whether light that passes may be refracted sharply.
-    pub fn refracts(&self) -> bool {
-        self.lobes.smooth && self.lobes.transmission && !self.switches.thin_walled
-    }
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {

@@ -54,7 +54,7 @@ impl Integrator {
 /// Whether light paths bring the light that comes by mirrors and smooth glass to surfaces that the camera sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Caustics {
-    /// Where a light stands within something that refracts: no camera path would find it.
+    /// Where a few light paths tell, when the scene is compiled, that they pay.
     #[default]
     Auto,
     /// Always.

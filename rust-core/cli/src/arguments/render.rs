@@ -59,7 +59,7 @@ pub(crate) struct RenderOptions {
     /// The light transport: full global illumination, direct light alone, direct light without noise with mirrors and clear glass, or paths from the lamps alone.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]
     pub(crate) integrator: IntegratorArgument,
-    /// Light paths from the lamps bring what mirrors and clear glass throw onto surfaces that the camera sees: where a lamp stands within something that refracts, always, or never.
+    /// Light paths from the lamps bring what mirrors and clear glass throw onto surfaces that the camera sees: where a few of them tell that they pay, always, or never.
     #[arg(long, value_enum, default_value_t = CausticsArgument::Auto)]
     pub(crate) caustics: CausticsArgument,
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
@@ -178,7 +178,7 @@ pub(crate) enum HeadlightArgument {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum CausticsArgument {
-    /// Where a lamp stands within something that refracts.
+    /// Where a few light paths tell that they pay.
     Auto,
     /// Always.
     On,

@@ -4,9 +4,8 @@ use super::{bounds::Bounds, numbers::geometry_number};
 use crate::{
     bsdf::Surface,
     error::Diagnostic,
-    light::LightTable,
-    scene::{Caustics, Instances, Origin, Scene},
-    transport::{MaterialTable, Shading},
+    scene::{Instances, Link, Origin, Scene},
+    transport::{Links, MaterialTable, Shading},
 };
 
 /// Most targets of light paths; more are joined with their neighbours.
@@ -17,43 +16,40 @@ const MOST_TARGETS: usize = 16;
 pub(crate) struct Casters {
     /// Spheres around them, all of them covered.
     pub(crate) targets: Vec<([f32; 3], f32)>,
-    /// What refracts and has a light within it, the first of them: no path from a camera finds such a light but by chance.
-    pub(crate) enclosing: Option<Origin>,
+    /// The first of them.
+    pub(super) first: Option<Origin>,
+    /// Whether light paths bring what they cast where settings leave it open.
+    pub(crate) pay: bool,
 }
 
 impl Casters {
     /// Those of a scene.
-    pub(super) fn of(scene: &Scene, meshes: &[Bounds], materials: &MaterialTable, lights: &LightTable, origin: [f64; 3]) -> Self {
-        let mut boxes = Vec::new();
-        let mut enclosing: Option<Origin> = None;
+    pub(super) fn of(scene: &Scene, meshes: &[Bounds], materials: &MaterialTable, origin: [f64; 3]) -> Self {
+        let (mut boxes, mut first) = (Vec::new(), None);
         for instances in &scene.instances {
             let Some(mesh) = meshes.get(geometry_number(scene, instances.geometry)) else { continue };
             if !is_one(instances, materials, |surface| surface.lobes.smooth) {
                 continue;
             }
-            let refracts = is_one(instances, materials, Surface::refracts);
             for transform in &instances.transforms {
                 let placed = mesh.transformed(transform);
                 if placed.is_empty() {
                     continue;
                 }
                 boxes.push(placed);
-                let within =
-                    |centre: [f32; 3]| (0..3).all(|i| (placed.min[i]..=placed.max[i]).contains(&(f64::from(centre[i]) + origin[i])));
-                if enclosing.is_none() && refracts && (0..lights.len() as u32).any(|light| lights.centre(light).is_some_and(within)) {
-                    enclosing = Some(instances.origin.clone());
-                }
+                first.get_or_insert_with(|| instances.origin.clone());
             }
         }
-        Self { targets: joined(boxes).iter().map(|one| sphere(one, origin)).collect(), enclosing }
+        Self { targets: joined(boxes).iter().map(|one| sphere(one, origin)).collect(), first, pay: false }
     }
 }
 
-/// Says where light paths begin to run by themselves.
-pub(super) fn report(scene: &Scene, casters: &Casters, diagnostics: &mut Vec<Diagnostic>) {
-    if let (Caustics::Auto, Some(origin)) = (scene.settings.caustics, &casters.enclosing) {
-        let message = "a light stands within it; light paths bring what it refracts to the surfaces that the camera sees";
-        diagnostics.push(Diagnostic::info(origin, message));
+/// Says what light paths do not know of.
+pub(super) fn report_blockers(scene: &Scene, links: &Links, diagnostics: &mut Vec<Diagnostic>) {
+    let linked = scene.lights.iter().find(|light| light.linking.blockers != Link::All);
+    if let (false, Some(light)) = (links.shadows.is_empty(), linked) {
+        let message = "light paths are blocked by all that casts shadows, also those of lights with blockers of their own";
+        diagnostics.push(Diagnostic::warning(&light.origin, message));
     }
 }
 

@@ -36,6 +36,15 @@ pub(super) struct KeptLights {
 }
 
 impl KeptLights {
+    /// The lights as they stand in the table.
+    pub(super) fn records(&self) -> &[LightRecord] {
+        &self.records
+    }
+    /// Images on domes and rectangles.
+    pub(super) fn images(&self) -> &[Arc<LightTexture>] {
+        &self.images
+    }
+
     /// The table of these lights: the one at hand if nothing differs, for images are slow to lay out.
     fn table(
         &self,
@@ -68,6 +77,8 @@ pub(super) struct CompiledLights {
     pub(super) kept: KeptLights,
     pub(super) instances: Vec<Instance>,
     pub(super) instance_light: Vec<u32>,
+    /// Lights of the scene that the first lights of the table belong to; the others are triangles.
+    pub(super) of_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
     pub(super) groups: LightGroups,
     pub(super) linking: CompiledLinking,
@@ -119,7 +130,7 @@ pub(super) fn compile(
     let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
     let table = previous.table(&records, &images, &goniograms, &links);
     let kept = KeptLights { records, images, goniograms, links, table: Some(table.clone()) };
-    CompiledLights { table, kept, instances, instance_light, triangle_lights, groups, linking }
+    CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, groups, linking }
 }
 
 /// What the light is made of, in the rebased world.

@@ -5,7 +5,7 @@ use crate::{
     error::Diagnostic,
     geometry::{GeometryTable, NONE},
     light::{LightLinks, LightRecord},
-    scene::{Caustics, Link, Linking, Scene},
+    scene::{Link, Linking, Scene},
     transport::{Links, ray_mask},
 };
 use std::collections::HashMap;
@@ -187,20 +187,6 @@ impl CompiledLinking {
             if self.blocks_by_mask.get(row.set as usize) == Some(&true) && instance.mask & ray_mask::SHADOW != 0 {
                 instance.mask |= ray_mask::LINKED_SHADOW;
             }
-        }
-    }
-
-    /// Says what light paths do not know of; whether there is anything that they would bring is `casts`, by themselves or as asked for.
-    pub(super) fn report(&self, scene: &Scene, casts: [bool; 2], diagnostics: &mut Vec<Diagnostic>) {
-        let traced = match scene.settings.caustics {
-            Caustics::Off => false,
-            Caustics::Auto => casts[0],
-            Caustics::On => casts[1],
-        };
-        let linked = scene.lights.iter().find(|light| light.linking.blockers != Link::All);
-        if let (true, Some(light)) = (traced && !self.tables.shadows.is_empty(), linked) {
-            let message = "light paths are blocked by all that casts shadows, also those of lights with blockers of their own";
-            diagnostics.push(Diagnostic::warning(&light.origin, message));
         }
     }
 }

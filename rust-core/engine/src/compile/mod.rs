@@ -16,6 +16,7 @@ mod kept;
 mod light_alone;
 mod light_groups;
 mod light_images;
+pub(crate) mod light_paths_pay;
 mod lights;
 mod linking;
 mod luminaires;
@@ -184,9 +185,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     smooth::report_emission(scene, emits, &mut diagnostics);
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     light_alone::report(scene, &materials, &lights.table, &mut diagnostics);
-    let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
-    casters::report(scene, &casters, &mut diagnostics);
-    lights.linking.report(scene, [casters.enclosing.is_some(), !casters.targets.is_empty()], &mut diagnostics);
+    let casters = Casters::of(scene, &mesh_bounds, &materials, origin);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -209,7 +208,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         origin,
     };
     let (cameras, manifests) = (scene.cameras.clone(), Arc::new(Manifests::of(scene)));
-    Ok(CompiledScene {
+    let mut compiled = CompiledScene {
         tables,
         cameras,
         bounds,
@@ -225,7 +224,9 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         images: textures.kept,
         kept_lights: lights.kept,
         measured,
-    })
+    };
+    light_paths_pay::decide(&mut compiled, complete.as_ref(), &lights.of_light, cancel)?;
+    Ok(compiled)
 }
 
 /// What placements are called in cryptomattes.

@@ -2,10 +2,10 @@
 
 use super::Shared;
 use crate::{
-    compile::{CompiledScene, View},
+    compile::{CompiledScene, View, light_paths_pay},
     film::{SplatBlock, SplatLayout},
     light::EmissionSampler,
-    scene::{Aov, Caustics, Crop, Integrator, Settings},
+    scene::{Caustics, Crop, Integrator, Settings},
     transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Picture, Receiver, Transport, Wanted, Workspace},
 };
 use std::{ops::Range, sync::Arc};
@@ -22,39 +22,22 @@ pub(crate) struct LightPaths {
 const SAMPLES: u64 = 1 << 32;
 
 /// The light paths that a view asks for, if any, and by light whether they start there.
-pub(super) fn plan(scene: &CompiledScene, settings: &Settings, view: &View) -> Option<(LightPaths, Arc<[u32]>)> {
+pub(super) fn plan(scene: &CompiledScene, settings: &Settings) -> Option<(LightPaths, Arc<[u32]>)> {
     let wanted = match settings.caustics {
         Caustics::Off => false,
         Caustics::On => true,
-        Caustics::Auto => scene.casters.enclosing.is_some(),
+        Caustics::Auto => scene.casters.pay,
     };
     if settings.integrator == Integrator::Light {
         let sampler = EmissionSampler::new(&scene.tables.lights, None, sphere(scene), &scene.casters.targets);
         return (!sampler.is_empty()).then(|| (LightPaths { sampler, caustics: false }, [].into()));
     }
-    if !wanted
-        || settings.caustic_paths != [true; 2]
-        || settings.integrator != Integrator::Path
-        || view.rule.is_some()
-        || scene.casters.targets.is_empty()
-    {
+    if !wanted || !light_paths_pay::are_possible(scene, settings) {
         return None;
     }
-    // Expressions that are followed know nothing of how light came to the surfaces that light paths bring it to.
-    if settings.aovs.iter().any(|aov| matches!(aov, Aov::LightExpression(_))) {
-        return None;
-    }
-    // What shadow catchers hide is compared path by path, from the camera.
-    if !scene.tables.geometry.set_catcher.is_empty() {
-        return None;
-    }
-    let lights = &scene.tables.lights;
-    // Rays that look for a wide sky find it better than its paths find the picture. Light that falls otherwise than by nature has no flux to carry.
-    let starts = |light: u32| !lights.is_dome(light) && !lights.has_falloff(light);
-    let started: Arc<[u32]> = (0..lights.len() as u32).map(|light| u32::from(starts(light))).collect();
-    let numbers: Vec<u32> = (0..lights.len() as u32).filter(|light| started[*light as usize] != 0).collect();
-    let sampler = EmissionSampler::new(lights, Some(&numbers), sphere(scene), &scene.casters.targets);
-    (!sampler.is_empty()).then_some((LightPaths { sampler, caustics: true }, started))
+    let starts = light_paths_pay::starts(scene);
+    let sampler = light_paths_pay::emission(scene, &starts);
+    (!sampler.is_empty()).then(|| (LightPaths { sampler, caustics: true }, starts.into_iter().map(u32::from).collect()))
 }
 
 /// A sphere around all surfaces.

@@ -204,7 +204,7 @@ fn view(scene: &CompiledScene, settings: &Settings, execution: gonio_simd::Execu
         by_light_alone(scene, settings)?;
         view.transport.estimator = Estimator::Seen;
     }
-    let planned = light_paths::plan(scene, settings, &view);
+    let planned = light_paths::plan(scene, settings);
     Ok(match planned {
         Some((light_paths, started)) => {
             view.transport.light_paths = light_paths.caustics().then_some(started);

@@ -1,0 +1,204 @@
+//! Whether light paths bring caustics by themselves: a few thousand of them tell how much light mirrors and clear glass send on, and how noisy it
+//! would be if camera paths had to meet the lights by chance.
+
+use super::{CompiledScene, casters, view};
+use crate::{
+    error::{Diagnostic, Result},
+    light::{EmissionSampler, LightKind, LightRecord, LightTexture},
+    scene::{Aov, Caustics, Integrator, Scene, Settings},
+    transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Receiver, Wanted},
+};
+use gonio_simd::Execution;
+use std::{
+    f64::consts::PI,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+/// Batches of light paths that tell it.
+const BATCHES: u64 = 1;
+/// Other random numbers than splats and photons have, whatever the seed of the picture: frames of a sequence go one way.
+const FIRST_BATCH: u64 = 3 << 62;
+const SEED: u32 = 0;
+/// Variance of a camera path from the light that mirrors and glass send on, in squares of the mean light, from which light paths pay: scenes of
+/// `tests/peers` have up to 24 where they do not, and 300 and more where they do.
+const LEAST_NOISE: f64 = 100.0;
+/// Least part of all light that lights without size send on, which is lost where no light path brings it.
+const LEAST_LOST: f64 = 0.02;
+/// A light that sends most of what it lights by mirrors and glass decides for itself from this part of all light on.
+const LEAST_SHARE: f64 = 1e-3;
+/// Texels of a dome that its mean is taken of.
+const TEXELS: usize = 4096;
+
+/// Flux of a light that arrives on surfaces which are neither mirrors nor clear glass.
+#[derive(Clone, Copy, Debug, Default)]
+struct Brought {
+    straight: f64,
+    by_casters: f64,
+}
+
+/// What decides.
+#[derive(Clone, Copy, Debug, Default)]
+struct Findings {
+    /// See [`LEAST_NOISE`].
+    noise: f64,
+    /// Part of all light that lights without size send on.
+    lost: f64,
+    /// Whether a light is as good as shut in.
+    shut_in: bool,
+    /// The light of which mirrors and clear glass send most on, and the part of it.
+    most: (usize, f64),
+}
+
+/// Whether the scene and settings go with light paths that bring caustics.
+pub(crate) fn are_possible(scene: &CompiledScene, settings: &Settings) -> bool {
+    !scene.casters.targets.is_empty()
+        && settings.caustic_paths == [true; 2]
+        && settings.integrator == Integrator::Path
+        && !settings.antialiasing.is_adaptive()
+        // Expressions that are followed know nothing of how light came to the surfaces that light paths bring it to.
+        && !settings.aovs.iter().any(|aov| matches!(aov, Aov::LightExpression(_)))
+        // What shadow catchers hide is compared path by path, from the camera.
+        && scene.tables.geometry.set_catcher.is_empty()
+}
+
+/// By light, whether light paths start there. Rays that look for a wide sky find it better than its paths find the picture. Light that falls otherwise
+/// than by nature has no flux to carry.
+pub(crate) fn starts(scene: &CompiledScene) -> Vec<bool> {
+    let lights = &scene.tables.lights;
+    (0..lights.len() as u32).map(|light| !lights.is_dome(light) && !lights.has_falloff(light)).collect()
+}
+
+/// How paths start at these lights.
+pub(crate) fn emission(scene: &CompiledScene, starts: &[bool]) -> EmissionSampler {
+    let numbers: Vec<u32> = (0..).zip(starts).filter(|(_, starts)| **starts).map(|(light, _)| light).collect();
+    let (centre, radius) = scene.bounds.sphere(scene.tables.origin);
+    EmissionSampler::new(&scene.tables.lights, Some(&numbers), (centre, (radius * (1.0 + 1e-5)) as f32), &scene.casters.targets)
+}
+
+/// Decides for a scene whose settings leave it open, and says so where light paths are to run; `of_light` gives the scene's lights.
+pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u32], cancel: &AtomicBool) -> Result<()> {
+    if scene.settings.caustics == Caustics::Auto && are_possible(compiled, &scene.settings) {
+        let brought = trace(compiled, scene, cancel);
+        super::check(cancel)?;
+        let found = findings(compiled, &brought);
+        compiled.casters.pay = found.noise >= LEAST_NOISE || found.lost >= LEAST_LOST || found.shut_in;
+        if compiled.casters.pay {
+            let (light, part) = found.most;
+            let light = of_light.get(light).and_then(|light| scene.lights.get(*light as usize)).map(|light| &light.origin);
+            if let Some(origin) = light.or(compiled.casters.first.as_ref()) {
+                compiled.diagnostics.push(Diagnostic::info(origin, message(part)));
+            }
+        }
+    }
+    let traced = match scene.settings.caustics {
+        Caustics::Off => false,
+        Caustics::Auto => compiled.casters.pay,
+        Caustics::On => !compiled.casters.targets.is_empty(),
+    };
+    if traced {
+        casters::report_blockers(scene, &compiled.tables.links, &mut compiled.diagnostics);
+    }
+    Ok(())
+}
+
+fn message(part: f64) -> String {
+    let part = if part < 0.01 { "some".to_owned() } else { format!("{:.0} %", 100.0 * part) };
+    format!("mirrors and clear glass send on {part} of its light, which camera paths seldom find; light paths bring it (caustics)")
+}
+
+/// What a few light paths bring, light by light.
+fn trace(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> Vec<Brought> {
+    let tables = &compiled.tables;
+    let mut tally = Tally(vec![Brought::default(); tables.lights.len()]);
+    let sampler = emission(compiled, &starts(compiled));
+    if sampler.is_empty() {
+        return tally.0;
+    }
+    let settings = Settings { seed: SEED, ..scene.settings.clone() };
+    let transport = view::transport(compiled, &settings, Execution::detect(), [0.0; 3], [0.0, 0.0, -1.0]);
+    let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
+    let tracer = LightTracer { tables, transport: &transport, emission: Emission::Lights(&sampler), wanted };
+    let mut workspace = compiled.workspaces.take();
+    for batch in 0..BATCHES {
+        tracer.trace(FIRST_BATCH | batch, &mut tally, &mut Vec::new(), &mut workspace, &|| cancel.load(Ordering::Relaxed));
+    }
+    compiled.workspaces.leave(workspace);
+    let share = 1.0 / (BATCHES * LIGHT_BATCH as u64) as f64;
+    tally.0.iter().map(|b| Brought { straight: b.straight * share, by_casters: b.by_casters * share }).collect()
+}
+
+/// Adds up what arrives.
+struct Tally(Vec<Brought>);
+
+impl Receiver for Tally {
+    fn arrived(&mut self, arrivals: &Arrivals) {
+        for entry in 0..arrivals.count {
+            let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
+            if let Some(of_light) = self.0.get_mut(arrivals.light[entry] as usize) {
+                *(if arrivals.bounces(entry) == 0 { &mut of_light.straight } else { &mut of_light.by_casters }) += mean(flux);
+            }
+        }
+    }
+    fn escaped(&mut self, _: &Escapes) {}
+}
+
+/// What follows of it.
+///
+/// Where light of radiance L brings irradiance E by mirrors and glass, a camera path meets it with probability E / (π L) and then finds L: a variance of
+/// L E / π. It is told in squares of the mean light, E₀ / π, over surfaces as large as the scene's sphere.
+fn findings(compiled: &CompiledScene, brought: &[Brought]) -> Findings {
+    let records = compiled.kept_lights.records();
+    let radius = compiled.bounds.radius();
+    let area = 4.0 * PI * radius * radius;
+    let of_lights: f64 = brought.iter().map(|b| b.straight + b.by_casters).sum();
+    let domes = records.iter().filter(|record| record.kind == LightKind::Dome);
+    // Half of what comes through the sphere.
+    let of_domes: f64 = domes.map(|dome| 2.0 * PI * PI * radius * radius * dome_radiance(dome, compiled.kept_lights.images())).sum();
+    let total = of_lights + of_domes;
+    let (mut found, mut most) = (Findings::default(), 0.0);
+    if !(of_lights > 0.0 && total.is_finite()) {
+        return found;
+    }
+    for (light, (brought, record)) in brought.iter().zip(records).enumerate() {
+        let Brought { straight, by_casters } = *brought;
+        let own = by_casters / (straight + by_casters).max(f64::MIN_POSITIVE);
+        let sizeless = record.kind == LightKind::Point || (record.kind == LightKind::Distant && record.angle <= 0.0);
+        // Noise if there were no other light; radiances of openings are not at hand.
+        let alone = match record.opening {
+            Some(_) => 0.0,
+            None => PI * mean(record.radiance.map(f32::abs)) * by_casters * area / (straight + by_casters).max(f64::MIN_POSITIVE).powi(2),
+        };
+        if sizeless && record.opening.is_none() {
+            found.lost += by_casters / total;
+        } else {
+            found.noise += alone * ((straight + by_casters) / total).powi(2);
+        }
+        found.shut_in |= own >= 0.5 && by_casters >= LEAST_SHARE * total && (sizeless || alone >= LEAST_NOISE);
+        if by_casters > most {
+            (most, found.most) = (by_casters, (light, own));
+        }
+    }
+    found
+}
+
+/// Mean radiance of a dome, cd/m².
+fn dome_radiance(record: &LightRecord, images: &[Arc<LightTexture>]) -> f64 {
+    let image = record.texture.and_then(|number| images.get(number as usize)).filter(|image| image.width * image.height > 0);
+    let texture = image.map_or(1.0, |image| {
+        let step = (image.width * image.height / TEXELS).max(1);
+        // Rows shrink towards the poles.
+        let weight = |texel: usize| (PI * ((texel / image.width) as f64 + 0.5) / image.height as f64).sin();
+        let texels = || (0..image.width * image.height).step_by(step);
+        let value = |texel: usize| image.rgb.get(3 * texel..3 * texel + 3).map_or(0.0, |rgb| mean([rgb[0], rgb[1], rgb[2]]));
+        texels().map(|texel| weight(texel) * value(texel)).sum::<f64>() / texels().map(weight).sum::<f64>()
+    });
+    let radiance = mean(record.radiance) * texture;
+    if radiance.is_finite() { radiance.max(0.0) } else { 0.0 }
+}
+
+fn mean(rgb: [f32; 3]) -> f64 {
+    rgb.map(f64::from).iter().sum::<f64>() / 3.0
+}
