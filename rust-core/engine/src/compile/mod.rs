@@ -2,6 +2,7 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
+mod bodies;
 mod bounds;
 mod casters;
 mod catchers;
@@ -43,6 +44,7 @@ mod whitted;
 
 use numbers::geometry_number;
 
+pub(crate) use bodies::Bodies;
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub(crate) use dice::is_diced;
@@ -82,6 +84,8 @@ pub struct CompiledScene {
     pub(crate) manifests: Arc<Manifests>,
     /// What casts caustics.
     pub(crate) casters: Casters,
+    /// What absorbs where cameras and sensors stand.
+    pub(crate) bodies: Bodies,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
@@ -187,6 +191,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let casters = Casters::of(scene, &mesh_bounds, &materials, &lights.table, origin);
     casters::report(scene, &casters, &mut diagnostics);
     lights.linking.report(scene, [casters.enclosing.is_some(), !casters.targets.is_empty()], &mut diagnostics);
+    let rows = geometry.table.instances.iter().take(geometry.first_light as usize).map(|row| (row.set, row.number, row.mesh));
+    let bodies = Bodies::of(scene, &mesh_bounds, &materials, rows);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -217,6 +223,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         statistics,
         manifests,
         casters,
+        bodies,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         smooth,
