@@ -2,7 +2,7 @@
 //!
 //! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
 
-use super::Bounds;
+use super::bounds::Bounds;
 use crate::{
     accel::{Hits, RayBatch},
     scene::Scene,
