@@ -102,7 +102,10 @@ WORLDS = {
 
 MATERIALS = {
     "volume": Limit("Volumes of materials beyond even absorption", "the inside stays empty; without a surface, rays pass"),
-    "camera in volume": _untold("Cameras and sensors within a volume", "what they stand in absorbs nothing before the first surface"),
+    "camera in volume": _untold(
+        "Volumes whose surface goes through a lens or a parallel view; volumes around baked surfaces",
+        "what the middle of the lens stands in counts for all of it; the texels' surroundings are clear",
+    ),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
     "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),

@@ -173,6 +173,9 @@ class Images:
         if "<UDIM>" not in path or not any(os.path.isfile(tile) for tile in present):
             report.add("Image", image.name, f"no tile of '{path}' was found", severity="ERROR")
             return None, None
+        lost = ", ".join(os.path.basename(tile) for tile in present if not os.path.isfile(tile))
+        if lost:
+            report.add("Image", image.name, f"{lost} was not found; the colour of missing images is shown there", severity="ERROR")
         stamp = tuple(os.stat(tile).st_mtime_ns for tile in present if os.path.isfile(tile))
         return ("tiles", path, stamp), lambda: ({"source": {"File": path}}, {})
 

@@ -260,3 +260,31 @@ def test_even_absorption_is_what_volume_shaders_add_up_to(tmp_path):
     tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Fac"], first.inputs["Density"])
     description, lines = translated(made)
     assert "absorption" not in description and len(lines) == 1
+
+
+@pytest.mark.blender
+def test_a_camera_sees_through_the_volume_that_it_is_in_as_in_cycles(tmp_path):
+    import bpy
+    import numpy
+    from beside_cycles import both, close, scene, shining
+    from recorder import material
+
+    made = scene(8, 8, scale=2.0, samples=16)
+    # Cycles counts from where the view begins.
+    made.camera.data.clip_start = 1e-4
+    floor, _, colour = shining()
+    colour.default_value = (1.0, 1.0, 1.0, 1.0)
+    bpy.ops.mesh.primitive_plane_add(size=10)
+    bpy.context.object.data.materials.append(floor)
+    filled, tree, end = material("Filled")
+    inside = tree.nodes.new("ShaderNodeVolumeAbsorption")
+    inside.inputs["Color"].default_value, inside.inputs["Density"].default_value = (0.5, 0.25, 0.9, 1.0), 0.4
+    tree.links.new(inside.outputs[0], end.inputs["Volume"])
+    # From 1 m to 8 m above the floor; the camera is at 5 m.
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 4.5), scale=(6, 6, 7))
+    bpy.context.object.data.materials.append(filled)
+    pair = both(tmp_path)
+    close(pair)
+    expected = numpy.exp(-0.4 * (1 - numpy.array((0.5, 0.25, 0.9))) * 4.0)
+    assert numpy.allclose(pair[1].mean((0, 1)), expected, rtol=1e-3), (pair[1].mean((0, 1)), expected)
+    assert made.render.engine == "GONIO"

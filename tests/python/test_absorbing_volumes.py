@@ -114,3 +114,38 @@ def test_surfaces_within_are_lit_through_it():
     around = {"stretch": (1, 9, 1), "absorption": (0.1, 0.2, 0.4)}
     expected = np.exp(-np.array(around["absorption"]) * (4.48 + 1.054))
     assert np.allclose(lit_floor(lamp, (0, -0.5, 0), **around) / lit_floor(lamp), expected, rtol=5e-3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_a_camera_within_sees_through_what_it_stands_in(integrator):
+    scene = shining_floor(integrator=integrator)
+    # Full from 2 m above the floor to 9.5 m, so the camera looks through 6 m of it.
+    filled(scene, (0, 2, 0), stretch=(1, 7.5, 1), absorption=(0.05, 0.1, 0.2))
+    assert np.allclose(seen(scene), np.exp(-np.array((0.05, 0.1, 0.2)) * 6.0), rtol=2e-4)
+
+
+def test_bodies_around_the_camera_add_up_and_those_beside_it_do_not():
+    scene = shining_floor()
+    filled(scene, (0, 2, 0), stretch=(1, 7.5, 1), absorption=(0.05, 0.1, 0.2))
+    filled(scene, (0, 4, 0), stretch=(1, 4.5, 1), absorption=(0.1, 0.0, 0.05))
+    # Above the camera and beside it.
+    filled(scene, (0, 9, 0), (3, 6, 0), stretch=(1, 4, 1), absorption=(5.0, 5.0, 5.0))
+    expected = np.exp(-(np.array((0.05, 0.1, 0.2)) * 6.0 + np.array((0.1, 0.0, 0.05)) * 4.0))
+    assert np.allclose(seen(scene), expected, rtol=2e-4)
+
+
+def lamp_over(box):
+    """A meter on the floor, faced by a small lamp 4 m above it, in a box if there is one."""
+    scene = gonio.Scene()
+    scene.set(samples=256, max_bounces=0)
+    scene.add_light("sphere", (1000.0,) * 3, radius=0.02, transform=at(0, 4, 0))
+    if box is not None:
+        filled(scene, box, stretch=(1, 3, 1))
+    scene.add_meter((0.0, 0.0, 0.0), normal=(0.0, 1.0, 0.0))
+    return gonio.measure(scene).meters[0].value
+
+
+def test_meters_within_are_dimmed_by_what_they_stand_in():
+    # Full from half a metre below the meter to 2.5 m above it; absorption weighs as luminance does.
+    weights = np.array((0.2126, 0.7152, 0.0722))
+    assert lamp_over((0, -0.5, 0)) / lamp_over(None) == pytest.approx(float(weights @ left(2.5)), rel=5e-3)

@@ -73,6 +73,23 @@ def test_weather_files_are_read():
         gonio.read_weather(text.replace("800", "x").encode(), "here.wea")
 
 
+def test_weather_files_of_other_quantities_come_in_irradiances():
+    text = "place Here\nlatitude 48\nlongitude -16\ntime_zone -15\nsite_elevation 200\nweather_data_file_units {}\n6 21 12.5 {} {}\n"
+
+    def hour(units, sun, sky):
+        return gonio.read_weather(text.format(units, sun, sky).encode(), "here.wea")["hours"][0][3:5]
+
+    # Solar time is 12:32: a degree east of the zone's meridian, and the equation of time of the solstice.
+    latitude, declination, angle = np.radians((48.0, 23.44, 15 * 32.3 / 60))
+    sine = np.sin(latitude) * np.sin(declination) + np.cos(latitude) * np.cos(declination) * np.cos(angle)
+    assert hour(2, 700, 110) == pytest.approx((700 / sine, 110), rel=2e-3)
+    # What the sky of irradiances brings in lx leads back to them.
+    day = gonio.daylight(48.0, 16.0, "2024-06-21T12:30+01:00", direct_normal=800.0, diffuse_horizontal=110.0, elevation=200.0)
+    assert hour(3, day.direct_illuminance, day.diffuse_illuminance) == pytest.approx((800.0, 110.0), rel=2e-3)
+    with pytest.raises(gonio.FormatError, match="here.wea:6: weather_data_file_units is '4'"):
+        hour(4, 700, 110)
+
+
 def plane_under(daylight, **frame):
     """Mean illuminance of a white plane under the open sky, lx; y is up."""
     scene = gonio.Scene()

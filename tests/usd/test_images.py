@@ -164,6 +164,18 @@ def test_tiles_inside_packages(tmp_path):
     assert [tile["number"] for tile in texture["source"]["Tiles"]["tiles"]] == [1001, 1012]
 
 
+def test_a_tile_that_is_missing_has_the_fallback_value(run, tmp_path):
+    for number in (1001, 1003):
+        shutil.copy(FILES / "plain.png", tmp_path / f"tile.{number}.png")
+    layer = stage(tmp_path, ["tile.<UDIM>.png"])
+    layer.write_text(layer.read_text().replace("[(0, 0), (1, 0), (1, 1), (0, 1)]", "[(-1, 0), (3, 0), (3, 1), (-1, 1)]"))
+    done = run("render", layer, "-o", tmp_path / "out.exr", "--spp", 16, "--max-bounces", 0, "--res", PIXELS, PIXELS)
+    assert done.returncode == 0 and done.stderr.count("no tile 1002; the fallback value is used there") == 1, done.stderr
+    columns = pictures.read(tmp_path / "out.exr").rgb.reshape(PIXELS, 4, PIXELS // 4, 3)[2:-2, :, 1:-1].mean(axis=(0, 2))
+    assert columns[0] == pytest.approx([0, 0.25, 0], abs=1e-3) == columns[2]
+    assert columns[1] == pytest.approx(columns[3], abs=1e-3) and abs(columns[1] - columns[0]).max() > 0.05
+
+
 NAMES = """lin_ap1_scene lin_ap0_scene lin_rec709_scene lin_p3d65_scene lin_rec2020_scene lin_adobergb_scene lin_ciexyzd65_scene
 srgb_rec709_scene g22_rec709_scene g18_rec709_scene srgb_ap1_scene g22_ap1_scene srgb_p3d65_scene g22_adobergb_scene""".split()
 

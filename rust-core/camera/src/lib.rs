@@ -68,6 +68,8 @@ pub struct CameraTable {
     pub clipping: [f32; 2],
     /// How it moves while the shutter is open; `axes` and `position` are where it rests.
     pub motion: Option<Arc<Motion>>,
+    /// Absorption a metre of what its middle stands in.
+    pub medium: [f32; 3],
 }
 
 /// A ray for each lane.

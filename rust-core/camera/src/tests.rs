@@ -18,6 +18,7 @@ pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f
         planes: Vec::new(),
         clipping: [0.1, 100.0],
         motion: None,
+        medium: [0.0; 3],
     }
 }
 

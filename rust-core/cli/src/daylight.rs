@@ -1,7 +1,7 @@
 //! `gonio render --sun`.
 
 use super::{arguments::DaylightArguments, file, say};
-use gonio::sky::{DEFAULT_ROWS, Daylight, Frame, Irradiance, Moment, Place, SkyModel};
+use gonio::sky::{DEFAULT_ROWS, Daylight, Frame, Irradiance, Moment, Place, SkyModel, in_irradiances};
 use gonio::{Diagnostic, Error, Result, scene::Origin};
 use gonio_formats::weather;
 use gonio_usd::{Loaded, daylight::up_axis};
@@ -63,7 +63,7 @@ fn read(arguments: &DaylightArguments, text: &str) -> Result<(Daylight, Vec<Stri
     }
     if let Some(path) = &arguments.weather {
         let bytes = file::read(path, LONGEST, "weather file")?;
-        let found = weather::read(&bytes).map_err(|error| Error::in_file(path, &error))?;
+        let found = in_irradiances(weather::read(&bytes).map_err(|error| Error::in_file(path, &error))?);
         daylight.take_weather(&found).map_err(|error| Error::Format { path: path.clone(), line: None, problem: error.to_string() })?;
         doubts = daylight.doubts_about(&found)?;
     }

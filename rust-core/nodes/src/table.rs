@@ -316,7 +316,7 @@ operations! {
             /// Whether the first and last two rows are prolonged beyond the range; else the outer rows are held.
             extrapolate: bool,
         }(argument: 4) -> 4, Zero;
-        /// An image lookup; gives `fallback` where the texture could not be had. Output = texel · scale + bias.
+        /// An image lookup; gives `fallback` where the texture, or the tile of a set, could not be had. Output = texel · scale + bias.
         Image {
             /// The image.
             texture: TextureId,

@@ -195,6 +195,7 @@ pub(crate) fn frame(up: &str, north: f64) -> PyResult<Frame> {
 #[pyfunction]
 pub(crate) fn read_weather<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyDict>> {
     let found = weather::read(data).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    let found = gonio::sky::in_irradiances(found);
     let hour = |h: &weather::Hour| (h.month, h.day, h.hour, h.direct_normal, h.diffuse_horizontal, h.dew_point_c);
     let result = PyDict::new(py);
     result.set_item("place", &found.place)?;

@@ -2,6 +2,7 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
+mod bodies;
 mod bounds;
 mod casters;
 mod catchers;
@@ -44,6 +45,7 @@ mod whitted;
 
 use numbers::geometry_number;
 
+pub(crate) use bodies::Bodies;
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub(crate) use dice::is_diced;
@@ -83,6 +85,8 @@ pub struct CompiledScene {
     pub(crate) manifests: Arc<Manifests>,
     /// What casts caustics.
     pub(crate) casters: Casters,
+    /// What absorbs where cameras and sensors stand.
+    pub(crate) bodies: Bodies,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
@@ -186,6 +190,8 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     light_alone::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, origin);
+    let rows = geometry.table.instances.iter().take(geometry.first_light as usize).map(|row| (row.set, row.number, row.mesh));
+    let bodies = Bodies::of(scene, &mesh_bounds, &materials, rows);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -216,6 +222,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         statistics,
         manifests,
         casters,
+        bodies,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         smooth,

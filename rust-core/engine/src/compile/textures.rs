@@ -129,6 +129,18 @@ fn report(texture: &Texture, what: &str, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.push(Diagnostic::warning(&texture.origin, format!("{what}; the fallback value is used")));
 }
 
+/// Tells the tiles that a set leaves out between others of a row of ten.
+fn report_gaps(texture: &Texture, mut numbers: Vec<u32>, diagnostics: &mut Vec<Diagnostic>) {
+    numbers.sort_unstable();
+    let row = |number: u32| number.saturating_sub(1001) / 10;
+    let between = |pair: &[u32]| if row(pair[0]) == row(pair[1]) { pair[0] + 1..pair[1] } else { 0..0 };
+    let missing: Vec<String> = numbers.windows(2).flat_map(between).map(|number| number.to_string()).collect();
+    if !missing.is_empty() {
+        let message = format!("the UDIM set has no tile {}; the fallback value is used there", missing.join(", "));
+        diagnostics.push(Diagnostic::warning(&texture.origin, message));
+    }
+}
+
 /// What is told of a header that says of its colours what cannot be used.
 pub(super) fn unusable(texture: &Texture, note: &str) -> Diagnostic {
     let name = match &texture.source {
@@ -180,6 +192,7 @@ fn requests(number: usize, texture: &Texture, diagnostics: &mut Vec<Diagnostic>)
             if tiles.is_empty() {
                 report(texture, &format!("{name}: no tile of the UDIM set was found"), diagnostics);
             }
+            report_gaps(texture, tiles.iter().map(|tile| tile.number).collect(), diagnostics);
             let source = |tile: &Tile| Source::Bytes { name: tile_path(name, tile.number).into(), bytes: tile.bytes.clone() };
             tiles.iter().map(|tile| wanted(Some(tile.number), source(tile))).collect()
         }
@@ -188,6 +201,7 @@ fn requests(number: usize, texture: &Texture, diagnostics: &mut Vec<Diagnostic>)
             if tiles.is_empty() {
                 report(texture, &format!("{}: no tile of the UDIM set was found", path.display()), diagnostics);
             }
+            report_gaps(texture, tiles.iter().map(|(number, _)| *number).collect(), diagnostics);
             tiles.into_iter().map(|(tile, path)| wanted(Some(tile), Source::Path(path))).collect()
         }
         TextureSource::File(path) => vec![wanted(None, Source::Path(path.clone()))],

@@ -49,7 +49,9 @@ impl View {
             return Err(Error::scene(&camera.origin, "the camera's transform is not finite"));
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
-        let table = CameraTable { motion: motion::of_camera(camera, settings, scene.tables.origin), ..table };
+        let motion = motion::of_camera(camera, settings, scene.tables.origin);
+        let medium = scene.bodies.absorption(&scene.tables, camera.transform.columns[3]);
+        let table = CameraTable { motion, medium, ..table };
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
         let mut transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
         transport.passes.motion = motion_vectors::cameras(camera, settings, |camera| camera_table(camera, settings, scene.tables.origin))?;
@@ -251,6 +253,7 @@ fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Resul
             .collect(),
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
         motion: None,
+        medium: [0.0; 3],
     })
 }
 

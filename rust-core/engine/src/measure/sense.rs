@@ -20,6 +20,8 @@ use std::{f64::consts::PI, sync::Arc, time::Duration};
 const TELL_EVERY: Duration = Duration::from_millis(50);
 /// Rounding errors of a position by its coordinates: that of the rebased point and that of the surface it may lie on.
 const POSITION_ERROR: f64 = 8.0 * f32::EPSILON as f64;
+/// Errors of a position that are well before the surface it lies on.
+const BEFORE: f64 = 16.0;
 
 /// A meter in unit vectors, world space.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +62,8 @@ impl Probe {
     }
 
     /// In a scene of a radius in metres, whose surfaces are as exact as that allows.
-    fn sensor(&self, origin: [f64; 3], radius: f64) -> Sensor {
+    fn sensor(&self, scene: &CompiledScene, radius: f64) -> Sensor {
+        let origin = scene.tables.origin;
         let rebased = [0, 1, 2].map(|i| self.position[i] - origin[i]);
         let largest = rebased.iter().fold(radius, |most, x| most.max(x.abs()));
         let error = largest * POSITION_ERROR;
@@ -74,6 +77,8 @@ impl Probe {
             side: single(self.side),
             turn: self.turn as f32,
             looks: self.looks,
+            // On the side that is measured, for sensors lie on surfaces.
+            medium: scene.bodies.absorption(&scene.tables, add(self.position, scaled(self.normal, BEFORE * error))),
         }
     }
 }
@@ -86,9 +91,8 @@ pub(super) fn sense(
     execution: Execution,
     progress: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<Reading>> {
-    let origin = scene.tables.origin;
     let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
-    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(origin, radius)).collect();
+    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(&scene, radius)).collect();
     let table = SensorTable::new(&sensors);
     let side = table.side();
     let blocks: Vec<[usize; 2]> = (0..probes.len()).map(|sensor| table.block(sensor)).collect();

@@ -2,7 +2,8 @@
 
 use super::{
     Air, CieSky, Clearness, HosekWilkie, Irradiance, Moment, PerezSky, Place, SkyModel, SunPosition, clear_sky_irradiance, colour,
-    diffuse_efficacy, direct_efficacy, distribution::Distribution, extraterrestrial_irradiance, relative_air_mass, sun_position, within,
+    diffuse_efficacy, direct_efficacy, distribution::Distribution, extraterrestrial_irradiance, relative_air_mass, sun_position,
+    weather::USUAL_DEW_POINT_C, within,
 };
 use crate::{Error, Result};
 use gonio_formats::weather::Weather;
@@ -10,8 +11,6 @@ use std::f64::consts::PI;
 
 /// Angle under which the sun's disc is seen, degrees.
 pub const SUN_ANGLE_DEG: f64 = 0.533;
-/// Dew point of two centimetres of water in the air, °C: Perez's usual value.
-const USUAL_DEW_POINT_C: f64 = 10.97;
 /// Kilometres within which a weather station stands for a place.
 const FAR_KM: f64 = 100.0;
 /// Degrees that the sun moves in an hour, at most.
@@ -58,7 +57,7 @@ impl Daylight {
         }
     }
 
-    /// Takes irradiances and dew point of the hour from a weather file; its year does not matter.
+    /// Takes irradiances and dew point of the hour from a weather file in irradiances ([`super::in_irradiances`]); its year does not matter.
     ///
     /// # Errors
     /// The file has no record within an hour of the moment.

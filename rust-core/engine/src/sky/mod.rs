@@ -20,6 +20,7 @@ mod moment;
 mod perez;
 mod preetham;
 mod sun_position;
+mod weather;
 
 pub use atmosphere::{Atmosphere, Scattering};
 pub use cie::{CIE_TYPES, CieSky};
@@ -34,6 +35,7 @@ pub use moment::Moment;
 pub use perez::{Clearness, PerezSky};
 pub use preetham::Preetham;
 pub use sun_position::{Air, Place, SunPosition, SunTimes, sun_position, sun_times};
+pub use weather::in_irradiances;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! EPW: a header of eight lines, then a line of 35 fields for each interval (EnergyPlus Auxiliary Programs, "EnergyPlus Weather File").
 
-use super::{Hour, MOST_IRRADIANCE, Weather, number, whole};
+use super::{Hour, MOST_IRRADIANCE, Quantities, Weather, number, whole};
 use crate::error::{FormatError, Result};
 use crate::photometry::text::{Lines, parse, quote};
 
@@ -32,6 +32,7 @@ fn location((line, text): (u64, &str)) -> Result<Weather> {
         longitude_deg: number(line, "the longitude", field(7), -180.0..=180.0)?,
         utc_offset_h: number(line, "the time zone", field(8), -14.0..=14.0)?,
         elevation_m: number(line, "the elevation", field(9), -500.0..=12_000.0)?,
+        quantities: Quantities::NormalIrradiance,
         hours: Vec::new(),
     })
 }

@@ -10,6 +10,8 @@ use crate::photometry::text::{Lines, decode, parse, quote};
 const MOST_HOURS: usize = 366 * 24 * 60;
 /// Beyond what the sun brings to the top of the atmosphere, W/m².
 const MOST_IRRADIANCE: f64 = 1500.0;
+/// The same in lx, by the highest efficacies of daylight.
+const MOST_ILLUMINANCE: f64 = 250_000.0;
 
 /// What a weather file says of its place, and its hours in the file's order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,8 +26,22 @@ pub struct Weather {
     pub utc_offset_h: f64,
     /// Metres above the sea.
     pub elevation_m: f64,
+    /// What the two numbers of a record are.
+    pub quantities: Quantities,
     /// The records.
     pub hours: Vec<Hour>,
+}
+
+/// What the numbers of records are: the first is of the sun's disc, the second of the sky on a level surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantities {
+    /// W/m², the sun's on a surface that faces it.
+    #[default]
+    NormalIrradiance,
+    /// W/m², the sun's on a level surface.
+    HorizontalIrradiance,
+    /// lx, the sun's on a surface that faces it.
+    Illuminance,
 }
 
 /// One record: means over an interval of time.
@@ -37,9 +53,9 @@ pub struct Hour {
     pub day: u32,
     /// Middle of the interval, hours since midnight, 0 to 24.
     pub hour: f64,
-    /// Irradiance by the sun's disc of a surface that faces it, W/m².
+    /// Irradiance by the sun's disc of a surface that faces it, W/m²; or as [`Weather::quantities`] says.
     pub direct_normal: f64,
-    /// Irradiance by the sky of a level surface, W/m².
+    /// Irradiance by the sky of a level surface, W/m²; or as [`Weather::quantities`] says.
     pub diffuse_horizontal: f64,
     /// Dew point, °C; WEA files have none.
     pub dew_point_c: Option<f64>,

@@ -1,9 +1,9 @@
-//! WEA: six lines of header, then month, day, hour and two irradiances a line (Radiance's `epw2wea` and `gendaymtx`).
+//! WEA: six lines of header, then month, day, hour and two numbers a line, whose quantities the header's last line tells (Radiance's `epw2wea` and `gendaymtx`).
 //!
 //! Hours are the middles of their intervals, as Daysim has them. Some programs count whole hours instead: from 0 where they begin, or up to 24 where
 //! they end.
 
-use super::{Hour, MOST_IRRADIANCE, Weather, number, whole};
+use super::{Hour, MOST_ILLUMINANCE, MOST_IRRADIANCE, Quantities, Weather, number, whole};
 use crate::error::{FormatError, Result};
 use crate::photometry::text::{Lines, quote};
 
@@ -25,15 +25,14 @@ pub(super) fn read(lines: Lines<'_>) -> Result<Weather> {
         longitude_deg: -value("longitude", -180.0..=180.0)?,
         utc_offset_h: -value("time_zone", -210.0..=210.0)? / 15.0,
         elevation_m: value("site_elevation", -500.0..=12_000.0)?,
+        quantities: Quantities::default(),
         hours: Vec::new(),
     };
     let (line, units) = header("weather_data_file_units")?;
-    if units != "1" {
-        let problem = format!("weather_data_file_units is {}, expected 1 (direct normal and diffuse horizontal in W/m²)", quote(units));
-        return Err(FormatError::line(line, problem));
-    }
+    weather.quantities = quantities(line, units)?;
     for (line, text) in lines {
-        weather.push(line, hour(line, text)?)?;
+        let record = hour(line, text, weather.quantities)?;
+        weather.push(line, record)?;
     }
     let shift = to_middle(&weather.hours);
     weather.hours.iter_mut().for_each(|record| record.hour += shift);
@@ -50,14 +49,32 @@ fn to_middle(hours: &[Hour]) -> f64 {
     }
 }
 
-fn hour(line: u64, text: &str) -> Result<Hour> {
+/// Radiance's and Daysim's numbers of quantities.
+fn quantities(line: u64, units: &str) -> Result<Quantities> {
+    match units {
+        "1" => Ok(Quantities::NormalIrradiance),
+        "2" => Ok(Quantities::HorizontalIrradiance),
+        "3" => Ok(Quantities::Illuminance),
+        _ => {
+            let expected = "expected 1 (W/m², the sun's on a surface that faces it), 2 (W/m², on a level one) or 3 (lx)";
+            Err(FormatError::line(line, format!("weather_data_file_units is {}, {expected}", quote(units))))
+        }
+    }
+}
+
+fn hour(line: u64, text: &str, quantities: Quantities) -> Result<Hour> {
+    let (names, most) = match quantities {
+        Quantities::NormalIrradiance => (["the direct normal irradiance", "the diffuse horizontal irradiance"], MOST_IRRADIANCE),
+        Quantities::HorizontalIrradiance => (["the direct horizontal irradiance", "the diffuse horizontal irradiance"], MOST_IRRADIANCE),
+        Quantities::Illuminance => (["the direct normal illuminance", "the diffuse horizontal illuminance"], MOST_ILLUMINANCE),
+    };
     let mut fields = text.split_whitespace();
     Ok(Hour {
         month: whole(line, "the month", fields.next(), 1..=12)?,
         day: whole(line, "the day", fields.next(), 1..=31)?,
         hour: number(line, "the hour", fields.next(), 0.0..=24.0)?,
-        direct_normal: number(line, "the direct normal irradiance", fields.next(), 0.0..=MOST_IRRADIANCE)?,
-        diffuse_horizontal: number(line, "the diffuse horizontal irradiance", fields.next(), 0.0..=MOST_IRRADIANCE)?,
+        direct_normal: number(line, names[0], fields.next(), 0.0..=most)?,
+        diffuse_horizontal: number(line, names[1], fields.next(), 0.0..=most)?,
         dew_point_c: None,
     })
 }

@@ -1,7 +1,7 @@
 //! EPW and WEA files, good and broken.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use gonio_formats::weather::{Hour, read};
+use gonio_formats::weather::{Hour, Quantities, read};
 
 const WEA: &str = "place Oakland_USA\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\nsite_elevation 2.0\nweather_data_file_units 1
 6 21 11.500 830 95\n6 21 12.500 850 90.5\n";
@@ -26,6 +26,19 @@ fn a_wea_file_is_read() {
     let found = weather.at(6, 21, 12.9).unwrap();
     assert_eq!((found.hour, found.direct_normal, found.diffuse_horizontal, found.dew_point_c), (12.5, 850.0, 90.5, None));
     assert!(weather.at(6, 22, 12.0).is_none());
+}
+
+#[test]
+fn wea_files_say_what_their_numbers_are() {
+    let of = |units: &str, sun: &str| read(WEA.replace("units 1", units).replace("850", sun).as_bytes());
+    for (units, quantities) in
+        [("units 1", Quantities::NormalIrradiance), ("units 2", Quantities::HorizontalIrradiance), ("units 3", Quantities::Illuminance)]
+    {
+        let found = of(units, "850").unwrap();
+        assert_eq!((found.quantities, found.hours[1].direct_normal, found.hours[1].diffuse_horizontal), (quantities, 850.0, 90.5));
+    }
+    assert_eq!(of("units 3", "98000").unwrap().hours[1].direct_normal, 98_000.0);
+    assert!(of("units 2", "98000").unwrap_err().to_string().starts_with("line 8: the direct horizontal irradiance is '98000'"));
 }
 
 #[test]
@@ -74,7 +87,7 @@ fn what_is_broken_is_told_with_its_line() {
     assert!(wea(" 90.5", "").starts_with("line 8: the diffuse horizontal irradiance is missing"));
     assert!(wea(" 90.5", " -1").contains("expected a number from 0 to 1500"));
     assert!(wea(" 90.5", " nan").contains("expected a number"));
-    assert!(wea("units 1", "units 2").starts_with("line 6: "));
+    assert!(wea("units 1", "units 4").starts_with("line 6: weather_data_file_units is '4', expected 1"));
     assert!(wea("time_zone", "timezone").starts_with("line 4: "));
     assert!(read(WEA.lines().take(6).collect::<Vec<_>>().join("\n").as_bytes()).unwrap_err().to_string().contains("no hours"));
     let of_epw = |from: &str, to: &str| read(epw().replace(from, to).as_bytes()).unwrap_err().to_string();

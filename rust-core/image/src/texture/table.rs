@@ -118,6 +118,21 @@ impl TextureTable {
         texel
     }
 
+    /// Whether a texture is a set of UDIM tiles.
+    #[inline]
+    pub fn is_set(&self, texture: TextureId) -> bool {
+        matches!(&self.textures[texture as usize], Texture::Tiles(_))
+    }
+
+    /// Lanes whose coordinates a texture has an image for: all, but for sets of UDIM tiles.
+    #[inline(always)]
+    pub fn covers<L: Lanes>(&self, l: L, texture: TextureId, uv: Vec2<L>) -> M<L> {
+        match &self.textures[texture as usize] {
+            Texture::Image(_) => l.m(true),
+            Texture::Tiles(tiles) => tiles.part(l, uv).inside,
+        }
+    }
+
     /// Whether a texture is read tile by tile, by [`Self::sample_tiles`].
     #[inline]
     pub fn is_paged(&self, texture: TextureId) -> bool {

@@ -10,7 +10,7 @@ use super::{
 use crate::geometry::GeometryTable;
 use gonio_image::texture::{Filter, TextureTable, TileReader, Wrap};
 use gonio_nodes::{Io, Operation, Quantity};
-use gonio_simd::{F, Lanes, Vec2};
+use gonio_simd::{F, Lanes, M, Vec2};
 
 /// Such a step, with names resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub enum HitStep {
         scale: [f32; 4],
         /// Added afterwards.
         bias: [f32; 4],
+        /// Where a set of tiles has none.
+        fallback: [f32; 4],
         /// Size of a unit of the coordinates, as transforms before this step scaled them.
         footprint: f32,
     },
@@ -130,12 +132,15 @@ fn image<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, io: &mut Io<'_>) {
     l.vectorize(
         #[inline(always)]
         || {
-            let HitStep::Image { texture, wrap, filter, scale, bias, footprint } = step else { return };
+            let HitStep::Image { texture, wrap, filter, scale, bias, fallback, footprint } = step else { return };
+            let has_gaps = points.textures.is_set(*texture);
             for at in (0..io.count).step_by(L::COUNT) {
                 let [x, y] = io.load(l, at);
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
                 let texel = points.textures.sample(l, *texture, Vec2 { x, y }, width, *wrap, *filter);
-                io.store(at, scaled(texel, scale, bias));
+                let value = scaled(texel, scale, bias);
+                let covered = if has_gaps { points.textures.covers(l, *texture, Vec2 { x, y }) } else { l.m(true) };
+                io.store(at, where_covered(covered, value, fallback));
             }
         },
     );
@@ -151,19 +156,33 @@ fn scaled<L: Lanes>(texel: [F<L>; 4], scale: &[f32; 4], bias: &[f32; 4]) -> [F<L
     value
 }
 
+/// What was looked up, the value of missing images where a set has no tile.
+#[inline(always)]
+fn where_covered<L: Lanes>(covered: M<L>, mut value: [F<L>; 4], fallback: &[f32; 4]) -> [F<L>; 4] {
+    if !covered.all() {
+        for (component, missing) in value.iter_mut().zip(fallback) {
+            *component = covered.select(*component, component.lanes().f(*missing));
+        }
+    }
+    value
+}
+
 /// [`image`] for a texture of which not all is in memory.
 #[inline(never)]
 fn image_in_tiles<L: Lanes>(l: L, step: &HitStep, points: &Points<'_>, tiles: &mut TileReader, io: &mut Io<'_>) {
     l.vectorize(
         #[inline(always)]
         || {
-            let HitStep::Image { texture, wrap, filter, scale, bias, footprint } = step else { return };
+            let HitStep::Image { texture, wrap, filter, scale, bias, fallback, footprint } = step else { return };
+            let has_gaps = points.textures.is_set(*texture);
             for at in (0..io.count).step_by(L::COUNT) {
                 let [x, y] = io.load(l, at);
                 let width = l.load(&points.columns.uv_width, points.first + at) * *footprint;
                 let reader = (&mut *tiles, io.count - at);
                 let texel = points.textures.sample_tiles(l, reader, *texture, Vec2 { x, y }, width, (*wrap, *filter));
-                io.store(at, scaled(texel, scale, bias));
+                let value = scaled(texel, scale, bias);
+                let covered = if has_gaps { points.textures.covers(l, *texture, Vec2 { x, y }) } else { l.m(true) };
+                io.store(at, where_covered(covered, value, fallback));
             }
         },
     );

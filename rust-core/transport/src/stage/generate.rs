@@ -1,5 +1,6 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
+use crate::stage::volume::filling;
 use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
@@ -35,6 +36,7 @@ pub fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.count = 0;
+    let medium = filling(l, camera.medium);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
@@ -56,7 +58,7 @@ pub fn generate<L: Lanes>(
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
         let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
-        paths.append(&started(l, &ray, l.iota() + slot), inside & ray.mapped);
+        paths.append(&started(l, &ray, l.iota() + slot, medium), inside & ray.mapped);
     }
     paths.set_masks();
 }
@@ -65,6 +67,7 @@ pub fn generate<L: Lanes>(
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
     paths.count = 0;
+    let medium = filling(l, camera.medium);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
         let end = (first + L::COUNT).min(slots.len());
@@ -72,14 +75,14 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
         y[..end - first].copy_from_slice(&places[1][first..end]);
         slot[..end - first].copy_from_slice(&slots[first..end]);
         let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
-        paths.append(&started(l, &ray, l.load_integers(&slot, 0)), l.first(end - first) & ray.mapped);
+        paths.append(&started(l, &ray, l.load_integers(&slot, 0), medium), l.first(end - first) & ray.mapped);
     }
     paths.set_masks();
 }
 
 /// The path of a camera ray.
 #[inline(always)]
-fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
+fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, medium: Spectrum<L>) -> PathLanes<L> {
     PathLanes {
         ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
         from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
@@ -90,6 +93,6 @@ fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
         slot,
         flags: l.u(flag::CAMERA | flag::DELTA),
         counts: l.u(0),
-        medium: Spectrum::zero(l),
+        medium,
     }
 }

@@ -44,6 +44,7 @@ struct MeasuredPoint<L: Lanes> {
     throughput: Spectrum<L>,
     width: F<L>,
     slot: U<L>,
+    medium: Spectrum<L>,
 }
 
 /// Lights some points by the same fixed samples each.
@@ -113,6 +114,7 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, points: &MeasurePoints) ->
         throughput: points.throughput.load(l, at),
         width: l.load(&points.width, at),
         slot: l.load_integers(&points.slot, at) + BATCH as u32,
+        medium: points.medium.load(l, at),
     }
 }
 
@@ -138,8 +140,7 @@ fn queue_shadow_ray<L: Lanes>(
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
-    // What sensors stand in is not known.
-    let medium = if chunk.tables.any_volume { Some(Spectrum::zero(chunk.l)) } else { None };
+    let medium = if chunk.tables.any_volume { Some(point.medium) } else { None };
     send(chunk.transport, &point.at, (sample, medium), &light, lit, shadows, deposits);
 }
 
@@ -159,7 +160,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
         slot: point.slot,
         flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
-        medium: Spectrum::zero(l),
+        medium: point.medium,
     };
     next.append(&state, alive);
 }

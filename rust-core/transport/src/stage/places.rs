@@ -168,6 +168,8 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
             width,
             slot,
             receiver: tables.links.receiver(l, instance),
+            // What textures lie in is not known.
+            medium: Spectrum::zero(l),
         };
         started.points.append(&measured, inside);
     }

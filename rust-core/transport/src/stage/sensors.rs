@@ -9,9 +9,10 @@ use crate::state::flag;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
+use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Spectrum};
+use gonio_simd::{Column, Lanes, Rgb, Spectrum};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub struct Sensor {
     pub turn: f32,
     /// Measures luminance along the normal instead of illuminance.
     pub looks: bool,
+    /// Absorption a metre of what it stands in.
+    pub medium: [f32; 3],
 }
 
 /// The sensors of a measurement as columns, and how pixels belong to them.
@@ -44,6 +47,7 @@ pub struct SensorTable {
     side: [Column; 3],
     turn: Column,
     looks: Column<u32>,
+    medium: [Column; 3],
 }
 
 /// Logarithm of a tile's side.
@@ -74,6 +78,7 @@ impl SensorTable {
             side: std::array::from_fn(|axis| column(&|sensor| sensor.side[axis])),
             turn: column(&|sensor| sensor.turn),
             looks,
+            medium: std::array::from_fn(|part| column(&|sensor| sensor.medium[part])),
         }
     }
 
@@ -121,6 +126,8 @@ pub(crate) fn start_sensors<L: Lanes>(
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
+        let [r, g, b] = &sensors.medium;
+        let medium = spectrum(Rgb::new(l.gather(r, sensor), l.gather(g, sensor), l.gather(b, sensor)));
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),
@@ -131,6 +138,7 @@ pub(crate) fn start_sensors<L: Lanes>(
             slot,
             // No light is hidden from a meter.
             receiver: l.u(0),
+            medium,
         };
         points.append(&point, inside.and_not(looks));
         let state = PathLanes {
@@ -143,7 +151,7 @@ pub(crate) fn start_sensors<L: Lanes>(
             slot,
             flags: l.u(flag::CAMERA | flag::DELTA),
             counts: l.u(0),
-            medium: Spectrum::zero(l),
+            medium,
         };
         paths.append(&state, inside & looks);
     }

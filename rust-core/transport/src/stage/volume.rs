@@ -26,8 +26,9 @@ pub(crate) fn beyond<L: Lanes>(medium: Spectrum<L>, inside: Spectrum<L>, interio
     entering.select(medium + own, (medium - own - medium * RESIDUE).max(0.0))
 }
 
+/// Absorption in every lane.
 #[inline(always)]
-fn filling<L: Lanes>(l: L, interior: [f32; 3]) -> Spectrum<L> {
+pub(crate) fn filling<L: Lanes>(l: L, interior: [f32; 3]) -> Spectrum<L> {
     spectrum(Rgb::new(l.f(interior[0]), l.f(interior[1]), l.f(interior[2])))
 }
 

@@ -98,6 +98,7 @@ fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, nam
                 filter: filter_of(*filter),
                 scale: *scale,
                 bias: *bias,
+                fallback: *fallback,
                 footprint: facts.scale,
             }),
             None => Hit::Constant(*fallback),

@@ -17,6 +17,8 @@ pub(crate) struct MeasurePoints {
     pub(crate) slot: Column<u32>,
     /// Classes of receivers, see [`crate::state::vertex::Interaction`].
     pub(crate) receiver: Column<u32>,
+    /// Absorption a metre of what is before them.
+    pub(crate) medium: SpectrumColumns,
 }
 
 impl Default for MeasurePoints {
@@ -32,6 +34,7 @@ impl Default for MeasurePoints {
             width: Column::new(room),
             slot: Column::new(room),
             receiver: Column::new(room),
+            medium: SpectrumColumns::new(room),
         }
     }
 }
@@ -47,6 +50,7 @@ pub(crate) struct MeasureLanes<L: Lanes> {
     pub(crate) width: F<L>,
     pub(crate) slot: U<L>,
     pub(crate) receiver: U<L>,
+    pub(crate) medium: Spectrum<L>,
 }
 
 impl MeasurePoints {
@@ -64,6 +68,7 @@ impl MeasurePoints {
         point.width.append(chosen, &mut self.width, n);
         point.slot.append(chosen, &mut self.slot, n);
         point.receiver.append(chosen, &mut self.receiver, n);
+        self.medium.append(point.medium, chosen, n);
         self.count += chosen.count();
     }
 }
