@@ -23,6 +23,15 @@ struct Memory;
 #[global_allocator]
 static MEMORY: Memory = Memory;
 
+/// Has the system's allocator give back what is free in it: hosts freed there what they read a scene from, where large blocks of ours find no room.
+pub(crate) fn give_back() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    // SAFETY: takes no memory of anybody's, and any thread may ask at any time.
+    unsafe {
+        libc::malloc_trim(0);
+    }
+}
+
 fn is_large(layout: Layout) -> bool {
     layout.size() >= LARGE && layout.align() <= PAGE
 }

@@ -1,6 +1,6 @@
 //! A render as an iterator of tiles.
 
-use crate::{bake::BakedPlaces, error::exception, film::Film, scene::Scene};
+use crate::{bake::BakedPlaces, error::exception, film::Film, memory, scene::Scene};
 use crossbeam_channel::RecvTimeoutError;
 use gonio::{
     checkpoint::{Checkpoint, Identity, write_checkpoint},
@@ -126,7 +126,14 @@ fn start(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, resume: Op
     let (settings, execution) = (&scene.settings, Execution::detect());
     let exposure = scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
     let film = resume.map(|path| Checkpoint::resume(path, &Identity::new(scene, execution, Vec::new()))).transpose()?;
+    // Not between the steps of somebody who edits a scene, for it takes as long as there are pieces of memory.
+    if before.is_none() {
+        memory::give_back();
+    }
     let compiled = Arc::new(compile(scene, before, stop)?);
+    if before.is_none() {
+        memory::give_back();
+    }
     let render = match film {
         Some(film) => render::Render::resume(compiled.clone(), settings, execution, film)?,
         None => render::Render::start(compiled.clone(), settings, execution)?,

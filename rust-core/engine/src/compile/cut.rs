@@ -1,6 +1,9 @@
 //! Curves cut into straight pieces, and points, as the trees and the tables have them.
 
-use super::times::{blurs, shows_vectors};
+use super::{
+    smooth_primvars::asks_places,
+    times::{blurs, shows_vectors},
+};
 use crate::{
     error::Diagnostic,
     geometry::{FIRST_PIECE, LAST_PIECE},
@@ -17,7 +20,7 @@ pub(super) struct Cut {
     pub(super) keys: Vec<Vec<[f32; 4]>>,
     /// Of each piece of a curve its first point, with the bits of its ends; none for points.
     pub(super) pieces: Vec<u32>,
-    /// Where each point of curves lies.
+    /// Where each point of curves lies; none where nobody asks.
     pub(super) places: Vec<Place>,
 }
 
@@ -38,12 +41,13 @@ pub(super) struct CurveStart {
     pub(super) count: usize,
 }
 
-/// All curves and behind them all points of a scene.
-pub(super) fn cut_all(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Vec<Cut> {
+/// All curves and behind them all points of a scene; materials ask for values by some names.
+pub(super) fn cut_all(scene: &Scene, names: &[String], diagnostics: &mut Vec<Diagnostic>) -> Vec<Cut> {
     let mut cuts = Vec::with_capacity(scene.curves.len() + scene.points.len());
     let has_times = blurs(&scene.settings) || shows_vectors(&scene.settings);
     for curves in &scene.curves {
-        let mut cut = cut_curves(curves, diagnostics);
+        let has_keys = has_times && !curves.motion.is_empty();
+        let mut cut = cut_curves(curves, has_keys || asks_places(curves, names), diagnostics);
         if has_times && moves(&curves.motion, curves.points.len(), &curves.origin, diagnostics) {
             cut.keys = keys_of_curves(curves, &cut);
         }
@@ -185,6 +189,8 @@ struct Cutter<'a> {
     curves: &'a Curves,
     start: CurveStart,
     number: u32,
+    /// Whether places are asked for.
+    placed: bool,
 }
 
 impl Cutter<'_> {
@@ -270,14 +276,16 @@ impl Cutter<'_> {
             out.pieces.extend((0..pieces).map(|i| (first + i) | bits(i)));
         }
         out.points.extend(own.iter().map(|(point, _)| *point));
-        out.places.extend(own.iter().map(|(_, place)| *place));
+        if self.placed {
+            out.places.extend(own.iter().map(|(_, place)| *place));
+        }
     }
 }
 
 /// Curves that are cut as one task.
 const TASK: usize = 4096;
 
-fn cut_curves(curves: &Curves, diagnostics: &mut Vec<Diagnostic>) -> Cut {
+fn cut_curves(curves: &Curves, placed: bool, diagnostics: &mut Vec<Diagnostic>) -> Cut {
     let starts = starts(curves);
     let numbers: Vec<u32> = (0..starts.len() as u32).collect();
     let parts: Vec<Cut> = numbers
@@ -285,12 +293,16 @@ fn cut_curves(curves: &Curves, diagnostics: &mut Vec<Diagnostic>) -> Cut {
         .map(|numbers| {
             let mut part = Cut::default();
             for number in numbers {
-                Cutter { curves, start: starts[*number as usize], number: *number }.cut(&mut part);
+                Cutter { curves, start: starts[*number as usize], number: *number, placed }.cut(&mut part);
             }
             part
         })
         .collect();
     let mut cut = Cut::default();
+    // As much as is needed: hair has millions of pieces.
+    cut.points.reserve_exact(parts.iter().map(|part| part.points.len()).sum());
+    cut.places.reserve_exact(parts.iter().map(|part| part.places.len()).sum());
+    cut.pieces.reserve_exact(parts.iter().map(|part| part.pieces.len()).sum());
     for part in parts {
         let first = cut.points.len() as u32;
         cut.points.extend(part.points);

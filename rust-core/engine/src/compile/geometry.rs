@@ -30,7 +30,7 @@ pub(super) struct CompiledGeometry {
 /// Lays meshes and instances out.
 pub(super) fn tables(
     scene: &Scene,
-    cuts: &[Cut],
+    cuts: &mut [Cut],
     mesh_bounds: &[Bounds],
     names: &[String],
     materials: &MaterialTable,

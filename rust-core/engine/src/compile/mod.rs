@@ -148,14 +148,15 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let scene = displaced.as_ref().map_or(scene, |displaced| &displaced.scene);
     let trees_start = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
-    let cuts = cut::cut_all(scene, &mut diagnostics);
+    let mut cuts = cut::cut_all(scene, &names, &mut diagnostics);
+    let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();
     let smooth = smooth::build(scene, &cuts, previous.map_or(&[], |p| &p.smooth), cancel)?;
     let built = trees_start.elapsed().as_secs_f64();
     let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).chain(smooth.iter().map(|kept| kept.bounds)).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
     oversized::report(scene, &bounds, &mut diagnostics);
     let origin = bounds.rebase_origin();
-    let mut geometry = geometry::tables(scene, &cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
+    let mut geometry = geometry::tables(scene, &mut cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
     motion::report_cameras(scene, &mut diagnostics);
     motion_vectors::report(scene, &mut diagnostics);
     let neighbours = motion_vectors::neighbours(scene, &cuts, &geometry, origin, &mut diagnostics);
@@ -163,7 +164,6 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     lights.linking.set_masks(&geometry.table, &mut geometry.instances);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
-    let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();
     drop(cuts);
     let blases: Vec<Arc<Blas>> = trees.iter().map(|kept| &kept.tree).chain(smooth.iter().map(|kept| &kept.tree)).cloned().collect();
     let tree_bytes: usize = blases.iter().map(|tree| tree.memory().bytes()).sum();

@@ -36,6 +36,14 @@ pub(super) fn append_curve_primvars(
     }
 }
 
+/// Whether some value by these names is found by where on its curve a point lies.
+pub(super) fn asks_places(curves: &Curves, names: &[String]) -> bool {
+    names.iter().any(|name| match curves.primvar(name) {
+        Some(primvar) => primvar.interpolation != PrimvarInterpolation::Constant,
+        None => matches!(name.as_str(), "hair:random" | "hair:length" | "hair:intercept"),
+    })
+}
+
 /// Appends the columns of points.
 pub(super) fn append_point_primvars(points: &Points, names: &[String], table: &mut GeometryTable, diagnostics: &mut Vec<Diagnostic>) {
     let elements = Elements { uniform: 1, points: points.points.len(), corners: points.points.len() };
