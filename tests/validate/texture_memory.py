@@ -85,14 +85,24 @@ def make_pictures(folder, count, side, content="waves"):
             write_png(path, side, number, content)
 
 
+def tail(header):
+    """Bytes behind the tiles of a file: lengths and checksums, 8 bytes a tile, a note, and a checksum of it all."""
+    kind, _, width, height, note = np.frombuffer(header[24:44], "u4").tolist()
+    side, tiles = 32 if kind == 3 else 64, 0
+    while True:
+        tiles += -(-width // side) * -(-height // side)
+        if width == height == 1:
+            return 8 * tiles + note + 4
+        width, height = max(width // 2, 1), max(height // 2, 1)
+
+
 def spoil_tiles(folder):
     """Overwrites the tiles of all files of a cache, whose heads stay sound."""
     for path in folder.glob("*.gtiles"):
         size = path.stat().st_size
         with path.open("r+b") as file:
-            file.seek(64)
-            # Lengths and checksums, 8 bytes a tile, stand behind the tiles.
-            file.write(b"\x5a" * (size - 64 - max(400, size // 50)))
+            header = file.read(64)
+            file.write(b"\x5a" * (size - 64 - tail(header)))
 
 
 def textured(scene, path, filter):
