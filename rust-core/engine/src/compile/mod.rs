@@ -9,6 +9,7 @@ mod cut;
 mod dice;
 mod displace;
 mod expressions;
+mod filters;
 mod geometry;
 mod goniograms;
 mod instances;
