@@ -172,6 +172,49 @@ def test_a_picture_on_a_rectangle_s_face(tmp_path):
     assert ratio[:8].mean() > ratio[-8:].mean() + 1e-3
 
 
+def overlap(low, high, start, end):
+    """The share of each span from `low` to `high` that lies between two places."""
+    return np.clip(np.minimum(high, end) - np.maximum(low, start), 0, None) / (high - low)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_large_light_throws_a_half_shadow(tmp_path, turned):
+    # A square of 0.4 m, an opening of 1 × 0.8 m half way down: a place x of the floor sees the light's points s with |s + x| < 1.
+    width, height = (0.8, 1) if turned else (1, 0.8)
+    barn = filter_of(BARN, f"float inputs:ri:lightFilter:width = {width}\n    float inputs:ri:lightFilter:height = {height}")
+    whole = irradiance(tmp_path, RECT.replace("    rel light:filters = </Lamp/Filter>\n", "") % "", samples=1024)[..., 0]
+    found = irradiance(tmp_path, RECT % barn, samples=1024)[..., 0] / whole
+    # Means over the light's points and over the pixels, by quadrature.
+    x, y, _ = expected()
+    reach = (0.8, 1.0) if turned else (1.0, 0.8)
+    shares = np.zeros_like(x)
+    offsets = (np.arange(8) + 0.5) / 64 - 1 / 16
+    for across in offsets:
+        for up in offsets:
+            seen = [overlap(place - 0.2, place + 0.2, -most, most) for place, most in ((x + across, reach[0]), (y + up, reach[1]))]
+            shares += seen[0] * seen[1] / 64
+    # The nearer side of the light is a little brighter, which shifts the edge by less than a tenth of its width.
+    assert np.abs(found - shares).max() < 0.06 and np.abs(found - shares).mean() < 0.004
+    half = (shares > 0.1) & (shares < 0.9)
+    assert half.sum() > 100 and ((found > 0.05) & (found < 0.95))[half].all()
+
+
+def test_a_ball_throws_the_opening_as_its_points_do(tmp_path):
+    # The edge of a half plane: a ball of radius r shows the part of its disk that lies beyond a chord.
+    radius = "float inputs:radius = 0.2\n    bool primvars:gonio:visibility:camera = 0"
+    ball = RECT.replace("RectLight", "SphereLight").replace("float inputs:width = 0.4\n    float inputs:height = 0.4", radius)
+    size = [f"float inputs:ri:lightFilter:{name} = {length}" for name, length in (("width", 0), ("height", 20), ("left", 10))]
+    barn = filter_of(BARN, "\n    ".join(size))
+    whole = irradiance(tmp_path, ball.replace("    rel light:filters = </Lamp/Filter>\n", "") % "", samples=1024)[..., 0]
+    found = (irradiance(tmp_path, ball % barn, samples=1024)[..., 0] / whole)[28:36].mean(axis=0)
+    middle = (np.arange(PICTURE) + 0.5) / 8 - 4
+    chord = np.clip(-middle / 0.2, -1, 1)
+    expected_share = 0.5 + (chord * np.sqrt(1 - chord**2) + np.arcsin(chord)) / np.pi
+    near = abs(middle) > 0.2
+    assert found[near] == pytest.approx(expected_share[near], abs=0.02)
+    assert np.abs(found - expected_share).max() < 0.08
+
+
 def told(tmp_path, text):
     return [message for _, message in read(tmp_path, text).diagnostics]
 

@@ -199,6 +199,13 @@ def test_constants_are_converted_from_their_colour_space(tmp_path):
     assert constant(m, "base_color")[:3] == pytest.approx([0.71984, 0.16198, 0.07750], abs=2e-3)
 
 
+def test_constants_take_the_colour_space_of_the_prims_above(tmp_path):
+    text = preview("color3f inputs:diffuseColor = (0.5, 0.2, 0.1)")
+    space = '(prepend apiSchemas = ["ColorSpaceAPI"])\n{\n    uniform token colorSpace:name = "lin_ap1_scene"'
+    m = bound_material(load(tmp_path, text.replace('def Material "M"\n{', f'def Material "M" {space}')))
+    assert constant(m, "base_color")[:3] == pytest.approx([0.7198, 0.1620, 0.0775], abs=2e-3)
+
+
 def mtlx(shader, inputs, extra=""):
     return f"""{BOUND}
 def Material "M"

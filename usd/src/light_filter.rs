@@ -1,8 +1,8 @@
-//! Light filters of UsdLux (`light:filters`): barn doors and pictures before a light become what the scene knows, a goniogram or a picture on the
-//! light; `docs/light-filters.md` lists types and attributes.
+//! Light filters of UsdLux (`light:filters`): barn doors and pictures before a light become filters of the scene, or a picture on the light;
+//! `docs/light-filters.md` lists types and attributes.
 
 mod attributes;
-mod projection;
+mod face;
 mod slide;
 mod types;
 
@@ -10,8 +10,8 @@ use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::FromValue;
-use gonio::scene::{Light, LightShape, Texture, TextureSource, Transform};
-use projection::{Plane, Strength, TEXELS};
+use face::{Plane, Strength, TEXELS};
+use gonio::scene::{Light, LightFilter, LightShape, Texture, TextureSource, Transform};
 use pyo3::{intern, prelude::*};
 use slide::Slide;
 use std::sync::Arc;
@@ -96,77 +96,55 @@ fn to_light<'py>(context: &Context<'_, 'py>, filter: &Prim<'py>, light: &Prim<'p
     Ok(light.and_then(|light| light.inverse()).zip(filter).map(|(light, filter)| light.after(&filter)).filter(Transform::is_finite))
 }
 
-/// The light behind its filters: one, or one for each of red, green and blue.
-pub(crate) fn apply(context: &mut Context<'_, '_>, filters: &[Filter], mut light: Light) -> Vec<Light> {
-    let planes: Vec<Plane<'_>> = filters.iter().filter_map(|filter| plane(filter, &light.transform)).collect();
-    if planes.is_empty() {
-        return vec![light];
-    }
-    let (even, planes): (Vec<_>, Vec<_>) = planes.into_iter().partition(|plane| *plane.slide == Slide::Even);
-    for plane in even {
-        let factor = plane.strength.on([1.0; 3]);
+/// The light behind its filters.
+pub(crate) fn apply(context: &mut Context<'_, '_>, filters: &[Filter], mut light: Light) -> Light {
+    let planes: Vec<(&Filter, Plane<'_>)> = filters.iter().filter_map(|filter| Some((filter, plane(filter)?))).collect();
+    let (even, planes): (Vec<_>, Vec<_>) = planes.into_iter().partition(|(filter, _)| filter.slide == Slide::Even);
+    for (filter, _) in even {
+        let factor = filter.strength.on([1.0; 3]);
         light.emission.radiance = std::array::from_fn(|k| light.emission.radiance[k] * factor[k]);
     }
     if planes.is_empty() {
-        return vec![light];
+        return light;
     }
-    if let Some(hindrance) = hindrance(&light) {
-        context.unsupported(&format!("a light filter on {hindrance}"), &light.origin);
-        return vec![light];
+    if light.shape.is_at_infinity() {
+        context.unsupported("a light filter on a light at infinity", &light.origin);
+        return light;
     }
     let is_rectangle = matches!(light.shape, LightShape::Rectangle { .. });
-    let (faces, before): (Vec<_>, Vec<_>) = planes.into_iter().partition(|plane| is_rectangle && plane.is_face());
-    if let (LightShape::Rectangle { width, height }, false) = (light.shape, faces.is_empty()) {
-        let rgba: Arc<[f32]> = projection::picture(&faces, [width, height]).into();
-        let source = TextureSource::Pixels { width: TEXELS as u32, height: TEXELS as u32, rgba };
-        let texture = Texture { origin: light.origin.clone(), source, colour_space: "raw".to_owned() };
-        light.texture = Some(context.scene.add_texture(texture));
-    }
-    let (useless, before): (Vec<_>, Vec<_>) = before.into_iter().partition(Plane::is_in_the_middle);
+    let (faces, before): (Vec<_>, Vec<_>) = planes.into_iter().partition(|(_, plane)| is_rectangle && plane.is_face());
+    on_face(context, faces.into_iter().map(|(_, plane)| plane).collect(), &mut light);
+    let (useless, before): (Vec<_>, Vec<_>) = before.into_iter().partition(|(_, plane)| plane.is_in_the_middle());
     if !useless.is_empty() {
         context.warn(&light.origin, "a light filter lies in the light's middle, from where nothing can be thrown; it is left out");
     }
-    if before.is_empty() {
-        return vec![light];
-    }
-    let tinted = |(colour, goniogram): ([f32; 3], _)| {
-        let mut part = light.clone();
-        part.emission.radiance = std::array::from_fn(|k| light.emission.radiance[k] * colour[k]);
-        part.goniogram = Some(Arc::new(goniogram));
-        part
-    };
-    projection::goniograms(&before).into_iter().map(tinted).collect()
+    light.filters = before.into_iter().map(|(filter, _)| described(filter)).collect();
+    light
 }
 
-/// Why a light can have no filter that differs from place to place.
-fn hindrance(light: &Light) -> Option<&'static str> {
-    if light.shape.is_at_infinity() {
-        Some("a light at infinity")
-    } else if light.goniogram.is_some() {
-        Some("a light with a light distribution")
-    } else if light.quantity.is_some() {
-        Some("a light of a photometric quantity")
-    } else if light.texture.is_some() {
-        Some("a light with a texture")
-    } else {
-        None
+/// Filters on a rectangle's face are a picture on it.
+fn on_face(context: &mut Context<'_, '_>, faces: Vec<Plane<'_>>, light: &mut Light) {
+    let LightShape::Rectangle { width, height } = light.shape else { return };
+    if faces.is_empty() {
+        return;
     }
+    if light.texture.is_some() {
+        context.unsupported("a light filter on the face of a light with a texture", &light.origin);
+        return;
+    }
+    let rgba: Arc<[f32]> = face::picture(&faces, [width, height]).into();
+    let source = TextureSource::Pixels { width: TEXELS as u32, height: TEXELS as u32, rgba };
+    let texture = Texture { origin: light.origin.clone(), source, colour_space: "raw".to_owned() };
+    light.texture = Some(context.scene.add_texture(texture));
 }
 
-/// A filter as the light sees it that has a place; none where one of them is flat.
-fn plane<'a>(filter: &'a Filter, placed: &Transform) -> Option<Plane<'a>> {
-    let from_world = placed.after(&filter.to_light).inverse()?;
-    let [x, _, z, middle] = placed.columns;
-    let scaled = |v: [f64; 3], s: f64| v.map(|x| x * s);
-    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-    let unit = |v: [f64; 3]| scaled(v, 1.0 / dot(v, v).sqrt());
-    let z = unit(z);
-    let x = unit(std::array::from_fn(|k| x[k] - dot(x, z) * z[k]));
-    // Mirrored lights stay mirrored.
-    let side = if placed.determinant() < 0.0 { -1.0 } else { 1.0 };
-    let y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]].map(|v| v * side);
-    let from_light = from_world.after(&Transform { columns: [x, y, z, middle] });
-    let face = [placed.columns[0], placed.columns[1]].map(|axis| from_world.vector(axis));
-    let is_finite = from_light.is_finite() && face.iter().flatten().all(|x| x.is_finite());
-    is_finite.then_some(Plane { slide: &filter.slide, strength: filter.strength, from_light, face })
+fn described(filter: &Filter) -> LightFilter {
+    let Strength { density, factor, inverted } = filter.strength;
+    LightFilter { to_light: filter.to_light, slide: filter.slide.described(), missed: filter.slide.behind(), inverted, factor, density }
+}
+
+/// A filter as its light sees it that has a place; none where it is flat.
+fn plane(filter: &Filter) -> Option<Plane<'_>> {
+    let from_light = filter.to_light.inverse().filter(Transform::is_finite)?;
+    Some(Plane { slide: &filter.slide, strength: filter.strength, from_light })
 }

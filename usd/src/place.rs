@@ -301,7 +301,7 @@ impl<'py> Placer<'_, '_, 'py> {
                 daylight::add_lights(self.context, &prim, &transform);
             } else if let Some(light) = light::light(self.context, &prim, &transform) {
                 let filtered = light_filter::apply(self.context, &filters, light);
-                self.context.scene.lights.extend(filtered);
+                self.context.scene.lights.push(filtered);
             }
         }
         if !role.camera {

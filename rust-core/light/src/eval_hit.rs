@@ -89,6 +89,7 @@ impl LightTable {
             pdf = light.flag(flag::ALONE).select(l.f(f32::MAX), pdf);
         }
         let sent = self.fallen(l, index, hit - from, self.le(l, &light, wi, uv));
+        let sent = self.filtered(l, index, hit, -wi, (hit - from).length(), sent);
         (sent.keep_if(valid), pdf.keep_if(valid))
     }
 

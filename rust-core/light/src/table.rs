@@ -2,6 +2,7 @@
 
 use super::build::fill_row;
 use super::dome::{DomeDistribution, EVEN_SAMPLED_PART};
+use super::gate::Gates;
 use super::goniogram::Goniogram;
 use super::light_kind::LightKind;
 use super::links::{LightLinks, LinkedLights};
@@ -60,6 +61,8 @@ pub struct LightTable {
     /// By light, the two numbers of its falloff; empty where all fall by nature.
     pub(crate) falloffs: Vec<f32>,
     pub(crate) any_alone: bool,
+    /// Filters before the lights.
+    pub(crate) gates: Gates,
     /// Which receivers see which lights, if they do not all see all.
     pub(crate) linked: Option<Arc<LinkedLights>>,
 }
@@ -134,6 +137,7 @@ impl LightTable {
             factors,
             falloffs,
             any_alone,
+            gates: Gates::default(),
             linked: None,
         }
     }

@@ -18,6 +18,7 @@ pub mod error;
 mod goniogram;
 mod instance;
 mod light;
+mod light_filter;
 mod light_path;
 mod light_quantity;
 mod linking;
@@ -51,6 +52,7 @@ pub use gonio_nodes::{
 pub use goniogram::Goniogram;
 pub use instance::{Geometry, Instances, Visibility};
 pub use light::{DomeFormat, Emission, Falloff, Light, LightShape, Shaping, Spot};
+pub use light_filter::{LightFilter, Slide};
 pub use light_path::{LightPath, LightSource, MOST_EXPRESSIONS, MOST_STATES, PathAutomaton, SCATTERINGS, STEPS, light_path};
 pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use linking::{Link, Linking};

@@ -1,6 +1,6 @@
 //! Light sources.
 
-use super::{Goniogram, LightQuantity, Linking, Opening, Origin, TextureId, Transform, Visibility};
+use super::{Goniogram, LightFilter, LightQuantity, Linking, Opening, Origin, TextureId, Transform, Visibility};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -208,6 +208,9 @@ pub struct Light {
     /// How it falls with distance; lights at infinity, light paths and luminaires that are measured have no use for it.
     #[serde(default)]
     pub falloff: Falloff,
+    /// What stands before it; lights at infinity and luminaires that are measured have no use for it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub filters: Vec<LightFilter>,
     /// What it lights, and what casts its shadows. Cameras see it either way.
     #[serde(default, skip_serializing_if = "Linking::is_whole")]
     pub linking: Linking,
@@ -236,6 +239,7 @@ impl Default for Light {
             diffuse: whole(),
             specular: whole(),
             falloff: Falloff::default(),
+            filters: Vec::new(),
             linking: Linking::default(),
         }
     }

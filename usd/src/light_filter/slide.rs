@@ -1,5 +1,6 @@
 //! What a light filter lets through at the places of its plane: the opening of barn doors, or a picture.
 
+use gonio::scene;
 use gonio::texture::{Image, LatLong, Texels};
 
 /// Factors on red, green and blue.
@@ -84,16 +85,18 @@ impl Slide {
         }
     }
 
-    /// Corners of the rectangle outside of which the same passes everywhere, and what; none where there is no such rectangle.
-    pub(super) fn frame(&self) -> Option<([[f64; 2]; 2], Passed)> {
+    /// As the scene describes it.
+    pub(super) fn described(&self) -> scene::Slide {
         match self {
-            Self::Even => None,
-            Self::Window(Window { low, high, edge, .. }) => Some(([low.map(|x| x - edge), high.map(|x| x + edge)], [0.0; 3])),
-            Self::Picture(picture) if picture.tiling == Tiling::Fill => {
-                let [x, y] = picture.size.map(|size| 0.5 * size);
-                Some(([[-x, -y], [x, y]], picture.fill))
-            }
-            Self::Picture(_) => None,
+            // What is the same everywhere is a factor, and does not come here.
+            Self::Even => scene::Slide::Opening { low: [-1e18; 2], high: [1e18; 2], radius: 0.0, edge: 0.0 },
+            Self::Window(window) => scene::Slide::Opening {
+                low: window.low.map(|x| x as f32),
+                high: window.high.map(|x| x as f32),
+                radius: window.radius as f32,
+                edge: window.edge as f32,
+            },
+            Self::Picture(picture) => picture.described(),
         }
     }
 }
@@ -135,6 +138,25 @@ impl Picture {
             }
         }
         picture
+    }
+
+    /// As the scene describes it: what texels do not cover is filled.
+    fn described(&self) -> scene::Slide {
+        let filled = |(rgb, alpha): (&[f32; 3], &f32)| -> [f32; 3] { std::array::from_fn(|k| rgb[k] + (1.0 - alpha) * self.fill[k]) };
+        let rgb: Vec<f32> = self.image.rgb.iter().zip(&self.alpha).flat_map(filled).collect();
+        let ([x, y], [u, v]) = (self.scale, self.offset);
+        let across = if self.mirrored[0] { [-x, 1.0 - u] } else { [x, u] };
+        // The scene counts from the top.
+        let down = if self.mirrored[1] { [-y, y + v] } else { [y, 1.0 - y - v] };
+        scene::Slide::Picture {
+            width: self.image.width as u32,
+            height: self.image.height as u32,
+            rgb: rgb.into(),
+            size: self.size.map(|x| x as f32),
+            fill: (self.tiling == Tiling::Fill).then_some(self.fill),
+            repeats: self.tiling == Tiling::Repeat,
+            to_texture: [across, down].map(|map| map.map(|x| x as f32)),
+        }
     }
 
     fn at(&self, place: [f64; 2]) -> Passed {
@@ -217,6 +239,46 @@ mod tests {
         assert_eq!(picture(Tiling::Repeat).at([1.5, 0.5]), [1.0, 0.0, 0.0]);
         let mirrored = Picture { mirrored: [true, false], ..filled };
         assert_eq!(mirrored.at([-0.5, 0.5]), [0.0, 1.0, 0.0]);
+    }
+
+    /// What the scene's slide lets through by its own rules, at texel middles.
+    fn thrown(slide: &scene::Slide, place: [f64; 2]) -> Passed {
+        let scene::Slide::Picture { width, height, rgb, size, fill, repeats, to_texture } = slide else { panic!("a picture") };
+        let within = [place[0] / f64::from(size[0]) + 0.5, 0.5 - place[1] / f64::from(size[1])];
+        let mut uv = [0, 1].map(|k| within[k] * f64::from(to_texture[k][0]) + f64::from(to_texture[k][1]));
+        if let Some(fill) = fill
+            && within.iter().chain(&uv).any(|x| !(0.0..=1.0).contains(x))
+        {
+            return *fill;
+        }
+        if *repeats {
+            uv = uv.map(|x| x - x.floor());
+        }
+        let [column, row] = [0, 1].map(|k| ((uv[k] * f64::from([*width, *height][k])) as usize).min([*width, *height][k] as usize - 1));
+        let at = 3 * (row * *width as usize + column);
+        [rgb[at], rgb[at + 1], rgb[at + 2]]
+    }
+
+    #[test]
+    fn the_scene_is_told_the_same_picture() {
+        for tiling in [Tiling::Fill, Tiling::Clamp, Tiling::Repeat] {
+            for mirrored in [[false, false], [true, false], [false, true], [true, true]] {
+                let plain = Picture { mirrored, ..picture(tiling) };
+                let slide = Slide::Picture(plain.clone()).described();
+                for place in [[-0.5, 0.5], [0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [2.5, 0.5], [-1.5, -2.5]] {
+                    // Beyond the border, where it goes on, the two differ by what is mixed there.
+                    if tiling == Tiling::Fill || f64::abs(place[0]) < 1.0 || tiling == Tiling::Repeat {
+                        assert_eq!(thrown(&slide, place), plain.at(place), "{tiling:?} {mirrored:?} {place:?}");
+                    }
+                }
+            }
+        }
+        // Half of the frame shows a shifted part of the picture.
+        let shifted = Picture { scale: [0.5, 0.5], offset: [0.25, 0.5], mirrored: [false, true], ..picture(Tiling::Fill) };
+        let slide = Slide::Picture(shifted.clone()).described();
+        for place in [[-1.0, 0.0], [1.0, 0.0]] {
+            assert_eq!(thrown(&slide, place), shifted.at(place), "{place:?}");
+        }
     }
 
     #[test]

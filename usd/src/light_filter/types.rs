@@ -1,7 +1,7 @@
 //! Types of light filters: what each lets through, and how strong it is.
 
 use super::attributes::{attribute, choice, colour, number, value};
-use super::projection::Strength;
+use super::face::Strength;
 use super::slide::{Picture, Slide, Tiling, Window};
 use crate::context::Context;
 use crate::light::is_link_authored;
@@ -48,7 +48,7 @@ fn report_left_out<'py>(context: &mut Context<'_, 'py>, filter: &Prim<'py>) {
     }
     for name in ["barnMode", "cookieMode"] {
         if choice(context, filter, &[name], &["physical", "analytic"]) == 1 {
-            let message = "the analytic mode of light filters is not supported, they are thrown from the light's middle";
+            let message = "the analytic mode of light filters is not supported, they stand in the way of light as they are placed";
             context.once("filter mode", "analytic", &origin, || message.to_owned());
         }
     }

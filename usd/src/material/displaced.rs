@@ -4,7 +4,7 @@ use super::emit::{is_constant, multiply};
 use super::from_usd;
 use super::network::{Network, Shader};
 use super::neutral::NodeIndex;
-use super::{RENDER_CONTEXTS, is_preview_surface};
+use super::{RENDER_CONTEXTS, is_preview_surface, output_name};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -26,9 +26,15 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, gr
 
 /// The shader behind the output, in the render context that goes first.
 fn source<'py>(material: &Prim<'py>) -> PyResult<Option<Prim<'py>>> {
+    // Most materials displace nothing, which is told by names that are known.
+    let stated = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, "displacement")));
+    let stated: Vec<&str> = stated.collect();
+    if stated.is_empty() {
+        return Ok(None);
+    }
     let py = material.py();
     let wrapped = Module::UsdShade.wrap("Material", material.object())?;
-    for render_context in RENDER_CONTEXTS {
+    for render_context in stated {
         let output = wrapped.call_method1(intern!(py, "GetDisplacementOutput"), (render_context,))?;
         // A missing context falls back to the universal one, which has its own turn.
         if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {

@@ -77,7 +77,9 @@ impl<'py> Reader<'_, 'py> {
     fn value(&self, name: &str, attribute: &Attribute<'py>) -> PyResult<Source> {
         let value = attribute.get(self.time)?;
         let Some(mut value) = value.as_ref().and_then(Value::from_python) else { return Ok(Source::Nothing) };
-        let mut said = Said { is_colour: is_colour(attribute), ..Said::default() };
+        // A colour has three numbers at least.
+        let is_colour = !matches!(value, Value::Numbers(_, ..3)) && is_colour(attribute);
+        let mut said = Said { is_colour, ..Said::default() };
         match &mut value {
             Value::Numbers(_, count) if said.is_colour && *count >= 3 => said.space = stated_colour_space(attribute),
             Value::Asset(path) => {

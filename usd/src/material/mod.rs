@@ -84,6 +84,9 @@ fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
     let material = Module::UsdShade.wrap("Material", prim.object())?;
     let mut surfaces = Vec::new();
     for render_context in render_contexts(prim) {
+        if !prim.has_authored(&output_name(&render_context, "surface")) {
+            continue;
+        }
         let output = material.call_method1(intern!(py, "GetSurfaceOutput"), (&render_context,))?;
         // A missing context falls back to the universal one, which has its own turn.
         if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
@@ -96,6 +99,11 @@ fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
         }
     }
     Ok(surfaces)
+}
+
+/// The property that is a material's output of a kind in a render context.
+fn output_name(render_context: &str, kind: &str) -> String {
+    if render_context.is_empty() { format!("outputs:{kind}") } else { format!("outputs:{render_context}:{kind}") }
 }
 
 /// The preferred contexts, then those that the material has beside them: `outputs:arnold:surface` is arnold's.

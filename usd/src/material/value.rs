@@ -3,9 +3,13 @@
 use super::neutral::Value;
 use crate::prim::Attribute;
 use crate::pxr::Module;
-use crate::vt::{AssetPath, FromValue};
+use crate::vt::{AssetPath, FloatArray, FromValue};
 use gonio::colour::{ColourSpace, apply};
-use pyo3::{intern, prelude::*, types::PyString};
+use pyo3::{
+    intern,
+    prelude::*,
+    types::{PyFloat, PyInt, PyString},
+};
 
 /// The unit matrix.
 pub(in crate::material) const UNIT_MATRIX: [[f32; 4]; 4] =
@@ -14,11 +18,18 @@ pub(in crate::material) const UNIT_MATRIX: [[f32; 4]; 4] =
 impl Value {
     /// The value behind a Python object; `None` for kinds that shading does not use.
     pub(crate) fn from_python(object: &Bound<'_, PyAny>) -> Option<Self> {
-        if let Ok(number) = object.extract::<f64>() {
-            return Some(Self::Numbers([number as f32; 4], 1));
+        if object.is_instance_of::<PyFloat>() || object.is_instance_of::<PyInt>() {
+            return object.extract::<f64>().ok().map(|number| Self::Numbers([number as f32; 4], 1));
         }
         if object.is_instance_of::<PyString>() {
             return object.extract().ok().map(Self::Text);
+        }
+        // Vectors are buffers, which are read without an exception.
+        if let Some(vector) = FloatArray::from_value(object).filter(|array| array.components == 1 && (1..=4).contains(&array.values.len()))
+        {
+            let mut values = [0.0, 0.0, 0.0, 1.0];
+            values[..vector.values.len()].copy_from_slice(&vector.values);
+            return Some(Self::Numbers(values, vector.values.len()));
         }
         if object.hasattr(intern!(object.py(), "resolvedPath")).unwrap_or(false) {
             return AssetPath::from_value(object).map(Self::Asset);
@@ -53,7 +64,8 @@ pub(crate) fn stated_colour_space(attribute: &Attribute<'_>) -> String {
     let py = object.py();
     let own = || -> PyResult<String> { object.call_method0(intern!(py, "GetColorSpace"))?.extract() };
     let inherited = || -> PyResult<String> {
-        Module::Usd.item(py, "ColorSpaceAPI")?.call_method1(intern!(py, "ComputeColorSpaceName"), (object,))?.extract()
+        // The second argument is a cache, which there need not be.
+        Module::Usd.item(py, "ColorSpaceAPI")?.call_method1(intern!(py, "ComputeColorSpaceName"), (object, py.None()))?.extract()
     };
     // Older versions of the package have no ColorSpaceAPI.
     own().ok().filter(|space| !space.is_empty()).or_else(|| inherited().ok()).unwrap_or_default()

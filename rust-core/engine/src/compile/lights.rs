@@ -1,6 +1,7 @@
 //! Lights as records, and the shapes of those that rays can meet.
 
 use super::{
+    filters::CompiledFilters,
     geometry::slots_of,
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
@@ -32,6 +33,7 @@ pub(super) struct KeptLights {
     images: Vec<Arc<LightTexture>>,
     goniograms: CompiledGoniograms,
     links: Option<LightLinks>,
+    filters: CompiledFilters,
     table: Option<Arc<LightTable>>,
 }
 
@@ -52,14 +54,23 @@ impl KeptLights {
         images: &[Arc<LightTexture>],
         goniograms: &CompiledGoniograms,
         links: &Option<LightLinks>,
+        filters: &CompiledFilters,
     ) -> Arc<LightTable> {
         let same_images = self.images.len() == images.len() && self.images.iter().zip(images).all(|(a, b)| Arc::ptr_eq(a, b));
+        let same_filters = self.filters.is_of_same(filters);
         match &self.table {
-            Some(table) if same_images && self.goniograms.is_of_same(goniograms) && self.records == records && self.links == *links => {
+            Some(table)
+                if same_images
+                    && same_filters
+                    && self.goniograms.is_of_same(goniograms)
+                    && self.records == records
+                    && self.links == *links =>
+            {
                 table.clone()
             }
             _ => {
                 let table = LightTable::build(records, images, &goniograms.tables);
+                let table = if filters.gates.is_empty() { table } else { table.with_filters(&filters.gates, &filters.numbers) };
                 Arc::new(match links {
                     Some(links) => table.with_links(links.clone()),
                     None => table,
@@ -101,6 +112,7 @@ pub(super) fn compile(
     let mut far_fields = FarFields::default();
     let mut groups = GroupNames::default();
     let mut light_of = Vec::new();
+    let mut filters = CompiledFilters::default();
     for (number, light) in scene.lights.iter().enumerate() {
         let goniogram = goniograms.number(light, diagnostics);
         report_unused(light, kind(light.shape), diagnostics);
@@ -116,6 +128,7 @@ pub(super) fn compile(
                 records.push(LightRecord { goniogram, ..plain });
             }
             groups.of_light.resize(records.len(), group);
+            filters.add(&light, &rebased(&light.transform, origin), records.len(), diagnostics);
             quantity::apply(&light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
             if share < 1.0 {
                 records[first..].iter_mut().for_each(|record| record.radiance = record.radiance.map(|x| x * share));
@@ -128,8 +141,8 @@ pub(super) fn compile(
     let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
     let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
-    let table = previous.table(&records, &images, &goniograms, &links);
-    let kept = KeptLights { records, images, goniograms, links, table: Some(table.clone()) };
+    let table = previous.table(&records, &images, &goniograms, &links, &filters);
+    let kept = KeptLights { records, images, goniograms, links, filters, table: Some(table.clone()) };
     CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, groups, linking }
 }
 

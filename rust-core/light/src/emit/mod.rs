@@ -121,6 +121,7 @@ impl EmissionSampler {
         let weight = start.weight / probability;
         let valid = weight.gt(0.0) & weight.is_finite() & probability.gt(0.0);
         let sent = table.le(l, light, -start.direction, start.uv);
+        let sent = table.filtered(l, index, start.origin, start.direction, l.f(f32::MAX), sent);
         EmittedRay {
             origin: start.origin,
             normal: start.normal,

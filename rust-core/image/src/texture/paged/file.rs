@@ -1,24 +1,28 @@
-//! The file of a texture's tiles: a header, the tiles as they lie in memory, and behind them what checks them.
+//! The file of a texture's tiles: a header, the tiles, compressed, and behind them where each ends and what checks it.
 //!
 //! Numbers are in the machine's own order of bytes, for caches are not carried about. A file that another order or version wrote is as good
 //! as none.
 
+use super::codec;
 use super::layout::TileLayout;
 use crate::colour::Transfer;
 use crate::texture::texel::TexelFormat;
+use rayon::prelude::*;
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Of what is written here; another number makes all files anew.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 const MAGIC: [u8; 8] = *b"gonioTEX";
 const ORDER: u32 = 0x0102_0304;
 const HEADER: usize = 64;
 const FORMATS: [TexelFormat; 4] = [TexelFormat::Byte, TexelFormat::Grey, TexelFormat::Half, TexelFormat::Float];
 const TRANSFERS: [Transfer; 6] =
     [Transfer::Linear, Transfer::Srgb, Transfer::Gamma18, Transfer::Gamma22, Transfer::Gamma24, Transfer::AdobeRgb];
+/// Tiles that are compressed side by side before they are written.
+const AT_ONCE: u32 = 256;
 /// Files that stay open; further ones are opened at every read, for systems allow a process no more than a thousand or so.
 const MOST_OPEN: usize = 256;
 static OPEN: AtomicUsize = AtomicUsize::new(0);
@@ -75,7 +79,9 @@ pub(crate) struct TileFile {
     path: PathBuf,
     /// Nothing where too many files are open.
     open: Option<File>,
-    /// Checksums of the tiles.
+    /// Where the tiles begin, and where the last one ends.
+    places: Vec<u64>,
+    /// Checksums of the tiles' bytes in the file.
     sums: Vec<u32>,
 }
 
@@ -93,22 +99,32 @@ pub(crate) fn write(path: &Path, facts: &TextureFacts, key: u64, pyramid: &[f32]
     let mut file = BufWriter::with_capacity(1 << 20, File::create(path)?);
     let header = facts.header(key);
     file.write_all(&header)?;
-    let (mut words, mut sums) = (Vec::new(), Vec::with_capacity(layout.tiles() as usize));
-    for tile in 0..layout.tiles() {
-        layout.cut(pyramid, tile, &mut words);
-        let bytes: &[u8] = bytemuck::cast_slice(&words);
-        sums.push(crc32fast::hash(bytes));
-        file.write_all(bytes)?;
+    let (mut lengths, mut sums) = (Vec::with_capacity(layout.tiles() as usize), Vec::with_capacity(layout.tiles() as usize));
+    for first in (0..layout.tiles()).step_by(AT_ONCE as usize) {
+        let tiles = first..layout.tiles().min(first + AT_ONCE);
+        let encoded: Vec<Vec<u8>> = tiles.into_par_iter().map(|tile| encoded(&layout, pyramid, tile)).collect();
+        for bytes in encoded {
+            lengths.push(bytes.len() as u32);
+            sums.push(crc32fast::hash(&bytes));
+            file.write_all(&bytes)?;
+        }
     }
     let note = facts.note.as_deref().unwrap_or_default().as_bytes();
-    let sums: &[u8] = bytemuck::cast_slice(&sums);
-    file.write_all(sums)?;
-    file.write_all(note)?;
-    file.write_all(&sum_of([&header, sums, note]).to_ne_bytes())?;
+    let (lengths, sums): (&[u8], &[u8]) = (bytemuck::cast_slice(&lengths), bytemuck::cast_slice(&sums));
+    for part in [lengths, sums, note] {
+        file.write_all(part)?;
+    }
+    file.write_all(&sum_of([&header, lengths, sums, note]).to_ne_bytes())?;
     file.flush()
 }
 
-fn sum_of(parts: [&[u8]; 3]) -> u32 {
+fn encoded(layout: &TileLayout, pyramid: &[f32], tile: u32) -> Vec<u8> {
+    let mut words = Vec::new();
+    layout.cut(pyramid, tile, &mut words);
+    codec::encode(&words, layout.format(), layout.span(tile).width)
+}
+
+fn sum_of(parts: [&[u8]; 4]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     parts.iter().for_each(|part| hasher.update(part));
     hasher.finalize()
@@ -123,40 +139,53 @@ impl TileFile {
             return Ok(None);
         }
         let Some((mut facts, note)) = TextureFacts::of_header(&header, key) else { return Ok(None) };
-        let layout = facts.layout();
-        let (data, tiles) = (layout.bytes() as u64, layout.tiles() as usize);
-        if file.metadata()?.len() != HEADER as u64 + data + 4 * tiles as u64 + note as u64 + 4 {
-            return Ok(None);
-        }
+        let tiles = facts.layout().tiles() as usize;
+        let tail = 8 * tiles as u64 + note as u64 + 4;
+        let Some(data) = file.metadata()?.len().checked_sub(HEADER as u64 + tail) else { return Ok(None) };
         file.seek(SeekFrom::Start(HEADER as u64 + data))?;
-        let (mut sums, mut text, mut sum) = (vec![0_u32; tiles], vec![0; note], [0; 4]);
+        let (mut lengths, mut sums, mut text, mut sum) = (vec![0_u32; tiles], vec![0_u32; tiles], vec![0; note], [0; 4]);
+        file.read_exact(bytemuck::cast_slice_mut(&mut lengths))?;
         file.read_exact(bytemuck::cast_slice_mut(&mut sums))?;
         file.read_exact(&mut text)?;
         file.read_exact(&mut sum)?;
-        if sum_of([&header, bytemuck::cast_slice(&sums), &text]) != u32::from_ne_bytes(sum) {
+        let found = sum_of([&header, bytemuck::cast_slice(&lengths), bytemuck::cast_slice(&sums), &text]);
+        let places = places(&lengths);
+        if found != u32::from_ne_bytes(sum) || places.last() != Some(&(HEADER as u64 + data)) {
             return Ok(None);
         }
         facts.note = (note > 0).then(|| String::from_utf8_lossy(&text).into_owned());
         let may_stay_open = OPEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |open| (open < MOST_OPEN).then_some(open + 1)).is_ok();
-        Ok(Some((Self { path: path.to_owned(), open: may_stay_open.then_some(file), sums }, facts)))
+        Ok(Some((Self { path: path.to_owned(), open: may_stay_open.then_some(file), places, sums }, facts)))
     }
 
-    /// Reads a tile; an error where it cannot be read or is not what was written.
-    pub(crate) fn read(&self, layout: &TileLayout, tile: u32) -> io::Result<Vec<f32>> {
-        let span = layout.span(tile);
-        let bytes_of = |texels: usize| texels * layout.words() * 4;
-        let mut words = vec![0.0_f32; span.width * span.height * layout.words()];
-        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut words);
-        let at = (HEADER + bytes_of(span.first_texel)) as u64;
+    /// Reads a tile, and how many bytes it takes in the file; an error where it cannot be read or is not what was written.
+    pub(crate) fn read(&self, layout: &TileLayout, tile: u32) -> io::Result<(Vec<f32>, usize)> {
+        let (at, end) = (self.places[tile as usize], self.places[tile as usize + 1]);
+        let length = (end - at) as usize;
+        let mut bytes = vec![0; length + codec::PADDING];
         match &self.open {
-            Some(file) => read_at(file, bytes, at)?,
-            None => read_at(&File::open(&self.path)?, bytes, at)?,
+            Some(file) => read_at(file, &mut bytes[..length], at)?,
+            None => read_at(&File::open(&self.path)?, &mut bytes[..length], at)?,
         }
-        if crc32fast::hash(bytes) != self.sums[tile as usize] {
-            return Err(io::Error::new(io::ErrorKind::InvalidData, "a tile's checksum is wrong"));
+        let invalid = |what| io::Error::new(io::ErrorKind::InvalidData, what);
+        if crc32fast::hash(&bytes[..length]) != self.sums[tile as usize] {
+            return Err(invalid("a tile's checksum is wrong"));
         }
-        Ok(words)
+        let span = layout.span(tile);
+        let mut words = vec![0.0_f32; span.width * span.height * layout.words()];
+        codec::decode(&bytes, layout.format(), span.width, &mut words).ok_or_else(|| invalid("a tile is not as it was written"))?;
+        Ok((words, length))
     }
+}
+
+/// Where tiles of these lengths begin, and where the last one ends.
+fn places(lengths: &[u32]) -> Vec<u64> {
+    let mut at = HEADER as u64;
+    let ends = lengths.iter().map(|length| {
+        at += u64::from(*length);
+        at
+    });
+    std::iter::once(HEADER as u64).chain(ends).collect()
 }
 
 #[cfg(unix)]

@@ -20,6 +20,7 @@ struct LevelTiles {
 /// All tiles of a pyramid.
 #[derive(Clone, Debug)]
 pub(crate) struct TileLayout {
+    format: TexelFormat,
     /// A tile's side is this power of two.
     shift: u32,
     /// 32-bit words a texel.
@@ -47,7 +48,7 @@ impl TileLayout {
         let words = format.words();
         // 16 KiB a tile, 32 for halves.
         let shift = if words == 4 { 5 } else { 6 };
-        let mut layout = Self { shift, words, levels: Vec::new(), tiles: 0, texels: 0 };
+        let mut layout = Self { format, shift, words, levels: Vec::new(), tiles: 0, texels: 0 };
         let mut size = [width.max(1) as usize, height.max(1) as usize];
         loop {
             let [width, height] = size.map(|side| side as u32);
@@ -65,6 +66,11 @@ impl TileLayout {
     /// Tiles of all levels.
     pub(crate) fn tiles(&self) -> u32 {
         self.tiles
+    }
+
+    /// How texels are stored.
+    pub(crate) fn format(&self) -> TexelFormat {
+        self.format
     }
 
     /// 32-bit words a texel.

@@ -89,7 +89,7 @@ pub struct TextureStatistics {
     pub lookups: u64,
     /// Of them those that were read from disk.
     pub tiles_read: u64,
-    /// Bytes read from disk.
+    /// Bytes read from disk, where tiles are compressed.
     pub bytes_read: u64,
     /// Tiles given up.
     pub evicted: u64,
@@ -224,13 +224,13 @@ impl TextureMemory {
         }
     }
 
-    /// A tile out of words that were read.
-    pub(crate) fn tile(&self, words: Vec<f32>) -> Arc<Tile> {
+    /// A tile out of words, for which so many bytes were read.
+    pub(crate) fn tile(&self, words: Vec<f32>, bytes_read: usize) -> Arc<Tile> {
         let tile = Tile { words: words.into(), recent: AtomicBool::new(false), usage: self.usage.clone() };
         let now = self.usage.now.fetch_add(tile.bytes(), Ordering::Relaxed) + tile.bytes();
         self.usage.most.fetch_max(now, Ordering::Relaxed);
         self.tiles_read.fetch_add(1, Ordering::Relaxed);
-        self.bytes_read.fetch_add(tile.bytes() as u64, Ordering::Relaxed);
+        self.bytes_read.fetch_add(bytes_read as u64, Ordering::Relaxed);
         Arc::new(tile)
     }
 

@@ -83,7 +83,8 @@ impl PagedTexels {
             tile.touch();
             return tile.clone();
         }
-        let tile = self.memory.tile(self.read(number));
+        let (words, bytes_read) = self.read_counted(number);
+        let tile = self.memory.tile(words, bytes_read);
         *page = Some(tile.clone());
         drop(page);
         let holder: Weak<Self> = Arc::downgrade(self);
@@ -93,26 +94,31 @@ impl PagedTexels {
 
     /// The words of a tile, past all memory.
     pub(crate) fn read(&self, number: u32) -> Vec<f32> {
+        self.read_counted(number).0
+    }
+
+    /// The words of a tile, and how many bytes were read for it.
+    fn read_counted(&self, number: u32) -> (Vec<f32>, usize) {
         let source = self.source.read().unwrap_or_else(PoisonError::into_inner);
         let seen = source.1;
-        if let Some(words) = self.read_from(&source.0, number) {
-            return words;
+        if let Some(read) = self.read_from(&source.0, number) {
+            return read;
         }
         drop(source);
         self.make_anew(seen);
         let source = self.source.read().unwrap_or_else(PoisonError::into_inner);
-        self.read_from(&source.0, number).unwrap_or_else(|| self.zeros(number))
+        self.read_from(&source.0, number).unwrap_or_else(|| (self.zeros(number), 0))
     }
 
-    fn read_from(&self, source: &TileSource, number: u32) -> Option<Vec<f32>> {
+    fn read_from(&self, source: &TileSource, number: u32) -> Option<(Vec<f32>, usize)> {
         match source {
             TileSource::File(file) => file.read(&self.layout, number).ok(),
             TileSource::Whole(pyramid) => {
                 let mut words = Vec::new();
                 self.layout.cut(pyramid, number, &mut words);
-                Some(words)
+                Some((words, 0))
             }
-            TileSource::Lost => Some(self.zeros(number)),
+            TileSource::Lost => Some((self.zeros(number), 0)),
         }
     }
 

@@ -6,20 +6,20 @@ use image::{ExtendedColorType, ImageEncoder};
 use std::sync::atomic::AtomicBool;
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
-pub(super) struct Random(pub(super) u64);
+pub(in crate::texture) struct Random(pub(in crate::texture) u64);
 
 impl Random {
-    pub(super) fn next(&mut self) -> u64 {
+    pub(in crate::texture) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ (z >> 31)
     }
-    pub(super) fn below(&mut self, end: usize) -> usize {
+    pub(in crate::texture) fn below(&mut self, end: usize) -> usize {
         (self.next() % end as u64) as usize
     }
-    pub(super) fn unit(&mut self) -> f32 {
+    pub(in crate::texture) fn unit(&mut self) -> f32 {
         (self.next() >> 40) as f32 / (1_u64 << 24) as f32
     }
 }

@@ -3,7 +3,7 @@ mod dome;
 mod formats;
 mod loading;
 mod lookup;
-mod made;
+pub(super) mod made;
 mod paged;
 mod profiles;
 mod pyramid;
