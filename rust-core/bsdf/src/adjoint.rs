@@ -1,9 +1,10 @@
 //! The adjoint BSDF: what a surface makes of a path that comes from a light, which carries flux where a camera's path carries importance.
 //!
-//! Layers take from each other by the *view's* angle, and measured tables need not be reciprocal, so a light path's scattering is evaluated the
-//! way a camera path would see it: with the direction towards the camera as the view. Only interfaces that light passes are evaluated the way
-//! the path runs: radiance behind them is kept without the squared index (`glass.rs`), which makes what they do to flux the same both ways. So are
-//! toon lobes, which no light has: what the camera sees of them is not where light from the other end would be sent.
+//! Layers take from each other by the *view's* angle, rough lobes give back what facets lose by it, and measured tables need not be reciprocal. So a
+//! light path's scattering is evaluated the way a camera path would see it: with the direction towards the camera as the view, on whichever side
+//! of the surface that is. Camera paths keep radiance behind an interface without the squared index (`glass.rs`), which flux has. Toon lobes
+//! are evaluated the way that the path runs, for no light has them: what the camera sees of them is not where light from the other end would be sent.
+//! So is what interfaces let pass where no picture is made, for nothing must get lost of the flux.
 //! Shading normals bring the factor of Veach (Robust Monte Carlo Methods, 1997, section 5.3).
 
 use super::lobes::{Asked, evaluate};
@@ -22,6 +23,9 @@ pub struct LightHits<'a, L: Lanes> {
     pub hits: Hits<'a, L>,
     /// Unit normal of the triangle in the shading frame, on the light's side.
     pub geometric: Vec3<L>,
+    /// Whether interfaces let all flux pass that does not reflect. Else they let pass what camera paths would find, direction by direction, which need
+    /// not be the same where they are rough or coated.
+    pub whole: bool,
 }
 
 impl Surface {
@@ -36,25 +40,36 @@ impl Surface {
         to: Vec3<L>,
         room: &mut Lobes<'s, L>,
     ) -> Spectrum<L> {
-        let from = light.hits.wo;
+        self.resolve_seen(l, light, to, room);
+        let mut sum = seen(l, light, to, room, if light.whole { Asked::Swapped } else { Asked::Seen }).0;
+        let is_toon = matches!(self.switches.closure, Closure::DiffuseToon | Closure::GlossyToon);
+        if is_toon || (light.whole && self.lobes.transmission && to.z.lt(0.0).any()) {
+            let along = evaluate(l, lobes, light.hits.wo, to, Asked::Along).0;
+            sum += along * bend(light, to);
+        }
+        sum
+    }
+
+    /// The part of [`Self::flux`] that is not of facets and interfaces, and the probability that a camera path which goes the other way has drawn its
+    /// direction from such a lobe; `room` is as `flux` left it for the same direction.
+    #[inline(always)]
+    pub fn flux_diffuse<L: Lanes>(l: L, light: &LightHits<'_, L>, room: &Lobes<'_, L>, to: Vec3<L>) -> (Spectrum<L>, F<L>) {
+        let (value, diffuse) = seen(l, light, to, room, Asked::Diffuse);
+        let (_, all) = seen(l, light, to, room, Asked::Seen);
+        (value, diffuse / all.max(1e-20))
+    }
+
+    /// Makes `room` the lobes that a camera path sees which comes from `to`.
+    #[inline(always)]
+    fn resolve_seen<'s, L: Lanes>(&'s self, l: L, light: &LightHits<'_, L>, to: Vec3<L>, room: &mut Lobes<'s, L>) {
         let behind = to.z.lt(0.0);
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         let normals = match light.hits.normals {
             Some(normals) => Some(on_side(behind, normals)),
             None => None,
         };
-        let view = turned(behind, to);
         let entering = light.hits.entering.and_not(behind) | behind.and_not(light.hits.entering);
-        self.resolve(l, &Hits { wo: view, entering, normals: normals.as_ref(), ..light.hits }, room);
-        let seen = evaluate(l, room, view, turned(behind, from), Asked::Swapped).0;
-        let [arriving, leaving] = [light.geometric.dot(from).abs(), light.geometric.dot(to).abs()];
-        let mut sum = seen * ratio(leaving, arriving);
-        let is_toon = matches!(self.switches.closure, Closure::DiffuseToon | Closure::GlossyToon);
-        if is_toon || (self.lobes.transmission && behind.any()) {
-            let along = evaluate(l, lobes, from, to, Asked::Along).0;
-            sum += along * bend(light, to);
-        }
-        sum
+        self.resolve(l, &Hits { wo: turned(behind, to), entering, normals: normals.as_ref(), ..light.hits }, room);
     }
 
     /// The throughput factor of a sampled direction for a path from a light.
@@ -70,13 +85,30 @@ impl Surface {
         let plain = sample.value * sample.pdf.recip();
         let alone = sample.delta | sample.entered;
         let straight = sample.straight | sample.entered;
-        let delta = plain * straight.select(l.f(1.0), bend(light, sample.wi));
+        let mut delta = plain * straight.select(l.f(1.0), bend(light, sample.wi));
+        if !light.whole && self.lobes.transmission && (self.lobes.coat || self.lobes.fuzz) {
+            let passed = sample.delta & sample.transmitted.and_not(straight);
+            if passed.any() {
+                self.resolve_seen(l, light, sample.wi, room);
+                let behind = sample.wi.z.lt(0.0);
+                let value = room.passed_sharply(l, turned(behind, sample.wi), turned(behind, light.hits.wo));
+                delta = passed.select(value * sample.pdf.recip() * bend(light, sample.wi), delta);
+            }
+        }
         if (alone | sample.pdf.le(0.0)).all() {
             return delta;
         }
         let scattered = self.flux(l, light, lobes, sample.wi, room) * sample.pdf.recip();
         alone.select(delta, scattered)
     }
+}
+
+/// Flux per solid angle by what a camera path sees which comes from `to`, and the density with which that path finds the light.
+#[inline(always)]
+fn seen<L: Lanes>(l: L, light: &LightHits<'_, L>, to: Vec3<L>, room: &Lobes<'_, L>, asked: Asked) -> (Spectrum<L>, F<L>) {
+    let (from, behind) = (light.hits.wo, to.z.lt(0.0));
+    let (value, density) = evaluate(l, room, turned(behind, to), turned(behind, from), asked);
+    (value * ratio(light.geometric.dot(to).abs(), light.geometric.dot(from).abs()), density)
 }
 
 /// What bent normals do to flux that leaves `from` for `to`: the cosines about the shading normal in place of those about the triangle's.

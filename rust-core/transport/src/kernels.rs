@@ -76,6 +76,15 @@ pub(crate) fn flux<'s, L: Lanes>(
     )
 }
 
+/// [`Surface::flux_diffuse`].
+#[inline(never)]
+pub(crate) fn flux_diffuse<L: Lanes>(l: L, light: &LightHits<'_, L>, room: &Lobes<'_, L>, to: Vec3<L>) -> (Spectrum<L>, F<L>) {
+    l.vectorize(
+        #[inline(always)]
+        || Surface::flux_diffuse(l, light, room, to),
+    )
+}
+
 /// [`Surface::flux_factor`].
 #[inline(never)]
 pub(crate) fn flux_factor<'s, L: Lanes>(

@@ -12,7 +12,9 @@ pub(crate) enum Asked {
     Sampled,
     /// The part of a light's direction that is not of facets and interfaces.
     Diffuse,
-    /// A light path's direction towards the light, seen from where the path goes: all but what interfaces let pass, and toon lobes.
+    /// A light path's direction towards the light, seen from where the path goes: all but toon lobes.
+    Seen,
+    /// The same but for what interfaces let pass.
     Swapped,
     /// Those alone, for they are evaluated the way that the path runs.
     Along,
@@ -24,7 +26,7 @@ impl Asked {
     fn counts<L: Lanes>(self, slot: &Slot<'_, L>) -> bool {
         match self {
             Self::All | Self::Sampled => true,
-            Self::Swapped => !matches!(slot.shape, Shape::Toon(_)),
+            Self::Seen | Self::Swapped => !matches!(slot.shape, Shape::Toon(_)),
             Self::Diffuse => !slot.is_specular(),
             Self::Along => matches!(slot.shape, Shape::Glass(_) | Shape::Toon(_)),
         }
@@ -52,9 +54,14 @@ impl<L: Lanes> Lobes<'_, L> {
                 continue;
             }
             let (mut value, pdf) = slot.eval(&self.tilts, wo, wi);
-            if matches!(asked, Asked::Swapped | Asked::Along) && matches!(slot.shape, Shape::Glass(_)) {
+            if let (Asked::Seen | Asked::Swapped | Asked::Along, Shape::Glass(lobe)) = (asked, &slot.shape) {
                 let passed = (wo.z * wi.z).lt(0.0);
-                value = value.keep_if(if asked == Asked::Along { passed } else { !passed });
+                value = match asked {
+                    // Camera paths keep radiance behind an interface without the squared index; flux has it.
+                    Asked::Seen => value * passed.select((lobe.eta() * lobe.eta()).recip(), l.f(1.0)),
+                    Asked::Along => value.keep_if(passed),
+                    _ => value.keep_if(!passed),
+                };
             }
             let given = matches!(asked, Asked::All | Asked::Diffuse);
             let open = slot.is_fibre() || (!given && (!slot.is_diffuse() || slot.side != Side::Reflected));
@@ -68,6 +75,19 @@ impl<L: Lanes> Lobes<'_, L> {
             density = slot.share.mul_add(pdf, density);
         }
         (sum, density / self.total.max(1e-20))
+    }
+    /// What smooth interfaces let pass to `wo` of light from `wi`, which is behind them.
+    #[inline(always)]
+    pub(crate) fn passed_sharply(&self, l: L, wo: Vec3<L>, wi: Vec3<L>) -> Spectrum<L> {
+        let mut sum = Spectrum::zero(l);
+        for slot in self.slots[..self.count].iter().flatten().filter(|slot| matches!(slot.shape, Shape::Glass(_))) {
+            let value = slot.delta_eval(l, &self.tilts, wo, wi).0.keep_if(slot.delta(l));
+            sum += match &self.coat {
+                Some(coat) if slot.coated => value * coat.colour(wi),
+                _ => value,
+            };
+        }
+        sum
     }
     /// The diffuse part of [`Self::eval`]: all but facets and interfaces.
     #[inline(always)]

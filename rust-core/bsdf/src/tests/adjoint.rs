@@ -3,6 +3,7 @@
 use super::harness::{View, direction, lanes, rgb, sample, spread};
 use super::rows;
 use crate::normals::Normals;
+use crate::parameter as p;
 use crate::{Hits, LightHits, Lobes, ParameterValues};
 use gonio_simd::{Execution, Lanes, Vec3, dispatch};
 
@@ -16,7 +17,7 @@ struct Scattered {
 }
 
 #[inline(always)]
-fn kernel<L: Lanes>(l: L, view: &View, numbers: &[[f32; 3]], directions: &[[f32; 3]], out: &mut Scattered) {
+fn kernel<L: Lanes>(l: L, (view, whole): (&View, bool), numbers: &[[f32; 3]], directions: &[[f32; 3]], out: &mut Scattered) {
     let wo = Vec3::splat(l, view.wo);
     let values = ParameterValues::constant(&view.surface.constants);
     let geometric = Vec3::splat(l, view.geometric.unwrap_or([0.0, 0.0, 1.0]));
@@ -25,7 +26,7 @@ fn kernel<L: Lanes>(l: L, view: &View, numbers: &[[f32; 3]], directions: &[[f32;
     let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true };
     let (mut lobes, mut room) = (Lobes::empty(l), Lobes::empty(l));
     view.surface.resolve(l, &hits, &mut lobes);
-    let light = LightHits { hits, geometric };
+    let light = LightHits { hits, geometric, whole };
     for chunk in numbers.chunks(L::COUNT) {
         let s = sample(l, &lobes, wo, lanes(l, chunk));
         let factor = rgb(view.surface.flux_factor(l, &light, &lobes, &s, &mut room));
@@ -44,6 +45,11 @@ fn kernel<L: Lanes>(l: L, view: &View, numbers: &[[f32; 3]], directions: &[[f32;
 }
 
 fn scattered(view: &View, numbers: &[[f32; 3]], directions: &[[f32; 3]]) -> Scattered {
+    scattered_by((view, false), numbers, directions)
+}
+
+/// The same where no flux may get lost at interfaces.
+fn scattered_by(view: (&View, bool), numbers: &[[f32; 3]], directions: &[[f32; 3]]) -> Scattered {
     let mut out = Scattered::default();
     dispatch!(Execution::best(), l => kernel(l, view, numbers, directions, &mut out));
     out
@@ -108,8 +114,58 @@ fn white_glass_keeps_all_flux_whatever_its_normals() {
     for roughness in [0.0, 0.5] {
         let glass = rows::glass(roughness, crate::Distribution::MultiGgx);
         let view = View::new(&glass, 30.0, true);
-        let found = scattered(&view, &spread(1 << 14), &[]);
+        let found = scattered_by((&view, true), &spread(1 << 14), &[]);
         let mean = found.samples.iter().map(|(_, factor, _)| f64::from(factor[1])).sum::<f64>() / f64::from(1 << 14);
         assert!((mean - 1.0).abs() < 8e-3, "roughness {roughness}: {mean}");
+    }
+}
+
+/// Glass of index 1.5, with a rough coat on it or without.
+fn interfaces(roughness: f32) -> [(&'static str, crate::Surface); 2] {
+    let glass: &[(usize, &[f32])] = &[(p::TRANSMISSION_WEIGHT, &[1.0]), (p::IOR, &[1.5]), (p::ROUGHNESS, &[roughness])];
+    let coat: &[(usize, &[f32])] = &[(p::COAT_WEIGHT, &[1.0]), (p::COAT_ROUGHNESS, &[0.3]), (p::COAT_COLOR, &[0.8, 0.6, 0.4])];
+    [("glass", rows::glass(roughness, crate::Distribution::MultiGgx)), ("coated", rows::principled(&[glass, coat].concat()))]
+}
+
+/// A direction in the frame of the surface's other side.
+fn from_behind([x, y, z]: [f32; 3]) -> [f32; 3] {
+    [x, -y, -z]
+}
+
+#[test]
+fn flux_that_passes_an_interface_is_what_the_camera_sees() {
+    // The camera's radiance lacks the squared index.
+    for (name, surface) in [0.2, 0.4, 0.7].into_iter().flat_map(interfaces) {
+        for (entering, index) in [(true, 1.5_f32), (false, 1.0 / 1.5)] {
+            for (from, to) in [((15.0, 0.0), (170.0, 185.0)), ((35.0, 0.0), (150.0, 200.0)), ((30.0, 0.0), (145.0, 170.0))] {
+                let (from, to) = (direction(from.0, from.1), direction(to.0, to.1));
+                let arriving = View { surface: surface.clone(), wo: from, entering, geometric: None };
+                let view = View { surface: surface.clone(), wo: from_behind(to), entering: !entering, geometric: None };
+                let seen = view.eval(&[from_behind(from)])[0].0.map(|x| x * index * index * to[2].abs() / from[2]);
+                let flux = scattered(&arriving, &[], &[to]).flux[0];
+                assert!(seen[1] > 1e-3, "{name}: nothing passes");
+                for (flux, seen) in flux.iter().zip(seen) {
+                    assert!((flux - seen).abs() <= 1e-3 * seen, "{name}, entering {entering}: {flux} of flux, {seen} seen");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn flux_that_passes_a_smooth_interface_is_what_the_camera_sees() {
+    const COUNT: usize = 1 << 12;
+    for (name, surface) in interfaces(0.0) {
+        for entering in [true, false] {
+            let arriving = View { surface: surface.clone(), wo: direction(35.0, 0.0), entering, geometric: None };
+            let samples = scattered(&arriving, &spread(COUNT), &[]).samples;
+            let passed: Vec<_> = samples.iter().filter(|(wi, _, alone)| *alone && wi[2] < 0.0).collect();
+            let view = View { surface: surface.clone(), wo: from_behind(passed[0].0), entering: !entering, geometric: None };
+            let seen = view.albedo(COUNT)[1];
+            for (channel, seen) in seen.into_iter().enumerate() {
+                let flux = passed.iter().map(|(_, factor, _)| f64::from(factor[channel])).sum::<f64>() / COUNT as f64;
+                assert!((flux - seen).abs() <= 5e-3 * seen, "{name}, entering {entering}: {flux} of flux, {seen} seen");
+            }
+        }
     }
 }

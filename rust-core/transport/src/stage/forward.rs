@@ -5,7 +5,7 @@ use crate::accumulate::light_sums::code;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
 use crate::stage::merge::in_share;
-use crate::stage::nee::{seen_part, shares};
+use crate::stage::nee::{seen_share, shares_of};
 use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
 use crate::stage::volume;
@@ -108,7 +108,9 @@ impl Integrator for LightIntegrator<'_> {
         let normals = normals(chunk, material, point, at);
         let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
         let hits = Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true };
-        let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric) };
+        // What camera paths find too has to be as they find it.
+        let whole = !self.wanted.specular_only && self.wanted.picture.is_none();
+        let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
         if let Some(picture) = &self.wanted.picture {
@@ -133,7 +135,7 @@ impl Integrator for LightIntegrator<'_> {
             factor = factor * own;
         }
         // Camera paths keep radiance behind an interface without the squared index, so what they take up there is less by it than the flux.
-        if let (true, Some(eta)) = (self.wanted.specular_only || self.wanted.picture.is_some(), lobes.eta()) {
+        if let (false, Some(eta)) = (whole, lobes.eta()) {
             let passed = sample.transmitted.and_not(sample.straight | sample.diffuse);
             factor = factor * passed.select((eta * eta).recip(), l.f(1.0));
         }
@@ -222,23 +224,25 @@ fn connect<'s, L: Lanes>(
     if !usable.any() {
         return;
     }
-    let scattered = kernels::flux(l, &material.surface, light, lobes, local, room);
-    let scattered = as_radiance(l, lobes, [point.local_wo, local], scattered);
+    let flux = kernels::flux(l, &material.surface, light, lobes, local, room);
+    // As the camera sees it: layers take from each other by its angle.
+    let (diffuse, drawn) = kernels::flux_diffuse(l, light, room, local);
+    let scattered = as_radiance(lobes, local, [flux, diffuse]);
+    let (straight, reflected) = (point.bounces.eq(0), local.z.gt(0.0));
+    let exact = shares_of(diffuse, scattered, reflected);
     let starts = &queues.light_paths.starts;
     let light = l.gather_integers(&starts.light, point.slot);
-    let scattered = if chunk.tables.lights.has_factors() {
-        let seen = seen_part(chunk, lobes, [point.local_wo, local], scattered, light);
-        point.bounces.eq(0).select(seen, scattered)
-    } else {
-        scattered
-    };
+    let scattered =
+        if chunk.tables.lights.has_factors() { straight.select(scattered * seen_share(chunk, exact, light), scattered) } else { scattered };
     let value = starts.carried(l, point.slot, point.throughput) * scattered * seen.importance;
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
-    // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes.
-    let shares = Some(shares(l, lobes, point.local_wo, local, scattered));
+    // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes. What comes later camera paths give to
+    // the lobe that they have drawn.
+    let glossy = (1.0 - drawn).keep_if(reflected);
+    let shares = [straight.select(exact[0], Spectrum::constant(drawn)), straight.select(exact[1], Spectrum::constant(glossy))];
     // Straight from a light it is direct.
-    let bounces = point.bounces.eq(0).select(l.u(1 << flag::BOUNCE_SHIFT), l.u(2 << flag::BOUNCE_SHIFT));
+    let bounces = straight.select(l.u(1 << flag::BOUNCE_SHIFT), l.u(2 << flag::BOUNCE_SHIFT));
     let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
@@ -247,19 +251,19 @@ fn connect<'s, L: Lanes>(
         .light_paths
         .connections
         .rays
-        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares, receiver: None, medium }, lit);
+        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares: Some(shares), receiver: None, medium }, lit);
 }
 
 /// Flux that an interface sends to its other side as the radiance that camera paths keep there, without the squared index.
 #[inline(always)]
-fn as_radiance<L: Lanes>(l: L, lobes: &Lobes<'_, L>, [from, to]: [Vec3<L>; 2], flux: Spectrum<L>) -> Spectrum<L> {
+fn as_radiance<L: Lanes>(lobes: &Lobes<'_, L>, to: Vec3<L>, [flux, diffuse]: [Spectrum<L>; 2]) -> Spectrum<L> {
     let behind = to.z.lt(0.0);
     let Some(eta) = lobes.eta() else { return flux };
     if !behind.any() {
         return flux;
     }
     // What is scattered diffusely passes no interface.
-    let passed = (flux - kernels::eval_diffuse(l, lobes, from, to)).max(0.0);
+    let passed = (flux - diffuse).max(0.0);
     behind.select(flux - passed * (1.0 - (eta * eta).recip()), flux)
 }
 

@@ -97,13 +97,18 @@ pub(crate) fn seen_part<L: Lanes>(
     all: Spectrum<L>,
     light: U<L>,
 ) -> Spectrum<L> {
+    all * seen_share(chunk, shares(chunk.l, lobes, wo, wi, all), light)
+}
+
+/// The share that counts of light that surfaces scatter in these shares, the diffuse and the glossy one.
+#[inline(always)]
+pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy]: [Spectrum<L>; 2], light: U<L>) -> Spectrum<L> {
     let (l, lights) = (chunk.l, &chunk.tables.lights);
-    let [diffuse, glossy] = shares(l, lobes, wo, wi, all);
     let mut seen = Spectrum::one(l);
     for (kind, share) in [diffuse, glossy, Spectrum::one(l) - diffuse - glossy].into_iter().enumerate() {
         seen = seen - share * (1.0 - lights.scattered_factor(l, light, l.u(kind as u32)));
     }
-    all * seen.max(0.0)
+    seen.max(0.0)
 }
 
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray, which starts in a medium where
@@ -128,9 +133,13 @@ pub(crate) fn send<L: Lanes>(
 /// The diffuse and the glossy share of what all lobes scatter.
 #[inline(always)]
 pub(crate) fn shares<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>, all: Spectrum<L>) -> [Spectrum<L>; 2] {
-    let diffuse = kernels::eval_diffuse(l, lobes, wo, wi);
-    // What facets send to the other side is transmitted.
-    let glossy = (all - diffuse).keep_if(wi.z.gt(0.0));
+    shares_of(kernels::eval_diffuse(l, lobes, wo, wi), all, wi.z.gt(0.0))
+}
+
+/// The same of what is scattered diffusely and in all; what facets send to the other side is transmitted.
+#[inline(always)]
+pub(crate) fn shares_of<L: Lanes>(diffuse: Spectrum<L>, all: Spectrum<L>, reflected: M<L>) -> [Spectrum<L>; 2] {
+    let glossy = (all - diffuse).keep_if(reflected);
     [share(diffuse, all), share(glossy, all)]
 }
 
