@@ -11,22 +11,23 @@ use crate::{
 };
 use gonio_simd::Execution;
 
-/// Samples a pixel of the picture, which is one tile.
-const SAMPLES: u32 = 8;
+/// Samples a pixel of the picture, which is one tile, where noise is measured by it, and where neighbours without noise are compared: frames wait for it.
+pub(super) const FOR_NOISE: u32 = 8;
+pub(super) const FOR_EDGES: u32 = 1;
 
 /// The value of the colour pass that the photographic operator would show as white before it compresses; what the settings say, if anything.
 ///
 /// Its random numbers are others than the picture's, so that what is decided by it does not depend on the picture's noise.
-pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execution, cancelled: &dyn Fn() -> bool) -> f32 {
+pub(super) fn meter(scene: &CompiledScene, settings: &Settings, samples: u32, execution: Execution, cancelled: &dyn Fn() -> bool) -> f32 {
     if settings.noise_white > 0.0 {
         return settings.noise_white;
     }
-    let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, SAMPLES), execution) else { return 1.0 };
+    let Ok(view) = View::new(scene, &reduced(settings, TILE as u32, samples), execution) else { return 1.0 };
     let start = Start::Camera(&view.camera, &view.placement);
     let tracer = Tracer { tables: &scene.tables, start, transport: view.transport };
     let mut workspace = scene.workspaces.take();
     workspace.prepare(&scene.tables, &tracer.transport, false);
-    for sample in 0..SAMPLES {
+    for sample in 0..samples {
         tracer.trace(view.window.min, view.window.max, &Runs::whole(sample), &mut workspace, cancelled);
     }
     let [red, green, blue] = &workspace.deposits.sums.radiance;
@@ -35,7 +36,7 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, execution: Execu
     if !cancelled() {
         scene.workspaces.leave(workspace);
     }
-    let mean = if count > 0.0 { (sum / count).exp() / f64::from(SAMPLES) } else { 0.0 };
+    let mean = if count > 0.0 { (sum / count).exp() / f64::from(samples) } else { 0.0 };
     let white = mean as f32 * view.exposure / KEY;
     if white > 0.0 { white } else { 1.0 }
 }

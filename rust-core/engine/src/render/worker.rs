@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Learned, Shared, learn::learn, meter::meter, schedule::Work, source::Source};
+use super::{Learned, Shared, learn::learn, meter, schedule::Work, source::Source};
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     camera::sampler::Runs,
@@ -117,7 +117,8 @@ fn learned(shared: &Shared, cancelled: &dyn Fn() -> bool) -> Learned {
     let light_cache = learn(&shared.scene, &shared.settings, &shared.source, cancelled);
     let white = match &shared.source {
         Source::View(view) if shared.film.looks_at_noise() || view.rule.is_some() => {
-            meter(&shared.scene, &shared.settings, view.transport.execution, cancelled)
+            let samples = if shared.film.looks_at_noise() { meter::FOR_NOISE } else { meter::FOR_EDGES };
+            meter::meter(&shared.scene, &shared.settings, samples, view.transport.execution, cancelled)
         }
         _ => 1.0,
     };
