@@ -1,5 +1,6 @@
 //! Traversal by single rays, packets and ray streams, and the queries that choose among them.
 
+pub(crate) mod beam;
 mod packet;
 mod packet_query;
 mod packet_ray;

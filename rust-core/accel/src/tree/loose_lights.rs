@@ -40,6 +40,11 @@ impl LooseLight {
         let away: f32 = centre.iter().map(|x| x.abs()).sum();
         Some(LooseLight { record, centre, radius: radius as f32 * (1.0 + ROUNDING) + away * ROUNDING })
     }
+
+    /// A box around it.
+    pub(crate) fn bounds(&self) -> [[f32; 3]; 2] {
+        [-self.radius, self.radius].map(|reach| self.centre.map(|x| x + reach))
+    }
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

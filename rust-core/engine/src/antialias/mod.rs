@@ -7,9 +7,13 @@
 
 mod compare;
 mod places;
+mod raster;
 mod samples;
+mod seams;
 mod tables;
 mod tile;
+mod triangles;
+mod view;
 mod visibility;
 
 pub use tile::{Antialiaser, TileTask};

@@ -5,7 +5,7 @@ use super::{
     compare::{CORNER_ROOM, STRIDE, Suspects, average, classify, find_zones, kind, weigh},
     places::{INNER, STEPS, ZIGZAGS, ZONES, turned},
     samples::{CHANNELS, Samples},
-    visibility::VisibilityMap,
+    visibility::{Mapped, VisibilityMap},
 };
 use crate::camera::sampler::{BATCH, TILE, tile_place};
 use crate::transport::{Tracer, Workspace};
@@ -136,7 +136,8 @@ impl Antialiaser {
         dispatch!(task.tracer.transport.execution, l => classify(l, &task.rule, &self.corners, &mut self.kinds));
         let even: Vec<_> = task.pixels().map(|(_, pixel)| pixel).filter(|[x, y]| self.kinds[y * TILE + x] == kind::EVEN).collect();
         let Self { map, kinds, .. } = self;
-        map.look(task.tracer, task.min, &even, task.rule.map_side, ws, |[x, y]| kinds[y * TILE + x] = kind::UPRIGHT);
+        let tile = Mapped { min: task.min, size: task.size(), side: task.rule.map_side };
+        map.look(task.tracer, tile, &even, ws, |[x, y]| kinds[y * TILE + x] = kind::UPRIGHT);
     }
 
     /// Lists the pixels of level two.

@@ -1,20 +1,30 @@
 //! The visibility map: which triangles the camera sees at several times the picture's resolution, and where those of one pixel part.
 //!
-//! The paper rasterises it. Here the tile's pixels are packets of the traversal, sixteen rays within one pixel, which meet nearly the same nodes; so every lens
-//! is mapped, instances need no unfolding, and no triangle is touched that nobody sees.
+//! Where a pinhole looks at triangles at rest it is rasterised, as in the paper (`raster.rs`). All else is asked by rays: pixels that may show a
+//! light's shape, curves, points or what moves, tiles of very many triangles, and other lenses. There a pixel's rays are a packet of the traversal,
+//! which meet nearly the same nodes.
 
+use super::{
+    raster::{Front, Grid, draw},
+    seams::parts,
+    triangles::Triangles,
+    view::TileView,
+};
 use crate::{
     accel::NONE,
-    camera::sampler::BATCH,
+    camera::sampler::{BATCH, TILE},
     geometry::GeometryTable,
-    transport::{Tables, Tracer, Workspace},
+    transport::{Start, Tables, Tracer, Workspace},
 };
 use gonio_simd::{Lanes, dispatch};
 
 /// Cosine between normals from which on surfaces count as one.
-const LEAST_COSINE: f32 = 0.9;
+pub(super) const LEAST_COSINE: f32 = 0.9;
 /// Share of the distance by which surfaces of different objects may lie before or behind one another, and those of one out of the other's plane.
-const MOST_DEPTH: f32 = 0.05;
+pub(super) const MOST_DEPTH: f32 = 0.05;
+
+/// For fewer pixels of a tile rays are faster than drawing it.
+const FEWEST_PIXELS: usize = 128;
 
 /// What the rays of some pixels have met.
 #[derive(Debug, Default)]
@@ -22,6 +32,19 @@ pub(super) struct VisibilityMap {
     places: [Vec<f32>; 2],
     slots: Vec<u32>,
     met: Met,
+    grid: Grid,
+    triangles: Triangles,
+    front: Front,
+    /// Whether each pixel of the tile is asked by rays, row after row.
+    by_rays: Vec<bool>,
+}
+
+/// The tile that is mapped: its first pixel and its size, and rays along a pixel's side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mapped {
+    pub(super) min: [u32; 2],
+    pub(super) size: [usize; 2],
+    pub(super) side: u32,
 }
 
 /// Hits by slot, and the surfaces at those of pixels that show several triangles.
@@ -38,22 +61,68 @@ struct Met {
 }
 
 impl VisibilityMap {
-    /// Maps some pixels of a tile that starts at `min`, `side` × `side` rays each, and tells `seam` those that show surfaces which part.
+    /// Maps some pixels of a tile, and tells `seam` those that show surfaces which part.
     pub(super) fn look(
         &mut self,
         tracer: &Tracer<'_>,
-        min: [u32; 2],
+        tile: Mapped,
         pixels: &[[usize; 2]],
-        side: u32,
         ws: &mut Workspace,
         mut seam: impl FnMut([usize; 2]),
     ) {
-        let rays = (side * side) as usize;
-        for pixels in pixels.chunks(BATCH / rays) {
-            self.place(min, pixels, side);
+        if pixels.is_empty() {
+            return;
+        }
+        let mut asked = Vec::new();
+        let view = if pixels.len() < FEWEST_PIXELS { None } else { self.rasterise(tracer, tile) };
+        match &view {
+            Some(view) => dispatch!(tracer.transport.execution, l => self.tell_seams(l, view, pixels, &mut seam, &mut asked)),
+            None => asked.extend_from_slice(pixels),
+        }
+        let rays = (tile.side * tile.side) as usize;
+        for pixels in asked.chunks(BATCH / rays) {
+            self.place(tile.min, pixels, tile.side);
             tracer.first_hits_at([&self.places[0], &self.places[1]], &self.slots, ws);
             self.met.take(pixels.len() * rays, ws);
             self.part(tracer, pixels, rays, &mut seam);
+        }
+    }
+
+    /// Draws the tile's triangles, and marks the pixels that rays are to be asked about; `None` if they are for all.
+    fn rasterise(&mut self, tracer: &Tracer<'_>, tile: Mapped) -> Option<TileView> {
+        let Start::Camera(camera, _) = tracer.start else { return None };
+        let view = TileView::new(camera, tile.min, tile.size)?;
+        let Self { grid, triangles, front, by_rays, .. } = self;
+        by_rays.clear();
+        by_rays.resize(TILE * TILE, false);
+        let few = triangles.list(&view, tracer.tables, |[[left, right], [top, bottom]]| {
+            (top..=bottom).for_each(|y| by_rays[y * TILE + left..=y * TILE + right].fill(true));
+        });
+        if !few {
+            return None;
+        }
+        grid.prepare(tile.side);
+        front.clear(grid.count(), view.clipping[1]);
+        dispatch!(tracer.transport.execution, l => draw(l, &view, grid, triangles, front));
+        Some(view)
+    }
+
+    /// Tells the pixels of the rasterised map whose surfaces part, and lists those that rays are to be asked about.
+    #[inline(always)]
+    fn tell_seams<L: Lanes>(
+        &self,
+        l: L,
+        view: &TileView,
+        pixels: &[[usize; 2]],
+        seam: &mut impl FnMut([usize; 2]),
+        asked: &mut Vec<[usize; 2]>,
+    ) {
+        for pixel in pixels {
+            if self.by_rays[pixel[1] * TILE + pixel[0]] {
+                asked.push(*pixel);
+            } else if parts(l, view, &self.grid, &self.triangles, &self.front, *pixel) {
+                seam(*pixel);
+            }
         }
     }
 
