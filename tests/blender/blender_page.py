@@ -18,6 +18,7 @@ REASONS = (
     (("dicing_rate", "preview_dicing_rate", "max_subdivisions"), "followed"),
     (("*dicing*",), "not followed: the camera that renders counts"),
     (("shadow_terminator_*",), "of the shadow terminator"),
+    (("use_guiding", "use_surface_guiding", "use_deterministic_guiding"), "followed: *Path Guiding*, always deterministic, on surfaces"),
     (("bake_type",), "a setting of Gonio's own in the *Bake* panel"),
     (("denoiser", "denoising_*", "preview_denois*", "use_denoising"), "Open Image Denoise, chosen by Gonio"),
 )

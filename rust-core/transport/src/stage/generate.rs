@@ -91,5 +91,6 @@ fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>) -> PathLanes<L> {
         flags: l.u(flag::CAMERA | flag::DELTA),
         counts: l.u(0),
         medium: Spectrum::zero(l),
+        unguided: l.f(1.0),
     }
 }

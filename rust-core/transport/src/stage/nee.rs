@@ -4,6 +4,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::guided::with_guiding;
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
@@ -57,6 +58,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let wi = point.at.frame.to_local(sample.wi);
     let usable = usable.and_not(leaks(l, point, lobes, [sample.wi, wi]));
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
+    let pdf = with_guiding(chunk, point, [sample.wi, wi], pdf);
     let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
     let weight = weight.of(sample, pdf);
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
