@@ -110,6 +110,12 @@ class Report:
         for note in statistics["notes"] if statistics else ():
             self.add("Render", "texture cache", note)
 
+    def add_guiding(self, words: str | None) -> None:
+        """What path guiding has learned, where it is not followed; to be called when the render has ended."""
+        if words and ("given up" in words or "not learned" in words):
+            _, _, found = words.partition(": ")
+            self.add("Render", "path guiding", found)
+
     def forget(self, kind: str, name: str) -> None:
         """Drops the lines of a data-block that is exported again."""
         self._nodes.pop((kind, name), None)

@@ -52,7 +52,7 @@ SCENES = {
     "fast gi": Limit("Fast GI Approximation", "light is followed to the last bounce"),
     "filter glossy": _quietly("Filter Glossy other than 1", "reflections stay as sharp as they are"),
     "noise": _untold(
-        "Cycles' settings of noise and speed alone: light tree, path guiding, sampling pattern, light threshold, least bounces, tiles, devices",
+        "Cycles' settings of noise and speed alone: light tree, how path guiding learns, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
     "pass": Limit("Volume passes, and the Shadow pass of EEVEE, which Cycles has no more", "absent"),

@@ -10,6 +10,7 @@ FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-ha
 # Whole widths in pixels a unit of Cycles' filter width: its windows reach a width to either side, its Gaussian's deviation is a quarter of it.
 WIDTHS = {"gaussian": 1.5, "blackman-harris": 2.0, "tent": 1.0}
 CAUSTICS = {"AUTO": "auto", "ON": "on", "OFF": "off"}
+GUIDING = {"OFF": "off", "ON": "on", "AUTO": "auto"}
 # Samples that are summed together.
 BLOCK = 16
 # Darker films are as noisy as this one.
@@ -40,6 +41,8 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         # Noise counts by what is shown as white in Blender's units.
         "noise_white": LUMENS_PER_WATT / max(float(ask("film_exposure", 1.0)), LEAST_EXPOSURE),
         "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
+        # What moves under the mouse does not wait for learning.
+        "guiding": "off" if preview else GUIDING.get(ask("guiding", "OFF"), "off"),
         "caustics": CAUSTICS.get(ask("caustics", "AUTO"), "auto"),
         "reflective_caustics": bool(ask("caustics_reflective", True)),
         "refractive_caustics": bool(ask("caustics_refractive", True)),

@@ -85,6 +85,9 @@ class GONIO_OT_settings_from_cycles(bpy.types.Operator):
         if _marks_caustics(context.scene) and context.scene.gonio.caustics != "ON":
             context.scene.gonio.caustics = "ON"
             changed.append("caustics")
+        if getattr(context.scene.cycles, "use_guiding", False) and context.scene.gonio.guiding == "OFF":
+            context.scene.gonio.guiding = "ON"
+            changed.append("guiding")
         for layer in context.scene.view_layers:
             changed += take_over(layer, VIEW_LAYER)
         lights = {each.data for each in context.scene.objects if each.type == "LIGHT"}

@@ -26,6 +26,12 @@ CAUSTICS = (
     ("OFF", "Off", "Never: camera paths show what they happen to find", 2),
 )
 
+GUIDING = (
+    ("OFF", "Off", "Never: paths go where surfaces scatter", 0),
+    ("ON", "On", "Learned before each render; given up where it does not promise to pay", 1),
+    ("AUTO", "Automatic", "As On, but learned only where that is a small part of the render", 2),
+)
+
 # Blender's names, and one of ours.
 BAKES = (
     ("COMBINED", "Combined", "All light that leaves the surface", 0),
@@ -130,6 +136,14 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
     )
     seed: IntProperty(
         name="Seed", description="Another seed gives another pattern of noise", min=0, max=2**31 - 1, default=0, update=tag_data
+    )
+    guiding: EnumProperty(
+        name="Path Guiding",
+        description="Paths of final renders go more often where indirect light comes from, as through a door ajar. Small pictures of the "
+        "view tell before the render",
+        items=GUIDING,
+        default="OFF",
+        update=tag_data,
     )
     use_sample_subset: switch("Sample Subset", "Take some of the samples alone, for renders that are merged later", tag_data)
     sample_offset: IntProperty(

@@ -108,6 +108,7 @@ class FinalSession:
                 engine.update_stats("", status.text(render.progress, samples))
             layer.report.add_render(render.diagnostics)
             layer.report.add_texture_notes(render.texture_statistics)
+            layer.report.add_guiding(render.guiding)
             if done or render.progress.samples > 0:
                 film = render.film()
                 passes.write_passes(result, film, kinds, settings, samples)

@@ -47,6 +47,15 @@ class GONIO_RENDER_PT_sampling_render(RenderPanel, Panel):
         layout.prop(settings, "use_denoising")
 
 
+class GONIO_RENDER_PT_sampling_path_guiding(RenderPanel, Panel):
+    bl_label = "Path Guiding"
+    bl_parent_id = "GONIO_RENDER_PT_sampling"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_settings(self, layout, scene):
+        layout.prop(scene.gonio, "guiding", text="Use Path Guiding")
+
+
 class GONIO_RENDER_PT_sampling_advanced(RenderPanel, Panel):
     bl_label = "Advanced"
     bl_parent_id = "GONIO_RENDER_PT_sampling"
@@ -77,5 +86,6 @@ PANELS = (
     GONIO_RENDER_PT_sampling,
     GONIO_RENDER_PT_sampling_viewport,
     GONIO_RENDER_PT_sampling_render,
+    GONIO_RENDER_PT_sampling_path_guiding,
     GONIO_RENDER_PT_sampling_advanced,
 )

@@ -19,6 +19,7 @@ REASONS = (
     (("*dicing*",), "not followed: the camera that renders counts"),
     (("shadow_terminator_geometry_*",), "followed"),
     (("shadow_terminator_*",), "not followed, leaves a line"),
+    (("use_guiding", "use_surface_guiding", "use_deterministic_guiding"), "followed: *Path Guiding*, always deterministic, on surfaces"),
     (("bake_type",), "a setting of Gonio's own in the *Bake* panel"),
     (("denoiser", "denoising_*", "preview_denois*", "use_denoising"), "Open Image Denoise, chosen by Gonio"),
 )

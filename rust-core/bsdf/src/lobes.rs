@@ -145,6 +145,19 @@ impl<'s, L: Lanes> Lobes<'s, L> {
         }
         [non_specular, specular.and_not(non_specular)]
     }
+    /// Share of diffuse reflection in the choice of lobes, for path guiding; 0 where lobes are of kinds that are told apart by more than direction.
+    #[inline(always)]
+    pub fn diffuse_share(&self, l: L) -> F<L> {
+        let (mut sum, mut others) = (l.f(0.0), l.f(0.0));
+        for slot in self.slots[..self.count].iter().flatten() {
+            match slot.shape {
+                Shape::Diffuse(_) if slot.side == Side::Reflected => sum += slot.share,
+                Shape::Diffuse(_) | Shape::Reflect(_) | Shape::Glass(_) | Shape::Straight => {}
+                _ => others += slot.share,
+            }
+        }
+        (sum / self.total.max(1e-20)).keep_if(others.le(0.0))
+    }
     /// Estimate of the directional albedo of all lobes together, for the albedo pass.
     #[inline(always)]
     pub fn albedo(&self) -> Spectrum<L> {

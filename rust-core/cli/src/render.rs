@@ -280,6 +280,7 @@ impl Job<'_> {
         settings.max_bounces = options.max_bounces.unwrap_or(settings.max_bounces);
         settings.integrator = options.integrator.into();
         settings.caustics = options.caustics.into();
+        settings.guiding = options.guiding.into();
         settings.light_samples = options.light_samples;
         settings.filter = match options.filter {
             FilterArgument::Box => Filter::Box,
@@ -385,6 +386,9 @@ impl Job<'_> {
             let seconds = start.elapsed().as_secs_f64();
             let samples = samples_of(&scene.settings, &render, &image);
             say(&format!("{samples} in {}, {:.1} Mrays/s", clock(start.elapsed()), rays / seconds.max(1e-3)));
+        }
+        if let (false, Some(words)) = (self.options.quiet, render.guiding()) {
+            say(words);
         }
         if let (false, Some(statistics)) = (self.options.quiet, compiled.tables.textures.statistics()) {
             tell_textures(&statistics, self.options.stage.verbose);

@@ -253,6 +253,11 @@ impl Render {
         let all = self.compiled.iter().flat_map(|compiled| &compiled.diagnostics);
         all.map(|d| (d.origin.to_string(), d.message.clone())).collect()
     }
+    /// What path guiding has learned and whether it is followed, in words; None where guiding is off, or before.
+    #[getter]
+    fn guiding(&self) -> PyResult<Option<String>> {
+        Ok(self.running()?.guiding().map(str::to_owned))
+    }
     /// What textures within a memory limit took and read so far, bytes and counts; None where all are in memory.
     #[getter]
     fn texture_statistics<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {

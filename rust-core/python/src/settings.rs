@@ -1,7 +1,7 @@
 //! Settings by keyword.
 
 use crate::error::exception;
-use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Integrator, MOST_MATTE_RANKS, Mist, Settings, parse_bytes};
+use gonio::scene::{Antialiasing, Background, Caustics, Crop, Filter, Guiding, Integrator, MOST_MATTE_RANKS, Mist, Settings, parse_bytes};
 use pyo3::{prelude::*, types::PyDict};
 use std::path::PathBuf;
 
@@ -42,6 +42,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "threads" => s.threads = value.extract()?,
         "integrator" => s.integrator = named(key, value, &Integrator::NAMES)?,
         "caustics" => s.caustics = named(key, value, &Caustics::NAMES)?,
+        "guiding" => s.guiding = named(key, value, &Guiding::NAMES)?,
         "reflective_caustics" => s.caustic_paths[0] = value.extract()?,
         "refractive_caustics" => s.caustic_paths[1] = value.extract()?,
         "clear_roughness" => s.clear_roughness = value.extract()?,

@@ -62,7 +62,7 @@ pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointKey, PointShape, Points, point_key_problem};
-pub use settings::{Background, Caustics, Crop, Filter, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings, parse_bytes};
+pub use settings::{Background, Caustics, Crop, Filter, Guiding, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings, parse_bytes};
 pub use shutter::{Shutter, key_problem};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;

@@ -68,6 +68,24 @@ impl Caustics {
     pub const NAMES: [(Self, &'static str); 3] = [(Self::Auto, "auto"), (Self::On, "on"), (Self::Off, "off")];
 }
 
+/// Whether paths go more often where indirect light was found to come from (path guiding). Where the small pictures that it is learned from do not
+/// promise that it pays, it is given up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Guiding {
+    /// Never; nothing is learned.
+    #[default]
+    Off,
+    /// Learned whatever that costs.
+    On,
+    /// Learned where a render is so large that learning is a small part of it.
+    Auto,
+}
+
+impl Guiding {
+    /// All of them with their names.
+    pub const NAMES: [(Self, &'static str); 3] = [(Self::Off, "off"), (Self::On, "on"), (Self::Auto, "auto")];
+}
+
 /// What is where the camera sees no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
@@ -149,6 +167,9 @@ pub struct Settings {
     /// Whether light paths bring caustics; for [`Integrator::Path`].
     #[serde(default)]
     pub caustics: Caustics,
+    /// Whether paths go more often where indirect light comes from; for [`Integrator::Path`].
+    #[serde(default)]
+    pub guiding: Guiding,
     /// Whether there are caustics at all: of what reflects, and of what refracts. Without, light that surfaces scatter diffusely does not come from
     /// either. For [`Integrator::Path`].
     #[serde(default = "all_caustics")]
@@ -275,6 +296,7 @@ impl Default for Settings {
             background: Background::default(),
             mist: Mist::default(),
             caustics: Caustics::default(),
+            guiding: Guiding::default(),
             caustic_paths: all_caustics(),
             clear_roughness: None,
             antialiasing: Antialiasing::default(),

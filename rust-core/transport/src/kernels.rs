@@ -60,6 +60,22 @@ pub fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>; 3]) -
     )
 }
 
+/// [`Lobes::sample_or_follow`].
+#[inline(never)]
+pub(crate) fn sample_or_follow<L: Lanes>(
+    l: L,
+    lobes: &Lobes<'_, L>,
+    wo: Vec3<L>,
+    u: [F<L>; 3],
+    wi: Vec3<L>,
+    follows: M<L>,
+) -> BsdfSample<L> {
+    l.vectorize(
+        #[inline(always)]
+        || lobes.sample_or_follow(l, wo, u, wi, follows),
+    )
+}
+
 /// [`Surface::flux`].
 #[inline(never)]
 pub(crate) fn flux<'s, L: Lanes>(

@@ -50,10 +50,19 @@ impl<L: Lanes> Lobes<'_, L> {
     /// Chooses a lobe by its share, samples it and evaluates all of them there (one-sample balance heuristic).
     #[inline(always)]
     pub fn sample(&self, l: L, wo: Vec3<L>, u: [F<L>; 3]) -> BsdfSample<L> {
-        let nothing = l.m(false);
+        self.sample_with(l, wo, u, None)
+    }
+    /// The same, but lanes that follow go in a given direction, which no lobe has chosen: `pdf` is that of the lobes all the same (path guiding).
+    #[inline(always)]
+    pub fn sample_or_follow(&self, l: L, wo: Vec3<L>, u: [F<L>; 3], wi: Vec3<L>, follows: M<L>) -> BsdfSample<L> {
+        self.sample_with(l, wo, u, Some((wi, follows)))
+    }
+    #[inline(always)]
+    fn sample_with(&self, l: L, wo: Vec3<L>, u: [F<L>; 3], given: Option<(Vec3<L>, M<L>)>) -> BsdfSample<L> {
         let mut sample = BsdfSample::nothing(l);
         let mut point = u[0] * self.total;
-        let (mut passed, mut found) = (nothing, nothing);
+        let follows = if let Some((_, follows)) = given { follows } else { l.m(false) };
+        let (mut passed, mut found) = (follows, follows);
         for slot in self.slots[..self.count].iter().flatten() {
             let here = point.lt(slot.share).and_not(passed);
             if here.any() {
@@ -62,6 +71,9 @@ impl<L: Lanes> Lobes<'_, L> {
             }
             passed |= here;
             point -= slot.share;
+        }
+        if let Some((wi, follows)) = given {
+            sample.wi = follows.select(wi, sample.wi);
         }
         let (value, pdf) = evaluate(l, self, wo, sample.wi, Asked::Sampled);
         let alone = sample.delta | sample.entered;

@@ -5,7 +5,7 @@ use super::{
     WorkArguments,
 };
 use clap::{Args, ValueEnum};
-use gonio::scene::{Antialiasing, Caustics, MOST_LIGHT_SAMPLES};
+use gonio::scene::{Antialiasing, Caustics, Guiding, MOST_LIGHT_SAMPLES};
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -62,6 +62,9 @@ pub(crate) struct RenderOptions {
     /// Light paths from the lamps bring what mirrors and clear glass throw onto surfaces that the camera sees: where a few of them tell that they pay, always, or never.
     #[arg(long, value_enum, default_value_t = CausticsArgument::Auto)]
     pub(crate) caustics: CausticsArgument,
+    /// Paths go more often where indirect light comes from, as through a door ajar, learned from small pictures of the view (path guiding); given up where they do not promise that it pays.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = GuidingArgument::Off)]
+    pub(crate) guiding: GuidingArgument,
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
     #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     pub(crate) light_samples: u32,
@@ -174,6 +177,26 @@ pub(crate) enum HeadlightArgument {
     Distant,
     /// From everywhere.
     Dome,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum GuidingArgument {
+    /// Never; nothing is learned.
+    Off,
+    /// Learned whatever that costs.
+    On,
+    /// Learned where that is a small part of the render.
+    Auto,
+}
+
+impl From<GuidingArgument> for Guiding {
+    fn from(argument: GuidingArgument) -> Self {
+        match argument {
+            GuidingArgument::Auto => Self::Auto,
+            GuidingArgument::On => Self::On,
+            GuidingArgument::Off => Self::Off,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -119,6 +119,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         seed: settings.seed,
         samples: settings.samples,
         light_cache: None,
+        guiding: None,
         path_filter: PathFilter::All,
         estimator,
         light_paths: None,

@@ -1,5 +1,6 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
+mod guide;
 mod learn;
 mod light_paths;
 mod meter;
@@ -20,7 +21,7 @@ use crate::{
     light::LightCache,
     scene::{Aov, Crop, Integrator, Settings},
     threads::available_threads,
-    transport::{Estimator, PlaceTable, SensorTable, Statistics},
+    transport::{Estimator, GuidingField, PlaceTable, SensorTable, Statistics},
 };
 use light_paths::LightPaths;
 use photons::PhotonMaps;
@@ -67,6 +68,10 @@ pub(crate) struct Shared {
 pub(crate) struct Learned {
     /// The learned light cache: which lights arrive where.
     pub(crate) light_cache: Option<Arc<LightCache>>,
+    /// The guiding field: where indirect light comes from.
+    pub(crate) guiding: Option<Arc<GuidingField>>,
+    /// What was learned of it and whether it is followed, in words.
+    pub(crate) of_guiding: Option<String>,
     /// The value of the colour pass that is shown as white.
     pub(crate) white: f32,
 }
@@ -169,6 +174,11 @@ impl Render {
     /// Whether a stop was asked for.
     pub fn is_cancelled(&self) -> bool {
         self.shared.cancel.load(Ordering::Relaxed)
+    }
+
+    /// What the guiding field has learned and whether it is followed, in words; none where guiding is off, or before.
+    pub fn guiding(&self) -> Option<&str> {
+        self.shared.learned.get()?.of_guiding.as_deref()
     }
 
     /// The film so far.

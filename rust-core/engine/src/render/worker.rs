@@ -1,6 +1,6 @@
 //! A worker: takes blocks, traces them, adds them to the film; a panic becomes the render's failure.
 
-use super::{Learned, Shared, learn::learn, meter, schedule::Work, source::Source};
+use super::{Learned, Shared, guide::learn_guiding, learn::learn, meter, schedule::Work, source::Source};
 use crate::{
     antialias::{Antialiaser, Rule, TileTask},
     camera::sampler::Runs,
@@ -47,11 +47,11 @@ pub(super) fn work(shared: &Shared, ready: &Sender<usize>) {
 fn trace_block(shared: &Shared, work: &Work, room: &mut Room, ready: &Sender<usize>) {
     let (tables, start) = (&shared.scene.tables, Instant::now());
     let cancelled = || shared.cancel.load(Ordering::Relaxed);
-    let Learned { light_cache, white } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
+    let Learned { light_cache, guiding, white, .. } = shared.learned.get_or_init(|| learned(shared, &cancelled)).clone();
     let specular_rays = specular_rays(shared);
     let path_filter = if specular_rays.is_some() { PathFilter::ExceptSpecular } else { PathFilter::All };
     let photons = photons(shared, work, room, &cancelled);
-    let transport = Transport { light_cache, path_filter, photons, ..shared.source.transport().clone() };
+    let transport = Transport { light_cache, guiding, path_filter, photons, ..shared.source.transport().clone() };
     let zones = shared.film.state(work.tile).zones;
     let tracer = Tracer { tables, start: shared.source.start(), transport };
     let workspace = &mut room.workspace;
@@ -113,8 +113,12 @@ fn specular_rays(shared: &Shared) -> Option<u32> {
 }
 
 /// What is to be known before the first block.
-fn learned(shared: &Shared, cancelled: &dyn Fn() -> bool) -> Learned {
+fn learned(shared: &Shared, cancelled: &(dyn Fn() -> bool + Sync)) -> Learned {
     let light_cache = learn(&shared.scene, &shared.settings, &shared.source, cancelled);
+    let (guiding, of_guiding) = match &shared.source {
+        Source::View(view) => learn_guiding(&shared.scene, &shared.settings, view, light_cache.as_ref(), cancelled),
+        _ => (None, None),
+    };
     let white = match &shared.source {
         Source::View(view) if shared.film.looks_at_noise() || view.rule.is_some() => {
             let samples = if shared.film.looks_at_noise() { meter::FOR_NOISE } else { meter::FOR_EDGES };
@@ -122,7 +126,7 @@ fn learned(shared: &Shared, cancelled: &dyn Fn() -> bool) -> Learned {
         }
         _ => 1.0,
     };
-    Learned { light_cache, white }
+    Learned { light_cache, guiding, of_guiding, white }
 }
 
 /// Traces a tile where it needs samples.

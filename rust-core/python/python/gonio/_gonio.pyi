@@ -563,6 +563,8 @@ class Render:
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
     @property
+    def guiding(self) -> str | None: ...
+    @property
     def texture_statistics(self) -> dict[str, Any] | None: ...
     def film(self) -> Film: ...
     def checkpoint(self, path: str | PathLike[str]) -> None: ...
@@ -682,6 +684,7 @@ class Scene:
         threads: int | None = ...,
         integrator: str | None = ...,
         caustics: str | None = ...,
+        guiding: str | None = ...,
         max_bounces: int | None = ...,
         light_samples: int | None = ...,
         max_diffuse_bounces: int | None = ...,

@@ -1,6 +1,7 @@
 //! The deposit: the one way by which light enters the sums of a block (radiance, light passes, light groups, light on specular paths).
 
 use crate::accumulate::add::add_rgb;
+use crate::accumulate::guiding_notes::GuidingNotes;
 use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
 use crate::state::flag;
@@ -16,6 +17,8 @@ pub struct Deposits {
     pub sums: TileSums,
     /// Lights that arrived and where, for the learned light cache; `None` where nothing learns.
     pub arrivals: Option<Vec<Arrival>>,
+    /// Light that paths found, for the guiding field; `None` where nothing learns.
+    pub guiding: Option<GuidingNotes>,
 }
 
 /// One register of light that paths found or sampled, clamped; what measured points are sent at once is not.
@@ -57,6 +60,9 @@ impl Deposits {
     #[inline(always)]
     pub(crate) fn deposit<L: Lanes>(&mut self, transport: &Transport, light: &Contribution<L>, chosen: M<L>) -> M<L> {
         let counted = self.filter(transport, light, chosen);
+        if let Some(notes) = &mut self.guiding {
+            notes.found(light.slot, light.value, counted);
+        }
         add_rgb(&mut self.sums.radiance, light.slot, to_film(light.value), counted);
         if self.sums.lights.wanted() {
             self.deposit_to_passes(light, counted);

@@ -12,6 +12,7 @@ pub(crate) mod deposit;
 pub(crate) mod effort;
 pub(crate) mod expression_sums;
 pub(crate) mod guides;
+pub(crate) mod guiding_notes;
 pub(crate) mod light_sums;
 pub(crate) mod matte_sums;
 pub(crate) mod shader_passes;

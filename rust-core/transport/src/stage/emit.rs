@@ -118,5 +118,6 @@ fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
         flags: l.u(flag::DELTA | flag::FROM_LIGHT),
         counts: l.u(0),
         medium: Spectrum::zero(l),
+        unguided: l.f(1.0),
     }
 }

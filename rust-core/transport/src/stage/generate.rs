@@ -94,5 +94,6 @@ fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, medium: Spectrum<L>) 
         flags: l.u(flag::CAMERA | flag::DELTA),
         counts: l.u(0),
         medium,
+        unguided: l.f(1.0),
     }
 }

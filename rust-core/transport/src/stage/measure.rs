@@ -161,6 +161,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
         flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
         medium: point.medium,
+        unguided: l.f(1.0),
     };
     next.append(&state, alive);
 }

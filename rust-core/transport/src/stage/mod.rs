@@ -6,8 +6,9 @@
 //! - [`intersect`] traces them and adds the light of lights they hit; paths fork at shadow catchers ([`catcher`]).
 //! - [`closure`] selects one closure of a mix, [`sort`] sorts hits by material.
 //! - [`surface`] computes the surface points of a chunk.
-//! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`], [`terminator`])
-//!   and BSDF sampling ([`scatter`]), or sends paths on through portals ([`portal`]).
+//! - [`shade`] adds emission and AOVs ([`first_surface`]). The schedule's [`integrator`] runs next event estimation ([`nee`], [`light_queue`],
+//!   [`terminator`]) and BSDF sampling ([`scatter`], [`guided`] where the guiding field is followed), or sends paths on through portals
+//!   ([`portal`]).
 //! - [`subsurface`] takes the random walks under surfaces, [`exit`] lights where they leave.
 //! - [`measure`] lights points whose illuminance is wanted.
 //! - [`merge`] takes up photons behind mirrors and smooth glass.
@@ -23,6 +24,7 @@ pub(crate) mod exit;
 pub(crate) mod first_surface;
 pub(crate) mod forward;
 pub(crate) mod generate;
+pub(crate) mod guided;
 pub(crate) mod integrator;
 pub(crate) mod intersect;
 pub(crate) mod light_queue;

@@ -4,6 +4,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::guided::with_guiding;
 use crate::stage::terminator::Lifted;
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
@@ -63,6 +64,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
         None => leaks,
     });
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
+    let pdf = with_guiding(chunk, point, [sample.wi, wi], pdf);
     let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
     // BSDF sampling finds nothing below the triangle.
     let weight = weight.of(sample, pdf.keep_if(!leaks));

@@ -189,6 +189,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
         flags: l.u(flag::CAMERA | flag::DELTA),
         counts: l.u(0),
         medium: Spectrum::zero(l),
+        unguided: l.f(1.0),
     };
     let count = started.paths.count;
     instance.append(inside, &mut started.hits.instance, count);

@@ -42,6 +42,7 @@ pub(crate) fn pass_on<L: Lanes>(
         flags: (point.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH),
         counts: point.counts + (1 << 24),
         medium: point.medium,
+        unguided: point.unguided,
     };
     next.append(&state, open);
 }

@@ -52,6 +52,7 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
         flags: point.flags,
         counts: point.counts + (1 << 24),
         medium: if chunk.tables.any_volume { point.behind } else { point.medium },
+        unguided: point.unguided,
     };
     next.append(&state, chosen);
 }
@@ -181,7 +182,7 @@ pub(crate) fn send_on<L: Lanes>(
         alive = alive.and_not(sample.entered);
         start_walks(point, wi, throughput, medium, entered, walks);
     }
-    let survival = survival(chunk, throughput, sample.diffuse);
+    let survival = survival(chunk, throughput * point.unguided, sample.diffuse);
     alive &= u_roulette.lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {
@@ -228,6 +229,7 @@ pub(crate) fn send_on<L: Lanes>(
         flags: straight.select(point.flags | non_specular, scattered),
         counts: point.counts + straight.select(l.u(1 << 24), counted),
         medium: (if chunk.tables.any_volume { across } else { across.and_not(straight) }).select(point.behind, point.medium),
+        unguided: point.unguided,
     };
     next.append(&state, alive);
 }

@@ -152,6 +152,7 @@ pub(crate) fn start_sensors<L: Lanes>(
             flags: l.u(flag::CAMERA | flag::DELTA),
             counts: l.u(0),
             medium,
+            unguided: l.f(1.0),
         };
         paths.append(&state, inside & looks);
     }

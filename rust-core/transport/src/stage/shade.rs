@@ -94,6 +94,8 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
         behind: Spectrum::zero(l),
         all_delta: l.m(false),
         direct_brought: l.m(false),
+        guided: None,
+        unguided: l.f(1.0),
         pdf,
         share: pdf,
     }

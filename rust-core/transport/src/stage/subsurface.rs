@@ -186,6 +186,8 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         behind: Spectrum::zero(l),
         all_delta: l.m(false),
         direct_brought: l.m(false),
+        guided: None,
+        unguided: l.f(1.0),
         pdf: l.f(0.0),
         share: l.f(0.0),
     }

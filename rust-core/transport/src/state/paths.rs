@@ -22,7 +22,7 @@ pub struct Paths {
     pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, whose fourth word is unused, see [`PreviousLanes`].
+    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, see [`PreviousLanes`], with [`PathLanes::unguided`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -44,6 +44,8 @@ pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) flags: U<L>,
     pub(crate) counts: U<L>,
     pub(crate) medium: Spectrum<L>,
+    /// Throughput as it were without guiding, over throughput: roulette goes by that.
+    pub(crate) unguided: F<L>,
 }
 
 /// Throughput of paths and the pdf of their directions: what light found along them counts.
@@ -115,7 +117,7 @@ impl Paths {
         self.carried.append(p.throughput, p.pdf, chosen, n);
         l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);
         l.append_quads([from.position.x, from.position.y, from.position.z, F::from_bits(from.receiver)], chosen, &mut self.vertex, n);
-        l.append_quads([from.normal.x, from.normal.y, from.normal.z, l.f(0.0)], chosen, &mut self.normal, n);
+        l.append_quads([from.normal.x, from.normal.y, from.normal.z, p.unguided], chosen, &mut self.normal, n);
         let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
         l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
         self.count += chosen.count();
@@ -141,6 +143,12 @@ impl Paths {
         let [x, y, z, receiver] = l.gather_quads(&self.vertex, path << 2);
         let normal = Vec3::gather(l, &self.normal, path << 2);
         PreviousLanes { position: Vec3::new(x, y, z), normal, receiver: receiver.to_bits() }
+    }
+
+    /// Throughput as it were without guiding, over throughput, of some paths.
+    #[inline(always)]
+    pub(crate) fn unguided<L: Lanes>(&self, l: L, path: U<L>) -> F<L> {
+        l.gather(&self.normal, (path << 2) + 3)
     }
 
     /// Slots, flags, bounce counts and cone growth of some paths.

@@ -3,6 +3,7 @@
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
 use crate::state::paths::PreviousLanes;
 use crate::state::rays::RayLanes;
+use crate::tables::guiding::Guided;
 use gonio_bsdf::Lobes;
 use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
@@ -83,6 +84,10 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) pdf: F<L>,
     /// Where light paths bring what comes straight from lights.
     pub(crate) direct_brought: M<L>,
+    /// What the guiding field knows here, where it is followed.
+    pub(crate) guided: Option<Guided<L>>,
+    /// Throughput as it were without guiding, over throughput.
+    pub(crate) unguided: F<L>,
     /// Share of a camera ray's sample that is here; of no meaning for other rays.
     pub(crate) share: F<L>,
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod bright_places;
 pub(crate) mod expressions;
+pub(crate) mod guiding;
 pub(crate) mod light_groups;
 pub(crate) mod links;
 pub(crate) mod material;

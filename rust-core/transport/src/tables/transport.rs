@@ -3,6 +3,7 @@
 use super::shutter::Shutter;
 use crate::state::flag;
 use crate::tables::expressions::PathExpressions;
+use crate::tables::guiding::GuidingField;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::motion_vectors::MotionCameras;
 use crate::tables::photons::Photons;
@@ -34,6 +35,8 @@ pub struct Transport {
     pub samples: u32,
     /// The learned light cache, if there is one: which lights arrive where.
     pub light_cache: Option<Arc<LightCache>>,
+    /// The guiding field, if following it pays: where indirect light comes from.
+    pub guiding: Option<Arc<GuidingField>>,
     /// Which light counts, by the path that found it.
     pub path_filter: PathFilter,
     /// How light is gathered.

@@ -27,6 +27,9 @@ pub(crate) fn follow(
     cancelled: &dyn Fn() -> bool,
 ) {
     for depth in first..MOST_DEPTH {
+        if let Some(notes) = &mut ws.deposits.guiding {
+            notes.go_on(&ws.paths);
+        }
         if ws.paths.count == 0 || cancelled() {
             break;
         }
@@ -34,6 +37,9 @@ pub(crate) fn follow(
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         catcher::join(tracer.tables, &mut ws.paths);
         steps::set_masks(tracer.tables, &mut ws.paths);
+    }
+    if let Some(notes) = &mut ws.deposits.guiding {
+        notes.settle();
     }
 }
 

@@ -1,13 +1,14 @@
 //! Path tracing at a register of points: cut-outs, next event estimation (NEE) of one light, BSDF sampling.
 
 use crate::accumulate::deposit::Deposits;
+use crate::stage::guided::{look_up, sampled_by_all, unguided};
 use crate::stage::integrator::Integrator;
 use crate::stage::light_queue::sample_queued;
 use crate::stage::measure::{self, MeasureContext};
 use crate::stage::merge::{direct_brought, merge};
 use crate::stage::nee::{queue_shadow_ray, sample_light};
 use crate::stage::portal::pass_on;
-use crate::stage::scatter::{sampled, send_on, without_cut_outs};
+use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::flag;
@@ -51,6 +52,7 @@ impl Integrator for PathIntegrator {
         let index = context.index(l, point.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
+        point.unguided = unguided(chunk, point);
         let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
         let present = add_seen(chunk, material, point, lobes, present, at, deposits);
         if let Some(portal) = lobes.portal() {
@@ -69,6 +71,7 @@ impl Integrator for PathIntegrator {
             }
             point.direct_brought = direct_brought(chunk, &photons.bright.direct, point, unseen);
         }
+        look_up(chunk, point, lobes, going_on & non_specular);
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if self.lit && (non_specular & going_on).any() && !tables.lights.is_empty() {
             if LightSampleQueue::pays::<L>(&tables.lights, chunk.count) {
@@ -82,7 +85,7 @@ impl Integrator for PathIntegrator {
         let [u, v] = context.sampler.pair(l, index, base + dimension::BSDF);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
         if (going_on | ending).any() {
-            let (sample, factor) = sampled(chunk, point, lobes, [u_lobe, u, v]);
+            let (sample, factor) = sampled_by_all(chunk, point, lobes, [u_lobe, u, v]);
             let goes = if self.lit { l.m(true) } else { sample.delta | sample.straight };
             let masks = [going_on & goes, ending & goes];
             send_on(chunk, point, lobes, (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);

@@ -170,6 +170,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         } else {
             point.medium
         },
+        unguided: chunk.l.f(1.0),
     };
     branches.ways[way as usize].append(&state, alive);
 }
