@@ -24,7 +24,7 @@ pub struct ArrivalCells {
 #[derive(Clone, Debug, Default)]
 pub struct BrightPlaces {
     scale: f32,
-    /// Hashes of cells, in slots by their last bits; no cell has 0.
+    /// Hashes of cells, in buckets by their last bits; no cell has 0.
     keys: Vec<u32>,
     shares: Vec<f32>,
 }
@@ -35,6 +35,8 @@ struct AsItIs(u64);
 
 /// Cells along the radius of the scene.
 const CELLS: f64 = 128.0;
+/// Cells that fit into a bucket. With a single one up to a tenth of the cells found no room, and camera paths met these as fireflies.
+const BUCKET: usize = 2;
 /// Smaller shares are none, and larger ones all.
 const SHARES: [f64; 2] = [0.1, 0.95];
 /// Where cells begin, in cells: surfaces at round coordinates are not to lie on borders.
@@ -84,13 +86,17 @@ impl ArrivalCells {
         if chosen.is_empty() {
             return BrightPlaces::default();
         }
-        let slots = (4 * chosen.len()).next_power_of_two().max(PADDING);
-        let mut places = BrightPlaces { scale: self.scale, keys: vec![0; slots], shares: vec![0.0; slots] };
-        for (key, share) in chosen {
-            let slot = key as usize & (slots - 1);
-            // Of two cells in one slot the brighter stays, whatever the order.
-            if (share, key) > (places.shares[slot], places.keys[slot]) {
-                (places.keys[slot], places.shares[slot]) = (key, share);
+        let buckets = (4 * chosen.len()).next_power_of_two().max(PADDING);
+        let mut places = BrightPlaces { scale: self.scale, keys: vec![0; BUCKET * buckets], shares: vec![0.0; BUCKET * buckets] };
+        for mut cell in chosen {
+            let first = BUCKET * (cell.0 as usize & (buckets - 1));
+            // Of more cells than fit the brighter stay, whatever the order.
+            for slot in first..first + BUCKET {
+                let held = (places.keys[slot], places.shares[slot]);
+                if (cell.1, cell.0) > (held.1, held.0) {
+                    (places.keys[slot], places.shares[slot]) = cell;
+                    cell = held;
+                }
             }
         }
         places
@@ -112,9 +118,13 @@ impl BrightPlaces {
         let y = (position.y * self.scale + OFFSET[1]).floor().to_i32();
         let z = (position.z * self.scale + OFFSET[2]).floor().to_i32();
         let key = mixed((x * FACTORS[0]) ^ (y * FACTORS[1]) ^ (z * FACTORS[2]));
-        let slot = (key & (self.keys.len() as u32 - 1)).keep_if(chosen);
-        let known = chosen & l.gather_integers(&self.keys, slot).eq(key);
-        l.gather(&self.shares, slot).keep_if(known)
+        let first = ((key & ((self.keys.len() / BUCKET) as u32 - 1)) * BUCKET as u32).keep_if(chosen);
+        let mut share = l.f(0.0);
+        for slot in 0..BUCKET as u32 {
+            let known = chosen & l.gather_integers(&self.keys, first + slot).eq(key);
+            share += l.gather(&self.shares, first + slot).keep_if(known);
+        }
+        share
     }
 }
 
