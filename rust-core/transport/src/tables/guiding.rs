@@ -127,7 +127,7 @@ impl GuidingField {
         let mut half = PARTS as u32 / 2;
         while half > 0 {
             let sum = l.gather(&self.cells, guided.sums + part + half);
-            part = part + l.u(half).keep_if(!u[0].lt(sum));
+            part += l.u(half).keep_if(!u[0].lt(sum));
             half /= 2;
         }
         let before = l.gather(&self.cells, guided.sums + part);
