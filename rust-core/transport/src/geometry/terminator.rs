@@ -14,7 +14,7 @@ impl GeometryTable {
         let reference = self.reference(l, hit, NORMALS);
         let mut present = reference.present();
         if self.any_smooth() {
-            present = present & hit.smooth.shape.eq(0);
+            present &= hit.smooth.shape.eq(0);
         }
         if !present.any() {
             return none;
