@@ -41,8 +41,8 @@ pub(super) fn parts<L: Lanes>(l: L, view: &TileView, grid: &Grid, triangles: &Tr
     let (mut several, mut nothing) = (l.m(false), l.m(false));
     for at in (0..numbers.len()).step_by(L::COUNT) {
         let number = l.load_integers(numbers, at);
-        several = several | number.ne(numbers[0]);
-        nothing = nothing | number.eq(NONE);
+        several |= number.ne(numbers[0]);
+        nothing |= number.eq(NONE);
     }
     if !several.any() || nothing.any() {
         // Something against nothing.
