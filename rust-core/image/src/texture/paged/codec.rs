@@ -244,7 +244,7 @@ mod tests {
             let value = 60 + (place % 64) + (place / 64);
             let [red, green, blue] = [value + grain(), value + grain() + 9, value + grain()];
             colours.push(f32::from_bits(red | green << 8 | blue << 16 | 0xff00_0000));
-            greys.push(f32::from_bits(green * 0x01_0101 | 0xff00_0000));
+            greys.push(f32::from_bits((green * 0x01_0101) | 0xff00_0000));
         }
         let sizes = [&colours, &greys].map(|words| assert_kept(words, TexelFormat::Byte, 64));
         assert!(sizes[0] < 8192 && sizes[1] < 3000, "{sizes:?} of 16384");
@@ -275,7 +275,7 @@ mod tests {
         let mut grain = || (random.unit() * 8.0) as u32;
         let tile = words(4096, |place| {
             let value = 60 + (place as u32 % 64) + (place as u32 / 64);
-            value + grain() | value + grain() << 8 | value + grain() << 16 | 0xff00_0000
+            (value + grain()) | ((value + grain()) << 8) | ((value + grain()) << 16) | 0xff00_0000
         });
         let mut bytes = encode(&tile, TexelFormat::Byte, 64);
         let size = bytes.len();
