@@ -16,7 +16,7 @@ FUZZED := ies ldt tm33 goniogram rays weather merl utia rgl pbrdf bsdf-xml zemax
 .PHONY: fuzz build dev render extension blender cross-check arm wheels lint-workflows test test-levels test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
 
 # The Python environment with everything that building and testing wants.
-$(VENV)/ready: pyproject.toml
+$(VENV)/ready: pyproject.toml Makefile
 	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(VENV) || python3 -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
 	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "materialx>=1.39,<2" "pyoidn>=2.5,<3" "PySide6-Essentials>=6.6" numpy pytest pytest-timeout pytest-xdist openexr mypy
