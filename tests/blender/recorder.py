@@ -70,6 +70,7 @@ class Recorder:
         light_group="",
         linking=None,
         asset="",
+        shadow_terminator=0.0,
         motion=None,
         index=None,
         **fibres,
@@ -83,6 +84,7 @@ class Recorder:
         )
         fields = {"mesh": mesh, "materials": materials, "transforms": transforms, "name": name, "visibility": visibility}
         given = {"primvars": primvars or {}, "pass_index": pass_index, "light_group": light_group, "linking": linking, "asset": asset}
+        given["shadow_terminator"] = shadow_terminator
         return self._put("instances", {**fields, **given, "motion": motion, **fibres}, index)
 
     def _has(self, **fibres):

@@ -44,6 +44,8 @@ def colour(engine, path, direct, indirect):
     if engine == "GONIO":
         scene.render.engine = engine
         bpy.ops.gonio.settings_from_cycles()
+        # What the mirror throws back onto the wall is lost in Cycles.
+        scene.gonio.caustics = "OFF"
     scenes.render(path)
     channels = scenes.read(path)
     return [float(channels[f"ViewLayer.Combined.{channel}"].mean()) for channel in "RGB"]

@@ -75,11 +75,14 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
-    let (mut at, mut sample) = (point.at, *sample);
-    if let Some(lifted) = lifted {
-        lifted.start(&mut at, &mut sample);
+    match lifted {
+        None => send(transport, &point.at, (sample, medium), &light, lit, shadows, deposits),
+        Some(lifted) => {
+            let (mut at, mut sample) = (point.at, *sample);
+            lifted.start(&mut at, &mut sample);
+            send(transport, &at, (&sample, medium), &light, lit, shadows, deposits);
+        }
     }
-    send(transport, &at, (&sample, medium), &light, lit, shadows, deposits);
 }
 
 /// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring
