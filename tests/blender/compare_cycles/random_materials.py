@@ -21,7 +21,7 @@ PATTERNS = {
     "Gabor": {},
 }
 BLENDS = ("MIX", "MULTIPLY", "OVERLAY", "SCREEN", "DIFFERENCE", "DARKEN", "LIGHTEN", "COLOR", "HUE", "SOFT_LIGHT", "DODGE", "BURN", "VALUE")
-CLOSURES = ("BsdfDiffuse", "BsdfAnisotropic", "BsdfGlass", "BsdfTranslucent", "BsdfMetallic", "BsdfSheen", "BsdfRefraction", "Emission", "BsdfToon")
+CLOSURES = ("BsdfDiffuse", "BsdfAnisotropic", "BsdfGlass", "BsdfMetallic", "BsdfSheen", "BsdfRefraction", "Emission", "BsdfToon")
 # Weights of the Principled BSDF, how often they are asked for, and up to what.
 WEIGHTS = {
     "Metallic": (0.3, 1.0),
