@@ -280,12 +280,6 @@ pub(crate) fn run_program<L: Lanes, H: HitSource + ?Sized>(
 pub(crate) fn lift<L: Lanes>(l: L, geometry: &GeometryTable, surface: &SurfaceColumns, at: usize, geometric: &Vec3<L>) -> Vec3<L> {
     l.vectorize(
         #[inline(always)]
-        || {
-            let [instance, primitive] = [l.load_integers(&surface.instance, at), l.load_integers(&surface.primitive, at)];
-            let [u, v] = [l.load(&surface.barycentric[0], at), l.load(&surface.barycentric[1], at)];
-            let hit = geometry.hit_lanes(l, instance, primitive, u, v);
-            let hit = if surface.has_times { hit.at_time(l.load(&surface.time, at)) } else { hit };
-            geometry.lift(l, &hit, *geometric)
-        },
+        || geometry.lift(l, &surface.hit(l, geometry, at), *geometric),
     )
 }

@@ -14,7 +14,7 @@ pub use derivatives::UvDerivatives;
 pub use instance_row::InstanceRow;
 pub use primvar::{PrimvarKind, PrimvarRef};
 pub use smooth::{FIRST_PIECE, LAST_PIECE, PrimitiveShape, SmoothHit};
-pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, offset_ray_origin, shadow_ray_to};
+pub use surface_point::{HitLanes, ShadowSegment, SurfacePoint, offset_ray_origin, shadow_ray_from, shadow_ray_to};
 
 use gonio_simd::motion::Motion;
 

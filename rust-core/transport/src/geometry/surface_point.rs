@@ -174,7 +174,12 @@ pub struct ShadowSegment<L: Lanes> {
 /// and no more, it would meet what the point lies on before its end, at grazing angles by far.
 #[inline(always)]
 pub fn shadow_ray_to<L: Lanes>(position: Vec3<L>, normal: Vec3<L>, error: F<L>, direction: Vec3<L>, distance: F<L>) -> ShadowSegment<L> {
-    let origin = offset_ray_origin(position, normal, error, direction);
+    shadow_ray_from(offset_ray_origin(position, normal, error, direction), position, direction, distance)
+}
+
+/// The ray from `origin` to the point that is `distance` away from `position` in `direction`.
+#[inline(always)]
+pub fn shadow_ray_from<L: Lanes>(origin: Vec3<L>, position: Vec3<L>, direction: Vec3<L>, distance: F<L>) -> ShadowSegment<L> {
     let way = direction.mul_add(distance, position - origin);
     let near = distance.lt(FAR);
     let length = near.select(way.length(), distance);

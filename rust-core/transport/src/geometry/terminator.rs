@@ -31,8 +31,8 @@ impl GeometryTable {
         let normal = n[0] * share[0] + n[1] * share[1] + n[2] * share[2];
         let along = normal.transform(columns);
         let outside = along.dot(geometric).gt(0.0);
-        let height =
-            outside.select(under_tangents(p, n, at, 1.0).max(bulge(p, n, share)), bulge(p, n, share).min(-under_tangents(p, n, at, -1.0)));
+        let bulge = bulge(p, n, share);
+        let height = outside.select(under_tangents(p, n, at, 1.0).max(bulge), bulge.min(-under_tangents(p, n, at, -1.0)));
         let lift = along * height.keep_if(present);
         lift.max_abs().is_finite().select(lift, none)
     }

@@ -1,6 +1,7 @@
 //! What a program reads and writes: surface points, registers and computed parameters, in columns.
 
 use super::{CHUNK, nearby_rays::NearbyRays};
+use crate::geometry::{GeometryTable, HitLanes};
 use gonio_image::texture::TileReader;
 use gonio_nodes::Registers;
 use gonio_simd::{Column, Lanes, Vec3};
@@ -79,6 +80,17 @@ impl Default for SurfaceColumns {
             ray_counts: Column::new(CHUNK),
             ray_length: column(),
         }
+    }
+}
+
+impl SurfaceColumns {
+    /// One register of the hits, at their times.
+    #[inline(always)]
+    pub(crate) fn hit<L: Lanes>(&self, l: L, geometry: &GeometryTable, at: usize) -> HitLanes<L> {
+        let (instance, primitive) = (l.load_integers(&self.instance, at), l.load_integers(&self.primitive, at));
+        let [u, v] = [l.load(&self.barycentric[0], at), l.load(&self.barycentric[1], at)];
+        let hit = geometry.hit_lanes(l, instance, primitive, u, v);
+        if self.has_times { hit.at_time(l.load(&self.time, at)) } else { hit }
     }
 }
 

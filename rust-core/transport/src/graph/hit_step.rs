@@ -97,11 +97,7 @@ impl<'a> Points<'a> {
     #[inline(always)]
     fn place<L: Lanes>(&self, l: L, at: usize) -> Place<'a, L> {
         let (columns, at) = (self.columns, self.first + at);
-        let (instance, primitive) = (l.load_integers(&columns.instance, at), l.load_integers(&columns.primitive, at));
-        let [u, v] = [l.load(&columns.barycentric[0], at), l.load(&columns.barycentric[1], at)];
-        let hit = self.geometry.hit_lanes(l, instance, primitive, u, v);
-        let hit = if columns.has_times { hit.at_time(l.load(&columns.time, at)) } else { hit };
-        Place { geometry: self.geometry, hit, points: columns, at }
+        Place { geometry: self.geometry, hit: columns.hit(l, self.geometry, at), points: columns, at }
     }
 }
 

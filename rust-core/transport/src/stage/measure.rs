@@ -141,7 +141,7 @@ fn queue_shadow_ray<L: Lanes>(
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
     let medium = if chunk.tables.any_volume { Some(point.medium) } else { None };
-    send(chunk.transport, &point.at, (sample, medium), &light, lit, shadows, deposits);
+    send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium), &light, lit, shadows, deposits);
 }
 
 #[inline(always)]

@@ -9,6 +9,7 @@ use crate::stage::terminator::Lifted;
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::transport::Transport;
 use gonio_bsdf::Lobes;
@@ -75,12 +76,12 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
-    match lifted {
-        None => send(transport, &point.at, (sample, medium), &light, lit, shadows, deposits),
+    // One call each: rays of both in one place would be copied through memory.
+    match &lifted {
+        None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium), &light, lit, shadows, deposits),
         Some(lifted) => {
-            let (mut at, mut sample) = (point.at, *sample);
-            lifted.start(&mut at, &mut sample);
-            send(transport, &at, (&sample, medium), &light, lit, shadows, deposits);
+            let ray = lifted.spawn_ray_to(&point.at, sample);
+            send(transport, (&point.at, ray), (sample, medium), &light, lit, shadows, deposits);
         }
     }
 }
@@ -116,12 +117,12 @@ pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy
     seen.max(0.0)
 }
 
-/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray, which starts in a medium where
+/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there, which starts in a medium where
 /// anything fills meshes.
 #[inline(always)]
 pub(crate) fn send<L: Lanes>(
     transport: &Transport,
-    at: &Interaction<L>,
+    (at, ray): (&Interaction<L>, RayLanes<L>),
     (sample, medium): (&LightSample<L>, Option<Spectrum<L>>),
     light: &Contribution<L>,
     lit: M<L>,
@@ -131,7 +132,7 @@ pub(crate) fn send<L: Lanes>(
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    let ray = ShadowLanes { ray: at.spawn_ray_to(sample), contribution, slot, code, light: sample.light, shares, receiver, medium };
+    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

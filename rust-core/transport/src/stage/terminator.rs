@@ -2,12 +2,11 @@
 
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
+use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
 use gonio_light::LightSample;
 use gonio_simd::{F, Lanes, M, Vec3};
 
-/// Beyond this many metres a light is a direction.
-const FAR: f32 = 1e9;
 /// Shading normals this near to their triangle's, as 1 − cosine, are flat.
 const FLAT: f32 = 1e-4;
 
@@ -42,17 +41,10 @@ impl<L: Lanes> Lifted<L> {
         Some(Self { any, by: lift * amount.keep_if(any) })
     }
 
-    /// The point and the light sample as the shadow ray sees them. It stays on the side that is seen: from behind, the triangle blocks it.
+    /// The shadow ray to a light sample.
     #[inline(always)]
-    pub(crate) fn start(&self, at: &mut Interaction<L>, sample: &mut LightSample<L>) {
-        let way = sample.wi * sample.distance - self.by;
-        let near = self.any & sample.distance.lt(FAR);
-        let length = near.select(way.length(), sample.distance);
-        sample.wi = near.select(way * length.max(f32::MIN_POSITIVE).recip(), sample.wi);
-        sample.distance = length;
-        let behind = self.any & at.geometric.dot(sample.wi).lt(0.0);
-        let off = (at.error * 4.0).keep_if(behind);
-        at.position = at.geometric.mul_add(off, at.position + self.by);
+    pub(crate) fn spawn_ray_to(&self, at: &Interaction<L>, sample: &LightSample<L>) -> RayLanes<L> {
+        at.spawn_lifted_ray_to(self.by, self.any, sample)
     }
 }
 

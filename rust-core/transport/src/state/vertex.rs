@@ -1,6 +1,6 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
-use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_to};
+use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_from, shadow_ray_to};
 use crate::state::paths::PreviousLanes;
 use crate::state::rays::RayLanes;
 use crate::tables::guiding::Guided;
@@ -36,9 +36,15 @@ impl<L: Lanes> Interaction<L> {
     /// The shadow ray to a light sample (pbrt's `SpawnRayTo`): it ends short of the light.
     #[inline(always)]
     pub(crate) fn spawn_ray_to(&self, sample: &LightSample<L>) -> RayLanes<L> {
-        let to = shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance);
-        let ShadowSegment { origin, direction, t_max } = to;
-        RayLanes { origin, direction, t_min: self.error.lanes().f(0.0), t_max }
+        shadow_ray(shadow_ray_to(self.position, self.geometric, self.error, sample.wi, sample.distance))
+    }
+
+    /// The shadow ray to a light sample from beside: where `lifted`, from `lift` off the surface, on the side that is seen. From below the triangle blocks it.
+    #[inline(always)]
+    pub(crate) fn spawn_lifted_ray_to(&self, lift: Vec3<L>, lifted: M<L>, sample: &LightSample<L>) -> RayLanes<L> {
+        let above = self.geometric.mul_add(self.error * 2.0, self.position + lift);
+        let beside = offset_ray_origin(self.position, self.geometric, self.error, sample.wi);
+        shadow_ray(shadow_ray_from(lifted.select(above, beside), self.position, sample.wi, sample.distance))
     }
 
     /// The normal that lights are chosen by; zero where lobes are about a fibre, of which no side is dark.
@@ -52,6 +58,12 @@ impl<L: Lanes> Interaction<L> {
     pub(crate) fn as_previous(&self) -> PreviousLanes<L> {
         PreviousLanes { position: self.position, normal: self.frame.z, receiver: self.receiver }
     }
+}
+
+/// A segment as a ray.
+#[inline(always)]
+fn shadow_ray<L: Lanes>(to: ShadowSegment<L>) -> RayLanes<L> {
+    RayLanes { origin: to.origin, direction: to.direction, t_min: to.t_max.lanes().f(0.0), t_max: to.t_max }
 }
 
 /// One register of path vertices: what shading, NEE and scattering read of a hit.
