@@ -14,6 +14,20 @@ def above(height):
     return [[1, 0, 0, 0], [0, 0, 1, height], [0, -1, 0, 0], [0, 0, 0, 1]]
 
 
+def ball(sides):
+    """Points on a sphere of radius 1, which are its normals too, and triangles; so many sides around."""
+    rings = sides // 2
+    theta, phi = np.meshgrid(np.pi * np.arange(rings + 1) / rings, 2 * np.pi * np.arange(sides) / sides, indexing="ij")
+    points = np.stack([np.sin(theta) * np.cos(phi), np.cos(theta), np.sin(theta) * np.sin(phi)], axis=-1).reshape(-1, 3).astype("f4")
+    triangles = []
+    for ring in range(rings):
+        for side in range(sides):
+            a, b = ring * sides + side, ring * sides + (side + 1) % sides
+            c, d = b + sides, a + sides
+            triangles += [(a, b, c)] * (ring > 0) + [(a, c, d)] * (ring < rings - 1)
+    return points, np.array(triangles, "i4")
+
+
 FLOOR = np.array([[-5, 0, 5], [5, 0, 5], [5, 0, -5], [-5, 0, -5]], "f4")
 QUAD = np.array([[0, 1, 2], [0, 2, 3]], "i4")
 

@@ -2,26 +2,13 @@
 
 import numpy as np
 import pytest
+from small_scenes import ball
 
 import gonio
 
-SIZE, CANDELAS = 48, np.pi
+SIZE, LUX = 48, np.pi
 # How far the ball is turned, radians: neither a corner nor the middle of a face lies where the light only just arrives.
 TURNED = {"distant": 0.1, "sphere": 0.0}
-
-
-def ball(sides):
-    """Points on a sphere, which are its normals too, and triangles."""
-    rings = sides // 2
-    theta, phi = np.meshgrid(np.pi * np.arange(rings + 1) / rings, 2 * np.pi * np.arange(sides) / sides, indexing="ij")
-    points = np.stack([np.sin(theta) * np.cos(phi), np.cos(theta), np.sin(theta) * np.sin(phi)], axis=-1).reshape(-1, 3).astype("f4")
-    triangles = []
-    for ring in range(rings):
-        for side in range(sides):
-            a, b = ring * sides + side, ring * sides + (side + 1) % sides
-            c, d = b + sides, a + sides
-            triangles += [(a, b, c)] * (ring > 0) + [(a, c, d)] * (ring < rings - 1)
-    return points, np.array(triangles, "i4")
 
 
 def pictured(sides, terminator, *, inside=False, lamp="distant"):
@@ -35,7 +22,7 @@ def pictured(sides, terminator, *, inside=False, lamp="distant"):
     turned = np.array([[cos, 0, sin, 0], [0, 1, 0, 0], [-sin, 0, cos, 0], [0, 0, 0, 1]])
     scene.put_instances(mesh, [white], turned[None], shadow_terminator=terminator)
     if lamp == "distant":
-        scene.add_light("distant", [CANDELAS] * 3, angle=0.0, transform=[[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
+        scene.add_light("distant", [LUX] * 3, angle=0.0, transform=[[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
     else:
         scene.add_light("sphere", [400.0] * 3, radius=0.2, transform=[[1, 0, 0, 4], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     scene.add_camera([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0 if inside else 8], [0, 0, 0, 1]], fov=90 if inside else 15.0)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from small_scenes import ball
 
 import gonio
 
@@ -13,24 +14,10 @@ COATED = {"base_color": 1.0, "specular_weight": 0.0, "coat_weight": 1.0, "coat_r
 GLASS = {"transmission_weight": 1.0, "specular_roughness": 0.0}
 
 
-def ball():
-    """Points on a sphere, which are its normals too, and triangles."""
-    rings = SIDES // 2
-    theta, phi = np.meshgrid(np.pi * np.arange(rings + 1) / rings, 2 * np.pi * np.arange(SIDES) / SIDES, indexing="ij")
-    points = np.stack([np.sin(theta) * np.cos(phi), np.cos(theta), np.sin(theta) * np.sin(phi)], axis=-1).reshape(-1, 3).astype("f4")
-    triangles = []
-    for ring in range(rings):
-        for side in range(SIDES):
-            a, b = ring * SIDES + side, ring * SIDES + (side + 1) % SIDES
-            c, d = b + SIDES, a + SIDES
-            triangles += [(a, b, c)] * (ring > 0) + [(a, c, d)] * (ring < rings - 1)
-    return points, np.array(triangles, "i4")
-
-
 def pictured(model, **parameters):
     scene = gonio.Scene()
     scene.set(width=SIZE, height=SIZE, samples=64, max_bounces=64)
-    points, triangles = ball()
+    points, triangles = ball(SIDES)
     mesh = scene.add_mesh(points, triangles, normals=points)
     described = [[name, {"Constant": [value] * 3 + [1.0]}] for name, value in parameters.items()]
     closure = {"weight": {"Constant": [1.0] * 4}, "model": model, "parameters": described}

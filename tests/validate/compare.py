@@ -50,10 +50,10 @@ def difference(image: numpy.ndarray, reference: numpy.ndarray) -> Difference:
     return Difference(float(median), float(high), float(relative.max()), float(abs(a.mean() / b.mean() - 1.0)))
 
 
-def blocks(image: numpy.ndarray) -> numpy.ndarray:
+def blocks(image: numpy.ndarray, side: int = BLOCK) -> numpy.ndarray:
     """Means over squares of pixels, per channel."""
     height, width, channels = image.shape
-    means: numpy.ndarray = image.reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, channels).mean(axis=(1, 3))
+    means: numpy.ndarray = image.reshape(height // side, side, width // side, side, channels).mean(axis=(1, 3))
     return means
 
 

@@ -23,12 +23,16 @@ def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) ->
     They are radiance (height, width, 3) in W/(m² sr), the top row first.
     """
     build(theme, scene, samples)
-    cycles = bpy.context.scene.cycles
+    write_pair(engine, tmp_path / f"{scene}-{engine}")
+
+
+def write_pair(engine: str, path: Path, told: tuple[str, ...] = ()) -> None:
+    """Writes PATH.npz as `render` does, of the open scene."""
     start, images = time.monotonic(), []
     for seed in SEEDS:
-        cycles.seed = seed
-        images.append(rendered(engine, tmp_path / f"{scene}-{engine}.exr"))
-    numpy.savez(tmp_path / f"{scene}-{engine}.npz", first=images[0], second=images[1], seconds=time.monotonic() - start)
+        bpy.context.scene.cycles.seed = seed
+        images.append(rendered(engine, path.with_suffix(".exr"), told))
+    numpy.savez(path.with_suffix(".npz"), first=images[0], second=images[1], seconds=time.monotonic() - start)
 
 
 def export_usd(scene: str, samples: int, tmp_path: Path) -> None:
@@ -50,14 +54,9 @@ def three_ways(scene: str, samples: int, tmp_path: Path) -> None:
 def random_pair(seed: int, samples: int, tmp_path: Path) -> None:
     """Writes ENGINE.npz as `render` does, of a scene by chance, for both engines."""
     importlib.import_module("scenes_random").build(seed)
-    scene = bpy.context.scene
-    scene.cycles.samples = samples
+    bpy.context.scene.cycles.samples = samples
     for engine in ("CYCLES", "GONIO"):
-        start, images = time.monotonic(), []
-        for noise in SEEDS:
-            scene.cycles.seed = noise
-            images.append(rendered(engine, tmp_path / f"{engine}.exr", told=("INFO",)))
-        numpy.savez(tmp_path / f"{engine}.npz", first=images[0], second=images[1], seconds=time.monotonic() - start)
+        write_pair(engine, tmp_path / engine, told=("INFO",))
 
 
 def build(theme: str, scene: str, samples: int) -> None:

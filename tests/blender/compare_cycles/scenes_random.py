@@ -6,7 +6,7 @@ import random
 import bpy
 from mathutils import Vector
 from random_materials import diffuse_or_made, hue, made_material
-from stage import empty, even_world, link, node, resolution
+from stage import camera, empty, even_world, lamp, looking, new_world, node, resolution
 
 SIZE, THINGS = 96, 6
 SOLIDS = {
@@ -32,9 +32,9 @@ def build(seed: int) -> None:
     for number in range(THINGS):
         thing(chance, number)
     for _ in range(chance.randint(1, 3)):
-        lamp(chance)
-    world(chance)
-    camera(chance)
+        any_lamp(chance)
+    any_world(chance)
+    any_camera(chance)
     for name in BOUNCES:
         if chance.random() < 0.3:
             setattr(bpy.context.scene.cycles, name, chance.randint(0, 6))
@@ -66,50 +66,46 @@ def thing(chance: random.Random, number: int) -> None:
         setattr(made, f"visible_{chance.choice(['shadow', 'diffuse', 'glossy', 'camera', 'transmission'])}", False)
 
 
-def lamp(chance: random.Random) -> None:
+def any_lamp(chance: random.Random) -> None:
     """A lamp of any kind that looks at the middle."""
     kind = chance.choice(["POINT", "SUN", "SPOT", "AREA"])
-    data = bpy.data.lights.new("Lamp", kind)
-    data.color = [chance.uniform(0.4, 1.0) for _ in range(3)]
-    data.energy = chance.uniform(0.5, 3.0) if kind == "SUN" else chance.uniform(100.0, 600.0)
+    fields = {"color": [chance.uniform(0.4, 1.0) for _ in range(3)]}
+    energy = chance.uniform(0.5, 3.0) if kind == "SUN" else chance.uniform(100.0, 600.0)
     if kind == "SUN":
-        data.angle = chance.uniform(0.0, 0.3)
+        fields["angle"] = chance.uniform(0.0, 0.3)
     elif kind == "AREA":
-        data.shape = chance.choice(["SQUARE", "RECTANGLE", "DISK", "ELLIPSE"])
-        data.size, data.size_y = chance.uniform(0.3, 2.0), chance.uniform(0.3, 2.0)
-        data.spread = chance.choice([math.pi, math.pi, 1.0, 2.0])
+        fields["shape"] = chance.choice(["SQUARE", "RECTANGLE", "DISK", "ELLIPSE"])
+        fields["size"], fields["size_y"] = chance.uniform(0.3, 2.0), chance.uniform(0.3, 2.0)
+        fields["spread"] = chance.choice([math.pi, math.pi, 1.0, 2.0])
     else:
-        data.shadow_soft_size = chance.choice([0.1, 0.4])
+        fields["shadow_soft_size"] = chance.choice([0.1, 0.4])
     if kind == "SPOT":
-        data.spot_size, data.spot_blend = chance.uniform(0.6, 1.6), chance.random()
+        fields["spot_size"], fields["spot_blend"] = chance.uniform(0.6, 1.6), chance.random()
     place = Vector((chance.uniform(-3.0, 3.0), chance.uniform(-4.0, 3.0), chance.uniform(3.0, 5.0)))
-    looking(link("Lamp", data, place), Vector((chance.uniform(-0.5, 0.5), chance.uniform(-0.5, 0.5), 0.3)))
+    target = Vector((chance.uniform(-0.5, 0.5), chance.uniform(-0.5, 0.5), 0.3))
+    lamp(kind, energy, place, looking(place, target), **fields)
 
 
-def world(chance: random.Random) -> None:
+def any_world(chance: random.Random) -> None:
     """An even world, one with a pattern, or a sky."""
     if chance.random() < 0.5:
         even_world(chance.uniform(0.05, 0.5))
         return
-    tree = bpy.context.scene.world.node_tree
-    tree.nodes.clear()
+    tree = new_world()
     background = node(tree, "ShaderNodeBackground", Strength=chance.uniform(0.1, 0.6))
     if chance.random() < 0.5:
         tree.links.new(hue(chance, tree, ("Generated", "Normal", "Object", "Camera")), background.inputs[0])
     else:
-        sky = node(tree, "ShaderNodeTexSky")
-        sky.sun_disc = chance.random() < 0.5
+        sky = node(tree, "ShaderNodeTexSky", sun_disc=chance.random() < 0.5)
         background.inputs["Strength"].default_value = 0.1
         tree.links.new(sky.outputs[0], background.inputs[0])
     node(tree, "ShaderNodeOutputWorld", Surface=background.outputs[0])
 
 
-def camera(chance: random.Random) -> None:
+def any_camera(chance: random.Random) -> None:
     """A camera before the solids: through a pinhole, a wide lens or in parallel."""
-    data = bpy.data.cameras.new("Camera")
-    seen_by = link("Camera", data, Vector((chance.uniform(-1.5, 1.5), -7.0, chance.uniform(2.5, 4.5))))
-    looking(seen_by, Vector((0.0, 0.0, 0.5)))
-    bpy.context.scene.camera = seen_by
+    place = (chance.uniform(-1.5, 1.5), -7.0, chance.uniform(2.5, 4.5))
+    data = camera(place, (0.0, 0.0, 0.5)).data
     kind = chance.random()
     if kind < 0.15:
         data.type, data.ortho_scale = "ORTHO", 6.5
@@ -117,8 +113,3 @@ def camera(chance: random.Random) -> None:
         data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 7.0, 0.4
     if chance.random() < 0.2:
         data.shift_x, data.shift_y = 0.1, -0.05
-
-
-def looking(thing: bpy.types.Object, target: Vector) -> None:
-    """Turns a lamp or a camera to a place."""
-    thing.rotation_euler = (target - thing.location).to_track_quat("-Z", "Y").to_euler()

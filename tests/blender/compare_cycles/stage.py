@@ -147,12 +147,17 @@ def distribution(thing: bpy.types.Object, text: str, strength: float) -> None:
 
 
 
+def looking(location, target):
+    """The rotation of a lamp or a camera that looks at a point."""
+    return (Vector(target) - Vector(location)).to_track_quat("-Z", "Y").to_euler()
+
+
 def camera(location, target, **fields) -> bpy.types.Object:
     """The scene's camera, looking at a point."""
     data = bpy.data.cameras.new("Camera")
     for name, value in fields.items():
         setattr(data, name, value)
-    made = link("Camera", data, location, (Vector(target) - Vector(location)).to_track_quat("-Z", "Y").to_euler())
+    made = link("Camera", data, location, looking(location, target))
     bpy.context.scene.camera = made
     return made
 
