@@ -49,29 +49,25 @@ class Images:
             self._slots.place(self._scene.put_texture, number, description, **buffers)
         return number
 
-    def encoded(self, image, user, report, is_multiplied):
-        """The number of an image of bytes whose values stay as they are encoded, multiplied by alpha if asked for; None where it is of
-        another kind than one picture."""
+    def of_bytes(self, image, user, report, is_multiplied):
+        """The number of an image of sRGB's bytes that bytes give, multiplied by alpha if asked for; None where it is of another kind than one
+        picture."""
         if image.source not in ("FILE", "GENERATED"):
             return None
         self._users[image.session_uid] = user
-        key, make = self._source(image, user, report)
+        key, _ = self._source(image, user, report)
         if key is None:
             return None
-        if is_multiplied or key[0] not in ("file", "packed"):
-            if not (image.size[0] and image.size[1]):
-                return None
-            key = ("bytes", is_multiplied, *key)
-            name = f"{os.path.basename(image.filepath) or image.name}.png"
-
-            def make():
-                return {}, {"data": (name, png_of(bytes_of(pixels_of(image), is_multiplied)))}
-
-        number, is_new = self._slots.take((*key, "encoded"))
+        if not is_multiplied and key[0] in ("file", "packed"):
+            return self.texture(image, user, report)
+        if not (image.size[0] and image.size[1]):
+            return None
+        number, is_new = self._slots.take(("bytes", is_multiplied, *key))
         if is_new:
-            fields, buffers = make()
-            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": "raw", **fields}
-            self._slots.place(self._scene.put_texture, number, description, **buffers)
+            name = f"{os.path.basename(image.filepath) or image.name}.png"
+            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": "srgb_texture"}
+            data = (name, png_of(bytes_of(pixels_of(image), is_multiplied)))
+            self._slots.place(self._scene.put_texture, number, description, data=data)
         return number
 
     def baked(self, owner, name, pixels):

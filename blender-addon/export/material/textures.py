@@ -5,13 +5,15 @@ from math import pi
 
 from ..colour_management import gonio_name
 from .box_projection import box_projection
-from .image_filter import decoded, multiplied_encoded
+from .image_filter import multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
 
 WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirror"}
 FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": "Cubic"}
+# Of sRGB's bytes, which Cycles mixes as they are encoded.
+FILTERS_OF_CODES = {"Closest": "Closest", "Linear": "LinearCodes", "Cubic": "CubicCodes", "Smart": "CubicCodes"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
 
@@ -41,10 +43,9 @@ def _texel(t, node, context, output, uv):
     wrap, image = WRAP[node.extension], node.image
     if t.kind == "Material" and image is not None and node.interpolation != "Closest" and _is_encoded(image):
         is_multiplied = _is_multiplied(t, node, output)
-        number = t.images.encoded(image, node.image_user, t.report, is_multiplied)
+        number = t.images.of_bytes(image, node.image_user, t.report, is_multiplied)
         if number is not None:
             texel = _look_up(t, node, number, uv, wrap)
-            texel = texel if output.identifier == "Alpha" else decoded(t, texel, texel.component(3))
             return texel if is_multiplied else _with_alpha(t, node, output, texel)
     return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
 
@@ -55,7 +56,8 @@ def _sample(t, node, context, uv, wrap):
 
 
 def _look_up(t, node, number, uv, wrap):
-    return look_up(t, number, uv, (wrap, wrap), FILTERS[node.interpolation], MISSING)
+    filters = FILTERS_OF_CODES if _is_encoded(node.image) else FILTERS
+    return look_up(t, number, uv, (wrap, wrap), filters[node.interpolation], MISSING)
 
 
 def look_up(t, number, uv, wrap, texture_filter="Linear", fallback=(0.0, 0.0, 0.0, 0.0)):

@@ -36,6 +36,10 @@ pub enum TextureFilter {
     Closest,
     /// As `Linear`, each level by cubic B-splines, which smooth the image.
     Cubic,
+    /// As `Linear`, but sRGB's bytes of the finest level are mixed as they are encoded, as in Cycles.
+    LinearCodes,
+    /// As `Cubic`, with bytes mixed as for `LinearCodes`.
+    CubicCodes,
 }
 
 /// A space that values are given in.

@@ -5,7 +5,7 @@ use super::paged::TileReader;
 use super::texel::{Byte, Float, Grey, Half, LinearCode, Rgba, SrgbCode, TableCode, Texel, TexelFormat};
 use super::texels::{InMemory, InTiles, Level, Quad, Texels};
 use super::wrap::{Filter, Wrap};
-use crate::colour::Transfer;
+use crate::colour::{Transfer, srgb_to_linear};
 use gonio_simd::{F, Lanes, M, Vec2};
 
 /// What lies beyond the image, along each axis.
@@ -90,10 +90,11 @@ impl MipMap {
         wanted: M<L>,
     ) -> [F<L>; 4] {
         // Splines reach over the edge, so that how far beyond it a place lies counts.
-        let along = wrap.map(|wrap| if (wrap, filter) == (Wrap::Clamp, Filter::Cubic) { Wrap::Black } else { wrap });
+        let along = wrap.map(|wrap| if wrap == Wrap::Clamp && filter.is_cubic() { Wrap::Black } else { wrap });
         let position = Vec2 { x: along[0].position(uv.x), y: 1.0 - along[1].position(uv.y) };
         let place = Place { position, width, wanted };
         match (self.format, self.transfer) {
+            (TexelFormat::Byte, Transfer::Srgb) if filter.mixes_codes() => self.codes_or_light(l, texels, place, wrap, filter.is_cubic()),
             (TexelFormat::Byte, Transfer::Linear) => self.filtered::<L, Byte<LinearCode>>(l, texels, place, wrap, filter),
             (TexelFormat::Byte, Transfer::Srgb) => self.filtered::<L, Byte<SrgbCode>>(l, texels, place, wrap, filter),
             (TexelFormat::Byte, _) => self.filtered::<L, Byte<TableCode>>(l, texels, place, wrap, filter),
@@ -107,8 +108,7 @@ impl MipMap {
     fn filtered<L: Lanes, T: Texel>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps, filter: Filter) -> Rgba<L> {
         match filter {
             Filter::Nearest => self.nearest::<L, T>(l, texels, place, wrap),
-            Filter::Trilinear => self.trilinear::<L, T>(l, texels, place, wrap, false),
-            Filter::Cubic => self.trilinear::<L, T>(l, texels, place, wrap, true),
+            _ => self.trilinear::<L, T>(l, texels, place, wrap, filter.is_cubic()),
         }
     }
 
@@ -139,16 +139,45 @@ impl MipMap {
             }
             let level = if is_finest { self.levels.finest(l) } else { self.levels.at(l, finer + step) };
             let place = Place { wanted: place.wanted & weight.gt(0.0), ..place };
-            let texel = if cubic {
-                self.cubic::<L, T>(l, texels, place, level, wrap)
-            } else {
-                self.bilinear::<L, T>(l, texels, place, level, wrap)
-            };
+            let texel = self.in_level::<L, T>(l, texels, place, level, wrap, cubic);
             for (channel, value) in sum.iter_mut().zip(texel) {
                 *channel = value.mul_add(weight, *channel);
             }
         }
         sum
+    }
+
+    /// Bytes of sRGB: the finest level is mixed as it is encoded and then decoded, all others the other way round.
+    #[inline(always)]
+    fn codes_or_light<L: Lanes>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps, cubic: bool) -> Rgba<L> {
+        let light = place.wanted & self.levels.level_of(l, place.width).gt(0.0);
+        let mut sum = [l.f(0.0); 4];
+        if light.any() {
+            sum = self.trilinear::<L, Byte<SrgbCode>>(l, texels, Place { wanted: light, ..place }, wrap, cubic);
+        }
+        if light.all() {
+            return sum;
+        }
+        let (level, place) = (self.levels.finest(l), Place { wanted: place.wanted.and_not(light), ..place });
+        let [r, g, b, a] = self.in_level::<L, Byte<LinearCode>>(l, texels, place, level, wrap, cubic);
+        for (channel, value) in sum.iter_mut().zip([srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b), a]) {
+            *channel = light.select(*channel, value);
+        }
+        sum
+    }
+
+    /// Filtered in one level.
+    #[inline(always)]
+    fn in_level<L: Lanes, T: Texel>(
+        &self,
+        l: L,
+        texels: &mut impl Texels<L>,
+        place: Place<L>,
+        level: Level<L>,
+        wrap: Wraps,
+        cubic: bool,
+    ) -> Rgba<L> {
+        if cubic { self.cubic::<L, T>(l, texels, place, level, wrap) } else { self.bilinear::<L, T>(l, texels, place, level, wrap) }
     }
 
     /// Sixteen texels by four lookups between texels, each at the place that gives two texels their weights (Sigg and Hadwiger, 2005).

@@ -26,6 +26,22 @@ pub enum Filter {
     Nearest,
     /// As [`Filter::Trilinear`] with sixteen texels of each level, weighed by cubic B-splines, which smooth the image.
     Cubic,
+    /// As [`Filter::Trilinear`], but bytes of sRGB of the finest level are mixed as they are encoded. Coarser levels are light in any case, so that
+    /// images keep their mean.
+    TrilinearCodes,
+    /// As [`Filter::Cubic`], with bytes mixed as for [`Filter::TrilinearCodes`].
+    CubicCodes,
+}
+
+impl Filter {
+    /// Whether each level is filtered by sixteen texels.
+    pub(crate) fn is_cubic(self) -> bool {
+        matches!(self, Self::Cubic | Self::CubicCodes)
+    }
+    /// Whether codes of the finest level are mixed as they are.
+    pub(crate) fn mixes_codes(self) -> bool {
+        matches!(self, Self::TrilinearCodes | Self::CubicCodes)
+    }
 }
 
 /// The two texels along an axis that a lookup mixes.

@@ -130,6 +130,8 @@ fn filter_of(filter: TextureFilter) -> Filter {
         TextureFilter::Linear => Filter::Trilinear,
         TextureFilter::Closest => Filter::Nearest,
         TextureFilter::Cubic => Filter::Cubic,
+        TextureFilter::LinearCodes => Filter::TrilinearCodes,
+        TextureFilter::CubicCodes => Filter::CubicCodes,
     }
 }
 

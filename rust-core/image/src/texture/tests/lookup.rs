@@ -1,7 +1,7 @@
 //! Lookups on lanes against a plain implementation in `f64`.
 
 use super::made::{Random, build, bytes, floats, halves};
-use crate::colour::{ColourSpace, Stated};
+use crate::colour::{ColourSpace, Stated, Transfer};
 use crate::texture::{Filter, MipMap, TextureTable, Wrap};
 use gonio_simd::{Execution, Lanes, PADDING, Vec2, dispatch};
 use std::sync::Arc;
@@ -121,6 +121,33 @@ fn lookups_agree_with_the_oracle_at_every_level() {
                         );
                     }
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn codes_are_mixed_in_the_finest_level_and_light_in_the_others() {
+    let image = bytes(16, 16, 4, 1);
+    let [codes, light] = [ColourSpace::Raw, ColourSpace::SRGB_TEXTURE].map(|space| Arc::new(build(&image, space)));
+    let mut table = TextureTable::new();
+    table.push(light.clone());
+    let lookups = lookups(400);
+    for execution in Execution::all() {
+        let mut batch = Batch::new(&lookups);
+        batch.run(execution, &table, [Wrap::Repeat; 2], Filter::TrilinearCodes);
+        for (i, lookup) in lookups.iter().map(|lookup| lookup.map(f64::from)).enumerate() {
+            let is_finest = lookup[2] * 16.0 <= 1.0;
+            let expected = if is_finest {
+                let [r, g, b, a] = bilinear(&codes, 0, [lookup[0], lookup[1]], [Wrap::Repeat; 2]);
+                let [r, g, b] = [r, g, b].map(|x| Transfer::Srgb.decode(x));
+                [r, g, b, a]
+            } else {
+                trilinear(&light, lookup, [Wrap::Repeat; 2])
+            };
+            for (channel, exact) in expected.into_iter().enumerate() {
+                let found = f64::from(batch.rgba[channel][i]);
+                assert!((found - exact).abs() < 3e-5, "{} {lookup:?} {channel}: {found}, not {exact}", execution.name());
             }
         }
     }
