@@ -338,6 +338,15 @@ def test_visibility_and_purpose(tmp_path):
     assert names(load(tmp_path, PURPOSES, purposes=["guide"])) == {"/guide", "/shown"}
 
 
+def test_element_sizes_that_count_values_are_not_believed(tmp_path):
+    # As some exporters write it to texture coordinates and normals.
+    uv = "float2[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] ( interpolation = \"faceVarying\"\nelementSize = 4 )"
+    found = primvar(mesh(tmp_path, PLAIN + "    " + uv), "st")
+    assert found["components"] == 2 and sorted(map(tuple, values(found)))[0] == (0, 0) and len(set(map(tuple, values(found)))) == 4
+    triples = "float[] primvars:f = [1, 2, 3] ( interpolation = \"constant\"\nelementSize = 3 )"
+    assert primvar(mesh(tmp_path, PLAIN + "    " + triples), "f")["components"] == 3
+
+
 def test_inactive_abstract_and_undefined_prims_are_not_shown(tmp_path):
     text = 'def Cube "off" ( active = false ) {}\nclass Cone "pattern" {}\nover "o"\n{\ndef Sphere "s" {}\n}\ndef Plane "on" {}\n'
     assert names(load(tmp_path, text)) == {"/on"}
