@@ -184,3 +184,23 @@ def test_white_is_white_where_the_light_is_at_the_camera(run, tmp_path):
 
     assert shown(unlit) == shown(unlit, "--tonemap", "none") != shown(unlit, "--tonemap", "photographic")
     assert shown(lit) == shown(lit, "--tonemap", "photographic")
+
+
+def test_units_of_single_precision_are_read(tmp_path):
+    """As Blender 2.9 to 3.1 wrote them, which pxr refuses."""
+    from pxr import Usd, UsdGeom
+
+    path = tmp_path / "stage.usdc"
+    stage = Usd.Stage.CreateNew(str(path))
+    UsdGeom.Sphere.Define(stage, "/s")
+    UsdGeom.SetStageMetersPerUnit(stage, 0.25)
+    stage.Save()
+    del stage
+    # A quarter as an inlined double (type 9 of the format); type 8 is a float.
+    double, single = b"\x00\x00\x80\x3e\x00\x00\x09\x40", b"\x00\x00\x80\x3e\x00\x00\x08\x40"
+    content = path.read_bytes()
+    assert content.count(double[2:]) == 1
+    copy = tmp_path / "old.usdc"
+    copy.write_bytes(content.replace(double[2:], single[2:]))
+    scene = gonio.load_usd(str(copy)).to_dict()
+    assert scene["instances"][0]["transforms"][0]["columns"][0][0] == pytest.approx(0.25)
