@@ -83,6 +83,16 @@ def test_points_have_widths_and_values(tmp_path):
     assert [each["mesh"] for each in scene["instances"]] == [{"points": 0}, {"points": 1}]
 
 
+@pytest.mark.parametrize(("size", "width"), [(1, 5**0.5 / 400), (1000, 1)])
+def test_curves_without_widths_are_thin(tmp_path, size, width):
+    """Hair that Blender writes in metres has no widths."""
+    points = f"point3f[] points = [(0, 0, 0), ({size}, 0, 0), ({size}, {2 * size}, 0)]"
+    body = f'uniform token type = "linear"\nint[] curveVertexCounts = [3]\n{points}\n'
+    scene, messages = read(tmp_path, f'def BasisCurves "a"\n{{\n{body}}}\n')
+    assert scene["curves"][0]["widths"]["values"] == pytest.approx([width], rel=1e-5)
+    assert any("no widths that fit" in message for message in messages)
+
+
 def test_broken_curves_are_said_and_left_out(tmp_path):
     counts = "int[] curveVertexCounts = [4, 4]"
     scene, messages = read(

@@ -338,6 +338,15 @@ def test_visibility_and_purpose(tmp_path):
     assert names(load(tmp_path, PURPOSES, purposes=["guide"])) == {"/guide", "/shown"}
 
 
+def test_element_sizes_that_count_values_are_not_believed(tmp_path):
+    # As some exporters write it to texture coordinates and normals.
+    uv = "float2[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] ( interpolation = \"faceVarying\"\nelementSize = 4 )"
+    found = primvar(mesh(tmp_path, PLAIN + "    " + uv), "st")
+    assert found["components"] == 2 and sorted(map(tuple, values(found)))[0] == (0, 0) and len(set(map(tuple, values(found)))) == 4
+    triples = "float[] primvars:f = [1, 2, 3] ( interpolation = \"constant\"\nelementSize = 3 )"
+    assert primvar(mesh(tmp_path, PLAIN + "    " + triples), "f")["components"] == 3
+
+
 def test_inactive_abstract_and_undefined_prims_are_not_shown(tmp_path):
     text = 'def Cube "off" ( active = false ) {}\nclass Cone "pattern" {}\nover "o"\n{\ndef Sphere "s" {}\n}\ndef Plane "on" {}\n'
     assert names(load(tmp_path, text)) == {"/on"}
@@ -402,6 +411,44 @@ def test_skinning_at_and_between_samples(tmp_path, frame, degrees, instanced):
     assert len(meshes) == 1 and sum(len(each["transforms"]) for each in scene["instances"]) == (2 if instanced else 1)
     assert meshes[0]["points"][2] == pytest.approx(expected, abs=1e-5)
     assert (tmp_path / "skinned.usda").read_text() == before
+
+
+@pytest.mark.parametrize("interpolation", ["vertex", "faceVarying"])
+@pytest.mark.parametrize("indexed", [False, True])
+def test_normals_among_the_primvars_turn_with_the_bones(tmp_path, interpolation, indexed):
+    from pxr import Sdf, Usd, UsdGeom
+
+    path = tmp_path / "skinned.usda"
+    skinned(path)
+    stage = Usd.Stage.Open(str(path))
+    primvars = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/R/M"))
+    normals = primvars.CreatePrimvar("normals", Sdf.ValueTypeNames.Normal3fArray, interpolation)
+    normals.Set([(1, 0, 0)] if indexed else [(1, 0, 0)] * 4)
+    if indexed:
+        normals.SetIndices([0, 0, 0, 0])
+    stage.Save()
+    for frame, degrees in [(1, 0), (10, 90), (5.5, 45)]:
+        (mesh,) = gonio.load_usd(str(path), frame=frame).to_dict()["meshes"]
+        turn = math.radians(degrees)
+        turned = [math.cos(turn), math.sin(turn), 0]
+        given = np.asarray(values(mesh["normals"]))
+        # The lower bone stands still, the upper one turns.
+        if interpolation == "vertex":
+            assert given == pytest.approx(np.asarray([[1, 0, 0], [1, 0, 0], turned, turned]), abs=1e-5)
+        else:
+            far = [np.abs(given - normal).max(axis=1) for normal in ([1, 0, 0], turned)]
+            assert np.minimum(*far).max() < 1e-5 and max(each.min() for each in far) < 1e-5
+
+
+def test_a_type_that_is_unknown_is_the_one_that_the_stage_names_in_its_place(tmp_path):
+    header = "metersPerUnit = 1\nfallbackPrimTypes = {\ntoken[] Blob = [\"Wobble\", \"Sphere\"]\n}"
+    path = tmp_path / "a.usda"
+    path.write_text("#usda 1.0\n(\n" + header + "\n)\n" + 'def Blob "b"\n{\ndouble radius = 2\n}\ndef Other "o" {}\n')
+    scene = gonio.load_usd(str(path))
+    assert names(scene.to_dict()) == {"/b"}
+    messages = [message for _, message in scene.diagnostics]
+    assert not any("Blob" in message for message in messages)
+    assert any("the prim type 'Other' is unknown" in message for message in messages)
 
 
 CROWD = """#usda 1.0

@@ -96,6 +96,20 @@ def test_transforms_are_in_metres(tmp_path):
     assert columns[0] == pytest.approx([0.01, 0, 0])
 
 
+def test_shaping_that_changes_nothing_is_not_told_of_suns(tmp_path):
+    # As Omniverse writes it to all lights.
+    def told(body):
+        path = tmp_path / "stage.usda"
+        path.write_text(HEADER.format(metres=1, up="Y") + f'def DistantLight "L" (prepend apiSchemas = ["ShapingAPI"])\n{{\n{body}\n}}\n')
+        return str(gonio.load_usd(str(path)).diagnostics)
+
+    old = "float shaping:cone:angle = 180\n float shaping:focus\n asset shaping:ies:file"
+    for body in ["", old, "float inputs:shaping:cone:angle = 180\n float inputs:shaping:focus = 0"]:
+        assert "shaping" not in told(body)
+    for body in ["float inputs:shaping:cone:angle = 30", "float inputs:shaping:focus = 2", "asset inputs:shaping:ies:file = @a.ies@"]:
+        assert "shaping of lights at infinity is not supported" in told(body)
+
+
 def test_shaping(tmp_path):
     plain = light(tmp_path, "SphereLight", "")["shaping"]
     assert plain["cone_angle_deg"] is None

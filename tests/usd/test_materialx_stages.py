@@ -324,3 +324,42 @@ def test_definitions_inside_themselves_end_soon(tmp_path):
     assert "definitions" in messages(scene)
     assert len(scene.diagnostics) < 80, messages(scene)[:1000]
     assert len(closures(scene)) == 1
+
+
+def test_documents_include_others(tmp_path):
+    folder = tmp_path / "parts"
+    folder.mkdir()
+    (tmp_path / "maps").mkdir()
+    surface = '<standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="C"/>'
+    surface += '<input name="base" type="float" value="1"/></standard_surface>'
+    colour = '<{} name="C" type="color3"><input name="value" type="color3" value="0.1, 0.2, 0.3"/></{}>'.format("constant", "constant")
+    (folder / "inner.mtlx").write_text(f'<materialx version="1.38" colorspace="lin_rec709">{colour}</materialx>')
+    outer = '<xi:include href="inner.mtlx"/>' + surface
+    (folder / "outer.mtlx").write_text(f'<materialx version="1.38" xmlns:xi="http://www.w3.org/2001/XInclude">{outer}</materialx>')
+    look = '<xi:include href="parts/outer.mtlx"/><surfacematerial name="M" type="material">{}</surfacematerial>'
+    look = look.format('<input name="surfaceshader" type="surfaceshader" nodename="S"/>')
+    scene = load_document(tmp_path, f'<materialx version="1.38">{look}</materialx>')
+    assert messages(scene) == ""
+    (closure,) = closures(scene)
+    assert dict(closure["parameters"])["base_color"]["Constant"][:3] == pytest.approx([0.1, 0.2, 0.3], rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("included", "told"),
+    [
+        (None, "the document 'other.mtlx' that is included is not usable"),
+        ("<materialx>", "is not usable: line 1"),
+        ("<other/>", "has the root element <other>"),
+        ('<materialx><xi:include href="other.mtlx"/></materialx>', "includes itself"),
+        ('<materialx><xi:include href="look.mtlx"/></materialx>', "includes itself"),
+        ("<materialx><xi:include/></materialx>", "without href"),
+    ],
+)
+def test_what_cannot_be_included_is_told(tmp_path, included, told):
+    if included is not None:
+        (tmp_path / "other.mtlx").write_text(included)
+    surface = '<standard_surface name="S" type="surfaceshader"/><surfacematerial name="M" type="material">{}</surfacematerial>'
+    surface = surface.format('<input name="surfaceshader" type="surfaceshader" nodename="S"/>')
+    scene = load_document(tmp_path, f'<materialx version="1.38"><xi:include href="other.mtlx"/>{surface}</materialx>')
+    assert told in messages(scene)
+    assert len(closures(scene)) == 1

@@ -254,3 +254,13 @@ def test_corrupt_crates_never_end_the_process(tmp_path):
     for length in range(0, len(good), max(1, len(good) // 20)):
         with pytest.raises(gonio.Error):
             gonio.load_usd(write(tmp_path, good[:length], f"short{length}.usdc"))
+
+
+def test_a_file_that_many_prims_miss_is_told_once(tmp_path):
+    path = tmp_path / "stage.usda"
+    missing = ["chair.usd"] * 3 + ["table.usd"]
+    path.write_text("#usda 1.0\n" + "".join(f'def "p{i}" ( references = @{file}@ ) {{}}\n' for i, file in enumerate(missing)))
+    told = [message for _, message in gonio.load_usd(str(path)).diagnostics if "Could not open" in message]
+    assert len(told) == 2
+    assert told[0].startswith("Could not open asset @chair.usd@") and told[0].endswith("(3 places, this is the first)")
+    assert told[1].startswith("Could not open asset @table.usd@") and "places" not in told[1]

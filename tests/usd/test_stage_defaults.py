@@ -191,3 +191,21 @@ def test_indirect_samples_are_limited_where_the_light_is_at_the_camera(tmp_path)
     lit = pictures.stage(tmp_path / "lit.usda", UNLIT, 'def DomeLight "Sky" {}\n')
     limits = [gonio.load_usd(str(stage)).to_dict()["settings"]["clamp_indirect"] for stage in (unlit, lit)]
     assert limits == [2.0, 0.0]
+def test_units_of_single_precision_are_read(tmp_path):
+    """As Blender 2.9 to 3.1 wrote them, which pxr refuses."""
+    from pxr import Usd, UsdGeom
+
+    path = tmp_path / "stage.usdc"
+    stage = Usd.Stage.CreateNew(str(path))
+    UsdGeom.Sphere.Define(stage, "/s")
+    UsdGeom.SetStageMetersPerUnit(stage, 0.25)
+    stage.Save()
+    del stage
+    # A quarter as an inlined double (type 9 of the format); type 8 is a float.
+    double, single = b"\x00\x00\x80\x3e\x00\x00\x09\x40", b"\x00\x00\x80\x3e\x00\x00\x08\x40"
+    content = path.read_bytes()
+    assert content.count(double[2:]) == 1
+    copy = tmp_path / "old.usdc"
+    copy.write_bytes(content.replace(double[2:], single[2:]))
+    scene = gonio.load_usd(str(copy)).to_dict()
+    assert scene["instances"][0]["transforms"][0]["columns"][0][0] == pytest.approx(0.25)

@@ -274,3 +274,44 @@ def test_primvars_name_images_of_materialx(tmp_path):
     ]
     scene = named(tmp_path, *parts).to_dict()
     assert [image_of(scene, name) for name in ["/A", "/B", "/C"]] == ["one.png", "two.png", None]
+
+
+def test_outputs_that_shaders_do_not_declare_are_followed(tmp_path):
+    # As exporters of Omniverse write them: the connection names an output, the shader has none.
+    path = tmp_path / "stage.usda"
+    colour = "float3 inputs:fallback = (0.2, 0.4, 0.6)"
+    primvar = f'    def Shader "P"\n    {{\n uniform token info:id = "UsdPrimvarReader_float3"\n {colour}\n    }}\n'
+    surface = '    def Shader "S"\n    {\n uniform token info:id = "UsdPreviewSurface"\n color3f inputs:diffuseColor.connect = </M/P.outputs:result>\n    }\n'
+    path.write_text(HEADER + BALL + f'def Material "M"\n{{\n token outputs:surface.connect = </M/S.outputs:surface>\n{surface}{primvar}}}\n')
+    scene = gonio.load_usd(str(path), camera_light=False)
+    assert "displayColor" not in messages(scene)
+    assert "[0.2, 0.4, 0.6" in str(material(scene)).replace("0.20000000298023224", "0.2")
+
+
+@pytest.mark.parametrize(
+    ("node", "body", "expected"),
+    [
+        ("complement", "color3f inputs:input = (0.1, 0.2, 0.3)", [0.9, 0.8, 0.7]),
+        ("max", "color3f inputs:input1 = (0.1, 0.5, 0.3)\ncolor3f inputs:input2 = (0.2, 0.2, 0.2)", [0.2, 0.5, 0.3]),
+        ("pow", "color3f inputs:base = (0.5, 0.2, 1)\ncolor3f inputs:exponent = (2, 2, 2)", [0.25, 0.04, 1]),
+        ("float_to_rgb", "float inputs:r = 0.1\nfloat inputs:g = 0.2\nfloat inputs:b = 0.3", [0.1, 0.2, 0.3]),
+        ("rgb_to_float", 'color3f inputs:input = (0.1, 0.2, 0.6)\nstring inputs:mode = "average"', [0.3] * 3),
+        ("rgb_to_float", 'color3f inputs:input = (0.1, 0.2, 0.6)\nstring inputs:mode = "max"', [0.6] * 3),
+        ("rgb_to_float", 'color3f inputs:input = (1, 1, 1)\nstring inputs:mode = "luminance"', [1] * 3),
+        ("range", "color3f inputs:input = (0.25, 0.5, 1)\nfloat inputs:output_min = 0.2\nfloat inputs:output_max = 0.6", [0.3, 0.4, 0.6]),
+        ("range", "color3f inputs:input = (0.25, 0.5, 2)\nbool inputs:smoothstep = 1", [0.15625, 0.5, 1]),
+        ("range", "color3f inputs:input = (0.25, 0.5, 0.75)\nfloat inputs:contrast = 2", [0, 0.5, 1]),
+        ("color_correct", "color3f inputs:input = (0.1, 0.2, 0.3)", [0.1, 0.2, 0.3]),
+        ("color_correct", "color3f inputs:input = (0.1, 0.2, 0.3)\nfloat inputs:exposure = 1", [0.2, 0.4, 0.6]),
+        ("color_correct", "color3f inputs:input = (0.25, 0.04, 1)\nfloat inputs:gamma = 2", [0.5, 0.2, 1]),
+        ("color_correct", "color3f inputs:input = (0.2, 0.4, 0.4)\nfloat inputs:saturation = 0", [0.4] * 3),
+        ("color_correct", "color3f inputs:input = (0.5, 0, 0)\nfloat inputs:hue_shift = 0.33333333", [0, 0.5, 0]),
+        ("color_correct", "color3f inputs:input = (0.1, 0.2, 0.3)\ncolor3f inputs:multiply = (2, 1, 1)\ncolor3f inputs:add = (0, 0.5, 0)", [0.2, 0.7, 0.3]),
+    ],
+)
+def test_arnold_arithmetic(tmp_path, node, body, expected):
+    surface = shader("S", "color3f inputs:base_color.connect = </M/N.outputs:out>\n        float inputs:base = 1", "arnold:standard_surface")
+    scene = load(tmp_path, surface, shader("N", body, f"arnold:{node}"), context="arnold")
+    assert "not supported" not in messages(scene)
+    found = constant(only(scene), "base_color")
+    assert found[:3] == pytest.approx(expected, abs=1e-5)

@@ -8,8 +8,10 @@ use crate::{mesh, primvar, strand_values};
 use gonio::mesh::{FacePrimvar, Interpolation};
 use gonio::scene::{CurveBasis, CurveShape, CurveWrap, Curves};
 
-/// Diameter where none is authored, local units, as Hydra has it.
+/// Greatest diameter where none is authored, local units, as Hydra has it.
 const USUAL_WIDTH: f32 = 1.0;
+/// Greatest share of the curves' extent that it may be: hair is often written without widths, and in metres.
+const USUAL_SHARE: f32 = 1.0 / 400.0;
 
 /// Whether prims of this type are curves.
 pub fn is_curves(type_name: &str) -> bool {
@@ -127,7 +129,19 @@ fn finished<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, lines: Lines)
         ..Curves::default()
     };
     let elements = strand_values::Elements { uniform: curves.counts.len(), varying: curves.joints(), vertex: curves.points.len() };
-    curves.widths = strand_values::widths(context, prim, lines.widths, &elements, USUAL_WIDTH);
+    let usual = USUAL_WIDTH.min(USUAL_SHARE * extent(&curves.points));
+    curves.widths = strand_values::widths(context, prim, lines.widths, &elements, if usual > 0.0 { usual } else { USUAL_WIDTH });
     curves.primvars = lines.primvars.into_iter().filter_map(|primvar| strand_values::fitting(context, prim, primvar, &elements)).collect();
     curves
+}
+
+/// The diagonal of the box around points.
+fn extent(points: &[[f32; 3]]) -> f32 {
+    let mut square = 0.0;
+    for axis in 0..3 {
+        let least = points.iter().map(|point| point[axis]).fold(f32::INFINITY, f32::min);
+        let most = points.iter().map(|point| point[axis]).fold(f32::NEG_INFINITY, f32::max);
+        square += (most - least).powi(2);
+    }
+    if square.is_finite() { square.sqrt() } else { 0.0 }
 }

@@ -225,7 +225,9 @@ fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightS
         return Shaping::default();
     }
     if shape.is_at_infinity() {
-        context.unsupported("shaping of lights at infinity", &prim.origin());
+        if is_shaped(context, prim) {
+            context.unsupported("shaping of lights at infinity", &prim.origin());
+        }
         return Shaping::default();
     }
     let angle: Option<f32> = input(context, prim, "shaping:cone:angle").map(|angle: f32| angle.max(0.0));
@@ -237,6 +239,17 @@ fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightS
         focus: focus.max(0.0),
         focus_tint: input(context, prim, "shaping:focusTint").unwrap_or([0.0; 3]),
     }
+}
+
+/// Whether anything is said of shaping beyond what exporters write to all lights and what changes nothing.
+fn is_shaped<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
+    let mut number = |name: &str| {
+        let is_said = prim.has_authored(name) || prim.has_authored(&format!("inputs:{name}"));
+        if is_said { input::<f32>(context, prim, name) } else { None }
+    };
+    let is_cone = number("shaping:cone:angle").is_some_and(|angle| angle < FULL_CONE);
+    let is_focused = number("shaping:focus").is_some_and(|focus| focus > 0.0);
+    is_cone || is_focused || input::<AssetPath>(context, prim, "shaping:ies:file").is_some_and(|file| !file.authored.is_empty())
 }
 
 /// The light distribution of the shaping's file.

@@ -56,9 +56,14 @@ impl<'py> Prim<'py> {
         self.text(intern!(self.py(), "GetName"))
     }
 
-    /// The schema's name, `Mesh`; empty for untyped prims.
+    /// The schema's name, `Mesh`; empty for untyped prims. Of a type that is unknown the one that the stage names in its place counts.
     pub fn type_name(&self) -> String {
-        self.known.type_name.get_or_init(|| self.text(intern!(self.py(), "GetTypeName"))).clone()
+        let py = self.py();
+        let of_schema = || -> PyResult<String> {
+            self.object.call_method0(intern!(py, "GetPrimTypeInfo"))?.call_method0(intern!(py, "GetSchemaTypeName"))?.extract()
+        };
+        let named = || self.text(intern!(py, "GetTypeName"));
+        self.known.type_name.get_or_init(|| of_schema().ok().filter(|name| !name.is_empty()).unwrap_or_else(named)).clone()
     }
 
     /// The prim as a place in messages.

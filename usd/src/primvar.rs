@@ -90,7 +90,10 @@ fn from_attribute<'py>(
     let value = context.get_value(attribute)?;
     let FloatArray { components, values } = float_array_or_scalar(&value)?;
     let element_size = attribute.metadata("elementSize").and_then(|size| i32::from_value(&size)).unwrap_or(1).max(1) as usize;
-    let components = components.max(1).checked_mul(element_size)?;
+    let tuple = components.max(1);
+    let components = tuple.checked_mul(element_size)?;
+    // Some exporters write the number of values there: of texture coordinates it cannot mean tuples of tuples.
+    let components = if tuple > 1 && components > 4 { tuple } else { components };
     // An array behind a constant primvar is one value only where its length says so.
     let is_usable = (1..=4).contains(&components) && !values.is_empty();
     is_usable.then(|| FacePrimvar { name: name.to_owned(), interpolation, components, values, indices: None })

@@ -1,6 +1,7 @@
 //! Skinning: skinned points are written by `UsdSkel.BakeSkinning` into an anonymous layer over the stage, never into files.
 
 mod alike;
+mod normals;
 
 pub use alike::Alike;
 
@@ -29,6 +30,8 @@ pub fn bake<'py>(context: &mut Context<'_, 'py>) {
     let stage = Origin::new("/");
     let time = pinned_time(context);
     let Some(time) = context.attempt(&stage, "skinning failed, the meshes are in their bind pose", time) else { return };
+    let handed_over = normals::hand_over(context);
+    let _ = context.attempt(&stage, "normals of skinned meshes stay as they are in the bind pose", handed_over);
     let whole = || -> PyResult<bool> {
         let usd = Module::Usd.import(context.py)?;
         let root = context.stage.call_method0(intern!(context.py, "GetPseudoRoot"))?;

@@ -23,7 +23,7 @@ use gonio::scene::Scene;
 use gonio::{Diagnostic, Error, Result, Severity};
 use info::read_info;
 use open::{Prepared, check_file, open_prepared};
-use problem::{composition_errors, passed_on, unreadable};
+use problem::{composition_errors, counted, passed_on, unreadable};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -93,7 +93,7 @@ impl Stage {
         }
         let mut info = read_info(&stage, path, &mut diagnostics).map_err(|error| unreadable(py, path, &error))?;
         info.composition_errors = composition_errors(&stage, path);
-        diagnostics.extend(info.composition_errors.iter().cloned());
+        diagnostics.extend(counted(&info.composition_errors));
         diagnostics.extend(passed_on(messages, &info.composition_errors, path));
         Ok(Self {
             path: path.to_owned(),

@@ -1,5 +1,6 @@
 //! Arnold's shaders as they stand in USD, `arnold:image`: images, normal maps, arithmetic and primvars.
 
+use super::arnold_math;
 use super::emit::{binary, mix, scalar};
 use super::network::{Network, Shader};
 use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
@@ -21,7 +22,7 @@ pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, nod
             let share = network.scalar(shader, "mix", 0.5);
             return Some(mix(&mut network.graph, a, b, share));
         }
-        "user_data_rgb" | "user_data_rgba" | "user_data_float" => {
+        "user_data_rgb" | "user_data_rgba" | "user_data_float" | "user_data_int" => {
             let fallback = network.uniform(shader, "default", [0.0, 0.0, 0.0, 1.0]);
             let name = network.text(shader, "attribute").filter(|name| !name.is_empty())?;
             return Some(network.node(Operation::Primvar { name, fallback }, vec![]));
@@ -30,7 +31,7 @@ pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, nod
         "subtract" => (Operation::Subtract, 0.0),
         "multiply" => (Operation::Multiply, 1.0),
         "divide" => (Operation::Divide, 1.0),
-        _ => return None,
+        _ => return arnold_math::build(network, shader, node),
     };
     let [a, b] = ["input1", "input2"].map(|name| network.input(shader, name).unwrap_or(scalar(operation.1)));
     Some(binary(&mut network.graph, operation.0, a, b))

@@ -2,6 +2,7 @@
 //!
 //! Layers on disk stay as they are; those in memory get their asset paths back when the stage has been read.
 
+mod include;
 mod text;
 
 use crate::material::Library;

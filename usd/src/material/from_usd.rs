@@ -60,7 +60,8 @@ impl<'py> Reader<'_, 'py> {
         let input = Module::UsdShade.wrap("Input", attribute.object())?;
         let producers = input.call_method0(intern!(py, "GetValueProducingAttributes"))?;
         let Some(producer) = producers.try_iter()?.next() else {
-            return Ok(Source::Nothing);
+            let source = undeclared_source(attribute.object())?;
+            return Ok(source.map_or(Source::Nothing, |(prim, output)| self.output(prim, output)));
         };
         let producer = producer?;
         let full_name: String = producer.call_method0(intern!(py, "GetName"))?.extract()?;
@@ -68,10 +69,14 @@ impl<'py> Reader<'_, 'py> {
             return self.value(name, &Attribute::new(producer));
         };
         let prim = Prim::new(producer.call_method0(intern!(py, "GetPrim"))?);
-        Ok(match self.node(prim) {
-            Some(index) => Source::Output(index, output.to_owned()),
+        Ok(self.output(prim, output.to_owned()))
+    }
+
+    fn output(&mut self, prim: Prim<'py>, output: String) -> Source {
+        match self.node(prim) {
+            Some(index) => Source::Output(index, output),
             None => Source::Unreadable(format!("the network has more than {MAX_SHADERS} shaders")),
-        })
+        }
     }
 
     fn value(&self, name: &str, attribute: &Attribute<'py>) -> PyResult<Source> {
@@ -100,6 +105,23 @@ impl<'py> Reader<'_, 'py> {
         }
         Ok(Source::Value(value, said))
     }
+}
+
+/// The shader and its output that a connection names although the shader does not declare it, for which `pxr` follows no connection: some
+/// exporters leave outputs out, and mean the shader all the same.
+pub(in crate::material) fn undeclared_source<'py>(attribute: &Bound<'py, PyAny>) -> PyResult<Option<(Prim<'py>, String)>> {
+    let py = attribute.py();
+    let stage = attribute.call_method0(intern!(py, "GetStage"))?;
+    for path in attribute.call_method0(intern!(py, "GetConnections"))?.try_iter()? {
+        let path = path?;
+        let name: String = path.getattr(intern!(py, "name"))?.extract()?;
+        let prim = Prim::new(stage.call_method1(intern!(py, "GetPrimAtPath"), (path.call_method0(intern!(py, "GetPrimPath"))?,))?);
+        match name.strip_prefix("outputs:") {
+            Some(output) if prim.is_valid() && prim.type_name() == "Shader" => return Ok(Some((prim, output.to_owned()))),
+            _ => {}
+        }
+    }
+    Ok(None)
 }
 
 /// The unit that exporters of MaterialX leave at an attribute.

@@ -4,6 +4,7 @@
 //! Its network is read into a neutral document (`from_usd`; documents of MaterialX by `mtlx`), which `network` and the nodes' and surfaces' files
 //! translate without `pxr`; what they ask of the stage goes through `host`. Nodes of the graph are made in `emit` alone.
 
+mod arnold_math;
 mod arnold_nodes;
 mod binding;
 mod definition;
@@ -89,14 +90,17 @@ fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
         }
         let output = material.call_method1(intern!(py, "GetSurfaceOutput"), (&render_context,))?;
         // A missing context falls back to the universal one, which has its own turn.
-        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
+        if !output.is_truthy()? {
             continue;
         }
-        let source = material.call_method1(intern!(py, "ComputeSurfaceSource"), (&render_context,))?;
-        let shader = source.get_item(0)?;
-        if shader.is_truthy()? {
-            surfaces.push((render_context, Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
-        }
+        let shader = if output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
+            let source = material.call_method1(intern!(py, "ComputeSurfaceSource"), (&render_context,))?;
+            let shader = source.get_item(0)?;
+            if shader.is_truthy()? { Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)) } else { None }
+        } else {
+            from_usd::undeclared_source(&output.call_method0(intern!(py, "GetAttr"))?)?.map(|(prim, _)| prim)
+        };
+        surfaces.extend(shader.map(|shader| (render_context, shader)));
     }
     Ok(surfaces)
 }

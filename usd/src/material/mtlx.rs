@@ -34,7 +34,11 @@ impl Stated<'_> {
         let prefix = self.graph.and_then(|graph| graph.attribute("fileprefix")).or_else(|| self.document.attribute("fileprefix"));
         let folder = Path::new(self.folder);
         let plain = folder.join(name);
-        let path = if plain.exists() { plain } else { folder.join(format!("{}{name}", prefix.unwrap_or_default())) };
+        let path = if plain.exists() || Path::new(name).is_absolute() {
+            plain
+        } else {
+            folder.join(format!("{}{name}", prefix.unwrap_or_default()))
+        };
         path.to_string_lossy().into_owned()
     }
 }

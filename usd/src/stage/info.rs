@@ -57,7 +57,9 @@ pub(super) fn read_info(stage: &Bound<'_, PyAny>, path: &Path, diagnostics: &mut
     if axis != "Y" && axis != "Z" {
         warn(format!("upAxis is '{axis}', expected Y or Z; Y is used"));
     }
-    let mut metres_per_unit: f64 = geom.call_method1("GetStageMetersPerUnit", (stage,))?.extract()?;
+    // Old exporters write a number of single precision there, for which the function of `pxr` fails.
+    let told = geom.call_method1("GetStageMetersPerUnit", (stage,)).and_then(|metres| metres.extract());
+    let mut metres_per_unit: f64 = told.or_else(|_: PyErr| stage.call_method1("GetMetadata", ("metersPerUnit",))?.extract())?;
     if !(metres_per_unit > 0.0 && metres_per_unit.is_finite()) {
         warn(format!("metersPerUnit is {metres_per_unit}, expected a number above 0; {FALLBACK_METRES_PER_UNIT} is used"));
         metres_per_unit = FALLBACK_METRES_PER_UNIT;

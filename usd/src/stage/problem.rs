@@ -4,6 +4,7 @@ use crate::pxr;
 use gonio::scene::Origin;
 use gonio::{Diagnostic, Error};
 use pyo3::prelude::*;
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -44,6 +45,28 @@ pub(super) fn composition_errors(stage: &Bound<'_, PyAny>, path: &Path) -> Vec<D
     };
     let origin = file_origin(path);
     list.unwrap_or_default().into_iter().map(|error| Diagnostic::warning(&origin, text(error))).collect()
+}
+
+/// The same with one line a file that cannot be opened, however many prims refer to it.
+pub(super) fn counted(errors: &[Diagnostic]) -> Vec<Diagnostic> {
+    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut files: HashMap<&str, (usize, usize)> = HashMap::new();
+    for error in errors {
+        let file = error.message.strip_prefix("Could not open asset @").and_then(|rest| rest.split_once('@'));
+        let Some((file, _)) = file else {
+            told.push(error.clone());
+            continue;
+        };
+        let (_, count) = files.entry(file).or_insert((told.len(), 0));
+        *count += 1;
+        if *count == 1 {
+            told.push(error.clone());
+        }
+    }
+    for (place, count) in files.into_values().filter(|(_, count)| *count > 1) {
+        told[place].message.push_str(&format!(" ({count} places, this is the first)"));
+    }
+    told
 }
 
 /// Messages of `pxr` that say something new.

@@ -1,5 +1,6 @@
 //! A document's materials as the text of a USD layer.
 
+use super::include;
 use crate::material::library::Library;
 use crate::material::mtlx::{self, Stated};
 use crate::material::neutral::{Document, Node, Said, Source, Value};
@@ -20,19 +21,21 @@ pub(super) struct Converted {
 
 /// A document's materials as the text of a USD layer; nodes are named by the standard library where it is at hand.
 pub(super) fn convert(text: &str, file: &Path, standard: Option<&Library>) -> Result<Converted, String> {
-    let document = xml::parse(text).map_err(|error| format!("line {}: {}", error.line, error.problem))?;
+    let mut document = xml::parse(text).map_err(|error| format!("line {}: {}", error.line, error.problem))?;
     if document.name != "materialx" {
         return Err(format!("the root element is <{}>, expected <materialx>", document.name));
     }
+    let mut problems = Vec::new();
+    include::expand(&mut document, file, &mut problems);
     let folder = file.parent().unwrap_or(Path::new("")).to_string_lossy().into_owned();
     let library = Library::of(&[&document]);
     let libraries: Vec<&Library> = std::iter::once(&library).chain(standard).collect();
     let stated = Stated { document: &document, graph: None, folder: &folder };
-    let (mut materials, mut problems) = (String::new(), Vec::new());
+    let mut materials = String::new();
     for child in &document.children {
         match child.name.as_str() {
             "surfacematerial" => materials += &material(child, stated, &libraries, &mut problems),
-            "xi:include" | "include" | "material" => {
+            "material" => {
                 problems.push(format!("<{}> in MaterialX documents is not supported, it is left out", child.name));
             }
             _ => {}

@@ -86,12 +86,13 @@ fn select_chunk<L: Lanes>(
             total += likelihood(weight(l, &columns.outputs, one, at));
         }
         let own = weight(l, &columns.outputs, closure, at);
+        let share = likelihood(own) / total.max(1e-20);
         let (throughput, camera_share) = whole.undivided.carried.gather(l, path);
-        let part = camera_share * (likelihood(own) / total.max(1e-20));
         let numbers = &path.to_array()[..L::COUNT.min(count - at)];
-        paths.carried.scatter(throughput * own, part, numbers);
-        for (path, part) in numbers.iter().zip(part.to_array()) {
-            material_of[*path as usize] = if part > 0.0 { mix.first + closure as u32 } else { NONE };
+        paths.carried.scatter(throughput * own, camera_share * share, numbers);
+        // What the camera sees directly has nothing to do with which closures there are: behind mirrors and glass its share is 0.
+        for (path, share) in numbers.iter().zip(share.to_array()) {
+            material_of[*path as usize] = if share > 0.0 { mix.first + closure as u32 } else { NONE };
         }
     }
 }
