@@ -184,3 +184,10 @@ def test_white_is_white_where_the_light_is_at_the_camera(run, tmp_path):
 
     assert shown(unlit) == shown(unlit, "--tonemap", "none") != shown(unlit, "--tonemap", "photographic")
     assert shown(lit) == shown(lit, "--tonemap", "photographic")
+
+
+def test_indirect_samples_are_limited_where_the_light_is_at_the_camera(tmp_path):
+    unlit = pictures.stage(tmp_path / "unlit.usda", UNLIT)
+    lit = pictures.stage(tmp_path / "lit.usda", UNLIT, 'def DomeLight "Sky" {}\n')
+    limits = [gonio.load_usd(str(stage)).to_dict()["settings"]["clamp_indirect"] for stage in (unlit, lit)]
+    assert limits == [2.0, 0.0]

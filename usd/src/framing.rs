@@ -110,6 +110,9 @@ pub fn auto_camera(bounds: [[f64; 3]; 2], is_z_up: bool, aspect: f64) -> Camera 
     camera
 }
 
+/// Limit of indirect samples where the light is at the camera, in which white is 1, nits.
+pub const CAMERA_LIT_CLAMP: f32 = 2.0;
+
 /// The name of the light at the camera.
 const CAMERA_LIGHT: &str = "camera light";
 

@@ -2,7 +2,7 @@
 
 use crate::camera::choose;
 use crate::context::UpAxis;
-use crate::framing::{ConformPolicy, aperture_aspect, auto_camera, camera_light, dome_light};
+use crate::framing::{CAMERA_LIT_CLAMP, ConformPolicy, aperture_aspect, auto_camera, camera_light, dome_light};
 use crate::settings::{Framing, conform_cameras};
 use crate::stage::Loaded;
 use crate::{data_window, render_variable};
@@ -115,6 +115,10 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
         };
         notes.push(note(&format!("there is no light; {words} lights it (--disable-camera-light takes it away)")));
         scene.lights.push(light);
+        // Such pictures tell no quantities: the sparks that a light without size throws from metal and glass would.
+        if options.headlight == Headlight::Camera {
+            scene.settings.clamp_indirect = CAMERA_LIT_CLAMP;
+        }
     }
     conform_cameras(scene, framing.as_ref().map_or(ConformPolicy::default(), |framing| framing.conform));
     let window = framing.filter(|_| options.data_window).and_then(|Framing { data_window, .. }| data_window::apply(scene, data_window));

@@ -50,7 +50,7 @@ def normal_node(t, node, context, name="Normal"):
     socket = input_socket(node, name)
     if socket is None or not t.linked(node, name, context):
         return None if t.bent is None else t.bent.node
-    number = t.socket(socket, context).node
+    number = t.graph.node_of(t.socket(socket, context))
     return None if number == t.graph.add("Normal", kind="VECTOR").node else number
 
 
@@ -59,7 +59,7 @@ def tangent_node(t, node, context, anisotropy):
     if anisotropy.is_zero() or input_socket(node, "Tangent") is None:
         return None
     value = t.input(node, "Tangent", context) if t.linked(node, "Tangent", context) else radial_tangent(t)
-    return value.node
+    return t.graph.node_of(value)
 
 
 def subsurface_method(name, version):

@@ -95,7 +95,7 @@ def hair(t, node, context):
                 t.input(node, "RoughnessU", context, 0.1), t.input(node, "RoughnessV", context, 1.0), t.graph.scalar(0.0)
             ),
             hair_tilt=tilt,
-            tangent=t.input(node, "Tangent", context).node if is_along else None,
+            tangent=t.graph.node_of(t.input(node, "Tangent", context)) if is_along else None,
             fibres="SecondEdge",
         )
     ]

@@ -19,7 +19,7 @@ def measured(t, node, context):
     except (OSError, gonio.Error) as problem:
         t.say(node, context, f"{problem}; its fallback is used")
         return None
-    tangent = t.input(node, "Tangent", context).node if t.linked(node, "Tangent", context) else None
+    tangent = t.graph.node_of(t.input(node, "Tangent", context)) if t.linked(node, "Tangent", context) else None
     return [
         closure(
             t.graph,

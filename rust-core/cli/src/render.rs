@@ -292,7 +292,7 @@ impl Job<'_> {
         options.work.apply(settings);
         options.textures.apply(settings);
         settings.clamp_direct = options.clamp_direct;
-        settings.clamp_indirect = options.clamp_indirect;
+        settings.clamp_indirect = options.clamp_indirect.unwrap_or(settings.clamp_indirect);
         settings.time_limit_s = options.time_limit;
         if let Some(ranks) = options.cryptomatte_depth {
             settings.set_cryptomatte_depth(ranks.next_multiple_of(2));

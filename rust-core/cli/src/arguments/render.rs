@@ -102,9 +102,9 @@ pub(crate) struct RenderOptions {
     /// Limit of a direct sample in nits, as the mean of its components; 0 is off.
     #[arg(long = "clamp-direct", value_name = "NITS", default_value_t = 0.0)]
     pub(crate) clamp_direct: f32,
-    /// Limit of an indirect sample in nits, as the mean of its components; 0 is off.
-    #[arg(long = "clamp-indirect", value_name = "NITS", default_value_t = 0.0)]
-    pub(crate) clamp_indirect: f32,
+    /// Limit of an indirect sample in nits, as the mean of its components; 0 is off, as for stages that have lights (else 2).
+    #[arg(long = "clamp-indirect", value_name = "NITS")]
+    pub(crate) clamp_indirect: Option<f32>,
     /// No light at the camera for stages without lights.
     #[arg(long = "disable-camera-light")]
     pub(crate) disable_camera_light: bool,

@@ -50,6 +50,7 @@ pub(super) fn compile(
             }
         });
     }
+    table.any_exit = table.surfaces.iter().any(|surface| surface.exit.is_some());
     Ok(table)
 }
 
@@ -155,6 +156,11 @@ fn surface(
         None => Surface::new(constants, &varying, switches),
     };
     let lobes = surface.lobes;
+    let exit = (lobes.walk && wanted.normal.is_some()).then(|| {
+        // As in Cycles, what is under the surface takes no normal about which the way out would be mirrored into it.
+        let normal_alone = Wanted { normal: wanted.normal, smooth_normal: wanted.smooth_normal, uv: wanted.uv, ..Wanted::default() };
+        Box::new(Program::new(code, &normal_alone))
+    });
     SurfaceMaterial {
         transparent: surface.is_see_through(),
         emissive: lobes.emission,
@@ -165,6 +171,7 @@ fn surface(
         matte_id: scene::matte_id(&material.origin.name),
         surface,
         program,
+        exit,
         opacity_threshold: closure.opacity_threshold,
     }
 }

@@ -175,13 +175,21 @@ class Graph:
         simple = _simplify(operation, inputs)
         if simple is not None:
             return simple.as_kind(kind) if RANK[kind] > RANK[simple.kind] else simple
+        return Value(self, kind, node=self._number(operation, inputs), channel="R" if kind == "VALUE" else "Rgb")
+
+    def node_of(self, value):
+        """The number of the node that gives a value, for what takes nodes alone: a constant gets one."""
+        return self._number("Combine", [value.component(i) for i in range(4)]) if value.is_constant else value.node
+
+    def _number(self, operation, inputs):
+        """The number of a node, a new one unless it is known."""
         node = {"operation": operation, "inputs": [value.input() for value in inputs]}
         key = json.dumps(node, sort_keys=True)
         number = self._known.get(key)
         if number is None:
             number = self._known[key] = len(self.nodes)
             self.nodes.append(node)
-        return Value(self, kind, node=number, channel="R" if kind == "VALUE" else "Rgb")
+        return number
 
     @staticmethod
     def _fold(operation, inputs):

@@ -119,16 +119,44 @@ fn weigh_flights<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
     }
 }
 
-/// Lights the walks that reached the surface and sends them on, a chunk at a time.
-fn exit_walks(context: &WalkContext<'_>, walk_hits: &WalkHits, columns: &mut ChunkColumns, queues: &mut Queues, deposits: &mut Deposits) {
-    let nothing = Program::default();
-    for chunk in walk_hits.out.chunks(CHUNK) {
+/// Lights the walks that reached the surface and sends them on, a chunk at a time; where materials bend normals, a material at a time.
+fn exit_walks(
+    context: &WalkContext<'_>,
+    walk_hits: &mut WalkHits,
+    columns: &mut ChunkColumns,
+    queues: &mut Queues,
+    deposits: &mut Deposits,
+) {
+    let WalkContext { tables, .. } = *context;
+    let WalkHits { hits, out } = walk_hits;
+    if !tables.materials.any_exit {
+        return exit_alike(context, &Program::default(), (hits, out), columns, queues, deposits);
+    }
+    let material = |walk: u32| tables.geometry.material(hits.instance[walk as usize], hits.primitive[walk as usize]);
+    out.sort_unstable_by_key(|walk| (material(*walk), *walk));
+    for same in out.chunk_by(|one, next| material(*one) == material(*next)) {
+        let nothing = Program::default();
+        let program = tables.materials.exit(material(same[0])).unwrap_or(&nothing);
+        exit_alike(context, program, (hits, same), columns, queues, deposits);
+    }
+}
+
+/// Lights and sends on the walks that come `out` of surfaces whose normals a program bends alike.
+fn exit_alike(
+    context: &WalkContext<'_>,
+    program: &Program,
+    (hits, out): (&Hits, &[u32]),
+    columns: &mut ChunkColumns,
+    queues: &mut Queues,
+    deposits: &mut Deposits,
+) {
+    for chunk in out.chunks(CHUNK) {
         let mut order = [chunk[0]; CHUNK + PADDING];
         order[..chunk.len()].copy_from_slice(chunk);
         dispatch!(context.transport.execution, l => {
-            let source = ChunkSource { order: &order, count: chunk.len(), rays: ChunkRays::Rays(&queues.walks.rays) };
-            kernels::surface_points(l, context.tables, &nothing, &walk_hits.hits, &source, &mut columns.surface);
-            exit_chunk(l, context, &walk_hits.hits, (&order, chunk.len()), columns, queues, deposits);
+            let source = ChunkSource { order: &order, count: chunk.len(), rays: ChunkRays::Walks(&queues.walks) };
+            kernels::run_program(l, context.tables, program, hits, &source, columns);
+            exit_chunk(l, context, hits, (&order, chunk.len()), columns, queues, deposits);
         });
     }
 }
@@ -157,8 +185,7 @@ fn exit_chunk<L: Lanes>(
 fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -> Vertex<L> {
     let (l, surface) = (chunk.l, &chunk.columns.surface);
     let walk = l.load_integers(chunk.order, at);
-    // Surface columns face the ray's start, which is inside; the way out is the other one.
-    let normal = -load3(l, &surface.shading_normal, at);
+    let normal = load3(l, &surface.shading_normal, at);
     // Light paths bring nothing to where a walk comes out.
     let flags = l.gather_integers(&walks.flags, walk) | (flag::WALKED | flag::ROUGH);
     Vertex {
@@ -168,7 +195,7 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         at: Interaction {
             position: load3(l, &surface.position, at),
             error: l.load(&surface.error, at),
-            geometric: -load3(l, &surface.geometric_normal, at),
+            geometric: load3(l, &surface.geometric_normal, at),
             frame: Frame::from_normal(normal),
             receiver: chunk.tables.links.receiver(l, l.gather_integers(&walks.instance, walk)),
         },

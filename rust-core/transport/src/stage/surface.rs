@@ -6,6 +6,7 @@ use crate::graph::{Program, SurfaceColumns};
 use crate::state::columns::gather3;
 use crate::state::flag;
 use crate::state::paths::{ConeLanes, Paths, TrackLanes};
+use crate::state::queue::walks::Walks;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
 use gonio_accel::{Hits, TransparentHit};
@@ -18,6 +19,8 @@ pub(crate) enum ChunkRays<'a> {
     Paths(&'a Paths),
     /// Rays alone.
     Rays(&'a Rays),
+    /// Those of subsurface walks, turned round: points are seen from outside, where the light comes out.
+    Walks(&'a Walks),
 }
 
 impl ChunkRays<'_> {
@@ -27,6 +30,7 @@ impl ChunkRays<'_> {
         match self {
             ChunkRays::Paths(paths) => &paths.rays.time,
             ChunkRays::Rays(rays) => &rays.time,
+            ChunkRays::Walks(walks) => &walks.rays.time,
         }
     }
 }
@@ -106,6 +110,7 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
                 (direction, hits.distance.mul_add(paths.track(l, hits.ray).spread, width))
             }
             ChunkRays::Rays(rays) => (gather3(l, &rays.direction, hits.ray), l.f(0.0)),
+            ChunkRays::Walks(walks) => (-gather3(l, &walks.rays.direction, hits.ray), l.gather(&walks.width, hits.ray)),
         };
         if program.light_path {
             store_ray(l, &hits, source.rays, out, at);
@@ -126,6 +131,7 @@ fn store_ray<L: Lanes>(l: L, hits: &FoundHits<L>, rays: ChunkRays<'_>, out: &mut
             (flags, counts)
         }
         ChunkRays::Rays(_) => (l.u(flag::SHADOW), l.u(0)),
+        ChunkRays::Walks(walks) => (l.gather_integers(&walks.flags, hits.ray), l.gather_integers(&walks.counts, hits.ray)),
     };
     flags.store(&mut out.ray_flags, at);
     counts.store(&mut out.ray_counts, at);

@@ -13,6 +13,8 @@ pub struct SurfaceMaterial {
     pub surface: Surface,
     /// What computes the parameters that are not constant.
     pub program: Program,
+    /// What bends the normal where subsurface walks come out, if anything does.
+    pub exit: Option<Box<Program>>,
     /// Opacity below this is 0, else 1; 0 leaves it as it is.
     pub opacity_threshold: f32,
     /// Whether it may let straight light pass.
@@ -75,6 +77,8 @@ pub struct MaterialTable {
     pub numbers: Vec<Shading>,
     /// Of the materials that have any, what they show in passes of their own.
     pub shader_outputs: Vec<ShaderOutputs>,
+    /// Whether any surface has an exit program.
+    pub any_exit: bool,
 }
 
 impl MaterialTable {
@@ -100,6 +104,17 @@ impl MaterialTable {
             Shading::Mix(mix) => self.mixes[mix as usize].first,
         };
         self.surfaces.get(surface as usize)?.interior
+    }
+    /// What bends the normal where walks come out of a material of the geometry; of a mix that of its first closure with one.
+    pub fn exit(&self, number: u32) -> Option<&Program> {
+        let surfaces = match self.shading(number) {
+            Shading::Surface(surface) => surface as usize..surface as usize + 1,
+            Shading::Mix(mix) => {
+                let mix = &self.mixes[mix as usize];
+                mix.first as usize..mix.first as usize + mix.count
+            }
+        };
+        self.surfaces[surfaces].iter().find_map(|surface| surface.exit.as_deref())
     }
     /// Whether a material of the geometry may let straight light pass.
     pub fn transparent(&self, number: u32) -> bool {
