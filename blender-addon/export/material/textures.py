@@ -14,6 +14,8 @@ WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirro
 FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": "Cubic"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
+# Alpha below this is none.
+NO_ALPHA = 1e-8
 
 
 def coordinates(t, node, context, default):
@@ -40,11 +42,16 @@ def image_texture(t, node, context, output):
 def _texel(t, node, context, output, uv):
     wrap, image = WRAP[node.extension], node.image
     if t.kind == "Material" and image is not None and node.interpolation != "Closest" and _is_encoded(image):
-        is_multiplied = _is_multiplied(t, node, output)
+        # Where both outputs are in use, one picture serves them.
+        is_multiplied = _is_product(t, image) and node.outputs["Color"].is_linked
         number = t.images.encoded(image, node.image_user, t.report, is_multiplied)
         if number is not None:
             texel = _look_up(t, node, number, uv, wrap)
-            texel = texel if output.identifier == "Alpha" else decoded(t, texel, texel.component(3))
+            if output.identifier == "Alpha":
+                return _with_alpha(t, node, output, texel)
+            if is_multiplied and node.outputs["Alpha"].is_linked:
+                texel = texel / texel.component(3).maximum(NO_ALPHA)
+            texel = decoded(t, texel, texel.component(3))
             return texel if is_multiplied else _with_alpha(t, node, output, texel)
     return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
 
@@ -70,16 +77,14 @@ def _is_encoded(image):
     return not image.is_float and not space.is_data and gonio_name(space.name) == "srgb_texture"
 
 
-def _is_multiplied(t, node, output):
-    """Cycles' rule: colours are multiplied by alpha, unless the Alpha output is in use too; data, and what has no alpha, never."""
-    image = node.image
+def _is_product(t, image):
+    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and what
+    has no alpha, never."""
     return (
-        output.identifier != "Alpha"
-        and image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
+        image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
         and not image.colorspace_settings.is_data
         and t.images.has_alpha(image)
         and not t.images.stores_premultiplied(image)
-        and not node.outputs["Alpha"].is_linked
     )
 
 
@@ -90,7 +95,10 @@ def _with_alpha(t, node, output, texel):
         return t.graph.scalar(1.0) if image is None or image.alpha_mode == "NONE" else texel.component(3)
     if image is None or texel.is_constant:
         return texel
-    if _is_multiplied(t, node, output):
+    if _is_product(t, image):
+        if node.outputs["Alpha"].is_linked:
+            # What hides where nothing is seen stays hidden.
+            return texel * texel.component(3).sign()
         return multiplied_encoded(t, texel, node.interpolation == "Closest") if _is_encoded(image) else texel * texel.component(3)
     stores_product = image.alpha_mode == "PREMUL" or (image.alpha_mode == "STRAIGHT" and t.images.stores_premultiplied(image))
     takes_apart = stores_product and not image.colorspace_settings.is_data and t.images.has_alpha(image)
