@@ -107,7 +107,6 @@ MATERIALS = {
         "what the middle of the lens stands in counts for all of it; the texels' surroundings are clear",
     ),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
-    "opaque shadows": Limit("Transparent Shadows that are switched off", "light passes what is transparent"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
     "huang": _quietly("Principled Hair BSDF: Huang's model", "Chiang's model of the same colour and roughness; a round section"),
     "closure": Limit("Other shaders that are named in the report", "a diffuse surface of its colour"),

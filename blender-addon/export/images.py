@@ -49,24 +49,24 @@ class Images:
             self._slots.place(self._scene.put_texture, number, description, **buffers)
         return number
 
-    def of_bytes(self, image, user, report, is_multiplied):
-        """The number of an image of sRGB's bytes that bytes give, multiplied by alpha if asked for; None where it is of another kind than one
-        picture."""
+    def of_bytes(self, image, user, report, product):
+        """The number of an image of sRGB's bytes that bytes give, their "codes" or their "light" multiplied by alpha if asked for; None where it
+        is of another kind than one picture."""
         if image.source not in ("FILE", "GENERATED"):
             return None
         self._users[image.session_uid] = user
         key, _ = self._source(image, user, report)
         if key is None:
             return None
-        if not is_multiplied and key[0] in ("file", "packed"):
+        if product is None and key[0] in ("file", "packed"):
             return self.texture(image, user, report)
         if not (image.size[0] and image.size[1]):
             return None
-        number, is_new = self._slots.take(("bytes", is_multiplied, *key))
+        number, is_new = self._slots.take(("bytes", product, *key))
         if is_new:
             name = f"{os.path.basename(image.filepath) or image.name}.png"
             description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": "srgb_texture"}
-            data = (name, png_of(bytes_of(pixels_of(image), is_multiplied)))
+            data = (name, png_of(bytes_of(pixels_of(image), product)))
             self._slots.place(self._scene.put_texture, number, description, data=data)
         return number
 

@@ -27,10 +27,7 @@ WORLD = (
     ("shadow caustics", "cycles.is_caustics_light", (False,), ""),
     ("lamp bounces", "cycles.max_bounces", (1024,), "Most bounces of the world"),
 )
-MATERIAL = (
-    ("opaque shadows", "use_transparent_shadow", (True,), ""),
-    ("bump correction", "cycles.use_bump_map_correction", (True,), ""),
-)
+MATERIAL = (("bump correction", "cycles.use_bump_map_correction", (True,), ""),)
 # Kinds of objects that are shown, beside those that become meshes.
 SHOWN = {"MESH", "CURVES", "POINTCLOUD"}
 # Switches of passes that mean no pass that could be missing: subsurface light is part of the diffuse passes, as in Cycles.

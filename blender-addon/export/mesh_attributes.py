@@ -57,7 +57,7 @@ def wanted(mesh, points, primvars, spread):
         if name == POSITION:
             found[name] = spread_out(points, spread)
         elif name == GENERATED:
-            found[name] = spread_out(_generated(mesh, points), spread)
+            found[name] = spread_out(_generated(mesh), spread)
         elif name == POINTINESS:
             found[name] = spread_out(as_shader_value(pointiness(points, vertex_normals(mesh), edges_of(mesh))[:, None]), spread)
         elif name == ISLAND:
@@ -120,8 +120,11 @@ def as_shader_value(values):
     return values
 
 
-def _generated(mesh, points):
-    """Positions over the texture space's box, 0 to 1."""
+def _generated(mesh):
+    """Positions before modifiers deformed them over the texture space's box, 0 to 1. Blender keeps them for final renders alone; otherwise
+    positions stand for them, as in Cycles."""
+    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.vertices.foreach_get("undeformed_co", points.reshape(-1))
     centre, size = np.array(mesh.texspace_location), np.array(mesh.texspace_size)
     size = np.where(size == 0.0, 1.0, size)
     return ((points - (centre - size)) / (2.0 * size)).astype(np.float32)

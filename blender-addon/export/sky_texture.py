@@ -85,7 +85,7 @@ def _drawn(node):
     diameter = degrees(node.sun_size)
     image, sun = gonio.artist_sky(MODELS[kind], elevation, diameter=diameter, rows=ROWS, **_air(node))
     pixels = np.array(image)
-    if kind == "NISHITA":
+    if MODELS[kind] == "single-scattering":
         _fade_below(pixels)
     strength = node.sun_intensity * MEAN_LIMB if node.sun_disc else 0.0
     return Picture(f"Sky {kind}", pixels, tuple(strength * x for x in sun), diameter, elevation), azimuth
@@ -122,7 +122,7 @@ def _old(node, kind):
 
 
 def _fade_below(pixels):
-    """Blender 4's sky goes on for a while below the horizon."""
+    """The sky of single scattering goes on for a while below the horizon."""
     rows = pixels.shape[0]
     up = np.cos(np.pi * (np.arange(rows // 2, rows) + 0.5) / rows)
     fade = np.maximum(1.0 + 2.5 * up, 0.0) ** 3

@@ -36,6 +36,36 @@ def shown(image=None, output=0, **fields):
     return make
 
 
+def hidden():
+    """Bytes of one colour, and of others where alpha hides them."""
+    import numpy as np
+
+    made = picture("Hidden", alpha=True, is_float=False)
+    values = np.empty((4, 5, 4), dtype=np.float32)
+    values[..., :3] = np.random.default_rng(9).uniform(0.1, 1.0, (4, 5, 3))
+    values[..., 3] = np.array([0.0, 1.0, 1.0, 0.0, 1.0])
+    values[values[..., 3] > 0.0, :3] = (0.8, 0.5, 0.2)
+    made.pixels.foreach_set(values.ravel())
+    made.pack()
+    return made
+
+
+def both_outputs(**fields):
+    """As `shown`, of a texture whose alpha is in use too: it adds to the strength."""
+
+    def make():
+        made = shown(hidden, **fields)()
+        tree = made.node_tree
+        kinds = {node.bl_idname: node for node in tree.nodes}
+        more = tree.nodes.new("ShaderNodeMath")
+        tree.links.new(kinds["ShaderNodeTexImage"].outputs["Alpha"], more.inputs[0])
+        more.inputs[1].default_value = 1.0
+        tree.links.new(more.outputs[0], kinds["ShaderNodeEmission"].inputs["Strength"])
+        return made
+
+    return make
+
+
 CASES = {
     **{
         f"cubic {wrap}": shown(lambda: picture("A"), interpolation="Cubic", extension=wrap)
@@ -49,6 +79,8 @@ CASES = {
     "bytes, alpha": shown(lambda: picture("G", alpha=True, is_float=False)),
     "bytes, alpha alone": shown(lambda: picture("H", alpha=True, is_float=False), 1),
     "bytes, alpha, cubic": shown(lambda: picture("I", alpha=True, is_float=False), interpolation="Cubic", extension="CLIP"),
+    "bytes, alpha too": both_outputs(),
+    "bytes, alpha too, cubic": both_outputs(interpolation="Cubic"),
     "none": shown(),
     "no alpha": shown(output=1),
 }

@@ -33,11 +33,11 @@ def test_equal_messages_are_counted(tmp_path):
 
     report = module("report").Report()
     for name in ("A", "B", "C"):
-        report.tell("opaque shadows", "Material", name)
+        report.tell("volume", "Material", name)
     report.add("Object", "D", "dark", severity="ERROR")
     assert [(line.text, line.count) for line in report.counted] == [
         ("D: dark", 1),
-        ("A and 2 more: Transparent Shadows that are switched off: not supported; light passes what is transparent", 3),
+        ("A and 2 more: Volumes of materials beyond even absorption: not supported; the inside stays empty; without a surface, rays pass", 3),
     ]
     assert report.summary() == "D: dark, and 1 more in the Gonio Report panel"
     report.forget("Material", "A")

@@ -191,6 +191,8 @@ def test_indirect_samples_are_limited_where_the_light_is_at_the_camera(tmp_path)
     lit = pictures.stage(tmp_path / "lit.usda", UNLIT, 'def DomeLight "Sky" {}\n')
     limits = [gonio.load_usd(str(stage)).to_dict()["settings"]["clamp_indirect"] for stage in (unlit, lit)]
     assert limits == [2.0, 0.0]
+
+
 def test_units_of_single_precision_are_read(tmp_path):
     """As Blender 2.9 to 3.1 wrote them, which pxr refuses."""
     from pxr import Usd, UsdGeom

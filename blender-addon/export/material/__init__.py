@@ -64,7 +64,11 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         inside = _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
-    return Translated(_described(t, material, outputs, displacement, inside), t.primvars, t.instance_primvars, t.asked)
+    described = _described(t, material, outputs, displacement, inside)
+    if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):
+        # Cycles lets light into volumes always.
+        described["transparent_shadows"] = False
+    return Translated(described, t.primvars, t.instance_primvars, t.asked)
 
 
 def _rest(t, end, material):

@@ -16,6 +16,8 @@ FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": 
 FILTERS_OF_CODES = {"Closest": "Closest", "Linear": "LinearCodes", "Cubic": "CubicCodes", "Smart": "CubicCodes"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
+# Alpha below this is none.
+NO_ALPHA = 1e-8
 
 
 def coordinates(t, node, context, default):
@@ -42,11 +44,17 @@ def image_texture(t, node, context, output):
 def _texel(t, node, context, output, uv):
     wrap, image = WRAP[node.extension], node.image
     if t.kind == "Material" and image is not None and node.interpolation != "Closest" and _is_encoded(image):
-        is_multiplied = _is_multiplied(t, node, output)
-        number = t.images.of_bytes(image, node.image_user, t.report, is_multiplied)
+        is_product = _is_product(t, image) and node.outputs["Color"].is_linked
+        # Where both outputs are in use, one picture serves them: light, for that is what is divided by alpha again.
+        is_divided = is_product and node.outputs["Alpha"].is_linked
+        product = "light" if is_divided else "codes" if is_product else None
+        number = t.images.of_bytes(image, node.image_user, t.report, product)
         if number is not None:
-            texel = _look_up(t, node, number, uv, wrap)
-            return texel if is_multiplied else _with_alpha(t, node, output, texel)
+            texel = _look_up(t, node, number, uv, wrap, is_light=is_divided)
+            if is_divided and output.identifier != "Alpha":
+                return texel / texel.component(3).maximum(NO_ALPHA)
+            is_done = is_product and output.identifier != "Alpha"
+            return texel if is_done else _with_alpha(t, node, output, texel)
     return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
 
 
@@ -55,8 +63,8 @@ def _sample(t, node, context, uv, wrap):
     return t.graph.colour(MISSING) if number is None else _look_up(t, node, number, uv, wrap)
 
 
-def _look_up(t, node, number, uv, wrap):
-    filters = FILTERS_OF_CODES if _is_encoded(node.image) else FILTERS
+def _look_up(t, node, number, uv, wrap, is_light=False):
+    filters = FILTERS_OF_CODES if _is_encoded(node.image) and not is_light else FILTERS
     return look_up(t, number, uv, (wrap, wrap), filters[node.interpolation], MISSING)
 
 
@@ -72,16 +80,14 @@ def _is_encoded(image):
     return not image.is_float and not space.is_data and gonio_name(space.name) == "srgb_texture"
 
 
-def _is_multiplied(t, node, output):
-    """Cycles' rule: colours are multiplied by alpha, unless the Alpha output is in use too; data, and what has no alpha, never."""
-    image = node.image
+def _is_product(t, image):
+    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and what
+    has no alpha, never."""
     return (
-        output.identifier != "Alpha"
-        and image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
+        image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
         and not image.colorspace_settings.is_data
         and t.images.has_alpha(image)
         and not t.images.stores_premultiplied(image)
-        and not node.outputs["Alpha"].is_linked
     )
 
 
@@ -92,7 +98,10 @@ def _with_alpha(t, node, output, texel):
         return t.graph.scalar(1.0) if image is None or image.alpha_mode == "NONE" else texel.component(3)
     if image is None or texel.is_constant:
         return texel
-    if _is_multiplied(t, node, output):
+    if _is_product(t, image):
+        if node.outputs["Alpha"].is_linked:
+            # What hides where nothing is seen stays hidden.
+            return texel * texel.component(3).sign()
         return multiplied_encoded(t, texel, node.interpolation == "Closest") if _is_encoded(image) else texel * texel.component(3)
     stores_product = image.alpha_mode == "PREMUL" or (image.alpha_mode == "STRAIGHT" and t.images.stores_premultiplied(image))
     takes_apart = stores_product and not image.colorspace_settings.is_data and t.images.has_alpha(image)

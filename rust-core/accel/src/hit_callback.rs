@@ -42,8 +42,9 @@ impl HitCallback for Nearest {
 
     #[inline(always)]
     fn add(&mut self, hit: Hit, _transparent: bool) -> bool {
-        // Equal distances go to the lower numbers, so that the order of traversal does not show.
-        if hit.t < self.0.t || (hit.t == self.0.t && (hit.instance, hit.primitive) < (self.0.instance, self.0.primitive)) {
+        // Equal distances go to the lower instance and its higher primitive, so that the order of traversal does not show: of faces that lie on each
+        // other in a mesh the last is seen, as in Cycles.
+        if hit.t < self.0.t || (hit.t == self.0.t && (hit.instance, !hit.primitive) < (self.0.instance, !self.0.primitive)) {
             self.0 = hit;
         }
         false

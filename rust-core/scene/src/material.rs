@@ -204,10 +204,17 @@ pub struct Material {
     /// Absorption a metre of what fills the closed mesh that the surface is of; straight light, too, loses it.
     #[serde(skip_serializing_if = "is_clear")]
     pub absorption: [f32; 3],
+    /// Whether light comes through where the surface is transparent; otherwise it blocks shadow rays as an opaque one.
+    #[serde(skip_serializing_if = "is_true")]
+    pub transparent_shadows: bool,
     /// What the material index pass shows.
     pub pass_index: u32,
     /// What shader passes show; entries of one name add up.
     pub shader_outputs: Vec<ShaderOutput>,
+}
+
+fn is_true(value: &bool) -> bool {
+    *value
 }
 
 fn is_clear(absorption: &[f32; 3]) -> bool {
@@ -224,6 +231,7 @@ impl Default for Material {
             normal: None,
             displacement: None,
             absorption: [0.0; 3],
+            transparent_shadows: true,
             pass_index: 0,
             shader_outputs: Vec::new(),
         }

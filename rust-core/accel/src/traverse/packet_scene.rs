@@ -393,9 +393,9 @@ fn intersect_triangle<S: Simd, const ANY: bool>(
     let (old_primitive, old_instance) = (u32x16::from_slice(simd, &hits.primitive), u32x16::from_slice(simd, &hits.instance));
     let primitive = u32x16::splat(simd, block.primitives[triangle]);
     let instance = u32x16::splat(simd, instance);
-    // Equal distances go to the lower numbers, as in `Nearest`.
-    let lower = instance.simd_lt(old_instance) | (instance.simd_eq(old_instance) & primitive.simd_lt(old_primitive));
-    let hit = hit & (t.simd_lt(t_max) | lower);
+    // Equal distances go to the lower instance and its higher primitive, as in `Nearest`.
+    let preferred = instance.simd_lt(old_instance) | (instance.simd_eq(old_instance) & primitive.simd_gt(old_primitive));
+    let hit = hit & (t.simd_lt(t_max) | preferred);
     hit.select(t, t_max).store_slice(&mut hits.t);
     hit.select(v * inverse, f32x16::from_slice(simd, &hits.u)).store_slice(&mut hits.u);
     hit.select(w * inverse, f32x16::from_slice(simd, &hits.v)).store_slice(&mut hits.v);

@@ -32,7 +32,7 @@ pub(super) fn append_instances(
     let known = |slot: usize| group.materials.get(slot).map(|id| id.index()).filter(|id| *id < default);
     let number = |slot: usize| materials.number(known(slot).unwrap_or(default));
     table.materials.extend((0..slots).map(number));
-    let transparent = (0..slots).any(|slot| materials.transparent(number(slot)));
+    let transparent = (0..slots).any(|slot| materials.lets_light_pass(number(slot)));
     let first_primvar = append_own_primvars(group, names, table, diagnostics);
     let row = InstanceRow { first_primvar, first_material, set, ..mesh };
     let mask = [

@@ -90,7 +90,7 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
         first,
         count: closures.len(),
         program,
-        transparent: own.iter().any(|surface| surface.transparent),
+        lets_light_pass: own.iter().any(|surface| surface.lets_light_pass),
         emissive: own.iter().any(|surface| surface.emissive),
         even_emission: (constant && own.iter().all(SurfaceMaterial::emits_evenly)).then(|| {
             let glow = |closure: &Closure, surface: &SurfaceMaterial, c: usize| match closure.weight {
@@ -163,6 +163,7 @@ fn surface(
     });
     SurfaceMaterial {
         transparent: surface.is_see_through(),
+        lets_light_pass: surface.is_see_through() && material.transparent_shadows,
         emissive: lobes.emission,
         interior: interior(material),
         anisotropic: lobes.anisotropic,

@@ -193,7 +193,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let casters = Casters::of(scene, &mesh_bounds, &materials, origin);
     let rows = geometry.table.instances.iter().take(geometry.first_light as usize).map(|row| (row.set, row.number, row.mesh));
     let bodies = Bodies::of(scene, &mesh_bounds, &materials, rows);
-    let any_transparent = materials.surfaces.iter().any(|surface| surface.transparent);
+    let any_transparent = materials.surfaces.iter().any(|surface| surface.lets_light_pass);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
         bvh,

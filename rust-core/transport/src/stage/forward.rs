@@ -5,7 +5,7 @@ use crate::accumulate::light_sums::code;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
 use crate::stage::merge::in_share;
-use crate::stage::nee::{seen_share, shares_of};
+use crate::stage::nee::{gone_straight, seen_share, shares_of};
 use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::normals;
 use crate::stage::volume;
@@ -247,11 +247,9 @@ fn connect<'s, L: Lanes>(
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     let medium = volume::start(chunk.tables, point, to);
-    queues
-        .light_paths
-        .connections
-        .rays
-        .append(&ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares: Some(shares), receiver: None, medium }, lit);
+    let straight = gone_straight(chunk.tables, chunk.transport, point.counts);
+    let sent = ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares: Some(shares), receiver: None, medium, straight };
+    queues.light_paths.connections.rays.append(&sent, lit);
 }
 
 /// Flux that an interface sends to its other side as the radiance that camera paths keep there, without the squared index.

@@ -5,7 +5,7 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
 use crate::stage::merge::{Found, irradiance};
-use crate::stage::nee::send;
+use crate::stage::nee::{gone_straight, send};
 use crate::state::columns::load3;
 use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
@@ -141,7 +141,8 @@ fn queue_shadow_ray<L: Lanes>(
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
     let medium = if chunk.tables.any_volume { Some(point.medium) } else { None };
-    send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium), &light, lit, shadows, deposits);
+    let straight = gone_straight(chunk.tables, chunk.transport, chunk.l.u(0));
+    send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium, straight), &light, lit, shadows, deposits);
 }
 
 #[inline(always)]

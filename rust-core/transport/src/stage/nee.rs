@@ -11,6 +11,7 @@ use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
+use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
@@ -76,12 +77,13 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
+    let straight = gone_straight(tables, transport, point.counts);
     // One call each: rays of both in one place would be copied through memory.
     match &lifted {
-        None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium), &light, lit, shadows, deposits),
+        None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium, straight), &light, lit, shadows, deposits),
         Some(lifted) => {
             let ray = lifted.spawn_ray_to(&point.at, sample);
-            send(transport, (&point.at, ray), (sample, medium), &light, lit, shadows, deposits);
+            send(transport, (&point.at, ray), (sample, medium, straight), &light, lit, shadows, deposits);
         }
     }
 }
@@ -117,13 +119,19 @@ pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy
     seen.max(0.0)
 }
 
+/// How many surfaces paths have gone straight through, where their number is limited.
+#[inline(always)]
+pub(crate) fn gone_straight<L: Lanes>(tables: &Tables, transport: &Transport, counts: U<L>) -> Option<U<L>> {
+    if tables.any_transparent && transport.limits.counts_straight() { Some(counts >> 24) } else { None }
+}
+
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there, which starts in a medium where
-/// anything fills meshes.
+/// anything fills meshes and knows how many surfaces its path has gone straight through.
 #[inline(always)]
 pub(crate) fn send<L: Lanes>(
     transport: &Transport,
     (at, ray): (&Interaction<L>, RayLanes<L>),
-    (sample, medium): (&LightSample<L>, Option<Spectrum<L>>),
+    (sample, medium, straight): (&LightSample<L>, Option<Spectrum<L>>, Option<U<L>>),
     light: &Contribution<L>,
     lit: M<L>,
     shadows: &mut ShadowRays,
@@ -132,7 +140,7 @@ pub(crate) fn send<L: Lanes>(
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium };
+    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium, straight };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -16,7 +16,7 @@ use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::tables::Tables;
 use crate::tables::material::{Shading, parameter_values, threshold};
-use crate::tables::transport::Transport;
+use crate::tables::transport::{Limits, Transport};
 use gonio_accel::TransparentHit;
 use gonio_bsdf::parameter::{OPACITY, spectrum};
 use gonio_simd::{Frame, Lanes, Rgb, Spectrum, SpectrumColumns, dispatch};
@@ -87,10 +87,29 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
     }
 }
 
+/// Blocks rays that pass more surfaces than their paths may still go straight through.
+fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
+    let ShadowTrace { blocked, passed, crossed, .. } = trace;
+    crossed.clear();
+    crossed.resize(shadows.count, 0);
+    for hit in &*passed {
+        crossed[hit.ray as usize] += 1;
+    }
+    for (ray, crossed) in crossed.iter().enumerate() {
+        if *crossed > limits.straight_left(shadows.straight[ray]) {
+            blocked[ray] = 1;
+        }
+    }
+    passed.retain(|hit| blocked[hit.ray as usize] == 0);
+}
+
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     if tables.any_volume {
         dispatch!(transport.execution, l => volume::begin(l, shadows, trace));
+    }
+    if tables.any_transparent && transport.limits.counts_straight() {
+        block_deep(&transport.limits, trace, shadows);
     }
     let mut passed = std::mem::take(&mut trace.passed);
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
@@ -162,7 +181,7 @@ fn add_transmittance<L: Lanes>(
     columns: &mut ChunkColumns,
 ) {
     let material = &tables.materials.surfaces[surface];
-    if !material.transparent {
+    if !material.lets_light_pass {
         return;
     }
     kernels::run_program(l, tables, &material.program, hits, source, columns);

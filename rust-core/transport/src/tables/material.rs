@@ -17,8 +17,10 @@ pub struct SurfaceMaterial {
     pub exit: Option<Box<Program>>,
     /// Opacity below this is 0, else 1; 0 leaves it as it is.
     pub opacity_threshold: f32,
-    /// Whether it may let straight light pass.
+    /// Whether it may let paths go straight on.
     pub transparent: bool,
+    /// Whether shadow rays may pass it, too.
+    pub lets_light_pass: bool,
     /// Whether it may emit.
     pub emissive: bool,
     /// Absorption a metre of what fills the closed mesh, if anything does.
@@ -49,8 +51,8 @@ pub struct Mix {
     pub count: usize,
     /// What computes the weights: output `i` is the weight of closure `i`, a colour.
     pub program: Program,
-    /// Whether any closure may let straight light pass.
-    pub transparent: bool,
+    /// Whether shadow rays may pass any closure.
+    pub lets_light_pass: bool,
     /// Whether any closure may emit.
     pub emissive: bool,
     /// What all closures emit together where that is the same everywhere.
@@ -116,11 +118,11 @@ impl MaterialTable {
         };
         self.surfaces[surfaces].iter().find_map(|surface| surface.exit.as_deref())
     }
-    /// Whether a material of the geometry may let straight light pass.
-    pub fn transparent(&self, number: u32) -> bool {
+    /// Whether shadow rays may pass a material of the geometry.
+    pub fn lets_light_pass(&self, number: u32) -> bool {
         match self.shading(number) {
-            Shading::Surface(surface) => self.surfaces[surface as usize].transparent,
-            Shading::Mix(mix) => self.mixes[mix as usize].transparent,
+            Shading::Surface(surface) => self.surfaces[surface as usize].lets_light_pass,
+            Shading::Mix(mix) => self.mixes[mix as usize].lets_light_pass,
         }
     }
     /// Whether a material of the geometry may emit, and not everywhere alike.

@@ -116,6 +116,16 @@ impl Limits {
         at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
     }
 
+    /// Whether the number of surfaces that light goes straight through is limited.
+    pub(crate) fn counts_straight(&self) -> bool {
+        self.kind_bounces[3] < 255
+    }
+
+    /// How many surfaces light may still go straight through, after so many.
+    pub(crate) fn straight_left(&self, gone: u32) -> u32 {
+        self.kind_bounces[3].saturating_sub(gone)
+    }
+
     /// Whether a path may go straight through one more surface.
     #[inline(always)]
     pub(crate) fn allow_straight<L: Lanes>(&self, counts: U<L>) -> M<L> {

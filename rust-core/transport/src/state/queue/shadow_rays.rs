@@ -28,6 +28,8 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) receiver: Option<U<L>>,
     /// Absorption a metre where it starts, where anything fills meshes.
     pub(crate) medium: Option<Spectrum<L>>,
+    /// Surfaces that its path has gone straight through, where their number is limited.
+    pub(crate) straight: Option<U<L>>,
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -48,6 +50,8 @@ pub(crate) struct ShadowRays {
     pub(crate) receiver: Column<u32>,
     /// Absorption a metre where rays start; filled where anything fills meshes.
     pub(crate) medium: SpectrumColumns,
+    /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
+    pub(crate) straight: Column<u32>,
 }
 
 impl Default for ShadowRays {
@@ -70,6 +74,7 @@ impl ShadowRays {
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
             receiver: Column::new(room),
             medium: SpectrumColumns::new(room),
+            straight: Column::new(room),
         }
     }
 
@@ -110,6 +115,9 @@ impl ShadowRays {
         }
         if let Some(medium) = ray.medium {
             self.medium.append(medium, chosen, n);
+        }
+        if let Some(straight) = ray.straight {
+            straight.append(chosen, &mut self.straight, n);
         }
         self.count += chosen.count();
     }

@@ -16,6 +16,8 @@ pub(crate) struct ShadowTrace {
     pub(crate) blocked: Vec<u8>,
     /// Hits on the transparent surfaces that rays pass.
     pub(crate) passed: Vec<TransparentHit>,
+    /// By shadow ray, how many such hits it has; used where their number is limited.
+    pub(crate) crossed: Vec<u32>,
     /// Weights of a mix over a chunk of such hits, three channels a closure.
     pub(crate) weights: Vec<f32>,
     /// What a chunk of such hits lets pass.
@@ -63,6 +65,7 @@ impl Default for ShadowTrace {
             order: ShadowOrder::default(),
             blocked: Vec::new(),
             passed: Vec::new(),
+            crossed: Vec::new(),
             weights: Vec::new(),
             factors: SpectrumColumns::new(CHUNK),
             depth: SpectrumColumns::new(SHADOW_ROOM),
