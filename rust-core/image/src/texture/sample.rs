@@ -92,6 +92,13 @@ impl MipMap {
         // Splines reach over the edge, so that how far beyond it a place lies counts.
         let along = wrap.map(|wrap| if wrap == Wrap::Clamp && filter.is_cubic() { Wrap::Black } else { wrap });
         let position = Vec2 { x: along[0].position(uv.x), y: 1.0 - along[1].position(uv.y) };
+        // Beyond its edges a clamped image is that edge alone, into which coarser levels mix what lies inside.
+        let mut width = width;
+        for (axis, coordinate) in [uv.x, uv.y].into_iter().enumerate() {
+            if wrap[axis] == Wrap::Clamp {
+                width = (coordinate.lt(0.0) | coordinate.gt(1.0)).select(l.f(0.0), width);
+            }
+        }
         let place = Place { position, width, wanted };
         match (self.format, self.transfer) {
             (TexelFormat::Byte, Transfer::Srgb) if filter.mixes_codes() => self.codes_or_light(l, texels, place, wrap, filter.is_cubic()),

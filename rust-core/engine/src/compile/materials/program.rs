@@ -29,8 +29,15 @@ pub(super) struct CompiledGraph {
 struct NodeFacts {
     /// Primvar column its value follows.
     column: Option<usize>,
-    /// How much transforms scaled its coordinates.
+    /// How much transforms scaled its coordinates; 0 where they are bent.
     scale: f32,
+}
+
+impl NodeFacts {
+    /// Size of a unit of coordinates for the footprints of the column `uv`; 0, which asks for the finest level, where they follow something else.
+    fn footprint(self, uv: Option<usize>) -> f32 {
+        if self.column.is_some() && self.column == uv { self.scale } else { 0.0 }
+    }
 }
 
 /// Lays out a material's graph.
@@ -43,10 +50,10 @@ pub(super) fn compile_graph(material: &Material, textures: &CompiledTextures, na
         }
         facts.push(facts_of(node, &facts, names));
     }
-    let code = Code::new(&material.graph, |number, operation| hit(operation, facts[number], textures, names));
     let is_image = |node: &Node| matches!(&node.operation, Operation::Image { texture, .. } if textures.number(*texture).is_some());
     let images = nodes.iter().zip(&facts).filter(|(node, _)| is_image(node));
     let uv = images.filter_map(|(_, facts)| facts.column).next();
+    let code = Code::new(&material.graph, |number, operation| hit(operation, facts[number].footprint(uv), textures, names));
     // A tangent is wanted even where no image is: for anisotropy.
     Ok(CompiledGraph { code: Arc::new(code), uv: uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name))) })
 }
@@ -80,12 +87,22 @@ fn facts_of(node: &Node, facts: &[NodeFacts], names: &[String]) -> NodeFacts {
             Some(Input::Constant(value)) => scaled(value[0] * value[1]),
             _ => inherited,
         },
+        Operation::Power
+        | Operation::SquareRoot
+        | Operation::Exponential
+        | Operation::Logarithm
+        | Operation::Sine
+        | Operation::Cosine
+        | Operation::ArcSine
+        | Operation::ArcCosine
+        | Operation::ArcTangent2
+        | Operation::Normalize => NodeFacts { scale: 0.0, ..inherited },
         _ => inherited,
     }
 }
 
 /// What an operation of the table's section `hit` is in this scene.
-fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, names: &[String]) -> Hit<HitStep> {
+fn hit(operation: &Operation, footprint: f32, textures: &CompiledTextures, names: &[String]) -> Hit<HitStep> {
     let along = |name: &String, step: &dyn Fn(usize) -> HitStep, absent: [f32; 4]| match column(names, name) {
         Some(column) => Hit::Step(step(column)),
         None => Hit::Constant(absent),
@@ -99,7 +116,7 @@ fn hit(operation: &Operation, facts: NodeFacts, textures: &CompiledTextures, nam
                 scale: *scale,
                 bias: *bias,
                 fallback: *fallback,
-                footprint: facts.scale,
+                footprint,
             }),
             None => Hit::Constant(*fallback),
         },

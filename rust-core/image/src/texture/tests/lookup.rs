@@ -70,6 +70,8 @@ fn bilinear(map: &MipMap, level: usize, [u, v]: [f64; 2], wrap: [Wrap; 2]) -> [f
 }
 
 fn trilinear(map: &MipMap, [u, v, width]: [f64; 3], wrap: [Wrap; 2]) -> [f64; 4] {
+    let is_beyond = [u, v].iter().zip(wrap).any(|(x, wrap)| wrap == Wrap::Clamp && !(0.0..=1.0).contains(x));
+    let width = if is_beyond { 0.0 } else { width };
     let last = (map.level_count() - 1) as f64;
     let level = (width * f64::from(map.resolution().into_iter().max().unwrap())).max(1.0).log2().min(last);
     let (finer, coarser) = (level.floor(), (level.floor() + 1.0).min(last));

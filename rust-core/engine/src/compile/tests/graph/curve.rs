@@ -78,24 +78,29 @@ fn matrices_move_points() {
     });
 }
 
-#[test]
-fn footprints_follow_matrices() {
+/// The footprint of the last image of a graph that looks it up at `coordinates`, the last of these nodes.
+fn footprint(mut coordinates: Vec<serde_json::Value>) -> f32 {
     let node = |number: usize| json!({ "Node": [number, "Rgb"] });
-    let rows = [[0.0, 2.0, 0.0, 3.0], [-8.0, 0.0, 0.5, -1.0], [0.25, 0.0, 4.0, 0.0]];
     let image = json!({ "Image": {
         "texture": 0, "wrap": ["Repeat", "Repeat"], "filter": "Linear",
         "scale": [1, 1, 1, 1], "bias": [0, 0, 0, 0], "fallback": [0, 0, 0, 0]
     } });
-    let nodes = json!([
-        { "operation": { "Primvar": { "name": "st", "fallback": [0, 0, 0, 0] } }, "inputs": [] },
-        { "operation": { "Transform3d": { "rows": rows } }, "inputs": [node(0)] },
-        { "operation": image, "inputs": [node(1)] }
-    ]);
-    let program = Bench::new(&nodes).last();
+    coordinates.push(json!({ "operation": image, "inputs": [node(coordinates.len() - 1)] }));
+    let program = Bench::new(&json!(coordinates)).last();
     let footprints = program.kernels().filter_map(|kernel| match kernel {
         Kernel::Hit(HitStep::Image { footprint, .. }) => Some(*footprint),
         _ => None,
     });
-    let footprint = footprints.last().expect("an image");
-    assert_eq!(footprint, 4.0);
+    footprints.last().expect("an image")
+}
+
+#[test]
+fn footprints_follow_matrices_alone() {
+    let rows = [[0.0, 2.0, 0.0, 3.0], [-8.0, 0.0, 0.5, -1.0], [0.25, 0.0, 4.0, 0.0]];
+    let first = json!([{ "Node": [0, "Rgb"] }]);
+    let primvar = json!({ "operation": { "Primvar": { "name": "st", "fallback": [0, 0, 0, 0] } }, "inputs": [] });
+    assert_eq!(footprint(vec![primvar.clone(), json!({ "operation": { "Transform3d": { "rows": rows } }, "inputs": first })]), 4.0);
+    // What is bent, and what follows no coordinates of the mesh, is read from the finest level.
+    assert_eq!(footprint(vec![primvar, json!({ "operation": "ArcCosine", "inputs": first })]), 0.0);
+    assert_eq!(footprint(vec![json!({ "operation": "Position", "inputs": [] })]), 0.0);
 }
