@@ -363,3 +363,38 @@ def test_what_cannot_be_included_is_told(tmp_path, included, told):
     scene = load_document(tmp_path, f'<materialx version="1.38"><xi:include href="other.mtlx"/>{surface}</materialx>')
     assert told in messages(scene)
     assert len(closures(scene)) == 1
+
+
+THRICE = """<nodedef name="{0}" node="thrice"><input name="amount" type="float" value="0.1"/><output name="out_colour" type="color3"/></nodedef>
+  <nodegraph name="NG_thrice" nodedef="{0}">
+    <combine3 name="c" type="color3"><input name="in1" type="float" interfacename="amount"/>
+      <input name="in2" type="float" interfacename="amount"/><input name="in3" type="float" interfacename="amount"/></combine3>
+    <multiply name="m" type="color3"><input name="in1" type="color3" nodename="c"/><input name="in2" type="float" value="3"/></multiply>
+    <output name="out_colour" type="color3" nodename="m"/></nodegraph>"""
+USED = """<thrice name="t" type="color3"><input name="amount" type="float" value="0.2"/></thrice>
+  <standard_surface name="S" type="surfaceshader"><input name="base" type="float" value="1"/>
+    <input name="base_color" type="color3" nodename="t"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>"""
+
+
+@pytest.mark.parametrize("name", ["ND_thrice_color3", "thrice_definition"])
+def test_definitions_may_be_called_as_they_like(tmp_path, name):
+    scene = load_document(tmp_path, f'<materialx version="1.38">{THRICE.format(name)}{USED}</materialx>')
+    assert messages(scene) == ""
+    (closure,) = closures(scene)
+    assert dict(closure["parameters"])["base_color"]["Constant"][:3] == pytest.approx([0.6] * 3, rel=1e-5)
+
+
+def test_definitions_of_the_search_path_are_found(tmp_path):
+    studio = tmp_path / "studio"
+    studio.mkdir()
+    (studio / "nodes.mtlx").write_text(f'<materialx version="1.38">{THRICE.format("ND_thrice_color3")}</materialx>')
+    (tmp_path / "look.mtlx").write_text(f'<materialx version="1.38">{USED}</materialx>')
+    stage = tmp_path / "stage.usda"
+    stage.write_text(HEADER + BALL.replace("</M>", "</L/M>") + 'def "L" (references = @look.mtlx@</MaterialX/Materials>) {}\n')
+    code = f"import gonio; scene = gonio.load_usd({str(stage)!r}); print(scene.to_dict()['materials'][-1]['closures'], scene.diagnostics)"
+    for path, is_found in [(str(studio), True), ("", False)]:
+        environment = {**os.environ, "PXR_MTLX_PLUGIN_SEARCH_PATHS": path}
+        told = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True, timeout=60).stdout
+        assert ("thrice" not in told) == is_found, told
+        assert ("0.6" in told) == is_found, told

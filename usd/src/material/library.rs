@@ -6,7 +6,7 @@ use super::mtlx::{Stated, value_of};
 use super::neutral::Source;
 use super::xml::{self, Element};
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Largest file of a library.
@@ -25,10 +25,10 @@ pub struct Library {
 }
 
 impl Library {
-    /// The library in a folder; `None` where there is none that can be read.
-    pub(in crate::material) fn read(folder: &Path) -> Option<Self> {
+    /// The library in some folders; `None` where there is none that can be read.
+    pub(in crate::material) fn read(folders: &[PathBuf]) -> Option<Self> {
         let mut documents = Vec::new();
-        collect(folder, 0, &mut documents);
+        folders.iter().for_each(|folder| collect(folder, 0, &mut documents));
         let library = Self::of(&documents.iter().collect::<Vec<_>>());
         (!library.definitions.is_empty()).then_some(library)
     }

@@ -100,7 +100,7 @@ impl<'h> Network<'h> {
     pub(in crate::material) fn output(&mut self, node: NodeIndex, output: &str) -> Option<Input> {
         let shader = self.shader(node);
         // Most nodes have one value, whose parts outputs are.
-        let is_materialx = shader.id.strip_prefix("ND_").is_some_and(|node| !usd_nodes::is_usd_node(node));
+        let is_materialx = shader.id.strip_prefix("ND_").is_some_and(|node| !usd_nodes::is_usd_node(node)) || self.is_defined(&shader);
         let is_each = is_materialx && materialx::row(&shader.id).is_none_or(|row| matches!(row.rule, Rule::Each(_) | Rule::Later));
         let key = (node, if is_each { output.to_owned() } else { String::new() }, self.step);
         let whole = match self.built.get(&key) {
@@ -128,6 +128,7 @@ impl<'h> Network<'h> {
             Some(node) => usd_nodes::build(self, shader, node, true),
             None => match shader.id.strip_prefix("arnold:") {
                 Some(node) => arnold_nodes::build(self, shader, node),
+                None if self.is_defined(shader) => self.build_materialx(shader, output),
                 None => usd_nodes::build(self, shader, &shader.id, false),
             },
         };
@@ -142,6 +143,12 @@ impl<'h> Network<'h> {
             }
         }
         built
+    }
+
+    /// Whether a document's own definition, whose name need not begin as the library's, says what the node is.
+    fn is_defined(&mut self, shader: &Shader) -> bool {
+        let is_other = shader.id.starts_with("ND_") || shader.id.starts_with("arnold:") || usd_nodes::is_usd_node(&shader.id);
+        !is_other && self.host.definition(&shader.id).is_some_and(|definition| definition.body.is_some())
     }
 
     /// A node that is computed, or the graph that defines it.

@@ -93,10 +93,17 @@ impl Host for Context<'_, '_> {
     }
 }
 
-/// MaterialX's standard library, if its package is installed; read once.
+/// Where USD's own reader of MaterialX finds a studio's definitions.
+const SEARCH_PATHS: &str = "PXR_MTLX_PLUGIN_SEARCH_PATHS";
+
+/// MaterialX's standard library, if its package is installed, and what the search paths hold; read once.
 pub(super) fn standard_library(py: Python<'_>) -> Option<&'static Library> {
     static LIBRARY: PyOnceLock<Option<Library>> = PyOnceLock::new();
-    LIBRARY.get_or_init(py, || package_folder(py).and_then(|folder| Library::read(&folder))).as_ref()
+    let folders = || -> Vec<PathBuf> {
+        let searched = std::env::var_os(SEARCH_PATHS).unwrap_or_default();
+        package_folder(py).into_iter().chain(std::env::split_paths(&searched).filter(|folder| folder.is_dir())).collect()
+    };
+    LIBRARY.get_or_init(py, || Library::read(&folders())).as_ref()
 }
 
 /// Where the package `MaterialX` keeps its library's documents; the package itself is not loaded.

@@ -232,7 +232,7 @@ fn units_become_those_of_the_stage() {
 fn standard_library() -> Option<Arc<Library>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?.join(".venv/lib");
     let versions = std::fs::read_dir(root).ok()?;
-    let library = |version: std::fs::DirEntry| Library::read(&version.path().join("site-packages/MaterialX/libraries"));
+    let library = |version: std::fs::DirEntry| Library::read(&[version.path().join("site-packages/MaterialX/libraries")]);
     versions.filter_map(Result::ok).find_map(library).map(Arc::new)
 }
 
