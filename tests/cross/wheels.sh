@@ -23,7 +23,7 @@ for system; do
             # Debian's compiler asks for two libraries that guard C's stacks, which zig lacks and nothing here uses.
             mkdir -p "$tools/empty"
             for library in ssp ssp_nonshared; do printf '!<arch>\n' >"$tools/empty/lib$library.a"; done
-            options+=(-- -C "link-arg=-L$tools/empty" -C "link-arg=$PWD/tests/cross/windows.def")
+            options+=(-- -C "link-arg=-L$tools/empty")
             ;;
     esac
     cross "$target" maturin "${options[@]}"
