@@ -140,7 +140,7 @@ def test_smooth_meshes_that_shine_light_themselves_no_more_than_in_cycles(tmp_pa
     bpy.context.object.data.materials.append(shader("Principled", **glowing))
     seen((0.0, -3.0, 1.0), (0.0, 0.0, 0.0), 2.2)
     # Each triangle's own light would count from within its plane, times whatever rounding leaves of it.
-    picture = colour(tmp_path)
-    cycles = from_cycles(tmp_path, 64)
+    picture = colour(tmp_path / "gonio.exr")
+    cycles = from_cycles(tmp_path / "cycles.exr", 64)
     assert picture.max() < 3.0
     assert abs(picture.mean() / cycles.mean() - 1.0) < 0.02, (picture.mean(), cycles.mean())
