@@ -125,3 +125,22 @@ def test_light_grazes_coarse_balls_as_in_cycles(tmp_path, kind):
     expected = from_cycles(tmp_path / "cycles.exr", samples)
     off = {offset: abs(picture - expected).mean() / expected.mean() for offset, picture in found.items()}
     assert off[0.1] < 0.01 and off[0.0] > 2.0 * off[0.1], off
+
+
+@pytest.mark.blender
+def test_smooth_meshes_that_shine_light_themselves_no_more_than_in_cycles(tmp_path):
+    import bpy
+    import scenes
+
+    scene = scenes.empty(width=SIZE, height=SIZE, samples=64)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
+    bpy.ops.object.shade_smooth()
+    glowing = {"Base Color": (0.8, 0.8, 0.8, 1.0), "Emission Color": (1.0, 1.0, 1.0, 1.0), "Emission Strength": 0.5}
+    bpy.context.object.data.materials.append(shader("Principled", **glowing))
+    seen((0.0, -3.0, 1.0), (0.0, 0.0, 0.0), 2.2)
+    # Each triangle's own light would count from within its plane, times whatever rounding leaves of it.
+    picture = colour(tmp_path / "gonio.exr")
+    cycles = from_cycles(tmp_path / "cycles.exr", 64)
+    assert picture.max() < 3.0
+    assert abs(picture.mean() / cycles.mean() - 1.0) < 0.02, (picture.mean(), cycles.mean())

@@ -81,8 +81,8 @@ def _is_encoded(image):
 
 
 def _is_product(t, image):
-    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and what
-    has no alpha, never."""
+    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and
+    what has no alpha, never."""
     return (
         image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
         and not image.colorspace_settings.is_data

@@ -62,7 +62,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let leaks = leaks(l, point, lobes, [sample.wi, wi]);
     let lifted = Lifted::of(chunk, point, sample.wi, usable);
     let usable = usable.and_not(match &lifted {
-        Some(lifted) => leaks.and_not(lifted.any),
+        Some(lifted) => leaks.and_not(lifted.any) | lifted.astray,
         None => leaks,
     });
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);

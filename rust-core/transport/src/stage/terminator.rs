@@ -9,12 +9,16 @@ use gonio_simd::{F, Lanes, M, Vec3};
 
 /// Shading normals this near to their triangle's, as 1 − cosine, are flat.
 const FLAT: f32 = 1e-4;
+/// Square of the length beyond which a vector is no direction.
+const LONGEST: f32 = 1.01;
 
 /// Grazing light that starts from the curved surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lifted<L: Lanes> {
     /// Where it does.
     pub(crate) any: M<L>,
+    /// Where the direction is none: triangles that are seen from within their own plane give such.
+    pub(crate) astray: M<L>,
     /// From the triangle to where it starts, metres.
     by: Vec3<L>,
 }
@@ -33,12 +37,13 @@ impl<L: Lanes> Lifted<L> {
         let instance = point.instance.keep_if(usable);
         let from = l.gather(&geometry.set_terminator, geometry.set_lanes(l, instance));
         let amount = share(cosine, flat, from);
-        let any = usable & bent & from.gt(0.0) & cosine.gt(0.0) & amount.gt(0.0);
+        let astray = !wi.length_squared().lt(LONGEST);
+        let any = (usable & bent & from.gt(0.0) & cosine.gt(0.0) & amount.gt(0.0)).and_not(astray);
         if !any.any() {
             return None;
         }
         let lift = kernels::lift(l, &tables.geometry, &chunk.columns.surface, point.place, &point.at.geometric);
-        Some(Self { any, by: lift * amount.keep_if(any) })
+        Some(Self { any, astray, by: lift * amount.keep_if(any) })
     }
 
     /// The shadow ray to a light sample.
