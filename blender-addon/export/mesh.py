@@ -150,13 +150,14 @@ def _unit(vectors):
 
 
 def _slots(mesh):
-    """The material slot of each face; None if all have the first."""
+    """The material slot of each face, the last where it names none that there is; None if all have the first."""
     attribute = mesh.attributes.get("material_index")
     if attribute is None or attribute.domain != "FACE" or attribute.data_type != "INT":
         return None
     slots = np.empty(len(mesh.polygons), dtype=np.int32)
     attribute.data.foreach_get("value", slots)
-    return np.maximum(slots, 0, out=slots) if slots.any() else None
+    slots = slots.clip(0, max(len(mesh.materials) - 1, 0))
+    return slots if slots.any() else None
 
 
 def _uv_maps(mesh, primvars):

@@ -68,6 +68,23 @@ def test_arrays_of_a_mesh(tmp_path):
 
 
 @pytest.mark.blender
+def test_faces_of_slots_that_are_not_there_have_the_last(tmp_path):
+    import bpy
+    from recorder import depsgraph, empty, exporter, material
+
+    for count, slots in ((2, [0, 1, 1, 1, 1, 0]), (1, None)):
+        empty()
+        bpy.ops.mesh.primitive_cube_add()
+        mesh = bpy.context.object.data
+        for _ in range(count):
+            mesh.materials.append(material()[0])
+        mesh.attributes.new("material_index", "INT", "FACE").data.foreach_set("value", [0, 1, 2, 5, 1, -1])
+        exported, _ = exporter()
+        found = exported.sync(depsgraph()).meshes[0]
+        assert found.get("slots") is None if slots is None else found["slots"].tolist() == slots, count
+
+
+@pytest.mark.blender
 def test_points_and_corners_of_the_same_number(tmp_path):
     import bpy
     import numpy as np
