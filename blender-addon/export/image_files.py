@@ -73,25 +73,9 @@ def pixels_of(image):
     return pixels if channels == 4 else np.concatenate([pixels, np.ones_like(pixels[..., :1])], axis=-1)
 
 
-def bytes_of(pixels, product):
-    """Pixels of an image of sRGB's bytes as those. The product with alpha is one of "codes", cut off to whole numbers as Cycles does, or of "light"."""
-    pixels = np.clip(pixels, 0.0, 1.0)
-    if product == "light":
-        pixels = np.concatenate([encoded(decoded(pixels[..., :3]) * pixels[..., 3:]), pixels[..., 3:]], axis=-1)
-    values = np.round(pixels * 255.0).astype(np.uint8)
-    if product == "codes":
-        values[..., :3] = values[..., :3].astype(np.uint16) * values[..., 3:] // 255
-    return values
-
-
-def decoded(codes):
-    """Light of sRGB's codes from 0 to 1."""
-    return np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
-
-
-def encoded(light):
-    """sRGB's codes of light from 0 to 1."""
-    return np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1.0 / 2.4) - 0.055)
+def bytes_of(pixels):
+    """Pixels of an image of bytes as those."""
+    return np.round(np.clip(pixels, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 
 def png_of(values):

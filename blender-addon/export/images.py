@@ -14,6 +14,8 @@ from .image_files import bytes_of, frame_of, kind_of, kind_of_file, path_of, pix
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
 # Sources whose pixels are in memory only.
 IN_MEMORY = {"GENERATED", "VIEWER"}
+# Of bytes of sRGB, by what of them is multiplied by alpha.
+SPACES = {None: "srgb_texture", "codes": "srgb_codes_times_alpha", "light": "srgb_light_times_alpha"}
 
 
 class Images:
@@ -55,19 +57,24 @@ class Images:
         if image.source not in ("FILE", "GENERATED"):
             return None
         self._users[image.session_uid] = user
-        key, _ = self._source(image, user, report)
+        key, make = self._source(image, user, report)
         if key is None:
             return None
-        if product is None and key[0] in ("file", "packed"):
+        if key[0] not in ("file", "packed"):
+            if not (image.size[0] and image.size[1]):
+                return None
+            name = f"{os.path.basename(image.filepath) or image.name}.png"
+
+            def make():
+                return {}, {"data": (name, png_of(bytes_of(pixels_of(image))))}
+
+        elif product is None:
             return self.texture(image, user, report)
-        if not (image.size[0] and image.size[1]):
-            return None
         number, is_new = self._slots.take(("bytes", product, *key))
         if is_new:
-            name = f"{os.path.basename(image.filepath) or image.name}.png"
-            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": "srgb_texture"}
-            data = (name, png_of(bytes_of(pixels_of(image), product)))
-            self._slots.place(self._scene.put_texture, number, description, data=data)
+            fields, buffers = make()
+            description = {"origin": {"name": image.name, "file": path_of(image)}, "colour_space": SPACES[product], **fields}
+            self._slots.place(self._scene.put_texture, number, description, **buffers)
         return number
 
     def baked(self, owner, name, pixels):

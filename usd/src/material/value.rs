@@ -79,7 +79,7 @@ pub(in crate::material) fn is_colour(attribute: &Attribute<'_>) -> bool {
 /// Linear Rec.709 of a colour given in the space called `space`; `Err` gives the name back if it is not known.
 pub(crate) fn to_linear_rec709(rgba: [f32; 4], space: &str) -> Result<[f32; 4], String> {
     match ColourSpace::parse(space) {
-        Ok(ColourSpace::Auto | ColourSpace::Raw) => Ok(rgba),
+        Ok(ColourSpace::Auto | ColourSpace::Raw | ColourSpace::SrgbTimesAlpha(_)) => Ok(rgba),
         Ok(ColourSpace::Colour { transfer, gamut }) => {
             let linear = [rgba[0], rgba[1], rgba[2]].map(|x| transfer.decode(f64::from(x)));
             let [r, g, b] = gamut.to_rec709().map_or(linear, |matrix| apply(&matrix, linear));

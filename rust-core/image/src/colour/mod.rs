@@ -16,7 +16,7 @@ pub use curve::Curve;
 pub use gamut::{Gamut, Primaries};
 pub use matrix::{Matrix3, apply, inverse, product};
 pub use profile::from_profile;
-pub use space::{ColourSpace, UnknownColourSpace};
+pub use space::{ColourSpace, Product, UnknownColourSpace};
 pub use stated::{Encoding, Stated};
 pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};
 

@@ -17,6 +17,17 @@ pub enum ColourSpace {
         /// What the linear numbers are amounts of.
         gamut: Gamut,
     },
+    /// sRGB, bytes of which are multiplied by their alpha before they are filtered, as Blender means its images.
+    SrgbTimesAlpha(Product),
+}
+
+/// What is multiplied by alpha.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Product {
+    /// The bytes as they are encoded, cut off to whole numbers, as in Cycles.
+    Codes,
+    /// The light that they stand for.
+    Light,
 }
 
 const fn colour(transfer: Transfer, gamut: Gamut) -> ColourSpace {
@@ -82,6 +93,8 @@ impl core::error::Error for UnknownColourSpace {}
 /// Names without case and punctuation, parted by spaces, and what they mean.
 const NAMES: &[(&str, ColourSpace)] = &[
     ("auto automatic", ColourSpace::Auto),
+    ("srgbcodestimesalpha", ColourSpace::SrgbTimesAlpha(Product::Codes)),
+    ("srgblighttimesalpha", ColourSpace::SrgbTimesAlpha(Product::Light)),
     ("raw noncolor noncolour none data unknown identity utilityraw utraw inputraw", ColourSpace::Raw),
     (
         "srgb srgbtexture srgbrec709 srgbrec709scene srgbrec709display srgbencodedrec709srgb srgbencodedrec709scene utilitysrgbtexture \

@@ -4,6 +4,7 @@ use super::encoder::Encoder;
 use super::error::{TextureError, TextureErrorKind};
 use super::image::{Image, Texels};
 use super::paged::{PagedTexels, TextureFacts};
+use super::product::times_alpha;
 use super::pyramid::{half_size, shrink};
 use super::resolve::Conversion;
 use super::texel::{TexelFormat, pack_bytes, pack_halves, unpack_halves};
@@ -66,6 +67,11 @@ impl MipMap {
     ///
     /// Errors: the image's values do not match its size, the pyramid is too large to index, or `cancel` was raised.
     pub fn build(image: &Image, space: ColourSpace, cancel: &AtomicBool) -> Result<Self, TextureError> {
+        let multiplied = match space {
+            ColourSpace::SrgbTimesAlpha(product) => Some(times_alpha(image, product)),
+            _ => None,
+        };
+        let image = multiplied.as_ref().unwrap_or(image);
         let conversion = Conversion::resolve(space, image);
         check(image)?;
         let format = choose_format(image, &conversion);

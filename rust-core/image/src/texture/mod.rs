@@ -12,6 +12,7 @@ mod limits;
 mod load;
 mod mip_map;
 mod paged;
+mod product;
 mod pyramid;
 mod resolve;
 mod sample;

@@ -25,6 +25,7 @@ impl Conversion {
                 let curve = Curve::Named(transfer);
                 Self::new(Encoding { curves: Box::new([curve.clone(), curve.clone(), curve]), to_rec709: gamut.to_rec709() }, true, image)
             }
+            (ColourSpace::SrgbTimesAlpha(_), _) => Self::new(Encoding::in_rec709(Curve::Named(Transfer::Srgb)), true, image),
             (ColourSpace::Auto, Stated::Encoding(encoding)) => {
                 let mut conversion = Self::new(encoding.clone(), true, image);
                 // Numbers that stay as they are stay whole too.
