@@ -68,8 +68,9 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let (f, pdf) = lobes.eval(l, point.local_wo, wi);
     let pdf = with_guiding(chunk, point, [sample.wi, wi], pdf);
     let f = if tables.lights.has_factors() { seen_part(chunk, lobes, [point.local_wo, wi], f, sample.light) } else { f };
-    // BSDF sampling finds nothing below the triangle.
-    let weight = weight.of(sample, pdf.keep_if(!leaks));
+    // Below the triangle BSDF sampling finds nothing, yet its share is left out: wide lights, which have no hard terminator to hide, stay as dark
+    // there as the triangle makes them (as in Cycles).
+    let weight = weight.of(sample, pdf);
     let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
