@@ -85,21 +85,34 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
     let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.code.value(closure.weight))).collect();
     let program = Program::new(&graph.code, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
     let own = &surfaces[first as usize..];
-    let constant = closures.iter().all(|closure| matches!(closure.weight, Input::Constant(_)));
     Mix {
         first,
         count: closures.len(),
         program,
         lets_light_pass: own.iter().any(|surface| surface.lets_light_pass),
         emissive: own.iter().any(|surface| surface.emissive),
-        even_emission: (constant && own.iter().all(SurfaceMaterial::emits_evenly)).then(|| {
-            let glow = |closure: &Closure, surface: &SurfaceMaterial, c: usize| match closure.weight {
-                Input::Constant(weight) => weight[c].max(0.0) * surface.surface.constants[parameter::EMISSION_COLOR + c],
-                Input::Node(..) => 0.0,
-            };
-            std::array::from_fn(|c| closures.iter().zip(own).map(|(closure, surface)| glow(closure, surface, c)).sum())
-        }),
+        even_emission: even_emission(closures, own, graph),
     }
+}
+
+/// What all closures emit together for light sampling, where that is the same everywhere.
+fn even_emission(closures: &[Closure], surfaces: &[SurfaceMaterial], graph: &CompiledGraph) -> Option<[f32; 3]> {
+    let mut sum = [0.0; 3];
+    for (closure, surface) in closures.iter().zip(surfaces).filter(|(_, surface)| surface.emissive) {
+        let (weight, glow) = (constant(&graph.sampled.value(closure.weight))?, surface.even_emission?);
+        (0..3).for_each(|c| sum[c] += weight[c].max(0.0) * glow[c]);
+    }
+    Some(sum)
+}
+
+/// A colour that is the same everywhere.
+fn constant(value: &[Operand; 4]) -> Option<[f32; 3]> {
+    let mut colour = [0.0; 3];
+    for (component, operand) in colour.iter_mut().zip(value) {
+        let Operand::Constant(number) = operand else { return None };
+        *component = finite(*number);
+    }
+    Some(colour)
 }
 
 fn surface(
@@ -120,6 +133,7 @@ fn surface(
         constants[parameter::BASE_COLOR..parameter::BASE_COLOR + 3].fill(1.0);
     }
     let mut varying = [false; parameter::COUNT];
+    let mut glow = None;
     let switches = switches_of(closure);
     let mut wanted = Wanted { free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
     let code = &graph.code;
@@ -130,6 +144,9 @@ fn surface(
         };
         let places = parameter.offset..parameter.offset + parameter.width();
         let whole = code.value(*input);
+        if parameter.offset == parameter::EMISSION_COLOR {
+            glow = Some(constant(&graph.sampled.value(*input)));
+        }
         let value = &whole[..parameter.width()];
         // A graph may give constants, too.
         for (place, operand) in places.clone().zip(value) {
@@ -165,6 +182,7 @@ fn surface(
         transparent: surface.is_see_through(),
         lets_light_pass: surface.is_see_through() && material.transparent_shadows,
         emissive: lobes.emission,
+        even_emission: glow.unwrap_or(Some([0, 1, 2].map(|c| surface.constants[parameter::EMISSION_COLOR + c]))),
         interior: interior(material),
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,

@@ -21,7 +21,7 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if surfaces.iter().any(|surface| surface.surface.lobes.walk) {
         warn("light does not walk under surfaces; subsurface scattering shows as diffuse".to_owned());
     }
-    if surfaces.iter().any(|surface| surface.emissive && !surface.emits_evenly()) {
+    if surfaces.iter().any(|surface| surface.emissive && surface.even_emission.is_none()) {
         warn("surfaces with emission from a graph shine, but light nothing".to_owned());
     }
     if scene.settings.antialiasing.is_adaptive() {

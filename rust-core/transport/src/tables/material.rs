@@ -2,8 +2,8 @@
 
 use crate::graph::{OutputColumns, Program};
 use crate::tables::shader_passes::ShaderOutputs;
+use gonio_bsdf::Surface;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
-use gonio_bsdf::{Surface, parameter};
 use gonio_simd::{F, Lanes};
 
 /// One compiled closure: a BSDF whose parameters are constants or outputs of a shading program.
@@ -23,6 +23,8 @@ pub struct SurfaceMaterial {
     pub lets_light_pass: bool,
     /// Whether it may emit.
     pub emissive: bool,
+    /// What it emits for light sampling, if that is the same everywhere.
+    pub even_emission: Option<[f32; 3]>,
     /// Absorption a metre of what fills the closed mesh, if anything does.
     pub interior: Option<[f32; 3]>,
     /// Whether the shading frame's tangent matters.
@@ -33,13 +35,6 @@ pub struct SurfaceMaterial {
     pub pass_index: u32,
     /// Value of its name in cryptomattes.
     pub matte_id: u32,
-}
-
-impl SurfaceMaterial {
-    /// Whether it emits the same everywhere, nothing included.
-    pub fn emits_evenly(&self) -> bool {
-        !self.program.outputs.iter().any(|output| output.offset == parameter::EMISSION_COLOR)
-    }
 }
 
 /// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight; trees of rays shade all.
@@ -55,7 +50,7 @@ pub struct Mix {
     pub lets_light_pass: bool,
     /// Whether any closure may emit.
     pub emissive: bool,
-    /// What all closures emit together where that is the same everywhere.
+    /// What all closures emit together for light sampling, where that is the same everywhere.
     pub even_emission: Option<[f32; 3]>,
 }
 
@@ -127,28 +122,26 @@ impl MaterialTable {
     }
     /// Whether a material of the geometry may emit, and not everywhere alike.
     pub fn emits_unevenly(&self, number: u32) -> bool {
-        match self.shading(number) {
-            Shading::Surface(surface) => {
-                let material = &self.surfaces[surface as usize];
-                material.emissive && !material.emits_evenly()
-            }
-            Shading::Mix(mix) => {
-                let mix = &self.mixes[mix as usize];
-                mix.emissive && mix.even_emission.is_none()
-            }
-        }
+        let (emissive, even) = self.emission(number);
+        emissive && even.is_none()
     }
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
-        let emission = match self.shading(number) {
+        let (emissive, even) = self.emission(number);
+        even.filter(|glow| emissive && glow.iter().any(|x| *x > 0.0))
+    }
+    /// Whether a material of the geometry may emit, and what for light sampling, where that is the same everywhere.
+    fn emission(&self, number: u32) -> (bool, Option<[f32; 3]>) {
+        match self.shading(number) {
             Shading::Surface(surface) => {
                 let material = &self.surfaces[surface as usize];
-                let glow = &material.surface.constants[parameter::EMISSION_COLOR..parameter::EMISSION_COLOR + 3];
-                (material.emissive && material.emits_evenly()).then(|| [glow[0], glow[1], glow[2]])
+                (material.emissive, material.even_emission)
             }
-            Shading::Mix(mix) => self.mixes[mix as usize].even_emission,
-        };
-        emission.filter(|glow| glow.iter().any(|x| *x > 0.0))
+            Shading::Mix(mix) => {
+                let mix = &self.mixes[mix as usize];
+                (mix.emissive, mix.even_emission)
+            }
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{
     },
     error::{Error, Result},
     graph::{HitStep, Occlusion},
-    scene::{Input, Material, Node, Operation, Space, TextureFilter, WrapMode},
+    scene::{Input, LightPathValue, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
 use gonio_nodes::{Code, Hit, Kernel};
@@ -21,7 +21,19 @@ const MOST_RAYS: u32 = 1024;
 /// A graph laid out, and the primvar column that tangents and footprints follow.
 pub(super) struct CompiledGraph {
     pub(super) code: Arc<Code<HitStep>>,
+    /// The graph as light sampling has it, which looks from no ray of any kind, where it asks what rays are; else as `code`.
+    pub(super) sampled: Arc<Code<HitStep>>,
     pub(super) uv: Option<usize>,
+}
+
+/// Whether a node tells of which kind the ray is that shades a hit.
+fn tells_kind_of_ray(operation: &Operation) -> bool {
+    use LightPathValue as V;
+    let Operation::LightPath(value) = operation else { return false };
+    matches!(
+        value,
+        V::IsCameraRay | V::IsShadowRay | V::IsDiffuseRay | V::IsGlossyRay | V::IsSingularRay | V::IsReflectionRay | V::IsTransmissionRay
+    )
 }
 
 /// What is known of a node's coordinates while the graph is laid out.
@@ -53,9 +65,19 @@ pub(super) fn compile_graph(material: &Material, textures: &CompiledTextures, na
     let is_image = |node: &Node| matches!(&node.operation, Operation::Image { texture, .. } if textures.number(*texture).is_some());
     let images = nodes.iter().zip(&facts).filter(|(node, _)| is_image(node));
     let uv = images.filter_map(|(_, facts)| facts.column).next();
-    let code = Code::new(&material.graph, |number, operation| hit(operation, facts[number].footprint(uv), textures, names));
+    let shown = |number: usize, operation: &Operation| hit(operation, facts[number].footprint(uv), textures, names);
+    let code = Arc::new(Code::new(&material.graph, shown));
+    let sampled = if nodes.iter().any(|node| tells_kind_of_ray(&node.operation)) {
+        let none = |number: usize, operation: &Operation| match operation {
+            kind if tells_kind_of_ray(kind) => Hit::Constant([0.0; 4]),
+            other => shown(number, other),
+        };
+        Arc::new(Code::new(&material.graph, none))
+    } else {
+        code.clone()
+    };
     // A tangent is wanted even where no image is: for anisotropy.
-    Ok(CompiledGraph { code: Arc::new(code), uv: uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name))) })
+    Ok(CompiledGraph { code, sampled, uv: uv.or_else(|| COORDINATES.into_iter().find_map(|name| column(names, name))) })
 }
 
 /// What is wrong with a node, if anything.
