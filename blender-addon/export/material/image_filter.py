@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours of sRGB's bytes: filtered as they are encoded and then decoded, alpha multiplied in before, as in Cycles."""
+"""Colours of sRGB's bytes times alpha, where what was filtered is no product already."""
 
 # sRGB's curve: where its two parts meet, encoded and linear.
 ENCODED_KNEE, LINEAR_KNEE = 0.04045, 0.0031308
@@ -15,11 +15,6 @@ def multiplied_encoded(t, texel, is_one):
     encoded = _encoded(texel) * alpha
     if is_one:
         encoded = (encoded * 255.0 + ROUNDING).floor() * (1.0 / 255.0)
-    return decoded(t, encoded, alpha)
-
-
-def decoded(t, encoded, alpha):
-    """The linear colour of an encoded one."""
     linear = _decoded(encoded)
     return t.graph.combine(*(linear.component(axis) for axis in range(3)), "RGBA", alpha)
 

@@ -51,10 +51,9 @@ def _texel(t, node, context, output, uv):
         number = t.images.of_bytes(image, node.image_user, t.report, product)
         if number is not None:
             texel = _look_up(t, node, number, uv, wrap, is_light=is_divided)
-            if is_divided and output.identifier != "Alpha":
-                return texel / texel.component(3).maximum(NO_ALPHA)
-            is_done = is_product and output.identifier != "Alpha"
-            return texel if is_done else _with_alpha(t, node, output, texel)
+            if output.identifier == "Alpha" or not is_product:
+                return _with_alpha(t, node, output, texel)
+            return texel / texel.component(3).maximum(NO_ALPHA) if is_divided else texel
     return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
 
 
