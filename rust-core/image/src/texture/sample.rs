@@ -41,11 +41,17 @@ impl Levels {
         }
     }
 
+    /// A footprint of `width` (in uv units) in texels of the finest level, and whether a coarser one has such.
+    #[inline(always)]
+    fn texels<L: Lanes>(&self, width: F<L>) -> (F<L>, M<L>) {
+        let texels = width * self.widths[0].max(self.heights[0]);
+        (texels, texels.gt(if self.count > 1 { 1.0 } else { f32::INFINITY }))
+    }
+
     /// The level, with fraction, whose texels are as wide as a footprint of `width` (in uv units).
     #[inline(always)]
     fn level_of<L: Lanes>(&self, l: L, width: F<L>) -> F<L> {
-        let texels = width * self.widths[0].max(self.heights[0]);
-        let coarse = texels.gt(1.0);
+        let (texels, coarse) = self.texels(width);
         if !coarse.any() {
             return l.f(0.0);
         }
@@ -157,7 +163,7 @@ impl MipMap {
     /// Bytes of sRGB: the finest level is mixed as it is encoded and then decoded, all others the other way round.
     #[inline(always)]
     fn codes_or_light<L: Lanes>(&self, l: L, texels: &mut impl Texels<L>, place: Place<L>, wrap: Wraps, cubic: bool) -> Rgba<L> {
-        let light = place.wanted & self.levels.level_of(l, place.width).gt(0.0);
+        let light = place.wanted & self.levels.texels(place.width).1;
         let mut sum = [l.f(0.0); 4];
         if light.any() {
             sum = self.trilinear::<L, Byte<SrgbCode>>(l, texels, Place { wanted: light, ..place }, wrap, cubic);
