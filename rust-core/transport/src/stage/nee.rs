@@ -12,7 +12,7 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::Tables;
-use crate::tables::transport::Transport;
+use crate::tables::transport::{Limits, Transport};
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -123,7 +123,7 @@ pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy
 /// How many surfaces paths have gone straight through, where their number is limited.
 #[inline(always)]
 pub(crate) fn gone_straight<L: Lanes>(tables: &Tables, transport: &Transport, counts: U<L>) -> Option<U<L>> {
-    if tables.any_transparent && transport.limits.counts_straight() { Some(counts >> 24) } else { None }
+    if tables.any_transparent && transport.limits.counts_straight() { Some(Limits::straight(counts)) } else { None }
 }
 
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there, which starts in a medium where

@@ -116,6 +116,12 @@ impl Limits {
         at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
     }
 
+    /// Surfaces that a path has gone straight through, by its counts.
+    #[inline(always)]
+    pub(crate) fn straight<L: Lanes>(counts: U<L>) -> U<L> {
+        counts >> 24
+    }
+
     /// Whether the number of surfaces that light goes straight through is limited.
     pub(crate) fn counts_straight(&self) -> bool {
         self.kind_bounces[3] < 255
@@ -129,7 +135,7 @@ impl Limits {
     /// Whether a path may go straight through one more surface.
     #[inline(always)]
     pub(crate) fn allow_straight<L: Lanes>(&self, counts: U<L>) -> M<L> {
-        (counts >> 24).lt(self.kind_bounces[3])
+        Self::straight(counts).lt(self.kind_bounces[3])
     }
 }
 
