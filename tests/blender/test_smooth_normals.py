@@ -58,6 +58,19 @@ def colour(path):
     return numpy.stack([channels[f"ViewLayer.Combined.{channel}"] for channel in "RGB"], axis=-1)
 
 
+def ball(kind, *, world=0.0, segments, rings, samples, **inputs):
+    """A scene of one coarse smooth ball under an even world."""
+    import bpy
+    import scenes
+
+    scene = scenes.empty(width=SIZE, height=SIZE, samples=samples)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (world, world, world, 1)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=rings)
+    bpy.ops.object.shade_smooth()
+    bpy.context.object.data.materials.append(shader(kind, **inputs))
+    return scene
+
+
 def from_cycles(path, samples):
     import bpy
 
@@ -71,14 +84,7 @@ def from_cycles(path, samples):
 
 @pytest.mark.blender
 def test_mirrors_of_few_faces_have_no_dark_edge(tmp_path):
-    import bpy
-    import scenes
-
-    scene = scenes.empty(width=SIZE, height=SIZE, samples=16)
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=4)
-    bpy.ops.object.shade_smooth()
-    bpy.context.object.data.materials.append(shader("Anisotropic", Color=(1, 1, 1, 1), Roughness=0.0))
+    ball("Anisotropic", world=1.0, segments=8, rings=4, samples=16, Color=(1, 1, 1, 1), Roughness=0.0)
     seen((0, -5, 1), (0, 0, 0), 2.2)
     assert colour(tmp_path / "mirror.exr") == pytest.approx(1.0, abs=1e-3)
 
@@ -105,13 +111,9 @@ def test_rims_of_smooth_glass_are_those_of_cycles(tmp_path):
 @pytest.mark.parametrize("kind", ["SUN", "AREA"])
 def test_light_grazes_coarse_balls_as_in_cycles(tmp_path, kind):
     import bpy
-    import scenes
 
     samples = 256
-    scene = scenes.empty(width=SIZE, height=SIZE, samples=samples)
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=8)
-    bpy.ops.object.shade_smooth()
-    bpy.context.object.data.materials.append(shader("Diffuse", Color=(1, 1, 1, 1)))
+    scene = ball("Diffuse", segments=12, rings=8, samples=samples, Color=(1, 1, 1, 1))
     bpy.ops.object.light_add(type=kind, location=(5, -1, 1.5), rotation=(0, 1.3, -0.2))
     bpy.context.object.data.energy = 3.0 if kind == "SUN" else 300.0
     seen((0, -5, 1), (0, 0, 0), 2.2)
@@ -129,15 +131,8 @@ def test_light_grazes_coarse_balls_as_in_cycles(tmp_path, kind):
 
 @pytest.mark.blender
 def test_smooth_meshes_that_shine_light_themselves_no_more_than_in_cycles(tmp_path):
-    import bpy
-    import scenes
-
-    scene = scenes.empty(width=SIZE, height=SIZE, samples=64)
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
-    bpy.ops.object.shade_smooth()
     glowing = {"Base Color": (0.8, 0.8, 0.8, 1.0), "Emission Color": (1.0, 1.0, 1.0, 1.0), "Emission Strength": 0.5}
-    bpy.context.object.data.materials.append(shader("Principled", **glowing))
+    ball("Principled", world=0.5, segments=16, rings=8, samples=64, **glowing)
     seen((0.0, -3.0, 1.0), (0.0, 0.0, 0.0), 2.2)
     # Each triangle's own light would count from within its plane, times whatever rounding leaves of it.
     picture = colour(tmp_path / "gonio.exr")
