@@ -120,6 +120,23 @@ impl Surface {
         tilts
     }
 
+    /// Whether layers stand above what emits.
+    pub fn covers_emission(&self) -> bool {
+        let under = self.switches.closure == Closure::Layered && self.switches.emission_order == EmissionOrder::UnderCoat;
+        under && (self.lobes.coat || self.lobes.fuzz)
+    }
+
+    /// What is emitted towards `wo` where the surface is there: not multiplied by its opacity.
+    #[inline(always)]
+    pub fn emitted<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Spectrum<L> {
+        if !self.covers_emission() {
+            return values.spectrum(l, p::EMISSION_COLOR, at);
+        }
+        let mut lobes = Lobes::empty(l);
+        resolve(l, self, &Hits { values, at, wo, entering, normals: None, walks: true }, &mut lobes);
+        lobes.emission()
+    }
+
     /// What passes straight through towards a light: what opacity leaves open, and smooth thin walls.
     #[inline(always)]
     pub fn transmittance<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Spectrum<L> {

@@ -194,6 +194,7 @@ pub(crate) fn fill_row(record: &LightRecord, factor: f64, row: &mut [f32]) {
         (record.opening.is_some_and(|part| part.area.outline == Outline::Ellipsoid), flag::ALL_ROUND),
         (lit, flag::LIT),
         (record.sampled_alone, flag::ALONE),
+        (record.shaded, flag::SHADED),
     ] {
         bits |= if set { bit } else { 0 };
     }

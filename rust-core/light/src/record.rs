@@ -110,6 +110,8 @@ pub struct LightRecord {
     /// Whether light sampling alone is to find it, but for what mirrors and smooth glass show: what scattered rays meet tells nothing of what
     /// blocks it.
     pub sampled_alone: bool,
+    /// Whether a shading program knows what each point emits: the radiance is then the mean, grey, and light samples carry that.
+    pub shaded: bool,
 }
 
 impl LightRecord {
@@ -135,6 +137,7 @@ impl LightRecord {
             scattered: [1.0; 3],
             falloff: Falloff::NATURAL,
             sampled_alone: false,
+            shaded: false,
         }
     }
 }

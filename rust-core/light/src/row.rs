@@ -104,6 +104,8 @@ pub(crate) mod flag {
     pub(crate) const VARIED: u32 = 1 << 21;
     /// Light sampling alone finds it; of scattered rays those that mirrors and smooth glass sent.
     pub(crate) const ALONE: u32 = 1 << 22;
+    /// A shading program knows what each point emits.
+    pub(crate) const SHADED: u32 = 1 << 23;
 }
 
 /// Rows read through a light index in each lane; lanes that all have one light read its row without gathers.

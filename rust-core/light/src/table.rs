@@ -57,10 +57,12 @@ pub struct LightTable {
     pub(crate) portals: Vec<u32>,
     /// By light, factors on what is scattered of it, three each; empty where all is as it is.
     pub(crate) factors: Vec<f32>,
-    /// Whether light sampling alone finds some light.
     /// By light, the two numbers of its falloff; empty where all fall by nature.
     pub(crate) falloffs: Vec<f32>,
+    /// Whether light sampling alone finds some light.
     pub(crate) any_alone: bool,
+    /// Whether shading programs know what some lights emit.
+    pub(crate) any_shaded: bool,
     /// Filters before the lights.
     pub(crate) gates: Gates,
     /// Which receivers see which lights, if they do not all see all.
@@ -137,6 +139,7 @@ impl LightTable {
             factors,
             falloffs,
             any_alone,
+            any_shaded: records.iter().any(|record| record.shaded),
             gates: Gates::default(),
             linked: None,
         }

@@ -33,6 +33,22 @@ pub(crate) fn transmittance<L: Lanes>(
     )
 }
 
+/// [`Surface::emitted`].
+#[inline(never)]
+pub(crate) fn emitted<L: Lanes>(
+    l: L,
+    surface: &Surface,
+    values: &ParameterValues<'_>,
+    at: usize,
+    wo: Vec3<L>,
+    entering: M<L>,
+) -> Spectrum<L> {
+    l.vectorize(
+        #[inline(always)]
+        || surface.emitted(l, values, at, wo, entering),
+    )
+}
+
 /// [`Lobes::eval_diffuse`].
 #[inline(never)]
 pub(crate) fn eval_diffuse<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, wi: Vec3<L>) -> Spectrum<L> {

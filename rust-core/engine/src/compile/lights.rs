@@ -3,6 +3,7 @@
 use super::{
     filters::CompiledFilters,
     geometry::slots_of,
+    glow::{Mean, Probe},
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
     light_groups::GroupNames,
@@ -15,11 +16,11 @@ use super::{
 };
 use crate::{
     accel::{Geometry, Instance, Shape},
-    error::Diagnostic,
-    geometry::{GeometryTable, NONE},
+    error::{Diagnostic, Result},
+    geometry::NONE,
     light::{Falloff, Goniogram, LightKind, LightLinks, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
     scene::{self, Light, LightShape, Mesh, Scene, Transform, Visibility},
-    transport::{LightGroups, MaterialTable, ray_mask},
+    transport::{LightGroups, Tables, ray_mask},
 };
 use std::sync::Arc;
 
@@ -91,6 +92,8 @@ pub(super) struct CompiledLights {
     /// Lights of the scene that the first lights of the table belong to; the others are triangles.
     pub(super) of_light: Vec<u32>,
     pub(super) triangle_lights: Vec<u32>,
+    /// The first triangle among the lights, and the instance of each from there on.
+    pub(super) light_instances: (u32, Vec<u32>),
     pub(super) groups: LightGroups,
     pub(super) linking: CompiledLinking,
 }
@@ -98,13 +101,13 @@ pub(super) struct CompiledLights {
 /// Lays out the scene's lights, then the triangles of emissive meshes.
 pub(super) fn compile(
     scene: &Scene,
-    geometry: &GeometryTable,
-    materials: &MaterialTable,
+    probe: &Probe<'_>,
     textures: &CompiledTextures,
     previous: &KeptLights,
     origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
-) -> CompiledLights {
+) -> Result<CompiledLights> {
+    let geometry = &probe.tables.geometry;
     let mut records = Vec::new();
     let mut instances = Vec::new();
     let mut instance_light = Vec::new();
@@ -137,13 +140,24 @@ pub(super) fn compile(
         light_of.resize(records.len(), number as u32);
     }
     instance_light.push(0);
-    let triangle_lights = emissive_triangles(scene, geometry, materials, origin, &mut records, diagnostics);
+    let first_triangle = records.len() as u32;
+    let triangle_lights = emissive_triangles(scene, probe, origin, &mut records, diagnostics)?;
+    let light_instances = (first_triangle, instances_of(&triangle_lights, records.len() - first_triangle as usize, first_triangle));
     let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
     let images = textures.of_lights.clone();
     let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
     let table = previous.table(&records, &images, &goniograms, &links, &filters);
     let kept = KeptLights { records, images, goniograms, links, filters, table: Some(table.clone()) };
-    CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, groups, linking }
+    Ok(CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, light_instances, groups, linking })
+}
+
+/// The instance of each light that is a triangle, by the first light of each instance.
+fn instances_of(triangle_lights: &[u32], count: usize, first_triangle: u32) -> Vec<u32> {
+    let mut instances = vec![0; count];
+    for (instance, first) in triangle_lights.iter().enumerate().filter(|(_, first)| **first != NONE) {
+        instances[(first - first_triangle) as usize..].fill(instance as u32);
+    }
+    instances
 }
 
 /// What the light is made of, in the rebased world.
@@ -305,17 +319,17 @@ fn shape_instance(light: &Light, part: &Part) -> Option<Instance> {
     Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })
 }
 
-/// Adds a light for each triangle of meshes with an evenly emitting material; gives the first light of each instance.
+/// Adds a light for each triangle of meshes with a material that emits; gives the first light of each instance.
 fn emissive_triangles(
     scene: &Scene,
-    geometry: &GeometryTable,
-    materials: &MaterialTable,
+    probe: &Probe<'_>,
     origin: [f64; 3],
     records: &mut Vec<LightRecord>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<u32> {
-    if !(0..materials.numbers.len()).any(|material| materials.even_emission(materials.number(material)).is_some()) {
-        return Vec::new();
+) -> Result<Vec<u32>> {
+    let Tables { geometry, materials, .. } = &probe.tables;
+    if !(0..materials.numbers.len()).any(|material| materials.is_sampled(materials.number(material))) {
+        return Ok(Vec::new());
     }
     let mut first_light = Vec::with_capacity(geometry.instances.len());
     let mut number = 0;
@@ -331,21 +345,23 @@ fn emissive_triangles(
         };
         // Placements of a set have the same materials.
         let first = geometry.instances[number as usize].first_material as usize;
-        let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.even_emission(*m).is_some());
+        let emits = geometry.materials[first..first + slots_of(mesh)].iter().any(|m| materials.is_sampled(*m));
         let moves = motion::moves(group, &scene.settings) || motion::deforms(mesh, &scene.settings);
         if emits && moves {
             let message = "it shines and moves; its light is found by chance, without light sampling";
             diagnostics.push(Diagnostic::info(&group.origin, message));
         }
         for transform in &group.transforms {
-            let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
             let fits = !moves && records.len() + mesh.triangles.len() <= MOST_EMISSIVE_TRIANGLES;
             if emits && fits && group.visibility.diffuse {
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);
                 let scattered = seen_by(&group.visibility);
+                let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
                 let record = |t: usize| LightRecord { scattered, ..triangle_record(mesh, t, &placed, glow(t)) };
+                let first = records.len();
                 records.extend((0..mesh.triangles.len()).map(record));
+                shade(probe, number, &mut records[first..])?;
             } else {
                 first_light.push(NONE);
             }
@@ -353,9 +369,20 @@ fn emissive_triangles(
         }
     }
     if first_light.iter().all(|first| *first == NONE) {
-        return Vec::new();
+        first_light.clear();
     }
-    first_light
+    Ok(first_light)
+}
+
+/// Gives the triangles of an instance that programs know their means.
+fn shade(probe: &Probe<'_>, instance: u32, records: &mut [LightRecord]) -> Result<()> {
+    let normals: Vec<[f32; 3]> = records.iter().map(|record| record.to_world[2].map(|x| -x)).collect();
+    for (record, mean) in records.iter_mut().zip(probe.means(instance, &normals)?) {
+        if let Some(Mean { luminance, two_sided }) = mean {
+            *record = LightRecord { radiance: [luminance; 3], shaded: true, two_sided, ..*record };
+        }
+    }
+    Ok(())
 }
 
 fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, glow: Option<[f32; 3]>) -> LightRecord {

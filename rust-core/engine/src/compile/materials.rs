@@ -12,8 +12,8 @@ use crate::{
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
-use gonio_nodes::{Channel, Operand};
-use program::{CompiledGraph, asks_for_ray, compile_graph};
+use gonio_nodes::{Channel, Operand, Value};
+use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
 
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
@@ -85,13 +85,23 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
     let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.code.value(closure.weight))).collect();
     let program = Program::new(&graph.code, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
     let own = &surfaces[first as usize..];
+    let emissive = own.iter().any(|surface| surface.emissive);
+    let even_emission = even_emission(closures, own, graph);
+    let known = own.iter().all(|surface| !surface.emissive || surface.even_emission.is_some() || surface.glow.is_some());
+    let glow = if emissive && even_emission.is_none() && known {
+        let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.sampled.value(closure.weight))).collect();
+        sampled_program(graph, outputs)
+    } else {
+        None
+    };
     Mix {
         first,
         count: closures.len(),
         program,
         lets_light_pass: own.iter().any(|surface| surface.lets_light_pass),
-        emissive: own.iter().any(|surface| surface.emissive),
-        even_emission: even_emission(closures, own, graph),
+        emissive,
+        even_emission,
+        glow,
     }
 }
 
@@ -133,7 +143,7 @@ fn surface(
         constants[parameter::BASE_COLOR..parameter::BASE_COLOR + 3].fill(1.0);
     }
     let mut varying = [false; parameter::COUNT];
-    let mut glow = None;
+    let mut sampled = Vec::new();
     let switches = switches_of(closure);
     let mut wanted = Wanted { free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
     let code = &graph.code;
@@ -144,9 +154,6 @@ fn surface(
         };
         let places = parameter.offset..parameter.offset + parameter.width();
         let whole = code.value(*input);
-        if parameter.offset == parameter::EMISSION_COLOR {
-            glow = Some(constant(&graph.sampled.value(*input)));
-        }
         let value = &whole[..parameter.width()];
         // A graph may give constants, too.
         for (place, operand) in places.clone().zip(value) {
@@ -157,6 +164,7 @@ fn surface(
         if value.iter().any(|operand| matches!(operand, Operand::Variable(_))) {
             varying[places].fill(true);
             wanted.outputs.push((parameter.offset, parameter.width(), whole));
+            sampled.push((parameter.offset, parameter.width(), graph.sampled.value(*input)));
         }
     }
     let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));
@@ -178,11 +186,13 @@ fn surface(
         let normal_alone = Wanted { normal: wanted.normal, smooth_normal: wanted.smooth_normal, uv: wanted.uv, ..Wanted::default() };
         Box::new(Program::new(code, &normal_alone))
     });
+    let (even_emission, glow) = glow(&surface, sampled, graph);
     SurfaceMaterial {
         transparent: surface.is_see_through(),
         lets_light_pass: surface.is_see_through() && material.transparent_shadows,
         emissive: lobes.emission,
-        even_emission: glow.unwrap_or(Some([0, 1, 2].map(|c| surface.constants[parameter::EMISSION_COLOR + c]))),
+        even_emission,
+        glow,
         interior: interior(material),
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
@@ -193,6 +203,21 @@ fn surface(
         exit,
         opacity_threshold: closure.opacity_threshold,
     }
+}
+
+/// What a surface emits for light sampling: the same everywhere, or what a program computes of the parameters that vary, given as light sampling
+/// has them.
+fn glow(surface: &Surface, varying: Vec<(usize, usize, Value)>, graph: &CompiledGraph) -> (Option<[f32; 3]>, Option<Box<Program>>) {
+    let colour = varying.iter().find(|(offset, ..)| *offset == parameter::EMISSION_COLOR);
+    let plain = || Some([0, 1, 2].map(|c| surface.constants[parameter::EMISSION_COLOR + c]));
+    let covered = surface.covers_emission();
+    let even = colour.map_or_else(plain, |(_, _, value)| constant(value)).filter(|_| !covered && !surface.lobes.cut_out);
+    if !surface.lobes.emission || even.is_some() {
+        return (even, None);
+    }
+    let wanted = |offset: usize| covered || offset == parameter::EMISSION_COLOR || offset == parameter::OPACITY;
+    let outputs = varying.into_iter().filter(|(offset, ..)| wanted(*offset)).collect();
+    (None, sampled_program(graph, outputs))
 }
 
 /// The edge of triangles that fibres lie along.

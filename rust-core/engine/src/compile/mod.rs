@@ -12,6 +12,7 @@ mod displace;
 mod expressions;
 mod filters;
 mod geometry;
+mod glow;
 mod goniograms;
 mod instances;
 mod kept;
@@ -138,7 +139,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let (images, kept_lights) = previous.map_or((&none.0, &none.1), |p| (&p.images, &p.kept_lights));
     let diced = dice::apply(scene, previous.map_or(&[], |p| &p.diced), cancel, &mut diagnostics)?;
     let scene = diced.as_ref().map_or(scene, |diced| &diced.scene);
-    let textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
+    let mut textures = textures::compile(scene, images, cancel, &mut diagnostics)?;
     let none = measured::CompiledMeasured::default();
     let measured = measured::compile(scene, previous.map_or(&none, |p| &p.measured), &mut diagnostics);
     let names = primvars::used_names(scene, &measured);
@@ -161,7 +162,11 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     motion::report_cameras(scene, &mut diagnostics);
     motion_vectors::report(scene, &mut diagnostics);
     let neighbours = motion_vectors::neighbours(scene, &cuts, &geometry, origin, &mut diagnostics);
-    let lights = lights::compile(scene, &geometry.table, &materials, &textures, kept_lights, origin, &mut diagnostics);
+    let shading = (std::mem::take(&mut geometry.table), materials, std::mem::take(&mut textures.table));
+    let probe = glow::Probe::new(shading, origin, cancel)?;
+    let lights = lights::compile(scene, &probe, &textures, kept_lights, origin, &mut diagnostics)?;
+    let materials;
+    (geometry.table, materials, textures.table) = probe.into_parts();
     lights.linking.set_masks(&geometry.table, &mut geometry.instances);
     geometry.instances.extend(&lights.instances);
     check(cancel)?;
@@ -186,7 +191,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let any_volume = materials.surfaces.iter().any(|surface| surface.interior.is_some());
     let any_absorbing = any_volume
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
-    let emits = |number: usize| materials.even_emission(materials.number(number)).is_some();
+    let emits = |number: usize| materials.is_sampled(materials.number(number)) || materials.glows_unknown(number);
     smooth::report_emission(scene, emits, &mut diagnostics);
     whitted::report(scene, &materials, &lights.table, &mut diagnostics);
     light_alone::report(scene, &materials, &lights.table, &mut diagnostics);
@@ -205,6 +210,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         lights: lights.table,
         instance_light: lights.instance_light,
         triangle_lights: lights.triangle_lights,
+        light_instances: lights.light_instances,
         object_lights,
         groups: lights.groups,
         links: lights.linking.tables,

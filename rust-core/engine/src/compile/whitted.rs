@@ -21,8 +21,8 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if surfaces.iter().any(|surface| surface.surface.lobes.walk) {
         warn("light does not walk under surfaces; subsurface scattering shows as diffuse".to_owned());
     }
-    if surfaces.iter().any(|surface| surface.emissive && surface.even_emission.is_none()) {
-        warn("surfaces with emission from a graph shine, but light nothing".to_owned());
+    if (0..materials.numbers.len()).any(|material| materials.glows_unknown(material)) {
+        warn("surfaces whose emission depends on the bounces before shine, but light nothing".to_owned());
     }
     if scene.settings.antialiasing.is_adaptive() {
         let camera = scene.cameras.get(scene.settings.camera as usize);

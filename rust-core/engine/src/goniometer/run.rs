@@ -40,7 +40,6 @@ pub fn measure(
     let scene = sources::luminaire(scene, &mut diagnostics);
     let compiled = compile(&scene, None, cancel)?;
     diagnostics.extend(compiled.diagnostics.iter().cloned());
-    sources::report_uneven(&scene, &compiled, &mut diagnostics);
     let bounds = sources::bounds(&scene, &options.rays, &Transform::IDENTITY);
     let body = sources::bounds(&scene, &options.rays, &options.frame.from_world());
     let sources = Sources::new(&compiled, &bounds, &options, &mut diagnostics)?;

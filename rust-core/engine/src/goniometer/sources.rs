@@ -1,7 +1,7 @@
 //! What of a scene is the luminaire, and what shines in it.
 
 use crate::{
-    compile::{Bounds, CompiledScene},
+    compile::Bounds,
     error::{Diagnostic, Error, Result},
     scene::{Light, Origin, Scene, Transform},
     transport::RayTable,
@@ -93,23 +93,6 @@ pub(super) fn bounds(scene: &Scene, rays: &[Rays], map: &Transform) -> Bounds {
     let mut bounds = Bounds::of_all(scene, map);
     rays.iter().flat_map(|rays| &rays.origins).for_each(|origin| bounds.extend(map.point(*origin)));
     bounds
-}
-
-/// Tells of surfaces whose light is not the same everywhere: no light paths start at them.
-pub(super) fn report_uneven(scene: &Scene, compiled: &CompiledScene, diagnostics: &mut Vec<Diagnostic>) {
-    let materials = &compiled.tables.materials;
-    let mut uneven = vec![false; scene.materials.len()];
-    for (material, uneven) in uneven.iter_mut().enumerate() {
-        *uneven = materials.emits_unevenly(materials.number(material));
-    }
-    let used = scene.instances.iter().flat_map(|set| &set.materials).map(|material| material.index());
-    let mut told = vec![false; uneven.len()];
-    for material in used.filter(|material| uneven.get(*material) == Some(&true)) {
-        if !std::mem::replace(&mut told[material], true) {
-            let origin = &scene.materials[material].origin;
-            diagnostics.push(Diagnostic::warning(origin, "what it emits differs from place to place; that light is not counted"));
-        }
-    }
 }
 
 #[cfg(test)]

@@ -154,3 +154,27 @@ fn rectangle_images_are_upright_for_what_they_light() {
         );
     }
 }
+
+#[test]
+fn rays_to_triangles_tell_where_they_end() {
+    let triangle = LightRecord {
+        to_world: [[2.0, 0.5, 0.0], [-0.3, 1.0, 0.2], [0.0, 0.0, -1.0], [0.7, -1.0, 3.0]],
+        radiance: [5.0; 3],
+        two_sided: true,
+        shaded: true,
+        ..LightRecord::new(LightKind::Triangle)
+    };
+    let table = LightTable::build(&[LightRecord::new(LightKind::Sphere), triangle], &NO_IMAGES, &[]);
+    let l = One;
+    assert!(!table.is_shaded(l, l.u(0)).any() && table.is_shaded(l, l.u(1)).all());
+    for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.2, 0.7), (0.4, 0.1)] {
+        let place = [0, 1, 2].map(|k| triangle.to_world[3][k] + u * triangle.to_world[0][k] + v * triangle.to_world[1][k]);
+        let from = [1.0, 4.0, -2.0];
+        let way = [0, 1, 2].map(|k| (place[k] - from[k]) / 3.0);
+        let point = table.triangle_point(l, l.u(1), Vec3::splat(l, from), Vec3::splat(l, way));
+        let found = [point.barycentric[0], point.barycentric[1], point.distance, point.mean].map(|x| x.to_array()[0]);
+        for (found, right) in found.into_iter().zip([u, v, 3.0, 5.0]) {
+            assert!((found - right).abs() < 1e-5, "{found} {right}");
+        }
+    }
+}

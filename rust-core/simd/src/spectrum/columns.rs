@@ -56,6 +56,14 @@ impl SpectrumColumns {
     pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {
         self.0.iter_mut().zip(&factors.0).for_each(|(column, factors)| column[at] *= factors[from]);
     }
+    /// Multiplies one spectrum by a number.
+    pub fn scale(&mut self, at: usize, factor: f32) {
+        self.0.iter_mut().for_each(|column| column[at] *= factor);
+    }
+    /// Multiplies the components of one spectrum by a factor each.
+    pub fn tint(&mut self, at: usize, factors: [f32; 3]) {
+        self.0.iter_mut().zip(factors).for_each(|(column, factor)| column[at] *= factor);
+    }
     /// Adds one spectrum of others so many times.
     pub fn add(&mut self, at: usize, others: &Self, from: usize, times: f32) {
         self.0.iter_mut().zip(&others.0).for_each(|(column, others)| column[at] += others[from] * times);

@@ -6,6 +6,7 @@ use crate::schedule::tracer::{Start, Tracer};
 use crate::stage::closure::choose_closures;
 use crate::stage::emit::{Emission, emit};
 use crate::stage::forward::{LightIntegrator, Splat, Wanted};
+use crate::stage::glow::shine_starts;
 use crate::stage::intersect::{escape, find_surfaces};
 use crate::stage::shadow::occlude;
 use crate::stage::sort::{list_materials, sort_by_material};
@@ -74,6 +75,10 @@ impl LightTracer<'_> {
         ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), &sampler, &runs, 0);
         let starts = &mut ws.queues.light_paths.starts;
         dispatch!(self.transport.execution, l => emit(l, self.tables, self.emission, &first, batch, starts, &mut ws.paths));
+        if self.tables.lights.any_shaded() && matches!(self.emission, Emission::Lights(_)) {
+            let room = ws.queues.light_paths.glow.get_or_insert_default();
+            shine_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
+        }
         ws.paths.set_masks();
         let mut flux = BatchFlux { emitted: self.under_way(ws), ..BatchFlux::default() };
         ws.statistics.spent(Stage::Generate, time);

@@ -248,7 +248,18 @@ fn connect<'s, L: Lanes>(
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     let medium = volume::start(chunk.tables, point, to);
     let straight = gone_straight(chunk.tables, chunk.transport, point.counts);
-    let sent = ShadowLanes { ray, contribution: value, slot: pixel, code, light, shares: Some(shares), receiver: None, medium, straight };
+    let sent = ShadowLanes {
+        ray,
+        contribution: value,
+        slot: pixel,
+        code,
+        light,
+        shares: Some(shares),
+        receiver: None,
+        medium,
+        straight,
+        ceiling: None,
+    };
     queues.light_paths.connections.rays.append(&sent, lit);
 }
 

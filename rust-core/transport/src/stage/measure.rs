@@ -5,7 +5,7 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
 use crate::stage::merge::{Found, irradiance};
-use crate::stage::nee::{gone_straight, send};
+use crate::stage::nee::{Along, gone_straight, send};
 use crate::state::columns::load3;
 use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
@@ -142,7 +142,9 @@ fn queue_shadow_ray<L: Lanes>(
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
     let medium = if chunk.tables.any_volume { Some(point.medium) } else { None };
     let straight = gone_straight(chunk.tables, chunk.transport, chunk.l.u(0));
-    send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium, straight), &light, lit, shadows, deposits);
+    // What is measured is never clamped.
+    let along = Along { medium, straight, ceiling: Some(chunk.l.f(f32::MAX)) };
+    send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits);
 }
 
 #[inline(always)]

@@ -24,6 +24,7 @@ pub(crate) mod exit;
 pub(crate) mod first_surface;
 pub(crate) mod forward;
 pub(crate) mod generate;
+pub(crate) mod glow;
 pub(crate) mod guided;
 pub(crate) mod integrator;
 pub(crate) mod intersect;

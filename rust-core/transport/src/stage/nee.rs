@@ -71,20 +71,27 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     // Below the triangle BSDF sampling finds nothing, yet its share is left out: wide lights, which have no hard terminator to hide, stay as dark
     // there as the triangle makes them (as in Cycles).
     let weight = weight.of(sample, pdf);
-    let value = transport.limits.clamped(f * sample.radiance * point.throughput * (weight / sample.pdf), point.bounces + 1);
+    let whole = f * sample.radiance * point.throughput * (weight / sample.pdf);
+    let mut value = transport.limits.clamped(whole, point.bounces + 1);
+    let mut ceiling = None;
+    if tables.lights.any_shaded() && transport.limits.clamps_any() {
+        // What is not known yet is clamped when it is.
+        value = tables.lights.is_shaded(l, sample.light).select(whole, value);
+        ceiling = Some(transport.limits.ceiling(point.bounces + 1));
+    }
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.flags), point.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
-    let straight = gone_straight(tables, transport, point.counts);
+    let along = Along { medium, straight: gone_straight(tables, transport, point.counts), ceiling };
     // One call each: rays of both in one place would be copied through memory.
     match &lifted {
-        None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, medium, straight), &light, lit, shadows, deposits),
+        None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits),
         Some(lifted) => {
             let ray = lifted.spawn_ray_to(&point.at, sample);
-            send(transport, (&point.at, ray), (sample, medium, straight), &light, lit, shadows, deposits);
+            send(transport, (&point.at, ray), (sample, along), &light, lit, shadows, deposits);
         }
     }
 }
@@ -126,13 +133,20 @@ pub(crate) fn gone_straight<L: Lanes>(tables: &Tables, transport: &Transport, co
     if tables.any_transparent && transport.limits.counts_straight() { Some(Limits::straight(counts)) } else { None }
 }
 
-/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there, which starts in a medium where
-/// anything fills meshes and knows how many surfaces its path has gone straight through.
+/// What a shadow ray takes along; see [`ShadowLanes`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Along<L: Lanes> {
+    pub(crate) medium: Option<Spectrum<L>>,
+    pub(crate) straight: Option<U<L>>,
+    pub(crate) ceiling: Option<F<L>>,
+}
+
+/// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there.
 #[inline(always)]
 pub(crate) fn send<L: Lanes>(
     transport: &Transport,
     (at, ray): (&Interaction<L>, RayLanes<L>),
-    (sample, medium, straight): (&LightSample<L>, Option<Spectrum<L>>, Option<U<L>>),
+    (sample, along): (&LightSample<L>, Along<L>),
     light: &Contribution<L>,
     lit: M<L>,
     shadows: &mut ShadowRays,
@@ -141,7 +155,8 @@ pub(crate) fn send<L: Lanes>(
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium, straight };
+    let Along { medium, straight, ceiling } = along;
+    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium, straight, ceiling };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

@@ -6,6 +6,7 @@ use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::catcher;
+use crate::stage::glow;
 use crate::stage::linked_shadow;
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::stage::volume;
@@ -42,6 +43,7 @@ pub(crate) fn trace_shadows(
     } else {
         occlude(tables, transport, coherent, shadows, trace, chunk);
     }
+    glow::shine(tables, transport, trace, shadows, chunk);
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);
     shadows.count = 0;

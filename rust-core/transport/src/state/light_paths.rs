@@ -2,6 +2,7 @@
 
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
+use crate::state::glow::GlowRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::{BATCH, CAPACITY};
@@ -75,6 +76,8 @@ pub(crate) struct LightPathQueues {
     pub(crate) arrivals: Arrivals,
     pub(crate) escapes: Escapes,
     pub(crate) connections: Connections,
+    /// Scratch where programs know what lights emit.
+    pub(crate) glow: Option<Box<GlowRoom>>,
 }
 
 impl Default for LightStarts {

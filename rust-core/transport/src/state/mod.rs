@@ -5,6 +5,7 @@
 pub(crate) mod chunk;
 pub(crate) mod columns;
 pub(crate) mod flag;
+pub(crate) mod glow;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;
 pub(crate) mod nearest;

@@ -25,6 +25,8 @@ pub struct SurfaceMaterial {
     pub emissive: bool,
     /// What it emits for light sampling, if that is the same everywhere.
     pub even_emission: Option<[f32; 3]>,
+    /// What computes the parameters of its emission for light sampling, if that differs.
+    pub glow: Option<Box<Program>>,
     /// Absorption a metre of what fills the closed mesh, if anything does.
     pub interior: Option<[f32; 3]>,
     /// Whether the shading frame's tangent matters.
@@ -52,6 +54,8 @@ pub struct Mix {
     pub emissive: bool,
     /// What all closures emit together for light sampling, where that is the same everywhere.
     pub even_emission: Option<[f32; 3]>,
+    /// What computes the weights for light sampling, as `program` does, if what is emitted differs.
+    pub glow: Option<Box<Program>>,
 }
 
 /// What a material number of the geometry stands for.
@@ -120,10 +124,22 @@ impl MaterialTable {
             Shading::Mix(mix) => self.mixes[mix as usize].lets_light_pass,
         }
     }
-    /// Whether a material of the geometry may emit, and not everywhere alike.
-    pub fn emits_unevenly(&self, number: u32) -> bool {
+    /// Whether light sampling runs programs to know what a material of the geometry emits.
+    pub fn glows_by_program(&self, number: u32) -> bool {
+        match self.shading(number) {
+            Shading::Surface(surface) => self.surfaces[surface as usize].glow.is_some(),
+            Shading::Mix(mix) => self.mixes[mix as usize].glow.is_some(),
+        }
+    }
+    /// Whether light sampling knows of what a material of the geometry emits.
+    pub fn is_sampled(&self, number: u32) -> bool {
+        self.glows_by_program(number) || self.even_emission(number).is_some()
+    }
+    /// Whether a material emits, and light sampling does not know what.
+    pub fn glows_unknown(&self, material: usize) -> bool {
+        let number = self.number(material);
         let (emissive, even) = self.emission(number);
-        emissive && even.is_none()
+        emissive && even.is_none() && !self.glows_by_program(number)
     }
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
@@ -145,10 +161,15 @@ impl MaterialTable {
     }
 }
 
-/// The parameters of a chunk: constants, and the columns a program computed.
+/// The parameters of a chunk: constants, and the columns its program computed.
 pub(crate) fn parameter_values<'a>(material: &'a SurfaceMaterial, outputs: &'a OutputColumns) -> ParameterValues<'a> {
-    let mut values = ParameterValues::constant(&material.surface.constants);
-    fill_columns(&material.program, outputs, &mut values.columns);
+    values_by(&material.surface, &material.program, outputs)
+}
+
+/// The same by another program of the surface.
+pub(crate) fn values_by<'a>(surface: &'a Surface, program: &Program, outputs: &'a OutputColumns) -> ParameterValues<'a> {
+    let mut values = ParameterValues::constant(&surface.constants);
+    fill_columns(program, outputs, &mut values.columns);
     values
 }
 

@@ -46,6 +46,8 @@ pub struct Tables {
     pub instance_light: Vec<u32>,
     /// First light of each mesh instance whose triangles are lights, or [`crate::geometry::NONE`]; empty if there is none.
     pub triangle_lights: Vec<u32>,
+    /// The first light that is a triangle, and the instance of each such light.
+    pub light_instances: (u32, Vec<u32>),
     /// 1 for lights on objects, which are absent for paths among shadow catchers alone; empty if there is none.
     pub object_lights: Vec<u32>,
     /// Lights by group.

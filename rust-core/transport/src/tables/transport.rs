@@ -9,7 +9,7 @@ use crate::tables::motion_vectors::MotionCameras;
 use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
 use gonio_light::{FixedLightSample, LightCache};
-use gonio_simd::{Execution, Lanes, M, Spectrum, U};
+use gonio_simd::{Execution, F, Lanes, M, Spectrum, U};
 use std::sync::Arc;
 
 /// Settings of a view that stages read, as pbrt's integrators hold them.
@@ -99,13 +99,22 @@ impl Limits {
     /// the lamp to the camera is direct; `scattered` counts.
     #[inline(always)]
     pub(crate) fn clamped<L: Lanes>(&self, value: Spectrum<L>, scattered: U<L>) -> Spectrum<L> {
-        if self.clamps.iter().all(|clamp| *clamp <= 0.0) {
+        if !self.clamps_any() {
             return value;
         }
-        let l = value.lanes();
+        let (mean, limit) = (value.mean(), self.ceiling(scattered));
+        value * mean.gt(limit).select(limit / mean, mean.lanes().f(1.0))
+    }
+    /// Whether there is such a limit.
+    pub(crate) fn clamps_any(&self) -> bool {
+        self.clamps.iter().any(|clamp| *clamp > 0.0)
+    }
+    /// The most that a contribution may come to in the mean of its channels.
+    #[inline(always)]
+    pub(crate) fn ceiling<L: Lanes>(&self, scattered: U<L>) -> F<L> {
+        let l = scattered.lanes();
         let [direct, indirect] = self.clamps.map(|clamp| if clamp > 0.0 { clamp } else { f32::MAX });
-        let (mean, limit) = (value.mean(), scattered.lt(2).select(l.f(direct), l.f(indirect)));
-        value * mean.gt(limit).select(limit / mean, l.f(1.0))
+        scattered.lt(2).select(l.f(direct), l.f(indirect))
     }
 
     /// Whether the bounces of each kind are within their limits.

@@ -6,11 +6,11 @@ use crate::{
         textures::CompiledTextures,
     },
     error::{Error, Result},
-    graph::{HitStep, Occlusion},
+    graph::{HitStep, Occlusion, Program, Wanted},
     scene::{Input, LightPathValue, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
-use gonio_nodes::{Code, Hit, Kernel};
+use gonio_nodes::{Code, Hit, Kernel, Value};
 use std::sync::Arc;
 
 /// Most rows of a curve's table.
@@ -34,6 +34,17 @@ fn tells_kind_of_ray(operation: &Operation) -> bool {
         value,
         V::IsCameraRay | V::IsShadowRay | V::IsDiffuseRay | V::IsGlossyRay | V::IsSingularRay | V::IsReflectionRay | V::IsTransmissionRay
     )
+}
+
+/// The part of a graph that light sampling runs to know what is emitted; none where that depends on what happened to the path before, which light
+/// sampling cannot tell.
+pub(super) fn sampled_program(graph: &CompiledGraph, outputs: Vec<(usize, usize, Value)>) -> Option<Box<Program>> {
+    use LightPathValue as V;
+    let program = Program::new(&graph.sampled, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
+    let counts = |value: &V| matches!(value, V::RayDepth | V::DiffuseDepth | V::GlossyDepth | V::TransmissionDepth | V::TransparentDepth);
+    let unknown = |kernel: &Kernel<HitStep>| matches!(kernel, Kernel::Hit(HitStep::Point(Operation::LightPath(value))) if counts(value));
+    let known = !program.kernels().any(unknown);
+    known.then(|| Box::new(program))
 }
 
 /// What is known of a node's coordinates while the graph is laid out.

@@ -30,6 +30,8 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) medium: Option<Spectrum<L>>,
     /// Surfaces that its path has gone straight through, where their number is limited.
     pub(crate) straight: Option<U<L>>,
+    /// The most that it may bring in the mean of its channels, where programs know what lights emit and that is clamped.
+    pub(crate) ceiling: Option<F<L>>,
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -52,6 +54,8 @@ pub(crate) struct ShadowRays {
     pub(crate) medium: SpectrumColumns,
     /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
     pub(crate) straight: Column<u32>,
+    /// Most that contributions may come to; filled where programs know what lights emit and contributions are clamped.
+    pub(crate) ceiling: Column,
 }
 
 impl Default for ShadowRays {
@@ -75,6 +79,7 @@ impl ShadowRays {
             receiver: Column::new(room),
             medium: SpectrumColumns::new(room),
             straight: Column::new(room),
+            ceiling: Column::new(room),
         }
     }
 
@@ -98,6 +103,14 @@ impl ShadowRays {
         self.count + hits * shadow_rays_per_hit <= SHADOW_ROOM - PADDING
     }
 
+    /// Holds a contribution within its limit.
+    pub(crate) fn clamp(&mut self, ray: usize) {
+        let (mean, most) = (self.contribution.sum_of(ray) / 3.0, self.ceiling[ray]);
+        if mean > most {
+            self.contribution.scale(ray, most / mean);
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, ray: &ShadowLanes<L>, chosen: M<L>) {
         let n = self.count;
@@ -118,6 +131,9 @@ impl ShadowRays {
         }
         if let Some(straight) = ray.straight {
             straight.append(chosen, &mut self.straight, n);
+        }
+        if let Some(ceiling) = ray.ceiling {
+            ceiling.append(chosen, &mut self.ceiling, n);
         }
         self.count += chosen.count();
     }

@@ -1,6 +1,7 @@
 //! What tracing shadow rays needs beside their queue.
 
 use crate::graph::CHUNK;
+use crate::state::glow::GlowScratch;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
@@ -28,6 +29,7 @@ pub(crate) struct ShadowTrace {
     /// Absorption a metre of one such filling.
     pub(crate) interior: SpectrumColumns,
     pub(crate) linked: LinkedTrace,
+    pub(crate) glow: GlowScratch,
 }
 
 /// Shadow rays told apart by what blocks them; see `stage/linked_shadow.rs`.
@@ -72,6 +74,7 @@ impl Default for ShadowTrace {
             around: SpectrumColumns::new(SHADOW_ROOM),
             interior: SpectrumColumns::new(PADDING),
             linked: LinkedTrace::default(),
+            glow: GlowScratch::default(),
         }
     }
 }

@@ -1,0 +1,111 @@
+//! How much triangles glow whose emission a shading program knows: means over points of each, for light sampling.
+
+use super::check;
+use crate::{
+    accel::Tlas,
+    error::{Error, Result},
+    geometry::GeometryTable,
+    light::{LightTable, LightTexture},
+    texture::TextureTable,
+    transport::{GlowPoint, GlowRoom, LightGroups, Links, MaterialTable, MatteNames, Tables, emitted},
+};
+use gonio_simd::Execution;
+use rayon::prelude::*;
+use std::sync::{Arc, atomic::AtomicBool};
+
+/// Points a mesh is asked at, within [`POINTS`] a triangle.
+const MESH_POINTS: usize = 8192;
+const POINTS: std::ops::RangeInclusive<usize> = 4..=128;
+/// A triangle counts at least this share of its mesh's mean, lest what lies between the points is found by chance alone.
+const LEAST_SHARE: f32 = 0.02;
+
+/// Geometry, materials and images before there are lights: enough to run shading programs.
+pub(super) struct Probe<'a> {
+    pub(super) tables: Tables,
+    cancel: &'a AtomicBool,
+}
+
+/// What a triangle emits in the mean: luminance, and whether both sides do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mean {
+    pub(super) luminance: f32,
+    pub(super) two_sided: bool,
+}
+
+impl<'a> Probe<'a> {
+    pub(super) fn new(
+        (geometry, materials, textures): (GeometryTable, MaterialTable, TextureTable),
+        origin: [f64; 3],
+        cancel: &'a AtomicBool,
+    ) -> Result<Self> {
+        let tables = Tables {
+            bvh: Tlas::build(Vec::new(), &[], cancel).map_err(|_| Error::Cancelled)?,
+            first_light_instance: 0,
+            geometry,
+            neighbours: None,
+            materials,
+            textures,
+            lights: Arc::new(LightTable::build(&[], &[] as &[LightTexture], &[])),
+            instance_light: Vec::new(),
+            triangle_lights: Vec::new(),
+            light_instances: (0, Vec::new()),
+            object_lights: Vec::new(),
+            groups: LightGroups::default(),
+            links: Links::default(),
+            matte_names: MatteNames::default(),
+            any_transparent: false,
+            any_absorbing: false,
+            any_volume: false,
+            origin,
+        };
+        Ok(Self { tables, cancel })
+    }
+
+    /// What it was made of.
+    pub(super) fn into_parts(self) -> (GeometryTable, MaterialTable, TextureTable) {
+        (self.tables.geometry, self.tables.materials, self.tables.textures)
+    }
+
+    /// The means of an instance's triangles, whose normals are given (any length); `None` for those that emit evenly or not at all.
+    pub(super) fn means(&self, instance: u32, normals: &[[f32; 3]]) -> Result<Vec<Option<Mean>>> {
+        let Tables { geometry, materials, .. } = &self.tables;
+        let points = (MESH_POINTS / normals.len().max(1)).clamp(*POINTS.start(), *POINTS.end());
+        let sides = |room: &mut GlowRoom, (triangle, normal): (usize, &[f32; 3])| {
+            check(self.cancel)?;
+            let uneven = materials.glows_by_program(geometry.material(instance, triangle as u32));
+            Ok(uneven.then(|| [1.0, -1.0].map(|side| self.side(instance, triangle as u32, normal.map(|x| x * side), points, room))))
+        };
+        let found: Vec<Option<[f32; 2]>> = normals.par_iter().enumerate().map_init(GlowRoom::default, sides).collect::<Result<_>>()?;
+        let asked = found.iter().flatten().count().max(1) as f32;
+        let least = LEAST_SHARE * found.iter().flatten().map(|[front, back]| front + back).sum::<f32>() / asked;
+        let mean = |[front, back]: [f32; 2]| Mean {
+            luminance: if back > 0.0 { (0.5 * (front + back)).max(least) } else { front.max(least) },
+            two_sided: back > 0.0 || front <= 0.0,
+        };
+        Ok(found.into_iter().map(|sides| sides.map(mean)).collect())
+    }
+
+    /// Mean luminance of one side of a triangle, the one that `normal` points away from.
+    fn side(&self, instance: u32, primitive: u32, normal: [f32; 3], count: usize, room: &mut GlowRoom) -> f32 {
+        let points: Vec<GlowPoint> = (0..count).map(|number| point(instance, primitive, normal, number)).collect();
+        let mut values = vec![[0.0; 3]; count];
+        emitted(&self.tables, Execution::detect(), &points, room, &mut values);
+        let luminance = |value: [f32; 3]| crate::colour::luminance(value.map(f64::from));
+        let sum: f64 = values.into_iter().map(luminance).filter(|y| y.is_finite()).map(|y| y.max(0.0)).sum();
+        (sum / count as f64) as f32
+    }
+}
+
+/// Points spread evenly over a triangle (Martin Roberts' R sequence in four dimensions), seen from directions over the normal.
+fn point(instance: u32, primitive: u32, normal: [f32; 3], number: usize) -> GlowPoint {
+    let [a, b, c, d] = [0.856_674_9, 0.733_891_86, 0.628_706_7, 0.538_597_27].map(|step: f32| (0.5 + step * number as f32).fract());
+    let barycentric = if a + b > 1.0 { [1.0 - a, 1.0 - b] } else { [a, b] };
+    // A point of the unit sphere around the normal's tip lies in a direction by the cosine's law.
+    let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt().max(f32::MIN_POSITIVE);
+    let (z, (sine, cosine)) = (2.0 * c - 1.0, (std::f32::consts::TAU * d).sin_cos());
+    let across = (1.0 - z * z).max(0.0).sqrt();
+    let tip = [across * cosine, across * sine, z];
+    let toward: [f32; 3] = std::array::from_fn(|k| normal[k] / length + 0.999 * tip[k]);
+    let inverse = 1.0 / toward.iter().map(|x| x * x).sum::<f32>().sqrt();
+    GlowPoint { instance, primitive, barycentric, toward: toward.map(|x| x * inverse) }
+}

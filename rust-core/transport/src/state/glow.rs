@@ -1,0 +1,49 @@
+//! Scratch for what meshes emit that glow by an image or a pattern; see `stage/glow.rs`.
+
+use crate::graph::CHUNK;
+use crate::state::chunk::ChunkColumns;
+use crate::state::rays::Rays;
+use gonio_accel::TransparentHit;
+use gonio_simd::SpectrumColumns;
+
+/// Ends of shadow rays on meshes whose emission programs know.
+#[derive(Debug)]
+pub(crate) struct GlowScratch {
+    /// Where rays end.
+    pub(crate) ends: Vec<TransparentHit>,
+    /// By shadow ray, the reciprocal of the mean radiance that its contribution has.
+    pub(crate) inverse_mean: Vec<f32>,
+    /// Weights of a mix over a chunk of ends, three channels a closure.
+    pub(crate) weights: Vec<f32>,
+    /// What a chunk of ends emits, over the means.
+    pub(crate) emitted: SpectrumColumns,
+}
+
+impl GlowScratch {
+    /// Makes room for so many rays.
+    pub(crate) fn begin(&mut self, rays: usize) {
+        self.ends.clear();
+        self.inverse_mean.clear();
+        self.inverse_mean.resize(rays, 0.0);
+    }
+}
+
+impl Default for GlowScratch {
+    fn default() -> Self {
+        Self { ends: Vec::new(), inverse_mean: Vec::new(), weights: Vec::new(), emitted: SpectrumColumns::new(CHUNK) }
+    }
+}
+
+/// Scratch of [`crate::emitted`].
+#[derive(Debug)]
+pub struct GlowRoom {
+    pub(crate) rays: Rays,
+    pub(crate) glow: GlowScratch,
+    pub(crate) columns: ChunkColumns,
+}
+
+impl Default for GlowRoom {
+    fn default() -> Self {
+        Self { rays: Rays::new(CHUNK, 0), glow: GlowScratch::default(), columns: ChunkColumns::default() }
+    }
+}
