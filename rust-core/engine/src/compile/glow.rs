@@ -98,7 +98,7 @@ impl<'a> Probe<'a> {
 
 /// Points spread evenly over a triangle (Martin Roberts' R sequence in four dimensions), seen from directions over the normal.
 fn point(instance: u32, primitive: u32, normal: [f32; 3], number: usize) -> GlowPoint {
-    let [a, b, c, d] = [0.856_674_9, 0.733_891_86, 0.628_706_7, 0.538_597_27].map(|step: f32| (0.5 + step * number as f32).fract());
+    let [a, b, c, d] = [0.856_674_9, 0.733_891_86, 0.628_706_7, 0.538_597_3].map(|step: f32| (0.5 + step * number as f32).fract());
     let barycentric = if a + b > 1.0 { [1.0 - a, 1.0 - b] } else { [a, b] };
     // A point of the unit sphere around the normal's tip lies in a direction by the cosine's law.
     let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt().max(f32::MIN_POSITIVE);
