@@ -164,7 +164,7 @@ fn rays_to_triangles_tell_where_they_end() {
         shaded: true,
         ..LightRecord::new(LightKind::Triangle)
     };
-    let table = LightTable::build(&[LightRecord::new(LightKind::Sphere), triangle], &NO_IMAGES, &[]);
+    let table = LightTable::build(&[LightRecord::new(LightKind::Sphere), triangle], NO_IMAGES, &[]);
     let l = One;
     assert!(!table.is_shaded(l, l.u(0)).any() && table.is_shaded(l, l.u(1)).all());
     for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.2, 0.7), (0.4, 0.1)] {
