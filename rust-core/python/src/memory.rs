@@ -5,17 +5,21 @@
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     ptr::null_mut,
+    sync::Mutex,
 };
 
 /// Blocks from this many bytes on are the kernel's business.
 const LARGE: usize = 1 << 17;
 
-/// Blocks from this many bytes on want large pages: a picture's first touch is a fault for each page.
-#[cfg(target_os = "linux")]
-const HUGE: usize = 1 << 22;
+/// A large page.
+const HUGE: usize = 1 << 21;
 
 /// No page of a kernel is smaller, so every block is aligned to it.
 const PAGE: usize = 4096;
+
+/// How many freed mappings wait for their like, and how many bytes they have at most: a first touch of a page takes as long as filling ten.
+const WAITING: usize = 64;
+const MOST_WAITING: usize = 1 << 26;
 
 /// The system's allocator but for large blocks.
 struct Memory;
@@ -23,8 +27,9 @@ struct Memory;
 #[global_allocator]
 static MEMORY: Memory = Memory;
 
-/// Has the system's allocator give back what is free in it: hosts freed there what they read a scene from, where large blocks of ours find no room.
+/// Gives back what is free, in the system's allocator too: hosts freed there what they read a scene from, where large blocks of ours find no room.
 pub(crate) fn give_back() {
+    unmap_waiting();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: takes no memory of anybody's, and any thread may ask at any time.
     unsafe {
@@ -36,13 +41,84 @@ fn is_large(layout: Layout) -> bool {
     layout.size() >= LARGE && layout.align() <= PAGE
 }
 
-fn map(size: usize) -> *mut u8 {
+/// Bytes of the mapping for a large block: an eighth more at most, so that freed ones fit others.
+fn mapped(size: usize) -> usize {
+    size.next_multiple_of((size.next_power_of_two() / 16).max(PAGE))
+}
+
+/// Freed mappings that wait to be used again.
+struct Waiting {
+    /// Address and bytes; free places have none.
+    blocks: [(usize, usize); WAITING],
+    bytes: usize,
+    /// Whose place the next one takes.
+    next: usize,
+}
+
+static FREED: Mutex<Waiting> = Mutex::new(Waiting { blocks: [(0, 0); WAITING], bytes: 0, next: 0 });
+
+impl Waiting {
+    fn take(&mut self, size: usize) -> Option<usize> {
+        let found = self.blocks.iter_mut().find(|(_, bytes)| *bytes == size)?;
+        self.bytes -= size;
+        Some(std::mem::take(found).0)
+    }
+
+    /// Keeps a mapping; gives the one whose place it took, which has no bytes if there was none.
+    fn keep(&mut self, block: (usize, usize)) -> (usize, usize) {
+        if self.bytes + block.1 > MOST_WAITING {
+            return block;
+        }
+        let place = self.next;
+        self.next = (place + 1) % WAITING;
+        let old = std::mem::replace(&mut self.blocks[place], block);
+        self.bytes = self.bytes + block.1 - old.1;
+        old
+    }
+}
+
+/// Forgets the freed mappings that wait.
+fn unmap_waiting() {
+    let blocks = match FREED.try_lock() {
+        Ok(mut waiting) => std::mem::replace(&mut *waiting, Waiting { blocks: [(0, 0); WAITING], bytes: 0, next: 0 }).blocks,
+        Err(_) => return,
+    };
+    blocks.into_iter().for_each(unmap);
+}
+
+/// Gives a mapping back to the kernel.
+fn unmap((block, size): (usize, usize)) {
+    if size > 0 {
+        // SAFETY: the block is a whole mapping of this size, which nothing uses any more.
+        unsafe { libc::munmap(block as *mut libc::c_void, size) };
+    }
+}
+
+/// A mapping for a large block, zeroed if asked.
+fn map(size: usize, zeroed: bool) -> *mut u8 {
+    let whole = mapped(size);
+    // Whoever finds it locked goes to the kernel: allocating never waits, not even in a process that was split off meanwhile.
+    if let Some(block) = FREED.try_lock().ok().and_then(|mut waiting| waiting.take(whole)) {
+        let block = block as *mut u8;
+        if zeroed {
+            // SAFETY: the mapping has at least so many bytes, and nobody else knows of it.
+            unsafe { block.write_bytes(0, size) };
+        }
+        return block;
+    }
+    fresh(whole)
+}
+
+/// A new mapping. One that holds large pages starts at one, which the kernel sees to where it is a whole number of them.
+fn fresh(size: usize) -> *mut u8 {
+    let aligned = if size >= HUGE { size.next_multiple_of(HUGE) } else { size };
     let (protection, flags) = (libc::PROT_READ | libc::PROT_WRITE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
     // SAFETY: a new private mapping at an address of the kernel's choice touches no memory that is in use.
-    let block = unsafe { libc::mmap(null_mut(), size, protection, flags, -1, 0) };
+    let block = unsafe { libc::mmap(null_mut(), aligned, protection, flags, -1, 0) };
     if block == libc::MAP_FAILED {
         return null_mut();
     }
+    unmap((block as usize + size, aligned - size));
     #[cfg(target_os = "linux")]
     if size >= HUGE {
         // SAFETY: advice about a mapping of our own; a kernel that does not take it does nothing.
@@ -51,23 +127,28 @@ fn map(size: usize) -> *mut u8 {
     block.cast()
 }
 
-// SAFETY: blocks are the system's or whole mappings of their own, page-aligned and zeroed; which of the two follows from the layout alone, that
-// callers repeat when they free. Nothing here panics or allocates.
+/// Frees a large block.
+fn free(block: *mut u8, size: usize) {
+    let block = (block as usize, mapped(size));
+    unmap(FREED.try_lock().map_or(block, |mut waiting| waiting.keep(block)));
+}
+
+// SAFETY: blocks are the system's or whole mappings of their own, page-aligned, zeroed where asked; which of the two follows from the layout alone,
+// that callers repeat when they free. Nothing here panics or allocates.
 unsafe impl GlobalAlloc for Memory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller's promises are passed on.
-        if is_large(layout) { map(layout.size()) } else { unsafe { System.alloc(layout) } }
+        if is_large(layout) { map(layout.size(), false) } else { unsafe { System.alloc(layout) } }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: the caller's promises are passed on; fresh mappings are zero.
-        if is_large(layout) { map(layout.size()) } else { unsafe { System.alloc_zeroed(layout) } }
+        // SAFETY: the caller's promises are passed on.
+        if is_large(layout) { map(layout.size(), true) } else { unsafe { System.alloc_zeroed(layout) } }
     }
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
         if is_large(layout) {
-            // SAFETY: the block is a mapping of this size, which nothing uses any more.
-            unsafe { libc::munmap(block.cast(), layout.size()) };
+            free(block, layout.size());
         } else {
             // SAFETY: the block came from the system's allocator with this layout.
             unsafe { System.dealloc(block, layout) }
@@ -80,10 +161,11 @@ unsafe impl GlobalAlloc for Memory {
         match (is_large(layout), is_large(wanted)) {
             // SAFETY: the block came from the system's allocator with this layout.
             (false, false) => unsafe { System.realloc(block, layout, size) },
+            (true, true) if mapped(layout.size()) == mapped(size) => block,
             #[cfg(target_os = "linux")]
             (true, true) => {
                 // SAFETY: the block is a mapping of the old size; the kernel moves its pages.
-                let moved = unsafe { libc::mremap(block.cast(), layout.size(), size, libc::MREMAP_MAYMOVE) };
+                let moved = unsafe { libc::mremap(block.cast(), mapped(layout.size()), mapped(size), libc::MREMAP_MAYMOVE) };
                 if moved == libc::MAP_FAILED { null_mut() } else { moved.cast() }
             }
             // SAFETY: both blocks are at least as long as what is copied, and distinct.

@@ -16,6 +16,12 @@ use crate::{
     scene::{Instances, Mesh, Primvar, Scene},
     transport::MaterialTable,
 };
+use rayon::prelude::*;
+
+/// Values that one task copies at least: the first touch of a table takes longer than the copy, and cores share it.
+const FEW: usize = 1 << 16;
+/// What [`pad`] adds to a column at most.
+const PADDED: usize = 12;
 
 /// Flat tables, and what the top-level tree is built from.
 #[derive(Debug)]
@@ -39,6 +45,7 @@ pub(super) fn tables(
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
     motion::report_meshes(scene, diagnostics);
+    reserve(scene, names, &mut table);
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     meshes.extend(smooth_tables::append(scene, cuts, names, &mut table, diagnostics)?);
     motion::fill_keys(scene, cuts, &mut table);
@@ -79,6 +86,15 @@ pub(super) fn tables(
     Ok(CompiledGeometry { table, instances, moving, first_light })
 }
 
+/// Makes room for all meshes: tables that grow are moved again and again.
+fn reserve(scene: &Scene, names: &[String], table: &mut GeometryTable) {
+    let primvars = || scene.meshes.iter().flat_map(|mesh| names.iter().filter_map(move |name| mesh.primvar(name)).chain(&mesh.normals));
+    table.points.reserve_exact(scene.meshes.iter().map(|mesh| mesh.points.len() * 3).sum::<usize>() + PADDED);
+    table.corners.reserve_exact(scene.meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum::<usize>() + PADDED);
+    table.values.reserve_exact(primvars().map(|primvar| primvar.values.len()).sum::<usize>() + PADDED);
+    table.value_indices.reserve_exact(primvars().filter_map(|primvar| primvar.indices.as_ref()).map(|i| i.len()).sum::<usize>() + PADDED);
+}
+
 /// Appends a mesh; gives its part of its instances' rows.
 pub(super) fn append_mesh(
     mesh: &Mesh,
@@ -93,8 +109,8 @@ pub(super) fn append_mesh(
         return Err(Error::scene(&mesh.origin, "the scene has more points or triangles than 2^31 table entries hold"));
     }
     let first_triangle = (table.corners.len() / 3) as u32;
-    table.points.extend(mesh.points.iter().flatten());
-    table.corners.extend(mesh.triangles.iter().flatten().map(|index| index.saturating_add(first_point as u32)));
+    append_values(&mut table.points, mesh.points.as_flattened());
+    table.corners.par_extend(mesh.triangles.as_flattened().par_iter().with_min_len(FEW).map(|i| i.saturating_add(first_point as u32)));
     let first_slot = match &mesh.slots {
         Some(slots) if slots.len() == mesh.triangles.len() => {
             let first = table.slots.len() as u32;
@@ -137,6 +153,11 @@ fn append_checked(
     };
     table.primvars.extend(reference.words());
     reference.kind != PrimvarKind::Absent
+}
+
+/// Copies many values behind those of a column.
+pub(super) fn append_values<T: Copy + Send + Sync>(column: &mut Vec<T>, values: &[T]) {
+    column.par_extend(values.par_iter().with_min_len(FEW));
 }
 
 /// Room so that no gather finds an empty table, and reading a whole value never leaves it.

@@ -1,5 +1,6 @@
 //! Which primvars materials read, and their layout in the value tables.
 
+use super::geometry::append_values;
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
@@ -108,11 +109,11 @@ pub(super) fn problem(primvar: &Primvar, elements: Elements) -> Option<String> {
 /// Puts a checked primvar's arrays into the tables.
 pub(super) fn append(primvar: &Primvar, table: &mut GeometryTable) -> PrimvarRef {
     let first_value = table.values.len() as u32;
-    table.values.extend_from_slice(&primvar.values);
+    append_values(&mut table.values, &primvar.values);
     let first_index = match &primvar.indices {
         Some(indices) => {
             let first = table.value_indices.len() as u32;
-            table.value_indices.extend_from_slice(indices);
+            append_values(&mut table.value_indices, indices);
             first
         }
         None => NONE,
