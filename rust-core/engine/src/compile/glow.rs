@@ -16,6 +16,8 @@ use std::sync::{Arc, atomic::AtomicBool};
 /// Points a mesh is asked at, within [`POINTS`] a triangle.
 const MESH_POINTS: usize = 8192;
 const POINTS: std::ops::RangeInclusive<usize> = 4..=128;
+/// Points that one task asks.
+const TASK: usize = 4096;
 /// A triangle counts at least this share of its mesh's mean, lest what lies between the points is found by chance alone.
 const LEAST_SHARE: f32 = 0.02;
 
@@ -69,30 +71,36 @@ impl<'a> Probe<'a> {
     /// The means of an instance's triangles, whose normals are given (any length); `None` for those that emit evenly or not at all.
     pub(super) fn means(&self, instance: u32, normals: &[[f32; 3]]) -> Result<Vec<Option<Mean>>> {
         let Tables { geometry, materials, .. } = &self.tables;
-        let points = (MESH_POINTS / normals.len().max(1)).clamp(*POINTS.start(), *POINTS.end());
-        let sides = |room: &mut GlowRoom, (triangle, normal): (usize, &[f32; 3])| {
+        let asked = |triangle: &u32| materials.glows_by_program(geometry.material(instance, *triangle));
+        let asked: Vec<u32> = (0..normals.len() as u32).filter(asked).collect();
+        let points = (MESH_POINTS / asked.len().max(1)).clamp(*POINTS.start(), *POINTS.end());
+        let sides = |room: &mut GlowRoom, triangles: &[u32]| {
             check(self.cancel)?;
-            let uneven = materials.glows_by_program(geometry.material(instance, triangle as u32));
-            Ok(uneven.then(|| [1.0, -1.0].map(|side| self.side(instance, triangle as u32, normal.map(|x| x * side), points, room))))
+            Ok(self.sides(instance, triangles, normals, points, room))
         };
-        let found: Vec<Option<[f32; 2]>> = normals.par_iter().enumerate().map_init(GlowRoom::default, sides).collect::<Result<_>>()?;
-        let asked = found.iter().flatten().count().max(1) as f32;
-        let least = LEAST_SHARE * found.iter().flatten().map(|[front, back]| front + back).sum::<f32>() / asked;
-        let mean = |[front, back]: [f32; 2]| Mean {
-            luminance: if back > 0.0 { (0.5 * (front + back)).max(least) } else { front.max(least) },
-            two_sided: back > 0.0 || front <= 0.0,
-        };
-        Ok(found.into_iter().map(|sides| sides.map(mean)).collect())
+        let task = (TASK / (2 * points)).max(1);
+        let found: Vec<Vec<[f32; 2]>> = asked.par_chunks(task).map_init(GlowRoom::default, sides).collect::<Result<_>>()?;
+        let least = LEAST_SHARE * found.iter().flatten().map(|[front, back]| front + back).sum::<f32>() / asked.len().max(1) as f32;
+        let mut means = vec![None; normals.len()];
+        for (triangle, [front, back]) in asked.into_iter().zip(found.into_iter().flatten()) {
+            let luminance = if back > 0.0 { 0.5 * (front + back) } else { front };
+            means[triangle as usize] = Some(Mean { luminance: luminance.max(least), two_sided: back > 0.0 || front <= 0.0 });
+        }
+        Ok(means)
     }
 
-    /// Mean luminance of one side of a triangle, the one that `normal` points away from.
-    fn side(&self, instance: u32, primitive: u32, normal: [f32; 3], count: usize, room: &mut GlowRoom) -> f32 {
-        let points: Vec<GlowPoint> = (0..count).map(|number| point(instance, primitive, normal, number)).collect();
-        let mut values = vec![[0.0; 3]; count];
+    /// Mean luminances of both sides of some triangles, first of those that the normals point away from.
+    fn sides(&self, instance: u32, triangles: &[u32], normals: &[[f32; 3]], count: usize, room: &mut GlowRoom) -> Vec<[f32; 2]> {
+        let of_side = |triangle: u32, side: f32| {
+            let normal = normals[triangle as usize].map(|x| x * side);
+            (0..count).map(move |number| point(instance, triangle, normal, number))
+        };
+        let points: Vec<GlowPoint> = triangles.iter().flat_map(|t| of_side(*t, 1.0).chain(of_side(*t, -1.0))).collect();
+        let mut values = vec![[0.0; 3]; points.len()];
         emitted(&self.tables, Execution::detect(), &points, room, &mut values);
-        let luminance = |value: [f32; 3]| crate::colour::luminance(value.map(f64::from));
-        let sum: f64 = values.into_iter().map(luminance).filter(|y| y.is_finite()).map(|y| y.max(0.0)).sum();
-        (sum / count as f64) as f32
+        let luminance = |value: &[f32; 3]| crate::colour::luminance(value.map(f64::from)).max(0.0);
+        let mean = |values: &[[f32; 3]]| (values.iter().map(luminance).filter(|y| y.is_finite()).sum::<f64>() / count as f64) as f32;
+        values.chunks(2 * count).map(|both| [mean(&both[..count]), mean(&both[count..])]).collect()
     }
 }
 
