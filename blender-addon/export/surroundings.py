@@ -7,8 +7,9 @@ import numpy as np
 
 from .object_attribute import attribute_of
 
-# Key of the camera, and how keys begin of the view layer's properties, and of objects by their session_uid.
-CAMERA, LAYER, OBJECT = "camera", "layer ", "object "
+# Keys of the camera and of how far ambient occlusion looks, and how keys begin of the view layer's properties, and of objects by their
+# session_uid.
+CAMERA, OCCLUSION, LAYER, OBJECT = "camera", "occlusion", "layer ", "object "
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,8 @@ class Surroundings:
         self._camera, self._depsgraph, self._part, self._objects = camera, depsgraph, part, None
 
     def ask(self, key):
-        """The camera, a property of the view layer, the scene or the world, or the matrix to an object's space; None if there is none."""
+        """The camera, a distance of the world, a property of the view layer, the scene or the world, or the matrix to an object's space;
+        None if there is none."""
         if key == CAMERA:
             return None if self._camera is None else eye_of(self._camera)
         if self._depsgraph is None:
@@ -42,6 +44,8 @@ class Surroundings:
         if key.startswith(OBJECT):
             return self._to_object(int(key.removeprefix(OBJECT)))
         layer, scene = self._depsgraph.view_layer, self._depsgraph.scene
+        if key == OCCLUSION:
+            return None if scene.world is None else scene.world.light_settings.distance
         return attribute_of((layer, scene, scene.world), key.removeprefix(LAYER))
 
     def _to_object(self, uid):
