@@ -7,6 +7,7 @@ from ..colour_management import gonio_name
 from .box_projection import box_projection
 from .image_filter import multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
+from .sockets import follow, input_socket
 from .translator import value_node
 from .vectors import mapping_matrix, transform3d
 
@@ -18,11 +19,32 @@ FILTERS_OF_CODES = {"Closest": "Closest", "Linear": "LinearCodes", "Cubic": "Cub
 MISSING = (1.0, 0.0, 1.0, 1.0)
 # Alpha below this is none.
 NO_ALPHA = 1e-8
+# Since this version Blender lays groups flat before Cycles sees them: a group's unlinked input is a constant, no longer nothing.
+LAID_FLAT = (5, 0, 0)
+# Textures that Blender leaves to Cycles even where all their inputs are constants.
+PICTURES = frozenset({"ShaderNodeTexImage", "ShaderNodeTexEnvironment", "ShaderNodeTexSky", "ShaderNodeTexIES"})
+
+
+def _is_placed(t, node, context):
+    """Whether a texture's vector input says where it is looked up."""
+    if t.linked(node, "Vector", context):
+        return True
+    own = input_socket(node, "Vector")
+    found = None if own is None or t.version < LAID_FLAT else follow(own, context)
+    if found is None or found.node is not None or found.output.node.type != "GROUP":
+        return False
+    # Blender computes procedural textures of constants itself, whatever it shows of the group's input.
+    return not found.output.hide_value or (node.bl_idname not in PICTURES and _is_even(t, node, context, own))
+
+
+def _is_even(t, node, context, place):
+    """Whether all inputs of a texture but its coordinates are constants."""
+    return all(t.socket(socket, context).is_constant for socket in node.inputs if socket.enabled and socket != place)
 
 
 def coordinates(t, node, context, default):
     """The vector input, or the default coordinates, through the node's own mapping."""
-    value = t.input(node, "Vector", context) if t.linked(node, "Vector", context) else default
+    value = t.input(node, "Vector", context) if _is_placed(t, node, context) else default
     legacy = node.texture_mapping
     scale = tuple(legacy.scale)
     if legacy.vector_type == "POINT" and not any(legacy.translation) and not any(legacy.rotation) and scale == (1.0, 1.0, 1.0):
