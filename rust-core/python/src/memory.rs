@@ -5,7 +5,10 @@
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     ptr::null_mut,
-    sync::Mutex,
+    sync::{
+        Mutex, MutexGuard,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 /// Blocks from this many bytes on are the kernel's business.
@@ -21,20 +24,27 @@ const PAGE: usize = 4096;
 const WAITING: usize = 64;
 const MOST_WAITING: usize = 1 << 26;
 
+/// Whether freed mappings wait at all. They take room, which is dear in hosts that hold a scene of their own.
+static KEEPS: AtomicBool = AtomicBool::new(false);
+
 /// The system's allocator but for large blocks.
 struct Memory;
 
 #[global_allocator]
 static MEMORY: Memory = Memory;
 
-/// Gives back what is free, in the system's allocator too: hosts freed there what they read a scene from, where large blocks of ours find no room.
+/// Has the system's allocator give back what is free in it: hosts freed there what they read a scene from, where large blocks of ours find no room.
 pub(crate) fn give_back() {
-    unmap_waiting();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: takes no memory of anybody's, and any thread may ask at any time.
     unsafe {
         libc::malloc_trim(0);
     }
+}
+
+/// Lets freed mappings wait for their like from now on: for a process that reads a scene, renders it and ends.
+pub(crate) fn keep() {
+    KEEPS.store(true, Ordering::Relaxed);
 }
 
 fn is_large(layout: Layout) -> bool {
@@ -77,13 +87,10 @@ impl Waiting {
     }
 }
 
-/// Forgets the freed mappings that wait.
-fn unmap_waiting() {
-    let blocks = match FREED.try_lock() {
-        Ok(mut waiting) => std::mem::replace(&mut *waiting, Waiting { blocks: [(0, 0); WAITING], bytes: 0, next: 0 }).blocks,
-        Err(_) => return,
-    };
-    blocks.into_iter().for_each(unmap);
+/// The mappings that wait, where any do. Whoever finds them locked goes to the kernel: allocating never waits, not even in a process that was
+/// split off meanwhile.
+fn freed() -> Option<MutexGuard<'static, Waiting>> {
+    if KEEPS.load(Ordering::Relaxed) { FREED.try_lock().ok() } else { None }
 }
 
 /// Gives a mapping back to the kernel.
@@ -97,8 +104,7 @@ fn unmap((block, size): (usize, usize)) {
 /// A mapping for a large block, zeroed if asked.
 fn map(size: usize, zeroed: bool) -> *mut u8 {
     let whole = mapped(size);
-    // Whoever finds it locked goes to the kernel: allocating never waits, not even in a process that was split off meanwhile.
-    if let Some(block) = FREED.try_lock().ok().and_then(|mut waiting| waiting.take(whole)) {
+    if let Some(block) = freed().and_then(|mut waiting| waiting.take(whole)) {
         let block = block as *mut u8;
         if zeroed {
             // SAFETY: the mapping has at least so many bytes, and nobody else knows of it.
@@ -130,7 +136,7 @@ fn fresh(size: usize) -> *mut u8 {
 /// Frees a large block.
 fn free(block: *mut u8, size: usize) {
     let block = (block as usize, mapped(size));
-    unmap(FREED.try_lock().map_or(block, |mut waiting| waiting.keep(block)));
+    unmap(freed().map_or(block, |mut waiting| waiting.keep(block)));
 }
 
 // SAFETY: blocks are the system's or whole mappings of their own, page-aligned, zeroed where asked; which of the two follows from the layout alone,
