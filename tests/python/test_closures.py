@@ -17,14 +17,14 @@ def closure(model, weight=1.0, **parameters):
     return {"weight": constant(weight), "model": model, "parameters": [[name, constant(value)] for name, value in parameters.items()]}
 
 
-def plane(closures, **settings):
+def plane(closures, sky=1.0, **settings):
     scene = gonio.Scene()
-    scene.set(width=32, height=32, samples=SAMPLES, **settings)
+    scene.set(**{"width": 32, "height": 32, "samples": SAMPLES, **settings})
     points = np.array([[-50, 0, -50], [50, 0, -50], [50, 0, 50], [-50, 0, 50]], "f4")
     mesh = scene.add_mesh(points, np.array([[0, 2, 1], [0, 3, 2]], "i4"))
     material = scene.put_material({"origin": "plane", "closures": closures})
     scene.put_instances(mesh, [material], np.eye(4)[None])
-    scene.add_light("dome", [1, 1, 1])
+    scene.add_light("dome", [sky] * 3)
     scene.add_camera([[1, 0, 0, 0], [0, 0, 1, 2], [0, -1, 0, 0], [0, 0, 0, 1]], fov=10)
     return scene
 
@@ -52,6 +52,31 @@ def test_coloured_weights():
 
 def test_emission_beside_scattering():
     close(mean(plane([closure("Emission", emission_color=3.0), closure("Diffuse", base_color=0.5)]))[:3], [3.5] * 3)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.06, 1.0])
+def test_what_a_thin_glow_emits_has_no_noise(share):
+    """A transparent surface that emits beside, and covers by what it takes away: none of additive glow."""
+    glow = closure("Emission", share or 1.0, emission_color=[3.0, 2.0, 1.0])
+    scene = plane([closure("Transparent", 1.0 - share, base_color=1.0), glow], sky=0.0, samples=16)
+    with gonio.Render(scene) as render:
+        render.wait()
+        colour = np.asarray(render.film()["color"])
+    assert colour[..., :3] == pytest.approx(np.broadcast_to(np.array([3.0, 2.0, 1.0]) * (share or 1.0), (32, 32, 3)), rel=1e-5)
+    assert colour[..., 3].mean() == pytest.approx(share, abs=5 * 0.5 / np.sqrt(16 * PIXELS))
+
+
+def test_paths_are_not_spent_on_what_emits_alone():
+    """Emission added to a diffuse surface leaves its noise as it was, and its albedo."""
+    made = [closure("Diffuse", base_color=0.5)], [closure("Emission", emission_color=3.0), closure("Diffuse", base_color=0.5)]
+    film = []
+    for closures in made:
+        with gonio.Render(plane(closures, passes=["color", "albedo"])) as render:
+            render.wait()
+            film.append({name: np.asarray(render.film()[name])[..., :3] for name in ("color", "albedo")})
+    plain, lit = film
+    assert lit["color"] - 3.0 == pytest.approx(plain["color"], abs=1e-5)
+    assert lit["albedo"] == pytest.approx(plain["albedo"], abs=1e-5)
 
 
 def test_transparent_closures_tint_what_is_behind():

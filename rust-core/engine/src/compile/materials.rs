@@ -102,6 +102,7 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
         emissive,
         even_emission,
         glow,
+        emits_apart: own.iter().any(|surface| surface.emits_apart),
     }
 }
 
@@ -193,6 +194,7 @@ fn surface(
         emissive: lobes.emission,
         even_emission,
         glow,
+        emits_apart: material.closures.len() > 1 && closure.model == Model::Emission && lobes.emission && !lobes.cut_out,
         interior: interior(material),
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,

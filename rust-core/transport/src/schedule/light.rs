@@ -117,7 +117,7 @@ impl LightTracer<'_> {
             escape(l, &ws.paths, &mut ws.nearest.escaped, &light_paths.starts, &mut light_paths.escapes);
             list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of);
         });
-        choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk);
+        choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, None);
         sort_by_material(tables, transport, &mut ws.materials);
         ws.statistics.spent(Stage::Intersect, time);
         ws.queues.next.count = 0;

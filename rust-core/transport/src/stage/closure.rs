@@ -1,12 +1,15 @@
 //! Closure selection: where a material is a weighted sum of closures, each hit takes one of them at random, by its weight.
 //!
 //! The throughput is multiplied by the weight over the probability, so every sum comes out right on average. A hit runs one graph and one set
-//! of lobes. Closures that are transparent or emit are chosen like all others.
+//! of lobes. Closures that are transparent are chosen like all others. What closures emit that do nothing else is added at each hit; they are chosen
+//! where the others' weights leave something, as the surface covers what is behind it by that, too.
 
+use crate::accumulate::deposit::Deposits;
 use crate::graph::{CHUNK, OutputColumns};
 use crate::kernels;
+use crate::stage::shade::add_emission_apart;
 use crate::stage::surface::{ChunkRays, ChunkSource};
-use crate::state::chunk::ChunkColumns;
+use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::material_order::MaterialOrder;
 use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
@@ -18,7 +21,9 @@ use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::dimension;
 use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, dispatch};
 
-/// Chooses closures for all hits on mixes: material numbers become surface numbers.
+/// Chooses closures for all hits on mixes: material numbers become surface numbers. Adds the light of those that do nothing but emit, where light is
+/// gathered.
+#[expect(clippy::too_many_arguments, reason = "paths, their hits, materials and light")]
 pub(crate) fn choose_closures(
     tables: &Tables,
     transport: &Transport,
@@ -27,13 +32,20 @@ pub(crate) fn choose_closures(
     hits: &Hits,
     materials: &mut MaterialOrder,
     columns: &mut ChunkColumns,
+    mut deposits: Option<&mut Deposits>,
 ) {
     if tables.materials.mixes.is_empty() {
         return;
     }
-    let MaterialOrder { material_of, mixed, .. } = materials;
+    let MaterialOrder { material_of, mixed, weights, .. } = materials;
     for_mixes(tables, material_of, mixed, |mix, chunk, material_of| {
-        dispatch!(transport.execution, l => choose_chunk(l, tables, context, (mix, chunk), paths, hits, material_of, columns));
+        dispatch!(transport.execution, l => {
+            weigh(l, tables, (mix, chunk), paths, hits, weights, columns);
+            if let Some(deposits) = deposits.as_deref_mut().filter(|_| mix.emits_apart) {
+                shine_apart(l, (tables, transport, context), (mix, chunk), paths, hits, weights, columns, deposits);
+            }
+            choose_chunk(l, tables, context, (mix, chunk), paths, weights, material_of);
+        });
     });
 }
 
@@ -70,7 +82,50 @@ pub(crate) fn for_mixes(
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "paths, their hits and their materials")]
+/// Runs the program of a mix; `weights` become those of its closures over the chunk, three channels each.
+#[inline(always)]
+fn weigh<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    (mix, chunk): (&Mix, &MixChunk),
+    paths: &Paths,
+    hits: &Hits,
+    weights: &mut Vec<f32>,
+    columns: &mut ChunkColumns,
+) {
+    let MixChunk { count, ref order } = *chunk;
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
+    kernels::run_program(l, tables, &mix.program, hits, &source, columns);
+    weights.clear();
+    (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
+}
+
+/// Adds what closures emit that do nothing else.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a chunk, its paths, hits and light")]
+fn shine_apart<L: Lanes>(
+    l: L,
+    (tables, transport, sample): (&Tables, &Transport, &SampleContext<'_>),
+    (mix, chunk): (&Mix, &MixChunk),
+    paths: &Paths,
+    hits: &Hits,
+    weights: &[f32],
+    columns: &mut ChunkColumns,
+    deposits: &mut Deposits,
+) {
+    let MixChunk { count, ref order } = *chunk;
+    let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
+    for closure in 0..mix.count {
+        let material = &tables.materials.surfaces[mix.first as usize + closure];
+        if material.emits_apart {
+            kernels::run_program(l, tables, &material.program, hits, &source, columns);
+            let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns: &*columns };
+            let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..][..CHUNK]);
+            add_emission_apart(&chunk, material, own, deposits);
+        }
+    }
+}
+
 #[inline(always)]
 fn choose_chunk<L: Lanes>(
     l: L,
@@ -78,29 +133,34 @@ fn choose_chunk<L: Lanes>(
     context: &SampleContext<'_>,
     (mix, chunk): (&Mix, &MixChunk),
     paths: &mut Paths,
-    hits: &Hits,
+    weights: &[f32],
     material_of: &mut [u32],
-    columns: &mut ChunkColumns,
 ) {
     let MixChunk { count, ref order } = *chunk;
-    let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
-    kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-    let outputs = &columns.outputs;
     let dimension = context.dimension(dimension::CLOSURE);
+    let weight = |closure: usize, at: usize| {
+        let channel = |c: usize| l.load(&weights[(closure * 3 + c) * CHUNK..][..CHUNK], at).max(0.0);
+        spectrum(Rgb::new(channel(0), channel(1), channel(2)))
+    };
+    let apart = |closure: usize| tables.materials.surfaces[mix.first as usize + closure].emits_apart;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
         let index = context.index(l, paths.track(l, path).slot);
         let [u, _] = context.sampler.pair(l, index, dimension);
-        let mut total = l.f(0.0);
+        let (mut scattering, mut shining) = (l.f(0.0), l.f(0.0));
         for closure in 0..mix.count {
-            total += likelihood(weight(l, outputs, closure, at));
+            let sum = if apart(closure) { &mut shining } else { &mut scattering };
+            *sum += likelihood(weight(closure, at));
         }
+        // White has a weight of 3 channels.
+        let left = (3.0 - scattering).max(0.0).min(shining) / shining.max(1e-20);
+        let total = left.mul_add(shining, scattering);
         let mut point = u * total;
         let (mut chosen, mut factor) = (l.u(0), Spectrum::zero(l));
         let mut found = l.m(false);
         for closure in 0..mix.count {
-            let weight = weight(l, outputs, closure, at);
-            let own = likelihood(weight);
+            let weight = weight(closure, at);
+            let own = likelihood(weight) * if apart(closure) { left } else { l.f(1.0) };
             let here = point.lt(own).and_not(found) & own.gt(0.0);
             chosen = here.select(l.u(closure as u32), chosen);
             factor = here.select(weight * (total / own.max(1e-20)), factor);

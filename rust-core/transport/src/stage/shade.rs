@@ -25,9 +25,10 @@ use crate::tables::transport::PathFilter;
 use gonio_bsdf::{
     Hits, Lobes, ParameterValues,
     normals::{Normals, is_raised},
+    parameter::{EMISSION_COLOR, spectrum},
 };
 use gonio_light::hit_weight;
-use gonio_simd::{Frame, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{Frame, Lanes, M, Rgb, Spectrum, Vec3};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -186,21 +187,43 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     [non_specular, going_on]
 }
 
-/// Adds emission and first-surface AOVs; returns the lanes that are there, holdouts left out.
+/// Adds what a closure of a mix emits that does nothing else, times its weights at the hits; their paths go on with any closure.
+#[inline(always)]
+pub(crate) fn add_emission_apart<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    material: &SurfaceMaterial,
+    [r, g, b]: [&[f32]; 3],
+    deposits: &mut Deposits,
+) {
+    let ChunkContext { l, tables, count, columns, .. } = *chunk;
+    let values = parameter_values(material, &columns.outputs);
+    for at in (0..count).step_by(L::COUNT) {
+        let mut point = load_point(chunk, material, at);
+        if tables.any_absorbing {
+            absorb(chunk, material, &values, &mut point, at);
+        }
+        let present =
+            if tables.geometry.set_holdout.is_empty() { point.alive } else { without_holdouts(chunk, material, &point, point.alive) };
+        let weight = spectrum(Rgb::load(l, [r, g, b], at)).max(0.0);
+        add_emission(chunk, &point, values.spectrum(l, EMISSION_COLOR, at) * weight, present, at, deposits);
+    }
+}
+
+/// Adds emission, but for what was added apart, and first-surface AOVs; returns the lanes that are there, holdouts left out.
 #[inline(always)]
 pub(crate) fn add_seen<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     material: &SurfaceMaterial,
     point: &mut Vertex<L>,
     lobes: &Lobes<'_, L>,
-    present: M<L>,
+    (present, apart): (M<L>, bool),
     at: usize,
     deposits: &mut Deposits,
 ) -> M<L> {
     let geometry = &chunk.tables.geometry;
     let present =
         if material.holdout || !geometry.set_holdout.is_empty() { without_holdouts(chunk, material, point, present) } else { present };
-    if material.surface.lobes.emission {
+    if material.surface.lobes.emission && !(apart && material.emits_apart) {
         add_emission(chunk, point, lobes.emission(), present, at, deposits);
     }
     // What is seen through a transparent closure comes first.

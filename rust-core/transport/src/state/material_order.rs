@@ -13,6 +13,8 @@ pub(crate) struct MaterialOrder {
     pub(crate) ends: Vec<u32>,
     /// Mixes and the paths at them.
     pub(crate) mixed: Vec<(u32, u32)>,
+    /// Weights of a mix over a chunk of hits, three channels a closure.
+    pub(crate) weights: Vec<f32>,
 }
 
 impl MaterialOrder {

@@ -27,6 +27,8 @@ pub struct SurfaceMaterial {
     pub even_emission: Option<[f32; 3]>,
     /// What computes the parameters of its emission for light sampling, if that differs.
     pub glow: Option<Box<Program>>,
+    /// Whether it is one closure of several and does nothing but emit: its light is added at each hit, whichever closure paths go on with.
+    pub emits_apart: bool,
     /// Absorption a metre of what fills the closed mesh, if anything does.
     pub interior: Option<[f32; 3]>,
     /// Whether the shading frame's tangent matters.
@@ -54,6 +56,8 @@ pub struct Mix {
     pub emissive: bool,
     /// What all closures emit together for light sampling, where that is the same everywhere.
     pub even_emission: Option<[f32; 3]>,
+    /// Whether any closure emits apart.
+    pub emits_apart: bool,
     /// What computes the weights for light sampling, as `program` does, if what is emitted differs.
     pub glow: Option<Box<Program>>,
 }

@@ -54,7 +54,7 @@ fn follow_bounce(
     let Tracer { tables, transport, .. } = tracer;
     let time = Instant::now();
     steps::intersect(tracer, sample.depth, ws);
-    choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk);
+    choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, Some(&mut ws.deposits));
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);
     ws.queues.next.count = 0;

@@ -54,7 +54,7 @@ impl Integrator for PathIntegrator {
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
         point.unguided = unguided(chunk, point);
         let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
-        let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        let present = add_seen(chunk, material, point, lobes, (present, true), at, deposits);
         if let Some(portal) = lobes.portal() {
             pass_on(chunk, point, portal, point.pdf, present, &mut queues.next);
             return;

@@ -66,7 +66,7 @@ impl Integrator for WhittedIntegrator<'_> {
         if material.surface.lobes.cut_out {
             present &= part_from_open(material, point, lobes, &mut straight);
         }
-        let present = add_seen(chunk, material, point, lobes, present, at, deposits);
+        let present = add_seen(chunk, material, point, lobes, (present, false), at, deposits);
         if let Some(portal) = lobes.portal() {
             pass_on(chunk, point, portal, point.share, present, &mut branches.ways[Way::Straight as usize]);
             return;
