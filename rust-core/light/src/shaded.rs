@@ -37,10 +37,14 @@ impl LightTable {
         let from = light.in_frame(origin - light.vector(field::ORIGIN));
         let step = light.in_frame(direction);
         let distance = -from.z / step.z;
-        // Rounding may lead past an edge, or away where the triangle is seen edge-on.
-        let within = |x: F<L>| x.is_finite().select(x, l.f(0.0)).clamp(0.0, 1.0);
         let (u, v) = (within(step.x.mul_add(distance, from.x)), within(step.y.mul_add(distance, from.y)));
         let over = (u + v).max(1.0).recip();
         TrianglePoint { barycentric: [u * over, v * over], distance: distance.max(0.0), mean: light.value(field::RADIANCE) }
     }
+}
+
+/// Rounding may lead past an edge, or away where the triangle is seen edge-on.
+#[inline(always)]
+fn within<L: Lanes>(x: F<L>) -> F<L> {
+    x.is_finite().select(x, x.lanes().f(0.0)).clamp(0.0, 1.0)
 }

@@ -126,14 +126,10 @@ fn add_emitted<L: Lanes>(
     if !material.emissive {
         return;
     }
-    let weighted = |emission: Spectrum<L>, at: usize| match weights {
-        Some([r, g, b]) => emission * spectrum(Rgb::load(l, [r, g, b], at)).max(0.0),
-        None => emission,
-    };
     let Some(program) = &material.glow else {
         let [r, g, b] = material.even_emission.unwrap_or_default().map(|x| l.f(x));
         let even = spectrum(Rgb::new(r, g, b));
-        (0..points.len()).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, at), at));
+        (0..points.len()).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, weights, at), at));
         return;
     };
     kernels::run_program(l, tables, program, points, source, columns);
@@ -146,7 +142,16 @@ fn add_emitted<L: Lanes>(
         if material.surface.lobes.cut_out {
             emission = emission * threshold(values.get(l, OPACITY, at).saturate(), material.opacity_threshold);
         }
-        sums.store(sums.load(l, at) + weighted(emission, at), at);
+        sums.store(sums.load(l, at) + weighted(emission, weights, at), at);
+    }
+}
+
+/// Times the weights at some points, where there are any.
+#[inline(always)]
+fn weighted<L: Lanes>(emission: Spectrum<L>, weights: Option<[&[f32]; 3]>, at: usize) -> Spectrum<L> {
+    match weights {
+        Some([r, g, b]) => emission * spectrum(Rgb::load(emission.lanes(), [r, g, b], at)).max(0.0),
+        None => emission,
     }
 }
 
