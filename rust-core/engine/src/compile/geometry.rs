@@ -3,6 +3,7 @@
 use super::{
     bounds::Bounds,
     cut::Cut,
+    fill::{append_made, append_values},
     instances::{append_instances, report_unplaceable},
     motion,
     numbers::{geometry_number, named},
@@ -16,10 +17,7 @@ use crate::{
     scene::{Instances, Mesh, Primvar, Scene},
     transport::MaterialTable,
 };
-use rayon::prelude::*;
 
-/// Values that one task copies at least: the first touch of a table takes longer than the copy, and cores share it.
-const FEW: usize = 1 << 16;
 /// What [`pad`] adds to a column at most.
 const PADDED: usize = 12;
 
@@ -110,7 +108,7 @@ pub(super) fn append_mesh(
     }
     let first_triangle = (table.corners.len() / 3) as u32;
     append_values(&mut table.points, mesh.points.as_flattened());
-    table.corners.par_extend(mesh.triangles.as_flattened().par_iter().with_min_len(FEW).map(|i| i.saturating_add(first_point as u32)));
+    append_made(&mut table.corners, mesh.triangles.as_flattened(), |index| index.saturating_add(first_point as u32));
     let first_slot = match &mesh.slots {
         Some(slots) if slots.len() == mesh.triangles.len() => {
             let first = table.slots.len() as u32;
@@ -153,11 +151,6 @@ fn append_checked(
     };
     table.primvars.extend(reference.words());
     reference.kind != PrimvarKind::Absent
-}
-
-/// Copies many values behind those of a column.
-pub(super) fn append_values<T: Copy + Send + Sync>(column: &mut Vec<T>, values: &[T]) {
-    column.par_extend(values.par_iter().with_min_len(FEW));
 }
 
 /// Room so that no gather finds an empty table, and reading a whole value never leaves it.

@@ -10,6 +10,7 @@ mod cut;
 mod dice;
 mod displace;
 mod expressions;
+mod fill;
 mod filters;
 mod geometry;
 mod glow;

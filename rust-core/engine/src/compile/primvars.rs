@@ -1,6 +1,6 @@
 //! Which primvars materials read, and their layout in the value tables.
 
-use super::geometry::append_values;
+use super::fill::append_values;
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
