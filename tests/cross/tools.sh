@@ -60,8 +60,9 @@ cross() {
     esac
     local libraries
     libraries=$(dirname "$(find "$tools/usr/lib" -name 'librustc_driver*' | head -n 1)")
-    # That compiler brings no tool that strips.
-    LD_LIBRARY_PATH=$libraries RUSTC=$tools/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_PROFILE_RELEASE_STRIP=none \
+    # That compiler brings no tool that strips; rustup's has one, which macOS asks for.
+    PATH=$PATH:$(dirname "$(find "$(rustc --print sysroot)" -name rust-objcopy | head -n 1)") \
+        LD_LIBRARY_PATH=$libraries RUSTC=$tools/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_PROFILE_RELEASE_STRIP=none \
         "$program" "$command" -Zbuild-std=std,panic_abort --target "$target" --target-dir target/cross "$@"
 }
 
