@@ -77,23 +77,30 @@ def by_angle(tree):
     return glow.outputs[0]
 
 
-@pytest.mark.blender
-@pytest.mark.parametrize("make", ["by_image", "by_checker", "by_object", "by_side", "by_angle"])
-def test_meshes_that_glow_by_patterns_are_sampled(tmp_path, make):
+def lamp_over_floor(make):
+    """A small plane of a material that `make` gives the shader of, over a large grey floor."""
     import bpy
-    from beside_cycles import both, scene
     from recorder import material
 
-    scene(16, 16, scale=4.0, samples=1024)
     floor, tree, end = material("Floor")
     tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], end.inputs["Surface"])
     bpy.ops.mesh.primitive_plane_add(size=20.0)
     bpy.context.object.data.materials.append(floor)
     lamp, tree, end = material("Lamp")
-    makers = {"by_image": by_image, "by_checker": by_checker, "by_object": by_object, "by_side": by_side, "by_angle": by_angle}
-    tree.links.new(makers[make](tree), end.inputs["Surface"])
+    tree.links.new(make(tree), end.inputs["Surface"])
     bpy.ops.mesh.primitive_plane_add(size=0.3, location=(-1.0, -1.0, 2.0))
     bpy.context.object.data.materials.append(lamp)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("make", ["by_image", "by_checker", "by_object", "by_side", "by_angle"])
+def test_meshes_that_glow_by_patterns_are_sampled(tmp_path, make):
+    import bpy
+    from beside_cycles import both, scene
+
+    scene(16, 16, scale=4.0, samples=1024)
+    makers = {"by_image": by_image, "by_checker": by_checker, "by_object": by_object, "by_side": by_side, "by_angle": by_angle}
+    lamp_over_floor(makers[make])
     bpy.context.object.color = (0.2, 1.0, 0.4, 1.0)
     cycles, gonio = both(tmp_path)
     cycles, gonio = cycles[:, 8:], gonio[:, 8:]
@@ -106,20 +113,11 @@ def test_meshes_that_glow_by_patterns_are_sampled(tmp_path, make):
 @pytest.mark.parametrize("output", ["Is Camera Ray", "Is Diffuse Ray"])
 @pytest.mark.parametrize("make", ["mixed", "by_strength"])
 def test_lamps_of_meshes_are_sampled_whatever_rays_see_them(tmp_path, make, output):
-    import bpy
     from beside_cycles import both, scene
-    from recorder import material
 
     scene(16, 16, scale=4.0, samples=64)
-    floor, tree, end = material("Floor")
-    tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], end.inputs["Surface"])
-    bpy.ops.mesh.primitive_plane_add(size=20.0)
-    bpy.context.object.data.materials.append(floor)
-    lamp, tree, end = material("Lamp")
     makers = {"mixed": mixed, "by_strength": by_strength}
-    tree.links.new(makers[make](tree, 100.0, 0.5, output), end.inputs["Surface"])
-    bpy.ops.mesh.primitive_plane_add(size=0.3, location=(-1.0, -1.0, 2.0))
-    bpy.context.object.data.materials.append(lamp)
+    lamp_over_floor(lambda tree: makers[make](tree, 100.0, 0.5, output))
     cycles, gonio = both(tmp_path)
     # Half of the picture lies far from what the lamp covers.
     assert gonio[:, 8:] == pytest.approx(cycles[:, 8:], rel=0.05)

@@ -45,7 +45,7 @@ MADE = {made.__name__: made for made in (ramp, stripe, half_there)}
 
 
 def room(material, samples=64, **settings):
-    """A black floor under a panel that looks down."""
+    """A grey floor under a glowing panel."""
     scene = gonio.Scene()
     scene.set(**{"width": 16, "height": 16, "samples": samples, "passes": ["color", "illuminance"], "filter": "box", **settings})
     scene.add_instance(scene.add_mesh(FLOOR, QUAD), [scene.add_material("floor", base_color=(0.5,) * 3, specular_weight=0.0)])

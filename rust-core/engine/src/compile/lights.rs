@@ -153,10 +153,12 @@ pub(super) fn compile(
 
 /// The instance of each light that is a triangle, by the first light of each instance.
 fn instances_of(triangle_lights: &[u32], count: usize, first_triangle: u32) -> Vec<u32> {
-    let mut instances = vec![0; count];
+    let (mut instances, mut last) = (Vec::with_capacity(count), 0);
     for (instance, first) in triangle_lights.iter().enumerate().filter(|(_, first)| **first != NONE) {
-        instances[(first - first_triangle) as usize..].fill(instance as u32);
+        instances.resize((first - first_triangle) as usize, last);
+        last = instance as u32;
     }
+    instances.resize(count, last);
     instances
 }
 
