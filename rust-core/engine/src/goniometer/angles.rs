@@ -2,6 +2,7 @@
 
 use super::division::{Division, diamond_angle};
 use crate::error::{Error, Result};
+use gonio_simd::{Lanes, One, U, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// Most directions.
@@ -50,7 +51,8 @@ impl Angles {
             return Err(Error::setting("angles", "C planes are expected in even steps of a whole turn, the first at 0"));
         }
         let inside = self.gamma.iter().all(|gamma| (0.0..=180.0).contains(gamma));
-        let increasing = self.gamma.windows(2).all(|pair| pair[1] - pair[0] >= LEAST_STEP);
+        // Steps of decimals are not met to the last bit.
+        let increasing = self.gamma.windows(2).all(|pair| pair[1] - pair[0] >= LEAST_STEP - 1e-9);
         if self.gamma.len() < 2 || !inside || !increasing {
             let problem = format!("two or more γ are expected that increase within 0 to 180 by {LEAST_STEP} or more");
             return Err(Error::setting("angles", problem));
@@ -71,13 +73,15 @@ pub(super) struct Cells {
     gammas: usize,
     /// Cosines of the borders, descending.
     borders: Vec<f64>,
-    /// The borders by their cosines' negatives.
+    /// The borders of γ and of the planes by their [`diamond_angle`]: exact at the poles, as cosines are not in single precision.
     by_gamma: Division,
-    /// The borders of the planes by their [`diamond_angle`].
     by_plane: Division,
     /// Whether the first and the last are caps.
     caps: [bool; 2],
 }
+
+/// No cell.
+pub(super) const OUTSIDE: u32 = u32::MAX;
 
 impl Cells {
     pub(super) fn new(angles: &Angles) -> Self {
@@ -86,16 +90,17 @@ impl Cells {
         let first = (gamma[0] - 0.5 * (gamma[1] - gamma[0])).max(0.0);
         let end = (gamma[last] + 0.5 * (gamma[last] - gamma[last - 1])).min(180.0);
         let between = gamma.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        let borders = std::iter::once(first).chain(between).chain([end]);
-        let borders: Vec<f64> = borders.map(|angle| angle.to_radians().cos()).collect();
+        let borders: Vec<f64> = std::iter::once(first).chain(between).chain([end]).collect();
         let planes = angles.c.len();
-        let beyond = (0..planes).map(|plane| sine_cosine((plane as f64 + 0.5) * 360.0 / planes as f64));
+        let beyond = (0..planes).map(|plane| (plane as f64 + 0.5) * 360.0 / planes as f64);
+        // The very pole of the zenith belongs to the last cell.
+        let before_end = borders.iter().map(|angle| if *angle == 180.0 { f32::MAX } else { diamond_of(*angle) });
         Self {
             planes,
             gammas: gamma.len(),
-            by_gamma: Division::new(borders.iter().map(|cosine| -cosine).collect(), [-1.0, 1.0]),
-            by_plane: Division::new(beyond.map(|[sin, cos]| diamond_angle(cos, sin)).collect(), [0.0, 4.0]),
-            borders,
+            by_gamma: Division::new(before_end.collect(), [0.0, 2.0]),
+            by_plane: Division::new(beyond.map(diamond_of).collect(), [0.0, 4.0]),
+            borders: borders.iter().map(|angle| angle.to_radians().cos()).collect(),
             caps: [gamma[0] < 1e-9, gamma[last] > 180.0 - 1e-9],
         }
     }
@@ -105,21 +110,18 @@ impl Cells {
         self.planes * self.gammas
     }
 
-    /// The cell that holds a direction of the frame; none outside of the angles.
-    #[inline]
-    pub(super) fn find(&self, [x, y, z]: [f64; 3]) -> Option<usize> {
-        let cosine = (-z / (x * x + y * y + z * z).sqrt()).clamp(-1.0, 1.0);
-        let gamma = self.by_gamma.find(-cosine);
-        // The very pole of the zenith belongs to the last cell.
-        let gamma = if gamma > self.gammas && cosine >= self.borders[self.gammas] { self.gammas } else { gamma };
-        let gamma = gamma.checked_sub(1).filter(|gamma| *gamma < self.gammas)?;
-        Some(self.index(self.plane(x, y), gamma))
-    }
-
-    #[inline]
-    fn plane(&self, x: f64, y: f64) -> usize {
+    /// The cells that hold directions of the frame, of any length; [`OUTSIDE`] of the angles.
+    #[inline(always)]
+    pub(super) fn find<L: Lanes>(&self, direction: Vec3<L>) -> U<L> {
+        let Vec3 { x, y, z } = direction;
+        let l = x.lanes();
+        let not_below = self.by_gamma.find(diamond_angle(-z, x.mul_add(x, y * y).sqrt()));
+        let inside = not_below.ne(0) & not_below.lt(self.gammas as u32 + 1);
+        let gamma = not_below - 1;
         let plane = self.by_plane.find(diamond_angle(x, y));
-        if plane == self.planes { 0 } else { plane }
+        let cap = (gamma.eq(0) & l.m(self.caps[0])) | (gamma.eq(self.gammas as u32 - 1) & l.m(self.caps[1]));
+        let plane = plane.keep_if(plane.lt(self.planes as u32).and_not(cap));
+        inside.select(plane * self.gammas as u32 + gamma, l.u(OUTSIDE))
     }
 
     /// The cell of a direction by its angles' numbers; a cap is the first plane's.
@@ -151,6 +153,12 @@ pub fn direction_of(c: f64, gamma: f64) -> [f64; 3] {
     [sin * cos_c, sin * sin_c, -cos]
 }
 
+/// The [`diamond_angle`] of degrees.
+fn diamond_of(degrees: f64) -> f32 {
+    let [sin, cos] = sine_cosine(degrees);
+    diamond_angle(One.f(cos as f32), One.f(sin as f32)).to_array()[0]
+}
+
 fn sine_cosine(degrees: f64) -> [f64; 2] {
     let (sin, cos) = (degrees * PI / 180.0).sin_cos();
     [sin, cos]
@@ -160,6 +168,11 @@ fn sine_cosine(degrees: f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
+    fn find(cells: &Cells, c: f64, gamma: f64) -> u32 {
+        let [x, y, z] = direction_of(c, gamma).map(|x| One.f(x as f32));
+        cells.find(Vec3::new(x, y, z)).to_array()[0]
+    }
+
     #[test]
     fn directions_lie_in_their_own_cells_which_fill_the_sphere() {
         for (c_step, gamma_step) in [(15.0, 5.0), (360.0, 10.0), (2.5, 0.5), (90.0, 90.0)] {
@@ -167,7 +180,7 @@ mod tests {
             let cells = Cells::new(&angles);
             for (plane, c) in angles.c.iter().enumerate() {
                 for (g, gamma) in angles.gamma.iter().enumerate() {
-                    assert_eq!(cells.find(direction_of(*c, *gamma)), Some(cells.index(plane, g)), "{c} {gamma}");
+                    assert_eq!(find(&cells, *c, *gamma), cells.index(plane, g) as u32, "{c} {gamma}");
                 }
             }
             assert!((cells.total() - 4.0 * PI).abs() < 1e-9);
@@ -175,14 +188,21 @@ mod tests {
     }
 
     #[test]
+    fn borders_are_exact_at_both_poles() {
+        let cells = Cells::new(&Angles::regular(90.0, 0.01).expect("steps that fit"));
+        let gammas = 18_000;
+        for near in [0.0049, 0.0051, 0.0149, 0.0151, 12.3449, 12.3451] {
+            let number = (near * 100.0_f64).round() as u32;
+            assert_eq!([find(&cells, 0.0, near), find(&cells, 0.0, 180.0 - near)], [number, gammas - number], "{near}");
+        }
+    }
+
+    #[test]
     fn a_part_of_the_sphere_has_no_cells_elsewhere() {
         let angles = Angles { c: vec![0.0, 180.0], gamma: vec![0.0, 40.0, 60.0] }.checked().expect("fine");
         let cells = Cells::new(&angles);
-        let find = |gamma| cells.find(direction_of(20.0, gamma));
-        assert_eq!(
-            [find(0.0), find(19.0), find(21.0), find(69.0), find(71.0), find(180.0)],
-            [Some(0), Some(0), Some(1), Some(2), None, None]
-        );
+        let find = |gamma| find(&cells, 20.0, gamma);
+        assert_eq!([find(0.0), find(19.0), find(21.0), find(69.0), find(71.0), find(180.0)], [0, 0, 1, 2, OUTSIDE, OUTSIDE]);
     }
 
     #[test]

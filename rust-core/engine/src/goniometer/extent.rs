@@ -116,16 +116,13 @@ fn cells_before<'a>(cells: impl Iterator<Item = &'a f64>, flux: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::light_paths::BatchSums;
 
     /// The opening of points that all send alike.
     fn opening(points: impl Iterator<Item = [f64; 3]>) -> Opening {
         let bounds = Bounds { min: [-1.0, -1.0, -0.5], max: [1.0, 1.0, 0.5] };
         let axes = ExtentAxes::new(&Frame::default(), &bounds);
-        let mut sums = BatchSums::new(ExtentAxes::len());
-        points.for_each(|point| axes.find(point).into_iter().for_each(|cell| sums.add(cell, [1.0; 3])));
         let mut flux = vec![[0.0; 3]; ExtentAxes::len()];
-        sums.drain(|cell, value| flux[cell] = value);
+        points.for_each(|point| axes.find(point).into_iter().for_each(|cell| flux[cell] = flux[cell].map(|sum: f64| sum + 1.0)));
         axes.opening(|cell| flux[cell])
     }
 

@@ -125,7 +125,7 @@ impl<'a> Run<'a> {
         let flux = |flux: Flux| value(self.flux(flux));
         let extent = |cell: usize| {
             self.parts.iter().fold([0.0; 3], |sum: Channels, (_, tally)| {
-                let part = tally.extent(cell);
+                let part = tally.extent(cell, self.batches);
                 [0, 1, 2].map(|k| sum[k] + part[k])
             })
         };

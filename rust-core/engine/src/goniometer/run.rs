@@ -50,6 +50,7 @@ pub fn measure(
         extent: ExtentAxes::new(&options.frame, &body),
         screen: options.screen.as_ref().map(|screen| ScreenPlane::new(screen, &options.frame)),
         rebased: compiled.tables.origin,
+        execution,
     };
     let mut run = Run::new(&options, &instrument, &sources, start);
     run.trace(&compiled, &unlimited(&compiled, &options, execution), cancel, progress)?;

@@ -1,10 +1,16 @@
 //! What escapes from the luminaire, counted by direction and place.
 
-use super::{angles::Cells, extent::ExtentAxes, frame::Frame, screen::ScreenPlane};
+use super::{
+    angles::{Cells, OUTSIDE},
+    extent::ExtentAxes,
+    frame::Frame,
+    screen::ScreenPlane,
+};
 use crate::{
-    light_paths::{Batch, BatchEstimates, BatchSums, Channels, Collector, Estimate, FixedSums},
+    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, WorkerSums},
     transport::{Arrivals, Escapes, LIGHT_BATCH, Receiver},
 };
+use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
 
 /// Fluxes of a batch that are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +36,7 @@ pub(super) struct Instrument {
     pub(super) screen: Option<ScreenPlane>,
     /// World position of the rebased origin.
     pub(super) rebased: [f64; 3],
+    pub(super) execution: Execution,
 }
 
 /// Sums over the batches of one kind of source.
@@ -39,17 +46,34 @@ pub(super) struct Tally<'a> {
     directions: BatchEstimates,
     screen: BatchEstimates,
     fluxes: BatchEstimates,
-    extent: FixedSums,
+    extent: BatchEstimates,
 }
 
 /// A worker's batch.
 #[derive(Debug)]
 pub(super) struct Room<'a> {
     instrument: &'a Instrument,
-    directions: BatchSums,
-    screen: BatchSums,
-    extent: BatchSums,
+    directions: WorkerSums,
+    screen: WorkerSums,
+    fluxes: WorkerSums,
+    extent: WorkerSums,
     escaped: Channels,
+    /// Cells of what escapes in a bounce, by entry.
+    cells: Vec<u32>,
+}
+
+impl Instrument {
+    /// The cells of directions that light leaves in.
+    #[inline(always)]
+    fn find_cells<L: Lanes>(&self, l: L, escapes: &Escapes, cells: &mut [u32]) {
+        let [x, y, z] = &escapes.direction;
+        let axes = self.frame.axes.map(|axis| Vec3::splat(l, axis.map(|x| x as f32)));
+        for at in (0..escapes.count).step_by(L::COUNT) {
+            let direction = Vec3::load(l, [x, y, z], at);
+            let [x, y, z] = axes;
+            self.cells.find(Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction))).store(cells, at);
+        }
+    }
 }
 
 impl<'a> Tally<'a> {
@@ -61,7 +85,7 @@ impl<'a> Tally<'a> {
             directions: estimates(instrument.cells.len()),
             screen: estimates(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
             fluxes: estimates(FLUXES),
-            extent: FixedSums::new(ExtentAxes::len(), power, most),
+            extent: estimates(ExtentAxes::len()),
         }
     }
 
@@ -80,9 +104,9 @@ impl<'a> Tally<'a> {
         self.fluxes.get(flux as usize, batches, LIGHT_BATCH)
     }
 
-    /// Flux by place along the opening's axes, in units of all batches.
-    pub(super) fn extent(&self, cell: usize) -> Channels {
-        self.extent.get(cell)
+    /// Flux by place along the opening's axes, of which but their ratios count.
+    pub(super) fn extent(&self, cell: usize, batches: u64) -> Channels {
+        self.extent.get(cell, batches, LIGHT_BATCH).mean
     }
 }
 
@@ -93,10 +117,12 @@ impl<'a> Collector for Tally<'a> {
         let instrument = self.instrument;
         Room {
             instrument,
-            directions: BatchSums::new(instrument.cells.len()),
-            screen: BatchSums::new(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
-            extent: BatchSums::new(ExtentAxes::len()),
+            directions: WorkerSums::new(instrument.cells.len()),
+            screen: WorkerSums::new(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
+            fluxes: WorkerSums::new(FLUXES),
+            extent: WorkerSums::new(ExtentAxes::len()),
             escaped: [0.0; 3],
+            cells: Vec::new(),
         }
     }
 
@@ -104,14 +130,20 @@ impl<'a> Collector for Tally<'a> {
         let escaped = std::mem::take(&mut room.escaped);
         let (emitted, cut_off) = (batch.flux.emitted, batch.flux.cut_off);
         let absorbed = [0, 1, 2].map(|k| emitted[k] - escaped[k] - cut_off[k]);
-        let mut fluxes = BatchSums::new(FLUXES);
         for (flux, value) in [(Flux::Emitted, emitted), (Flux::Escaped, escaped), (Flux::CutOff, cut_off), (Flux::Absorbed, absorbed)] {
-            fluxes.add(flux as usize, value);
+            room.fluxes.add(flux as usize, value);
         }
-        self.fluxes.add(&mut fluxes);
-        self.directions.add(&mut room.directions);
-        self.screen.add(&mut room.screen);
-        room.extent.drain(|cell, value| self.extent.add(cell, value));
+        self.fluxes.complete(&mut room.fluxes);
+        self.directions.complete(&mut room.directions);
+        self.screen.complete(&mut room.screen);
+        self.extent.complete(&mut room.extent);
+    }
+
+    fn join(&self, room: &mut Room<'a>) {
+        self.fluxes.join(&mut room.fluxes);
+        self.directions.join(&mut room.directions);
+        self.screen.join(&mut room.screen);
+        self.extent.join(&mut room.extent);
     }
 }
 
@@ -119,26 +151,42 @@ impl Receiver for Room<'_> {
     fn arrived(&mut self, _: &Arrivals) {}
 
     fn escaped(&mut self, escapes: &Escapes) {
-        let Instrument { frame, origin, cells, extent, screen, rebased } = self.instrument;
-        let three = |columns: &[gonio_simd::Column; 3], entry: usize| [0, 1, 2].map(|k| f64::from(columns[k][entry]));
+        self.cells.resize(gonio_simd::padded(escapes.count), OUTSIDE);
+        dispatch!(self.instrument.execution, l => self.instrument.find_cells(l, escapes, &mut self.cells));
         for entry in 0..escapes.count {
-            let [place, direction, flux] = [&escapes.origin, &escapes.direction, &escapes.flux].map(|columns| three(columns, entry));
+            let flux = three(&escapes.flux, entry);
             for (sum, flux) in self.escaped.iter_mut().zip(flux) {
                 *sum += flux;
             }
-            if let Some(cell) = cells.find(frame.direction(direction)) {
-                self.directions.add(cell, flux);
+            if self.cells[entry] != OUTSIDE {
+                self.directions.add(self.cells[entry] as usize, flux);
             }
-            if entry % SEEN == 0 {
-                for cell in extent.find([0, 1, 2].map(|k| place[k] - origin[k])) {
-                    self.extent.add(cell, flux);
-                }
+        }
+        self.find_places(escapes);
+    }
+}
+
+impl Room<'_> {
+    /// Adds to the places that light leaves at, and to those of the screen.
+    fn find_places(&mut self, escapes: &Escapes) {
+        let Instrument { origin, extent, screen, rebased, .. } = self.instrument;
+        for entry in (0..escapes.count).step_by(SEEN) {
+            let place = three(&escapes.origin, entry);
+            for cell in extent.find([0, 1, 2].map(|k| place[k] - origin[k])) {
+                self.extent.add(cell, three(&escapes.flux, entry));
             }
-            if let Some(screen) = screen
-                && let Some(cell) = screen.find([0, 1, 2].map(|k| place[k] + rebased[k]), direction)
-            {
-                self.screen.add(cell, flux);
+        }
+        let Some(screen) = screen else { return };
+        for entry in 0..escapes.count {
+            let [place, direction] = [&escapes.origin, &escapes.direction].map(|columns| three(columns, entry));
+            if let Some(cell) = screen.find([0, 1, 2].map(|k| place[k] + rebased[k]), direction) {
+                self.screen.add(cell, three(&escapes.flux, entry));
             }
         }
     }
+}
+
+#[inline(always)]
+fn three([x, y, z]: &[Column; 3], entry: usize) -> [f64; 3] {
+    [f64::from(x[entry]), f64::from(y[entry]), f64::from(z[entry])]
 }

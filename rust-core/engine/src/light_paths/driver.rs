@@ -32,6 +32,9 @@ pub trait Collector: Sync {
     ///
     /// Workers call it in any order and at the same time: sums must not hang on that. See [`super::FixedSums`].
     fn add(&self, batch: &Batch<'_>, room: &mut Self::Room);
+
+    /// Takes what a worker kept to itself, when its work is done.
+    fn join(&self, _: &mut Self::Room) {}
 }
 
 /// A batch that is complete.
@@ -159,6 +162,7 @@ impl<C: Collector> Shared<'_, C> {
             self.collector.add(&Batch { number, flux, splats: &splats }, &mut room);
             self.done.fetch_add(1, Ordering::Relaxed);
         }
+        self.collector.join(&mut room);
     }
 }
 

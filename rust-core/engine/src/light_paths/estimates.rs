@@ -1,6 +1,6 @@
 //! Means over batches, and their standard errors.
 
-use super::{BatchSums, Channels, FixedSums};
+use super::{Channels, FixedSums, WorkerSums};
 use crate::colour::luminance;
 use std::sync::{Mutex, PoisonError};
 
@@ -57,13 +57,17 @@ impl BatchEstimates {
         Self { sums: FixedSums::new(cells, typical, most), squares: Mutex::new(vec![0; cells].into()) }
     }
 
-    /// Adds what a batch brought, and empties it.
-    pub fn add(&self, batch: &mut BatchSums) {
+    /// Ends a worker's batch.
+    pub fn complete(&self, worker: &mut WorkerSums) {
+        worker.complete(&self.sums);
+    }
+
+    /// Adds what a worker's complete batches brought, and empties them.
+    pub fn join(&self, worker: &mut WorkerSums) {
         let mut squares = self.squares.lock().unwrap_or_else(PoisonError::into_inner);
-        batch.drain(|cell, value| {
-            self.sums.add(cell, value);
-            let units = u128::from(self.sums.units(luminance(value)).unsigned_abs());
-            squares[cell] += units * units;
+        worker.drain(|cell, units, square| {
+            self.sums.add_units(cell, units);
+            squares[cell] += square;
         });
     }
 
@@ -89,12 +93,16 @@ mod tests {
     fn errors_are_those_of_batch_means() {
         let values = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0];
         let estimates = BatchEstimates::new(2, [10.0; 3], 1 << 20);
-        for value in values {
-            let mut batch = BatchSums::new(2);
-            // Paths of a batch count together.
-            batch.add(1, [0.25 * value; 3]);
-            batch.add(1, [0.75 * value; 3]);
-            estimates.add(&mut batch);
+        // Two workers that share the batches.
+        for values in values.chunks(4) {
+            let mut worker = WorkerSums::new(2);
+            for value in values {
+                // Paths of a batch count together.
+                worker.add(1, [0.25 * value; 3]);
+                worker.add(1, [0.75 * value; 3]);
+                estimates.complete(&mut worker);
+            }
+            estimates.join(&mut worker);
         }
         let found = estimates.get(1, values.len() as u64, 2);
         let mean = values.iter().sum::<f64>() / 6.0;

@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use crate::{
-    light_paths::{Batch, BatchEstimates, BatchSums, Channels, Collector, Estimate},
+    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, WorkerSums},
     transport::{Arrivals, Escapes, LIGHT_BATCH, Receiver},
 };
 use gonio_formats::bsdf::Basis;
@@ -77,7 +77,7 @@ pub(super) struct InOrder<'a> {
 pub(super) struct Room<'a> {
     place: &'a Place,
     basis: &'a Basis,
-    sums: BatchSums,
+    sums: WorkerSums,
     left: Channels,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Collector for InOrder<'a> {
 
     fn room(&self) -> Room<'a> {
         let Tally { place, basis, .. } = *self.tally;
-        Room { place, basis, sums: BatchSums::new(width(basis)), left: [0.0; 3] }
+        Room { place, basis, sums: WorkerSums::new(width(basis)), left: [0.0; 3] }
     }
 
     fn add(&self, batch: &Batch<'_>, room: &mut Room<'a>) {
@@ -96,7 +96,8 @@ impl<'a> Collector for InOrder<'a> {
         let absorbed = [0, 1, 2].map(|k| emitted[k] - left[k] - cut_off[k]);
         room.sums.add(sum_cell(room.basis, Sum::CutOff), cut_off);
         room.sums.add(sum_cell(room.basis, Sum::Absorbed), absorbed);
-        self.tally.estimates[incident].add(&mut room.sums);
+        self.tally.estimates[incident].complete(&mut room.sums);
+        self.tally.estimates[incident].join(&mut room.sums);
     }
 }
 
