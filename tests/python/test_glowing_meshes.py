@@ -108,3 +108,39 @@ def test_emission_that_counts_bounces_is_found_by_chance():
     # The floor sees it after one bounce.
     found, same = (np.asarray(finished(made)["color"])[..., :3].mean() for made in (scene, even))
     assert found == pytest.approx(same, rel=0.05)
+
+
+@pytest.mark.parametrize("made", MADE)
+def test_goniometers_measure_patterns(made):
+    material, factor, _ = MADE[made]()
+    scene = gonio.Scene()
+    panel = scene.add_mesh(PANEL, QUAD, primvars={"st": UV})
+    scene.add_instance(panel, [scene.put_material(material)])
+    found = gonio.goniometer(scene, down=(0, -1, 0), error=0, rays=1 << 20, seed=3)
+    steps = (np.arange(200) + 0.5) / 200
+    candela = NITS * factor(*np.meshgrid(steps, steps)).mean() * (2 * SIDE) ** 2
+    # Both sides glow.
+    assert found.flux.value == pytest.approx(2 * np.pi * candela, rel=0.003)
+    intensities, errors = np.asarray(found.intensities), np.asarray(found.standard_errors)
+    for pole in (0, -1):
+        assert intensities[0, pole] == pytest.approx(candela, abs=3.5 * errors[0, pole] + 0.002 * candela)
+
+
+def test_maps_show_where_patterns_shine():
+    material, factor, _ = stripe()
+    maps = gonio.illumination_map(room(material), texel=0.25, error=0, paths=1 << 20)
+    floor = maps.surfaces[0]
+    corners = np.asarray(floor.corners).reshape(-1, 3, 3)
+    middles, lux = corners.mean(axis=1), np.asarray(floor.illuminance())
+    steps = (np.arange(100) + 0.5) / 100
+    u, v = np.meshgrid(steps, steps)
+    x, z = (2 * u - 1) * SIDE, (1 - 2 * v) * SIDE
+    right = []
+    for px, _, pz in middles:
+        square = (x - px) ** 2 + (z - pz) ** 2 + HEIGHT**2
+        right.append((NITS * factor(u, v) * HEIGHT**2 / square**2).mean() * (2 * SIDE) ** 2)
+    right = np.array(right)
+    near = right > 0.3 * right.max()
+    assert lux[near].sum() == pytest.approx(right[near].sum(), rel=0.02)
+    # The stripe is at the right.
+    assert (lux * middles[:, 0])[near].sum() / lux[near].sum() == pytest.approx((right * middles[:, 0])[near].sum() / right[near].sum(), abs=0.01)
