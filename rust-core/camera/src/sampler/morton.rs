@@ -1,5 +1,6 @@
 //! Morton numbers of a tile's pixels.
 
+use super::BATCH;
 use gonio_simd::{Lanes, U};
 
 /// The even bits of a Morton number, packed: its column.
@@ -25,13 +26,28 @@ pub fn tile_code([x, y]: [usize; 2]) -> usize {
 /// The column and row of a tile's pixel of this Morton number.
 #[inline]
 pub fn tile_place(code: usize) -> [usize; 2] {
-    let packed = |code: usize| {
-        let x = code & 0x5555;
-        let x = (x | (x >> 1)) & 0x3333;
-        let x = (x | (x >> 2)) & 0x0f0f;
-        (x | (x >> 4)) & 0x00ff
-    };
-    [packed(code), packed(code >> 1)]
+    PLACES[code].map(usize::from)
+}
+
+/// Columns and rows by Morton number: whole tiles are gone through more than once a picture.
+static PLACES: [[u8; 2]; BATCH] = places();
+
+const fn places() -> [[u8; 2]; BATCH] {
+    let mut places = [[0; 2]; BATCH];
+    let mut code = 0;
+    while code < BATCH {
+        places[code] = [packed(code), packed(code >> 1)];
+        code += 1;
+    }
+    places
+}
+
+/// The even bits, packed.
+const fn packed(code: usize) -> u8 {
+    let x = code & 0x5555;
+    let x = (x | (x >> 1)) & 0x3333;
+    let x = (x | (x >> 2)) & 0x0f0f;
+    (x | (x >> 4)) as u8
 }
 
 #[cfg(test)]
@@ -40,7 +56,7 @@ mod tests {
 
     #[test]
     fn morton_numbers_and_places_belong_together() {
-        for code in 0..4096 {
+        for code in 0..BATCH {
             assert_eq!(tile_code(tile_place(code)), code);
         }
     }
