@@ -59,6 +59,14 @@ def test_volumes_that_overlap_add_up():
     assert np.allclose(seen(scene), left(3.0), rtol=5e-3)
 
 
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_volumes_that_touch_add_up(integrator):
+    """Where one ends another begins, at the same distance."""
+    scene = shining_floor(integrator=integrator)
+    filled(scene, (0, 1, 0), (0, 2, 0), (0, 3, 0))
+    assert np.allclose(seen(scene), left(3.0), rtol=5e-3)
+
+
 def test_what_a_cut_out_leaves_open_is_absorbed_too():
     scene = shining_floor()
     filled(scene, (0, 1, 0), closures=[closure("OpenPbr", geometry_opacity=0.0)])

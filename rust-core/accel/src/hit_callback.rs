@@ -1,6 +1,6 @@
 //! What a ray looks for: the callbacks that take its hits, and the queries that say where the results go.
 
-use crate::ray::{Hit, Hits, NONE, TransparentHit};
+use crate::ray::{Hit, Hits, NONE, Passed, TransparentHit, are_near};
 
 /// Takes the hits of one ray as they are found.
 pub(crate) trait HitCallback {
@@ -80,6 +80,58 @@ impl RayQuery for NearestHits<'_> {
     }
 }
 
+/// Keeps the nearest hit beyond what the ray has passed.
+pub(crate) struct Beyond {
+    nearest: Nearest,
+    passed: Passed,
+}
+
+impl HitCallback for Beyond {
+    const ORDERED: bool = true;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.nearest.t_max()
+    }
+
+    #[inline(always)]
+    fn add(&mut self, hit: Hit, transparent: bool) -> bool {
+        !self.passed.covers(&hit) && self.nearest.add(hit, transparent)
+    }
+}
+
+/// The nearest hit of every ray beyond what it has passed.
+pub(crate) struct HitsBeyond<'a> {
+    passed: &'a [Passed],
+    hits: NearestHits<'a>,
+}
+
+impl<'a> HitsBeyond<'a> {
+    /// Of as many rays as have an entry.
+    pub(crate) fn new(passed: &'a [Passed], hits: &'a mut Hits) -> Self {
+        HitsBeyond { passed, hits: NearestHits::new(hits, passed.len()) }
+    }
+}
+
+impl RayQuery for HitsBeyond<'_> {
+    type Callback = Beyond;
+
+    fn callback(&self) -> Beyond {
+        Beyond { nearest: self.hits.callback(), passed: Passed::NOTHING }
+    }
+
+    #[inline(always)]
+    fn begin(&self, beyond: &mut Beyond, i: usize, t_max: f32) {
+        self.hits.begin(&mut beyond.nearest, i, t_max);
+        beyond.passed = self.passed[i];
+    }
+
+    #[inline(always)]
+    fn end(&mut self, i: usize, beyond: &Beyond, ended: bool) {
+        self.hits.end(i, &beyond.nearest, ended);
+    }
+}
+
 /// Ends at the first hit.
 pub(crate) struct Any {
     pub(crate) t_max: f32,
@@ -119,9 +171,6 @@ impl RayQuery for Occluded<'_> {
         self.0[i] = u8::from(ended);
     }
 }
-
-/// Two triangles' distances to a point of their common edge differ by less than this share.
-const SAME_DISTANCE: f32 = 1e-5;
 
 /// Ends at the first opaque hit and keeps the transparent ones.
 pub(crate) struct UntilOpaque {
@@ -183,9 +232,7 @@ impl UntilOpaque {
 
     /// The place of a hit on the same edge, which two triangles share: the surface is passed once.
     fn twin(&self, hit: &TransparentHit) -> Option<usize> {
-        let is_twin = |known: &TransparentHit| {
-            known.instance == hit.instance && known.is_on_edge() && (known.t - hit.t).abs() <= SAME_DISTANCE * hit.t
-        };
+        let is_twin = |known: &TransparentHit| known.instance == hit.instance && known.is_on_edge() && are_near(hit.t, known.t);
         self.hits.iter().position(is_twin)
     }
 }

@@ -1,6 +1,7 @@
 //! Batches of rays and of hits, one entry a ray.
 
 use crate::intersect::prepared::Padded;
+use bytemuck::{Pod, Zeroable};
 
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
 pub const NONE: u32 = u32::MAX;
@@ -23,6 +24,8 @@ pub struct RayBatch<'a> {
     pub mask: &'a [u8],
     /// Times of the shutter, from 0 to 1. None at all stand for its middle.
     pub time: &'a [f32],
+    /// Hits that rays have passed, of which only [`crate::Tlas::first_hit`] knows. None at all where no ray has.
+    pub passed: &'a [Passed],
 }
 
 impl<'a> RayBatch<'a> {
@@ -66,8 +69,55 @@ impl<'a> RayBatch<'a> {
             t_max: self.t_max,
             mask: &self.mask[..n],
             time: if self.time.is_empty() { self.time } else { cut(self.time) },
+            passed: self.passed,
         }
     }
+}
+
+/// The hit that a ray has passed, as it goes straight on: what it meets next comes after that in the order of hits, so that faces that lie on
+/// each other are met one after the other, each once. The ray begins just before it (`t_min`).
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Passed {
+    /// Its distance, 0 of a ray that has passed nothing.
+    pub t: f32,
+    /// Its instance, else [`NONE`].
+    pub instance: u32,
+    /// Its triangle, else [`NONE`].
+    pub primitive: u32,
+    /// 1 on an edge of the triangle (u or v is zero, or their sum at least [`BEFORE_EDGE`]), else 0: neighbours that are hit there as well are passed with it.
+    pub on_edge: u32,
+}
+
+impl Passed {
+    /// Of a ray that has passed nothing.
+    pub const NOTHING: Self = Self { t: 0.0, instance: NONE, primitive: NONE, on_edge: 0 };
+
+    /// Whether a hit comes before it in the order of hits, or is on the same surface.
+    #[inline(always)]
+    pub(crate) fn covers(&self, hit: &Hit) -> bool {
+        let same = (hit.instance, hit.primitive) == (self.instance, self.primitive);
+        let earlier = hit.t == self.t && (hit.instance, !hit.primitive) < (self.instance, !self.primitive);
+        same || earlier || (self.on_edge != 0 && hit.instance == self.instance && is_on_edge(hit.u, hit.v) && are_near(hit.t, self.t))
+    }
+}
+
+/// Where u and v sum up to this, a hit is on the edge of corners 1 and 2.
+pub const BEFORE_EDGE: f32 = 1.0 - f32::EPSILON;
+
+/// Whether a hit is on an edge of its triangle, where a neighbour is hit as well.
+#[inline(always)]
+fn is_on_edge(u: f32, v: f32) -> bool {
+    u <= 0.0 || v <= 0.0 || u + v >= BEFORE_EDGE
+}
+
+/// Two triangles' distances to a point of their common edge differ by less than this share.
+const SAME_DISTANCE: f32 = 1e-5;
+
+/// Whether two distances may be those to a point of a common edge.
+#[inline(always)]
+pub(crate) fn are_near(a: f32, b: f32) -> bool {
+    (a - b).abs() <= SAME_DISTANCE * a
 }
 
 /// A hit as it is found.
@@ -162,6 +212,6 @@ pub struct TransparentHit {
 impl TransparentHit {
     /// Whether the hit is on an edge of its triangle, where a neighbour is hit as well.
     pub(crate) fn is_on_edge(&self) -> bool {
-        self.u <= 0.0 || self.v <= 0.0 || self.u + self.v >= 1.0 - f32::EPSILON
+        is_on_edge(self.u, self.v)
     }
 }

@@ -43,6 +43,7 @@ impl Rays {
             t_max: &self.t_max[range.clone()],
             mask: &self.mask[range],
             time: &[],
+            passed: &[],
         }
     }
 

@@ -6,6 +6,7 @@ mod degenerate;
 mod loose_lights;
 mod moving;
 mod oracle;
+mod passing;
 mod refit;
 mod robust;
 mod scenes;
@@ -13,7 +14,7 @@ mod smooth;
 mod split;
 mod watertight;
 
-use super::{Blas, Care, Geometry, Hits, Instance, RayBatch, Tlas};
+use super::{Blas, Care, Geometry, Hits, Instance, Passed, RayBatch, Tlas};
 use fearless_simd::Level;
 use gonio_simd::Execution;
 use std::sync::Arc;
@@ -47,6 +48,8 @@ struct OwnedRays {
     mask: Vec<u8>,
     /// Empty, or a time each.
     time: Vec<f32>,
+    /// Empty, or a hit each.
+    passed: Vec<Passed>,
 }
 
 impl OwnedRays {
@@ -70,6 +73,7 @@ impl OwnedRays {
             t_max: &all.t_max[first..end],
             mask: &all.mask[first..end],
             time: if all.time.is_empty() { all.time } else { &all.time[first..end] },
+            passed: if all.passed.is_empty() { all.passed } else { &all.passed[first..end] },
         }
     }
 
@@ -81,6 +85,7 @@ impl OwnedRays {
             t_max: &self.t_max,
             mask: &self.mask,
             time: &self.time,
+            passed: &self.passed,
         }
     }
 

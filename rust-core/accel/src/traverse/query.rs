@@ -5,7 +5,7 @@ use super::single_scene::{SceneStacks, traverse_instance, traverse_scene};
 use super::stream::{FEWEST_RAYS, stream, with_stacks};
 use super::stream_tuner::{Mode, Part};
 use crate::blockers::{AnyHitLinked, Blockers};
-use crate::hit_callback::{Any, AnyHitTransparent, HitCallback, Nearest, NearestHits, Occluded, RayQuery};
+use crate::hit_callback::{Any, AnyHitTransparent, HitCallback, HitsBeyond, Nearest, NearestHits, Occluded, RayQuery};
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::scalar::Scalar;
 use crate::intersect::wide::Wide;
@@ -24,6 +24,9 @@ impl Tlas {
 
     /// The same as if there were no loose lights.
     pub fn first_hit_in_tree(&self, execution: Execution, rays: &RayBatch, coherent: bool, hits: &mut Hits) {
+        if !rays.passed.is_empty() {
+            return self.ask(execution, rays, &mut HitsBeyond::new(rays.passed, hits));
+        }
         match execution {
             Execution::Vector(level) if coherent => self.first_hit_packets(level, rays, hits),
             _ => self.ask(execution, rays, &mut NearestHits::new(hits, rays.len())),

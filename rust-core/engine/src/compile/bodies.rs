@@ -73,6 +73,7 @@ fn around(tables: &Tables, instance: u32, origin: [f32; 3]) -> [f64; 3] {
             t_max: &[f32::INFINITY],
             mask: &[u8::MAX],
             time: &[],
+            passed: &[],
         };
         tables.bvh.first_hit_within(Execution::Scalar, &rays, &[instance], &mut hits);
         let (t, primitive) = (hits.t[0], hits.primitive[0]);

@@ -157,6 +157,7 @@ fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) {
         t_max: &t_max,
         mask: &vec![ray_mask::SHADOW; count],
         time: &[],
+        passed: &[],
     };
     let mut blocked = vec![0; count];
     scene.tables.bvh.any_hit_transparent(Execution::Scalar, &rays, &mut blocked, &mut Vec::new());

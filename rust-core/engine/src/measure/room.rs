@@ -112,6 +112,7 @@ fn distance(scene: &CompiledScene, places: &[Vector], direction: Vector) -> Vec<
         t_max: &vec![f32::INFINITY; count],
         mask: &vec![ray_mask::SHADOW; count],
         time: &[],
+        passed: &[],
     };
     let mut hits = Hits::default();
     scene.tables.bvh.first_hit(Execution::Scalar, &rays, false, &mut hits);

@@ -54,7 +54,7 @@ impl<L: Lanes> SmoothHit<L> {
 
     /// Whether hits are on curves or points.
     #[inline(always)]
-    pub(super) fn is_smooth(&self) -> M<L> {
+    pub(crate) fn is_smooth(&self) -> M<L> {
         self.shape.ne(PrimitiveShape::Triangle as u32)
     }
 }

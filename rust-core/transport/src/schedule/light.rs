@@ -120,7 +120,7 @@ impl LightTracer<'_> {
         choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, None);
         sort_by_material(tables, transport, &mut ws.materials);
         ws.statistics.spent(Stage::Intersect, time);
-        ws.queues.next.count = 0;
+        ws.queues.next.clear();
         steps::shade(tracer, &LightIntegrator { wanted: self.wanted }, sample, ws);
         let time = Instant::now();
         let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: false };

@@ -123,7 +123,7 @@ impl Tracer<'_> {
             }
             Start::Places(table) => {
                 let Workspace { paths, nearest, queues, .. } = &mut *ws;
-                queues.next.count = 0;
+                queues.next.clear();
                 dispatch!(self.transport.execution, l => {
                     let mut started = Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure };
                     start_places(l, self.tables, table, sampler, area, runs, &mut started);
@@ -131,7 +131,7 @@ impl Tracer<'_> {
                 if table.looks() { 0 } else { self.begin_measuring(integrator, batch, ws) }
             }
             Start::Lights => {
-                ws.paths.count = 0;
+                ws.paths.clear();
                 0
             }
         };

@@ -73,7 +73,7 @@ pub(crate) fn emit<L: Lanes>(
     starts: &mut LightStarts,
     paths: &mut Paths,
 ) {
-    paths.count = 0;
+    paths.clear();
     for first in (0..BATCH as u32).step_by(L::COUNT) {
         let slot = l.iota() + first;
         let ray = match emission {
@@ -108,6 +108,7 @@ fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
     let off = ray.origin.max_abs() * OFFSET;
     PathLanes {
         ray: RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+        passed: None,
         from: PreviousLanes { position: ray.origin, normal: ray.normal, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),

@@ -35,7 +35,7 @@ pub fn generate<L: Lanes>(
     times: &[f32],
     paths: &mut Paths,
 ) {
-    paths.count = 0;
+    paths.clear();
     let medium = filling(l, camera.medium);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
@@ -66,7 +66,7 @@ pub fn generate<L: Lanes>(
 /// Starts a path through the middle of the lens from each of some places of the raster; their slots are given.
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
-    paths.count = 0;
+    paths.clear();
     let medium = filling(l, camera.medium);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
@@ -85,6 +85,7 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
 fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, medium: Spectrum<L>) -> PathLanes<L> {
     PathLanes {
         ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
+        passed: None,
         from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),

@@ -116,7 +116,11 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
-        let radiance = if tables.any_volume { radiance * volume::left(l, paths, path, l.gather(&hits.t, path)) } else { radiance };
+        let radiance = if tables.any_volume {
+            radiance * volume::left(l, paths, path, l.gather(&hits.t, path) - paths.rays.passed.distance(l, path))
+        } else {
+            radiance
+        };
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);

@@ -155,6 +155,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
     let alive = point.alive & local.z.gt(0.0) & point.at.geometric.dot(direction).gt(0.0);
     let state = PathLanes {
         ray: point.at.spawn_ray(direction),
+        passed: None,
         from: point.at.as_previous(),
         throughput: point.throughput * PI,
         pdf: local.z * FRAC_1_PI,

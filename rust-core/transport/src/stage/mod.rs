@@ -40,6 +40,7 @@ pub(crate) mod sensors;
 pub(crate) mod shade;
 pub(crate) mod shadow;
 pub(crate) mod sort;
+pub(crate) mod straight;
 pub(crate) mod subsurface;
 pub(crate) mod surface;
 pub(crate) mod terminator;

@@ -180,6 +180,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     let origin = above.mul_add(l.f(DISTANCE), point.position);
     let state = PathLanes {
         ray: RayLanes { origin, direction: -above, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+        passed: None,
         from: PreviousLanes { position: origin, normal: -above, receiver: l.u(0) },
         throughput: Spectrum::one(l),
         pdf: l.f(1.0),

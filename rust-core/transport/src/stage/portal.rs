@@ -32,6 +32,7 @@ pub(crate) fn pass_on<L: Lanes>(
     let receiver = chunk.paths.previous(chunk.l, point.path).receiver;
     let state = PathLanes {
         ray,
+        passed: None,
         from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver },
         throughput,
         pdf: share,

@@ -2,6 +2,7 @@
 
 use crate::accumulate::expression_sums::scattering_of;
 use crate::kernels;
+use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
@@ -35,18 +36,20 @@ pub(crate) fn without_cut_outs<L: Lanes>(
     point.alive.and_not(passed)
 }
 
-/// Sends paths straight on through a cut-out: only the ray's origin and the count of ways straight through change.
+/// Sends paths straight on through a cut-out: the count of ways straight through alone changes.
 #[inline(always)]
 fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chosen: M<L>, next: &mut Paths) {
     if !chosen.any() {
         return;
     }
+    let on = straight_on(chunk, point);
     let state = PathLanes {
-        ray: point.at.spawn_ray(-point.wo),
+        ray: on.ray,
+        passed: Some(on.passed),
         from: chunk.paths.previous(chunk.l, point.path),
         throughput: point.throughput,
         pdf: point.pdf,
-        width: point.width,
+        width: on.width,
         spread: point.spread,
         slot: point.slot,
         flags: point.flags,
@@ -211,19 +214,23 @@ pub(crate) fn send_on<L: Lanes>(
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
+    let (mut ray, mut width, mut passed) = (point.at.spawn_ray(wi), point.width, None);
     from.normal = point.at.lit_normal(lobes);
     if straight.any() {
         let before = chunk.paths.previous(l, point.path);
         from.position = straight.select(before.position, from.position);
         from.normal = straight.select(before.normal, from.normal);
         pdf = straight.select(point.pdf, pdf);
+        let on = straight_on(chunk, point);
+        (ray, width, passed) = (ray.or(straight, &on.ray), straight.select(on.width, width), Some(on.passed.only(straight)));
     }
     let state = PathLanes {
-        ray: point.at.spawn_ray(wi),
+        ray,
+        passed,
         from,
         throughput,
         pdf,
-        width: point.width,
+        width,
         spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
         slot: point.slot,
         flags: straight.select(point.flags | non_specular, scattered),

@@ -143,6 +143,7 @@ pub(crate) fn start_sensors<L: Lanes>(
         points.append(&point, inside.and_not(looks));
         let state = PathLanes {
             ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
+            passed: None,
             from: PreviousLanes { position, normal, receiver: l.u(0) },
             throughput: Spectrum::one(l),
             pdf: l.f(1.0),

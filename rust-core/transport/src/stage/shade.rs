@@ -142,7 +142,8 @@ fn absorb<L: Lanes>(
 ) {
     let l = chunk.l;
     point.medium = chunk.paths.medium.gather(l, point.path);
-    let distance = l.gather(&chunk.hits.t, point.path);
+    // What is before the surface that it went straight through last is behind it.
+    let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
     point.throughput = point.throughput * (point.medium * -distance).exp();
     let inside = material.surface.absorption(l, values, at);
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);

@@ -9,6 +9,7 @@ pub(crate) mod glow;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;
 pub(crate) mod nearest;
+pub(crate) mod passed;
 pub(crate) mod paths;
 pub(crate) mod queue;
 pub(crate) mod rays;

@@ -3,6 +3,7 @@
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
 use crate::state::flag;
+use crate::state::passed::PassedLanes;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
@@ -33,6 +34,8 @@ pub struct Paths {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
+    /// What the ray has passed, if it has gone straight on.
+    pub(crate) passed: Option<PassedLanes<L>>,
     /// The vertex that the ray leaves.
     pub(crate) from: PreviousLanes<L>,
     pub(crate) throughput: Spectrum<L>,
@@ -107,12 +110,19 @@ impl Default for Paths {
 }
 
 impl Paths {
+    /// Leaves no path.
+    pub(crate) fn clear(&mut self) {
+        self.count = 0;
+        self.rays.passed.clear();
+    }
+
     /// Appends the chosen lanes; their visibility bits are set later by [`Self::set_masks`].
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
         let (l, n) = (p.pdf.lanes(), self.count);
         let (direction, from) = (p.ray.direction, &p.from);
         self.rays.append(&p.ray, chosen, n);
+        self.rays.passed.append(l, p.passed.as_ref(), chosen, [n, self.rays.t_max.len()]);
         self.medium.append(p.medium, chosen, n);
         self.carried.append(p.throughput, p.pdf, chosen, n);
         l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);

@@ -1,6 +1,7 @@
 //! Rays in columns, as the TLAS takes them (pbrt's ray queues). Paths, walks and shadow rays own theirs; sorting and retracing copy some.
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
+use crate::state::passed::PassedHits;
 use gonio_accel::RayBatch;
 use gonio_simd::{Column, F, Lanes, M, U, Vec3};
 use std::ops::Range;
@@ -16,6 +17,19 @@ pub(crate) struct RayLanes<L: Lanes> {
     pub(crate) t_max: F<L>,
 }
 
+impl<L: Lanes> RayLanes<L> {
+    /// The chosen rays of others, else these.
+    #[inline(always)]
+    pub(crate) fn or(&self, chosen: M<L>, others: &Self) -> Self {
+        Self {
+            origin: chosen.select(others.origin, self.origin),
+            direction: chosen.select(others.direction, self.direction),
+            t_min: chosen.select(others.t_min, self.t_min),
+            t_max: chosen.select(others.t_max, self.t_max),
+        }
+    }
+}
+
 /// Rays, an entry each; whoever owns them keeps their number.
 #[derive(Debug)]
 pub struct Rays {
@@ -29,13 +43,23 @@ pub struct Rays {
     pub(crate) mask: Vec<u8>,
     /// Times of the shutter; empty where nothing moves.
     pub(crate) time: Vec<f32>,
+    /// What they have passed; of paths alone.
+    pub(crate) passed: PassedHits,
 }
 
 impl Rays {
     /// Room for some rays; they start at once, and have these visibility bits until they get others.
     pub(crate) fn new(room: usize, mask: u8) -> Self {
         let (t_min, t_max) = (Column::new(room), Column::new(room));
-        Self { origin: columns3(room), direction: columns3(room), t_min, t_max, mask: vec![mask; room], time: Vec::new() }
+        Self {
+            origin: columns3(room),
+            direction: columns3(room),
+            t_min,
+            t_max,
+            mask: vec![mask; room],
+            time: Vec::new(),
+            passed: PassedHits::default(),
+        }
     }
 
     /// A range of them, to be traced.
@@ -47,7 +71,8 @@ impl Rays {
             t_min: &self.t_min[range.clone()],
             t_max: &self.t_max[range.clone()],
             mask: &self.mask[range.clone()],
-            time: if self.time.is_empty() { &[] } else { &self.time[range] },
+            time: if self.time.is_empty() { &[] } else { &self.time[range.clone()] },
+            passed: self.passed.of(range),
         }
     }
 
@@ -87,6 +112,7 @@ impl Rays {
         if !self.time.is_empty() {
             self.time[to] = self.time[from];
         }
+        self.passed.copy(from, to);
     }
 
     /// Takes chosen rays of others, in that order.
@@ -101,6 +127,7 @@ impl Rays {
         fill(&mut self.t_min, &from.t_min, chosen);
         fill(&mut self.t_max, &from.t_max, chosen);
         fill(&mut self.mask, &from.mask, chosen);
+        self.passed.select(&from.passed, chosen);
         let time = |ray: &u32| from.time[*ray as usize];
         self.set_times((!from.time.is_empty()).then(|| chosen.iter().map(time)));
     }

@@ -38,6 +38,7 @@ impl OwnedRays {
             t_max: &self.t_max[range.clone()],
             mask: &self.mask[range],
             time: &[],
+            passed: &[],
         }
     }
 }

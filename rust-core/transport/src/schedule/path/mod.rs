@@ -57,7 +57,7 @@ fn follow_bounce(
     choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, Some(&mut ws.deposits));
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);
-    ws.queues.next.count = 0;
+    ws.queues.next.clear();
     steps::shade(tracer, integrator, sample, ws);
     let time = Instant::now();
     let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };

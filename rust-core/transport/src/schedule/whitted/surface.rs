@@ -7,6 +7,7 @@ use crate::stage::measure::{self, MeasureContext};
 use crate::stage::nee::queue_shadow_ray;
 use crate::stage::portal::pass_on;
 use crate::stage::shade::{add_seen, guide_and_measure};
+use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
 use crate::state::paths::{PathLanes, Paths};
@@ -155,12 +156,19 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         Way::Refracted => 1 << 16,
         Way::Straight => 1 << 24,
     };
+    let (ray, width, passed) = if way == Way::Straight {
+        let on = straight_on(chunk, point);
+        (on.ray, on.width, Some(on.passed))
+    } else {
+        (point.at.spawn_ray(wi), point.width, None)
+    };
     let state = PathLanes {
-        ray: point.at.spawn_ray(wi),
+        ray,
+        passed,
         from: point.at.as_previous(),
         throughput,
         pdf: share,
-        width: point.width,
+        width,
         spread: point.spread,
         slot: point.slot,
         flags: flags(chunk, point, way),

@@ -34,7 +34,7 @@ impl Branches {
     pub(crate) fn next(&mut self, paths: &mut Paths) -> Option<u32> {
         let (depth, next) = self.waiting.pop()?;
         let mut done = std::mem::replace(paths, next);
-        done.count = 0;
+        done.clear();
         self.spare.push(done);
         Some(depth)
     }
