@@ -8,6 +8,7 @@ import numpy as np
 from .material.inputs import PARAMETRIC, SMOOTH_NORMAL, TANGENT, TRIANGLE, UV
 from .mesh_attributes import ATTRIBUTES, active_uv, read, spread_out, vertex_normals, wanted
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points
+from .modelled_normals import modelled_normals
 from .tangents import tangents
 
 # Three numbers of corners, as Blender keeps them.
@@ -34,8 +35,9 @@ def fingerprint(mesh):
     return hash(tuple(parts))
 
 
-def mesh_arguments(mesh, primvars):
-    """The arguments of `put_mesh` with the named values that materials want; None for a mesh without faces."""
+def mesh_arguments(mesh, primvars, cut=None):
+    """The arguments of `put_mesh` with the named values that materials want; None for a mesh without faces. A mesh that was cut of faces has
+    their normals: `cut` says which (`modelled`)."""
     mesh.calc_loop_triangles()
     count = len(mesh.loop_triangles)
     if count == 0:
@@ -53,21 +55,25 @@ def mesh_arguments(mesh, primvars):
         "triangles": _triangles(mesh, count),
         "corners": corners if spread is None else None,
         "faces": faces,
-        "normals": _normals(mesh, spread, points, corners, faces),
+        "normals": _normals_as_modelled(mesh, corners, cut) if cut else None,
         "slots": _slots(mesh),
         "primvars": {**_uv_maps(mesh, primvars), **wanted(mesh, points, primvars, spread)},
     }
-    _add_tangents(arguments, mesh, corners, primvars)
+    if arguments["normals"] is None:
+        arguments["normals"] = _normals(mesh, spread, points, corners, faces)
+    _add_tangents(arguments, mesh, corners, primvars, cut)
     own = [name for name in (PARAMETRIC, *TRIANGLE) if name in primvars]
     return _with_triangles_own(arguments, own) if own else arguments
 
 
-def _add_tangents(arguments, mesh, corners, primvars):
+def _add_tangents(arguments, mesh, corners, primvars, cut):
     """Adds the normals in the mesh's own space, and tangents, where they are wanted."""
     names = [name for name in primvars if name.startswith(TANGENT)]
     if SMOOTH_NORMAL not in primvars and not names:
         return
     normals = arguments["normals"]
+    if cut and normals is not None:
+        normals = _unit(normals)
     if normals is None:
         facing, lengths = np.empty((len(mesh.polygons), 3), dtype=np.float32), np.empty(len(mesh.polygons), dtype=np.int32)
         mesh.polygon_normals.foreach_get("vector", facing.reshape(-1))
@@ -112,6 +118,19 @@ def _triangles(mesh, count):
     triangles = np.empty((count, 3), dtype=np.int32)
     mesh.loop_triangles.foreach_get("loops", triangles.reshape(-1))
     return triangles
+
+
+def _normals_as_modelled(mesh, corners, cut):
+    """Normals of corners between those of the faces that the mesh was cut of, flat faces left out; None where there are none."""
+    normals = None if mesh.normals_domain == "FACE" else modelled_normals(corners, vertex_normals(mesh), *cut)
+    flat = mesh.attributes.get("sharp_face")
+    if normals is not None and flat is not None:
+        own = np.empty((len(corners), 3), dtype=np.float32)
+        mesh.corner_normals.foreach_get("vector", own.reshape(-1))
+        of_faces = np.empty(len(mesh.polygons), dtype=bool)
+        flat.data.foreach_get("value", of_faces)
+        normals = np.where(np.repeat(of_faces, 4)[:, None], own, normals)
+    return normals
 
 
 def _normals(mesh, spread, points, corners, faces):

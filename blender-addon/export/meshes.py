@@ -8,6 +8,7 @@ from .deforming import with_motion
 from .gather import AS_MESH
 from .mesh import fingerprint, mesh_arguments
 from .mesh_attributes import present
+from .modelled_normals import modelled
 
 
 class Meshes:
@@ -67,9 +68,10 @@ class Meshes:
             group.source.to_mesh_clear()
 
     def _write(self, group, mesh, primvars):
-        key = (fingerprint(mesh), frozenset(present(mesh, primvars)), group.dicing)
+        cut = modelled(group)
+        key = (fingerprint(mesh), frozenset(present(mesh, primvars)), group.dicing, cut and (cut[0].tobytes(), cut[1]))
         if key not in self._slots:
-            arguments = mesh_arguments(mesh, primvars)
+            arguments = mesh_arguments(mesh, primvars, cut)
             if arguments is None:
                 return None
             number, _ = self._slots.take(key)

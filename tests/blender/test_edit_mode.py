@@ -237,7 +237,7 @@ def test_what_cannot_be_exported_is_named_and_all_else_is_rendered(tmp_path):
     # Equal meshes would be one.
     bpy.data.meshes["Bad"].vertices[0].co.z = 1.0
     parts = {
-        "export.meshes": ("mesh_arguments", lambda mesh, _: mesh.name.startswith("Bad")),
+        "export.meshes": ("mesh_arguments", lambda mesh, *_: mesh.name.startswith("Bad")),
         "export.lights": ("describe", lambda group, *_: group.name.startswith("Bad")),
         "export.materials": ("translate", lambda material, *_, **__: material is not None and material.name.startswith("Bad")),
         "export.world": ("domes", lambda world, *_: True),

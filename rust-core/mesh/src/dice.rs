@@ -81,6 +81,25 @@ fn pair(a: u32, b: u32) -> u64 {
 /// Dices a mesh: `length` says how many times too long an edge between two points is.
 #[must_use]
 pub fn dice(mesh: &Undiced<'_>, limits: DiceLimits, length: &dyn Fn(&[f32; 3], &[f32; 3]) -> f32) -> Diced {
+    let mut diced = cut(mesh, limits, length);
+    if !mesh.smooth {
+        spread_evenly(mesh, &mut diced.triangles);
+    }
+    diced
+}
+
+/// Gives corners the normals between those of the triangles that they are parts of: where these stay flat, they are as they were.
+fn spread_evenly(mesh: &Undiced<'_>, triangles: &mut [DicedTriangle]) {
+    for triangle in triangles {
+        let first = 3 * triangle.source as usize;
+        let Some([a, b, c]) = mesh.normals.get(first..first + 3) else { continue };
+        for (normal, [u, v]) in triangle.normals.iter_mut().zip(triangle.places) {
+            *normal = add(scale(*a, 1.0 - u - v), add(scale(*b, u), scale(*c, v)));
+        }
+    }
+}
+
+fn cut(mesh: &Undiced<'_>, limits: DiceLimits, length: &dyn Fn(&[f32; 3], &[f32; 3]) -> f32) -> Diced {
     let whole = |(number, points): (usize, &[u32; 3])| {
         let normals = mesh.normals.get(3 * number..3 * number + 3).map_or([[0.0; 3]; 3], |n| [n[0], n[1], n[2]]);
         DicedTriangle { points: *points, source: number as u32, places: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], normals }

@@ -99,3 +99,18 @@ fn dicing_ends_at_its_limits_and_bad_numbers_do_no_harm() {
     let diced = dice(&mesh, limits, &|a, b| distance(a, b) / 0.5);
     assert!(diced.triangles.len() >= 8);
 }
+
+#[test]
+fn without_curves_normals_are_even_between_those_of_the_triangle() {
+    let points = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let normals = [[-0.8, 0.0, 0.6], [0.8, 0.0, 0.6], [0.0, 0.6, 0.8]];
+    let mesh = Undiced { points: &points, triangles: &[[0, 1, 2]], normals: &normals, smooth: false };
+    let diced = dice(&mesh, MANY, &|a, b| distance(a, b) / 0.3);
+    assert!(diced.triangles.len() > 100);
+    for triangle in &diced.triangles {
+        for (normal, [u, v]) in triangle.normals.iter().zip(triangle.places) {
+            let between = [0, 1, 2].map(|k| (1.0 - u - v) * normals[0][k] + u * normals[1][k] + v * normals[2][k]);
+            assert!(distance(normal, &between) < 1e-6, "{normal:?} at {u}, {v}");
+        }
+    }
+}
