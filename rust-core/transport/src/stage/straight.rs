@@ -30,8 +30,8 @@ pub(crate) fn straight_on<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<
         primitive: l.load_integers(&surface.primitive, at),
         barycentric: [l.load(&surface.barycentric[0], at), l.load(&surface.barycentric[1], at)],
     };
-    // The hit's own distance still counts.
-    let t_min = F::from_bits(t.to_bits() - 1);
+    // The hit's own distance still counts; nothing is less than zero.
+    let t_min = F::from_bits(t.max(f32::MIN_POSITIVE).to_bits() - 1);
     let (origin, t_max) = (gather3(l, &paths.rays.origin, point.path), l.gather(&paths.rays.t_max, point.path));
     let ray = RayLanes { origin, direction: -point.wo, t_min, t_max };
     let on = StraightOn { ray, width: paths.cone(l, point.path).width, passed };
