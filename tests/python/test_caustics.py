@@ -101,3 +101,26 @@ def test_layers_scatter_into_the_same_passes_both_ways():
     matrix = [[1, 0, 0, 0], [0, math.cos(low), math.sin(low), 0.5], [0, -math.sin(low), math.cos(low), 2.0], [0, 0, 0, 1]]
     scene.add_camera(matrix, fov=6)
     held(scene, ["color", *SHARES], (128, 2048), 0.02)
+
+
+def underside(caustics):
+    """The mean of what a mirror on the floor shows of a small board's underside, which that mirror lights."""
+    scene = gonio.Scene()
+    scene.set(width=32, height=32, samples=1024, max_bounces=4, filter="box", filter_width=1.0, caustics=caustics, seed=5)
+    mirror = scene.add_material("mirror", base_color=(1.0, 1.0, 1.0), metalness=1.0, specular_roughness=0.0)
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD, name="floor"), [mirror], name="floor")
+    board = scene.add_mesh(0.03 * FLOOR, QUAD, name="board")
+    for height, grey in ((0.5, 0.8), (0.51, 0.0)):
+        material = scene.add_material(f"grey {grey}", base_color=(grey,) * 3, specular_weight=0.0)
+        scene.add_instance(board, [material], transform=at(0.5, height, 0), name=f"board {grey}")
+    lamp = [[1, 0, 0, -2.0], [0, 0, 1, 2.5], [0, -1, 0, 0], [0, 0, 0, 1]]
+    scene.add_light("rectangle", (10.0, 10.0, 10.0), width=3.0, height=3.0, transform=lamp)
+    scene.add_camera(above(2.0), fov=60)
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        return np.asarray(render.film()["color"])[12:20, 18:25, :3].mean()
+
+
+def test_small_surfaces_keep_the_light_of_photons():
+    # Discs of photons are half as wide as the board, and reach beyond its edges.
+    assert underside("on") == pytest.approx(underside("off"), rel=0.02)

@@ -51,7 +51,7 @@ pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::matte_names::{MatteNames, NameRun};
 pub use tables::motion_vectors::{MotionCameras, NeighbourFrames, NeighbourMaps};
-pub use tables::photons::{Bright, Photon, Photons};
+pub use tables::photons::{Bright, OFF_PLANE, Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
 pub use tables::shutter::{Rolling, Shutter};
 pub use tables::transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport};

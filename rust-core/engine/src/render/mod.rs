@@ -1,5 +1,6 @@
 //! Rendering: worker threads take blocks of tiles, the host pulls what is ready; progress and cancelling live here.
 
+mod covered;
 mod guide;
 mod learn;
 mod light_paths;

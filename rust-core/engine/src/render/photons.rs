@@ -3,7 +3,7 @@
 //! The estimate is that of stochastic progressive photon mapping (Hachisuka and Jensen 2009; Knaus and Zwicker 2011): its error from the radius
 //! goes to zero as samples grow.
 
-use super::{light_paths::LightPaths, seen};
+use super::{covered::Ground, light_paths::LightPaths, seen};
 use crate::{
     compile::{CompiledScene, View},
     transport::{
@@ -11,6 +11,7 @@ use crate::{
         Wanted, Workspace,
     },
 };
+use gonio_simd::Column;
 use std::{
     collections::BTreeMap,
     sync::{Arc, Mutex, OnceLock, PoisonError},
@@ -73,7 +74,8 @@ impl PhotonMaps {
         let make = || {
             let batches = (u64::from(samples) * BATCHES_PER_SAMPLE).min(MOST_BATCHES);
             let none = || ArrivalCells::new(scene.bounds.radius());
-            let mut arrived = Arrived { photons: Vec::new(), direct: none(), caustic: none() };
+            let ground = Ground::new(&scene.tables, transport.execution);
+            let mut arrived = Arrived { photons: Vec::new(), direct: none(), caustic: none(), ground, triangles: Default::default() };
             let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
             let tracer = LightTracer { tables: &scene.tables, transport, emission: Emission::Lights(light_paths.sampler()), wanted };
             for batch in 0..batches {
@@ -87,7 +89,9 @@ impl PhotonMaps {
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
             let [direct, caustic] = [&arrived.direct, &arrived.caustic].map(|cells| cells.bright_places(share, self.seen));
             let area = surfaces(scene.bounds.radius());
-            Some(Arc::new(Photons::new(&arrived.photons, Bright { direct, caustic }, self.radius * shrinks, shrinks, share, area)))
+            let numbers = [self.radius * shrinks, shrinks, share, area];
+            let covered = |photons: &[Photon], radius: f32| arrived.ground.covered(photons, radius);
+            Some(Arc::new(Photons::new(&arrived.photons, Bright { direct, caustic }, numbers, covered)))
         };
         slot.get_or_init(make).clone()
     }
@@ -99,14 +103,24 @@ fn surfaces(radius: f64) -> f64 {
 }
 
 /// Keeps what arrives: photons after a scattering, and how much comes where straight from lights and by mirrors and smooth glass.
-struct Arrived {
+struct Arrived<'a> {
     photons: Vec<Photon>,
     direct: ArrivalCells,
     caustic: ArrivalCells,
+    ground: Ground<'a>,
+    /// Of the bounce under way.
+    triangles: [Column; 4],
 }
 
-impl Receiver for Arrived {
+impl Receiver for Arrived<'_> {
     fn arrived(&mut self, arrivals: &Arrivals) {
+        if (0..arrivals.count).any(|entry| arrivals.bounces(entry) > 0) {
+            let room = gonio_simd::padded(arrivals.count);
+            if self.triangles[0].len() < room {
+                self.triangles = std::array::from_fn(|_| Column::new(room));
+            }
+            self.ground.triangles(arrivals, &mut self.triangles);
+        }
         for entry in 0..arrivals.count {
             let position = [0, 1, 2].map(|axis| arrivals.position[axis][entry]);
             let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
@@ -116,8 +130,10 @@ impl Receiver for Arrived {
                 continue;
             }
             self.caustic.add(position, mean);
+            self.ground.note(arrivals, entry);
             let direction = [0, 1, 2].map(|axis| arrivals.direction[axis][entry]);
-            self.photons.push(Photon { position, direction, flux, light: arrivals.light[entry] });
+            let [normal @ .., inside] = [0, 1, 2, 3].map(|column| self.triangles[column][entry]);
+            self.photons.push(Photon { position, direction, normal, inside, flux, light: arrivals.light[entry] });
         }
     }
     fn escaped(&mut self, _: &Escapes) {}

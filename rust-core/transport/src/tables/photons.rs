@@ -11,6 +11,10 @@ pub struct Photon {
     pub position: [f32; 3],
     /// Unit direction that it came in.
     pub direction: [f32; 3],
+    /// Unit normal of the triangle.
+    pub normal: [f32; 3],
+    /// Metres to the triangle's nearest edge.
+    pub inside: f32,
     /// Flux, R, G, B.
     pub flux: [f32; 3],
     /// Light that it left.
@@ -60,7 +64,7 @@ pub(crate) struct PhotonLanes<L: Lanes> {
 }
 
 /// Part of the radius that photons may lie off the plane.
-const OFF_PLANE: f32 = 0.1;
+pub const OFF_PLANE: f32 = 0.1;
 /// Cells that the scene's radius is cut into to see how much of its surfaces photons lie on.
 const CELLS: f64 = 64.0;
 /// Most photons of a coarse map.
@@ -70,16 +74,20 @@ const FOUND_COARSE: f64 = 16.0;
 
 impl Photons {
     /// Sorts photons into cells. `radius` is that of the fine map, `shrinks` the part of the coarse map's that later blocks keep; `share` is the part of
-    /// a path in all that were traced, `area` about that of the scene's surfaces.
-    pub fn new(photons: &[Photon], bright: Bright, radius: f64, shrinks: f64, share: f64, area: f64) -> Self {
+    /// a path in all that were traced, `area` about that of the scene's surfaces. `covered` tells of photons which parts of their discs of a radius lie
+    /// on surfaces: what they bring is spread over these.
+    pub fn new(
+        photons: &[Photon],
+        bright: Bright,
+        [radius, shrinks, share, area]: [f64; 4],
+        mut covered: impl FnMut(&[Photon], f32) -> Vec<f32>,
+    ) -> Self {
         let step = photons.len().div_ceil(MOST_COARSE).max(1);
         let some: Vec<Photon> = photons.iter().step_by(step).copied().collect();
         let wide = (FOUND_COARSE * lit_area(&some, area) / (std::f64::consts::PI * some.len().max(1) as f64)).sqrt() * shrinks;
-        Self {
-            fine: PhotonMap::new(photons, radius as f32, share),
-            coarse: PhotonMap::new(&some, wide.max(radius) as f32, share * step as f64),
-            bright,
-        }
+        let mut map = |photons: &[Photon], radius: f32, share: f64| PhotonMap::new(photons, &covered(photons, radius), radius, share);
+        let fine = map(photons, radius as f32, share);
+        Self { fine, coarse: map(&some, wide.max(radius) as f32, share * step as f64), bright }
     }
 }
 
@@ -94,8 +102,8 @@ fn lit_area(photons: &[Photon], area: f64) -> f64 {
 }
 
 impl PhotonMap {
-    /// Sorts photons into cells; `share` is the part of a path in all that were traced.
-    fn new(photons: &[Photon], radius: f32, share: f64) -> Self {
+    /// Sorts photons into cells; `share` is the part of a path in all that were traced, `covered` that of each one's disc which lies on surfaces.
+    fn new(photons: &[Photon], covered: &[f32], radius: f32, share: f64) -> Self {
         if photons.is_empty() || radius <= 0.0 {
             return Self::default();
         }
@@ -120,7 +128,8 @@ impl PhotonMap {
             position.iter_mut().zip(photon.position).for_each(|(column, x)| column[place] = x);
             direction[4 * place..4 * place + 3].copy_from_slice(&photon.direction);
             direction[4 * place + 3] = f32::from_bits(photon.light);
-            let shared = photon.flux.map(|x| (f64::from(x) * share) as f32);
+            let spread = share / f64::from(covered[*number as usize]);
+            let shared = photon.flux.map(|x| (f64::from(x) * spread) as f32);
             flux[4 * place..4 * place + 3].copy_from_slice(&shared);
         }
         Self { starts, position, direction, flux, ..map }
