@@ -3,6 +3,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 tools=$PWD/target/cross-tools
+# rustup's programs that link and strip for macOS, which Debian's compiler does not bring.
+PATH=$PATH:$(dirname "$(rustc --print target-libdir)")/bin
 
 # Unpacks Debian packages that are not there yet: `unpack NAME=VERSION ...`; the first one's name marks them.
 unpack() {
@@ -60,9 +62,7 @@ cross() {
     esac
     local libraries
     libraries=$(dirname "$(find "$tools/usr/lib" -name 'librustc_driver*' | head -n 1)")
-    # That compiler brings no tool that strips; rustup's has one, which macOS asks for.
-    PATH=$PATH:$(dirname "$(find "$(rustc --print sysroot)" -name rust-objcopy | head -n 1)") \
-        LD_LIBRARY_PATH=$libraries RUSTC=$tools/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_PROFILE_RELEASE_STRIP=none \
+    LD_LIBRARY_PATH=$libraries RUSTC=$tools/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_PROFILE_RELEASE_STRIP=none \
         "$program" "$command" -Zbuild-std=std,panic_abort --target "$target" --target-dir target/cross "$@"
 }
 
