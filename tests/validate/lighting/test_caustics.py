@@ -11,7 +11,7 @@ pytestmark = pytest.mark.validate
 
 SECTION = "Caustics"
 # So dark that hardly anything comes back from the glass.
-REFLECTANCE = 0.02
+REFLECTANCE = 0.002
 FLOOR = Plane((0, 0, 0), (8, 0, 0), (0, 8, 0))
 PATCH = Plane((1.2, 0.4, 0), (1.0, 0, 0), (0, 1.0, 0))
 GRID, PARTS = (2, 2), 32
