@@ -16,7 +16,7 @@ mod luminaire_reading;
 mod map;
 mod measure;
 mod measured;
-#[cfg(unix)]
+#[cfg_attr(not(unix), path = "system_memory.rs")]
 mod memory;
 mod mesh;
 mod nodes;

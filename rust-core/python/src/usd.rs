@@ -80,7 +80,6 @@ pub(crate) fn _files_of_stage(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Str
 /// Runs the command line; gives the exit status.
 #[pyfunction]
 pub(crate) fn _main(py: Python<'_>, arguments: Vec<String>) -> i32 {
-    #[cfg(unix)]
     crate::memory::keep();
     gonio_cli::run(py, arguments)
 }
