@@ -55,19 +55,20 @@ def room(material, samples=64, **settings):
     return scene
 
 
-def expected(factor):
-    """Lux at the middle of each of the picture's pixels, by the midpoint rule over the panel."""
-    steps = (np.arange(200) + 0.5) / 200
+def lux_at(factor, px, pz, count):
+    """Lux at a place of the floor, by the midpoint rule over the panel, so many points along its side."""
+    steps = (np.arange(count) + 0.5) / count
     u, v = np.meshgrid(steps, steps)
     x, z = (2 * u - 1) * SIDE, (1 - 2 * v) * SIDE
+    square = (x - px) ** 2 + (z - pz) ** 2 + HEIGHT**2
+    return (NITS * factor(u, v) * HEIGHT**2 / square**2).mean() * (2 * SIDE) ** 2
+
+
+def expected(factor):
+    """Lux at the middle of each of the picture's pixels."""
     half = (HEIGHT - 0.2) * np.tan(np.radians(40))
     places = ((np.arange(16) + 0.5) / 8 - 1) * half
-    lux = np.empty((16, 16))
-    for row, pz in enumerate(places):
-        for column, px in enumerate(places):
-            square = (x - px) ** 2 + (z - pz) ** 2 + HEIGHT**2
-            lux[row, column] = (NITS * factor(u, v) * HEIGHT**2 / square**2).mean() * (2 * SIDE) ** 2
-    return lux
+    return np.array([[lux_at(factor, px, pz, 200) for px in places] for pz in places])
 
 
 @pytest.mark.parametrize("made", MADE)
@@ -132,14 +133,7 @@ def test_maps_show_where_patterns_shine():
     floor = maps.surfaces[0]
     corners = np.asarray(floor.corners).reshape(-1, 3, 3)
     middles, lux = corners.mean(axis=1), np.asarray(floor.illuminance())
-    steps = (np.arange(100) + 0.5) / 100
-    u, v = np.meshgrid(steps, steps)
-    x, z = (2 * u - 1) * SIDE, (1 - 2 * v) * SIDE
-    right = []
-    for px, _, pz in middles:
-        square = (x - px) ** 2 + (z - pz) ** 2 + HEIGHT**2
-        right.append((NITS * factor(u, v) * HEIGHT**2 / square**2).mean() * (2 * SIDE) ** 2)
-    right = np.array(right)
+    right = np.array([lux_at(factor, px, pz, 100) for px, _, pz in middles])
     near = right > 0.3 * right.max()
     assert lux[near].sum() == pytest.approx(right[near].sum(), rel=0.02)
     # The stripe is at the right.

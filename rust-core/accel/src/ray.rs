@@ -107,7 +107,7 @@ pub const BEFORE_EDGE: f32 = 1.0 - f32::EPSILON;
 
 /// Whether a hit is on an edge of its triangle, where a neighbour is hit as well.
 #[inline(always)]
-fn is_on_edge(u: f32, v: f32) -> bool {
+pub(crate) fn is_on_edge(u: f32, v: f32) -> bool {
     u <= 0.0 || v <= 0.0 || u + v >= BEFORE_EDGE
 }
 

@@ -2,7 +2,8 @@
 
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, scene};
-use crate::{BEFORE_EDGE, NONE, Passed};
+use crate::ray::is_on_edge;
+use crate::{NONE, Passed};
 use gonio_simd::Execution;
 
 /// A square of this size about the middle, `copies` times.
@@ -29,7 +30,7 @@ fn pass(rays: &mut OwnedRays, hits: &Hits) {
         let [t, u, v] = [hits.t[i], hits.u[i], hits.v[i]];
         let is_miss = hits.instance[i] == NONE;
         rays.t_min[i] = if is_miss { f32::INFINITY } else { t.next_down() };
-        let on_edge = u32::from(u <= 0.0 || v <= 0.0 || u + v >= BEFORE_EDGE);
+        let on_edge = u32::from(is_on_edge(u, v));
         *passed = Passed { t, instance: hits.instance[i], primitive: hits.primitive[i], on_edge };
     }
 }

@@ -4,7 +4,7 @@ use crate::{
     accel::{Hits, NONE, RayBatch},
     transport::{Arrivals, OFF_PLANE, Photon, Tables},
 };
-use gonio_simd::{Column, Execution, Lanes};
+use gonio_simd::{Column, Execution, Frame, Lanes, One, Vec3};
 use std::f32::consts::{PI, TAU};
 
 /// Places on a disc's rim that are asked first, and those all over it where it is not whole.
@@ -65,7 +65,8 @@ impl<'a> Ground<'a> {
         room.clear();
         for number in numbers {
             let photon = &photons[*number as usize];
-            let [along, across] = frame(photon.normal);
+            let frame = Frame::from_normal(Vec3::splat(One, photon.normal));
+            let [along, across] = [frame.x, frame.y].map(|v| [v.x, v.y, v.z].map(|x| x.to_array()[0]));
             // Each photon's places are turned by an angle of its own.
             let turn = (*number as f32 * 0.618_034).fract() * TAU;
             for [x, y] in (0..places).map(|number| place(number, turn)) {
@@ -116,14 +117,6 @@ fn disc_place(number: usize, turn: f32) -> [f32; 2] {
     let (sin, cos) = (turn + number as f32 * GOLDEN).sin_cos();
     let away = ((number as f32 + 0.5) / PLACES as f32).sqrt();
     [cos * away, sin * away]
-}
-
-/// Two unit vectors at right angles to a third and to one another (Duff et al. 2017).
-fn frame([x, y, z]: [f32; 3]) -> [[f32; 3]; 2] {
-    let sign = 1.0_f32.copysign(z);
-    let a = -1.0 / (sign + z);
-    let b = x * y * a;
-    [[1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]]
 }
 
 /// Rays that are asked together, what they meet, and how many of each photon's do.
