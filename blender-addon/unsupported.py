@@ -108,7 +108,6 @@ MATERIALS = {
     ),
     "volume as surface": Limit("Volume shaders in a Surface socket", "black, as in Cycles"),
     "bump correction": _quietly("Bump Map Correction that is switched off", "it stays on"),
-    "huang": _quietly("Principled Hair BSDF: Huang's model", "Chiang's model of the same colour and roughness; a round section"),
     "closure": Limit("Other shaders that are named in the report", "a diffuse surface of its colour"),
     "absent": Limit("Shader to RGB, Specular BSDF, Squeeze Value and UV Along Stroke", "as if nothing were linked, as in Cycles"),
     "blurred bevel": _untold("Bevel in blurred reflections of glossy surfaces", "edges are rounded there too"),

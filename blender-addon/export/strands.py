@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .material.inputs import POSITION, STRAND, UV
+from . import strand_normals
 from .mesh_attributes import as_shader_value, part_of_attribute, read
 from .random_number import of_word_arrays
 
@@ -127,6 +128,9 @@ def of_curves(curves, wanted):
         values[UV] = read(root)[:, :2].astype(np.float32)
     if POSITION in wanted:
         values[POSITION] = points
+    if STRAND["Normal"] in wanted:
+        begins, ends = offsets[:-1], offsets[1:]
+        values[STRAND["Normal"]] = strand_normals.of_curves(curves, _tangents(points, begins, ends), begins, ends)
     strands = Strands(points, np.diff(offsets).astype(np.int32), _radius(curves, len(points), "CURVES"), values)
     return _with_facts(strands, wanted, 0)
 

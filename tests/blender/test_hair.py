@@ -110,3 +110,59 @@ def test_scales_lean_as_in_cycles(tmp_path):
         # The mean of each strand; the other way round they are as far apart as they are bright.
         cycles, gonio = (np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path))
         assert np.allclose(gonio, cycles, rtol=0.05, atol=0.01 * cycles.max()), (kind, named, cycles, gonio)
+
+
+@pytest.mark.blender
+def test_elliptic_strands_are_as_in_cycles(tmp_path):
+    import beside_cycles
+    import bpy
+    import numpy as np
+
+    # Flat along the curves' normals, which turn; and an aspect above 1, which Cycles takes for its inverse. Without a tilt of the scales, for which
+    # Cycles has another brightness in directions of lamps than in those it samples.
+    for aspect, roughness in ((0.5, 0.3), (1.6, 0.5)):
+        made = beside_cycles.scene(4, samples=400)
+        made.render.resolution_x = made.render.resolution_y = 48
+        made.cycles_curves.shape, made.cycles.max_bounces = "RIBBONS", 0
+        made.camera.location, made.camera.rotation_euler = (0.0, -6.0, 0.0), (np.pi / 2, 0.0, 0.0)
+        for angle in (70.0, 250.0):
+            lamp = bpy.data.lights.new("Sun", "SUN")
+            lamp.energy, lamp.angle = 3.0, np.radians(20.0)
+            sun = bpy.data.objects.new("Sun", lamp)
+            sun.rotation_euler = (np.radians(angle), 0.0, 0.5)
+            made.collection.objects.link(sun)
+        cover, tree, end = beside_cycles.material("Strand")
+        shader = tree.nodes.new("ShaderNodeBsdfHairPrincipled")
+        shader.model = "HUANG"
+        for name, value in {"Aspect Ratio": aspect, "Roughness": roughness, "Secondary Reflection": 0.7, "Offset": 0.0}.items():
+            shader.inputs[name].default_value = value
+        tree.links.new(shader.outputs[0], end.inputs["Surface"])
+        ways = [(-1.5, -1.2), (-0.75, -0.6), (0.0, 0.0), (0.75, 0.6), (1.5, 1.2)]
+        strands = curves_of([np.array([(x, y * t, 1.6 * t) for t in np.linspace(-1.0, 1.0, 9)]) for x, y in ways], "Strands", cover, radius=0.2)
+        tilt = np.tile(np.linspace(0.0, 1.5, 9), len(ways)).astype(np.float32)
+        strands.data.attributes.new("tilt", "FLOAT", "POINT").data.foreach_set("value", tilt)
+        cycles, gonio = (np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path))
+        assert np.allclose(gonio, cycles, rtol=0.05), (aspect, gonio / cycles)
+
+
+@pytest.mark.blender
+def test_normals_of_strands_are_blenders(tmp_path):
+    import bpy
+    import numpy as np
+    from gonio_extension.export import strand_normals
+
+    turns = np.linspace(0.0, 3.0, 60)
+    spiral = np.stack([np.cos(turns), np.sin(turns), 0.3 * turns], axis=1)
+    for mode in (0, 1):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        curves = curves_of([spiral, spiral[::-1] * 2.0], "Strands").data
+        curves.attributes.new("normal_mode", "INT8", "CURVE").data.foreach_set("value", np.full(2, mode, dtype=np.int32))
+        tilt = np.linspace(0.0, 2.0, 120).astype(np.float32)
+        curves.attributes.new("tilt", "FLOAT", "POINT").data.foreach_set("value", tilt)
+        points, begins, ends = np.concatenate([spiral, spiral[::-1] * 2.0]), np.array([0, 60]), np.array([60, 120])
+        tangents = np.concatenate([np.gradient(part, axis=0) for part in (points[:60], points[60:])])
+        found = strand_normals.of_curves(curves, tangents, begins, ends)
+        # Those that Blender has not freed by then are unit vectors.
+        told = np.array([curves.normals[place].vector[:] for place in range(120)])
+        whole = np.abs(np.linalg.norm(told, axis=1) - 1.0) < 1e-3
+        assert whole.sum() > 60 and np.abs(found - told)[whole].max() < 0.05, (mode, whole.sum(), np.abs(found - told)[whole].max())

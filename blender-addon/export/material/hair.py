@@ -13,18 +13,20 @@ SCALES = (1.0, 0.25, 4.0)
 
 @closure_node("ShaderNodeBsdfHairPrincipled")
 def principled_hair(t, node, context):
-    is_huang = node.model == "HUANG"
-    if is_huang:
-        t.tell("huang", node, context, "Principled Hair BSDF: Huang's model")
     random = _random(t, node, context)
     varied = _factor(random, t.input(node, "Random Roughness", context))
     roughness = (t.input(node, "Roughness", context, 0.3) * varied).clamp(1e-3, 1.0)
-    around = roughness if is_huang else t.input(node, "Radial Roughness", context, 0.3) * varied
-    tints = {}
-    if is_huang:
-        for name, socket in (("r", "Reflection"), ("tt", "Transmission"), ("trt", "Secondary Reflection")):
-            tints[f"hair_tint_{name}"] = t.input(node, socket, context, 1.0).maximum(0.0)
-    coat = t.graph.scalar(0.0) if is_huang else t.input(node, "Coat", context).clamp()
+    shared = {
+        "hair_tilt": t.input(node, "Offset", context),
+        "specular_ior": t.input(node, "IOR", context, 1.55),
+        # On meshes, as in Cycles.
+        "fibres": "FirstEdge",
+    }
+    if node.model == "HUANG":
+        absorption = _absorption(t, node, context, random, roughness)
+        return [_elliptic(t, node, context, roughness, hair_absorption=absorption, **shared)]
+    around = t.input(node, "Radial Roughness", context, 0.3) * varied
+    coat = t.input(node, "Coat", context).clamp()
     widths = _widths(t, roughness, around)
     reflected = _widths(t, (roughness * (1.0 - coat)).clamp(1e-3, 1.0), around)
     variances = [reflected.component(0)] + [widths.component(0) * scale for scale in SCALES[1:]]
@@ -35,13 +37,37 @@ def principled_hair(t, node, context):
             hair_absorption=_absorption(t, node, context, random, around),
             hair_variance=t.graph.combine(*variances),
             hair_scale=t.graph.combine(*(widths.component(1),) * 3),
-            hair_tilt=t.input(node, "Offset", context),
-            specular_ior=t.input(node, "IOR", context, 1.55),
-            # On meshes, as in Cycles.
-            fibres="FirstEdge",
-            **tints,
+            **shared,
         )
     ]
+
+
+def _elliptic(t, node, context, roughness, **shared):
+    """Huang's model, whose roughness is the width of facets; the longer axis of the section lies along the strand's normal."""
+    aspect = t.input(node, "Aspect Ratio", context, 0.85).maximum(0.01)
+    # As in Cycles, where ratios above 1 do not turn the section.
+    aspect = aspect.minimum(t.graph.scalar(1.0) / aspect)
+    is_strand = t.primvar(STRAND["Is Strand"], kind="VALUE")
+    tints = {}
+    for name, socket in (("r", "Reflection"), ("tt", "Transmission"), ("trt", "Secondary Reflection")):
+        tints[f"hair_tint_{name}"] = t.input(node, socket, context, 1.0).maximum(0.0)
+    return closure(
+        t.graph,
+        "HairElliptic",
+        specular_roughness=roughness.sqrt(),
+        hair_aspect=aspect,
+        hair_turn=t.graph.scalar(0.0) if aspect.is_constant and aspect.constant[0] == 1.0 else _turn(t),
+        hair_whole=1.0 - is_strand,
+        **tints,
+        **shared,
+    )
+
+
+def _turn(t):
+    """The angle about the strand from the surface's normal to the strand's own; hair of particles has none, for which Cycles has (1, 1, 1)."""
+    own, along = (carried(t, t.primvar(STRAND[name]), "Object", "World", "Vector") for name in ("Normal", "Tangent"))
+    own, normal = own.normalized() + t.graph.vector((1e-6, 1e-6, 1e-6)), hit(t, "Normal")
+    return own.dot(along.normalized().cross(normal)).apply("ArcTangent2", own.dot(normal))
 
 
 def _widths(t, along, around):

@@ -19,7 +19,7 @@ PARAMETRIC = "blender parametric"
 TRIANGLE = ("blender triangle 1", "blender triangle 2", "blender triangle 3")
 # The normal in the mesh's own space as it is interpolated, not made unit; and how names of tangents along UV maps begin.
 SMOOTH_NORMAL, TANGENT = "blender normal", "tangents of "
-# What strands of hair know of themselves, by the outputs of the Curves Info node; and their direction in the object's space.
+# What strands of hair know of themselves, by the outputs of the Curves Info node; and their direction and normal in the object's space.
 STRAND = {
     "Is Strand": "blender is strand",
     "Intercept": "blender strand intercept",
@@ -27,6 +27,7 @@ STRAND = {
     "Thickness": "blender strand thickness",
     "Random": "blender strand random",
     "Tangent": "blender strand tangent",
+    "Normal": "blender strand normal",
 }
 # What every mesh can give without an attribute.
 COMPUTED = frozenset({GENERATED, POSITION, POINTINESS, ISLAND, PARAMETRIC, SMOOTH_NORMAL, *TRIANGLE})

@@ -3,7 +3,7 @@
 use super::fresnel::Curve;
 use super::fuzz::FuzzLobe;
 use super::glass::Interface;
-use super::hair::{Appearance, FibreLobe, MarschnerLobe};
+use super::hair::{Appearance, EllipticLobe, Fibre, FibreLobe, MarschnerLobe, NUMBERS};
 use super::lobes::{Normal, Shape, Side};
 use super::measured::MeasuredLobe;
 use super::microfacet::Widths;
@@ -44,6 +44,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             Closure::Portal => self.single_portal(colour),
             Closure::Measured => self.measured(colour),
             Closure::Hair => self.fibre(),
+            Closure::HairElliptic => self.elliptic(),
             Closure::HairReflection | Closure::HairTransmission => self.marschner(colour),
             Closure::Emission | Closure::Layered => {}
         }
@@ -106,11 +107,37 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             variances: [variances.x, variances.y, variances.z],
             scales: [scales.x, scales.y, scales.z],
             tilt: self.get(p::HAIR_TILT),
-            tints: [self.spectrum(p::HAIR_TINT_R), self.spectrum(p::HAIR_TINT_TT), self.spectrum(p::HAIR_TINT_TRT)],
+            tints: self.tints(),
         };
         let lobe = FibreLobe::new(self.wo, &appearance);
         let albedo = lobe.albedo();
         self.push(Shape::Fibre(lobe), self.white(), albedo, None, Side::Both, Normal::Base);
+    }
+
+    /// Factors on what a fibre reflects, lets pass, and reflects inside.
+    #[inline(always)]
+    fn tints(&self) -> [Spectrum<L>; 3] {
+        [self.spectrum(p::HAIR_TINT_R), self.spectrum(p::HAIR_TINT_TT), self.spectrum(p::HAIR_TINT_TRT)]
+    }
+
+    /// A fibre of elliptic section; there is none where the view passes beside the ellipse.
+    #[inline(always)]
+    fn elliptic(&mut self) {
+        let roughness = self.base_roughness();
+        let fibre = Fibre {
+            ior: self.get(p::IOR),
+            absorption: self.spectrum(p::HAIR_ABSORPTION),
+            alpha: roughness * roughness,
+            tilt: self.get(p::HAIR_TILT),
+            aspect: self.get(p::HAIR_ASPECT),
+            turn: self.get(p::HAIR_TURN),
+            whole: self.get(p::HAIR_WHOLE).gt(0.5),
+            tints: self.tints(),
+        };
+        let (lobe, present) = EllipticLobe::new(self.wo, &fibre, self.numbers.copied().unwrap_or([self.l.f(0.5); NUMBERS]));
+        self.lobes.opacity = self.lobes.opacity.keep_if(present);
+        let albedo = lobe.albedo();
+        self.push(Shape::Elliptic(lobe), self.white(), albedo, None, Side::Both, Normal::Base);
     }
 
     /// One of the older lobes of fibres.

@@ -35,6 +35,7 @@ mod transmission;
 mod turn;
 
 pub use adjoint::LightHits;
+pub use hair::NUMBERS as WAY_NUMBERS;
 pub use lobes::{BsdfSample, Lobes, MAXIMUM, SpecularRay, Way};
 pub use measured::MeasuredBsdf;
 pub use portal::Portal;

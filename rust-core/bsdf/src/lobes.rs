@@ -123,6 +123,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
                 }
             }
             // Fibres send light both ways, as a measurement may.
+            Shape::Elliptic(_) => self.kinds[1] += albedo,
             Shape::Fibre(_) => {
                 self.kinds[1] += albedo;
                 self.kinds[2] += albedo;

@@ -131,6 +131,12 @@ block! {
     HAIR_TINT_TT "hair_tint_tt" [1.0, 1.0, 1.0];
     /// Factor on what a fibre reflects inside.
     HAIR_TINT_TRT "hair_tint_trt" [1.0, 1.0, 1.0];
+    /// Half axis of an elliptic fibre across `hair_turn`, over the one along it.
+    HAIR_ASPECT "hair_aspect" [1.0];
+    /// Angle about the fibre from the normal to that half axis, radians, from the tangent on to the right.
+    HAIR_TURN "hair_turn" [0.0];
+    /// Whether an elliptic fibre is seen over its whole width at each hit: 1 where the surface does not tell the place across, as on meshes.
+    HAIR_WHOLE "hair_whole" [0.0];
     /// Widths of the older hair lobes along and about the fibre, radians.
     HAIR_WIDTHS "hair_widths" [0.1, 1.0];
     /// Where a portal's light goes on, in the world, metres.

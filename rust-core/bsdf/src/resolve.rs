@@ -3,6 +3,7 @@
 use super::closure::single;
 use super::diffuse::DiffuseLobe;
 use super::fuzz::FuzzLobe;
+use super::hair::NUMBERS;
 use super::lobes::{Lobes, Normal, Shape, Side, Slot};
 use super::normals::{Normals, Tilts, raised, raised_frame, tilted};
 use super::parameter as p;
@@ -25,6 +26,7 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) coat_wo: Vec3<L>,
     pub(super) coat_mu: F<L>,
     pub(super) entering: M<L>,
+    pub(super) numbers: Option<&'a [F<L>; NUMBERS]>,
     /// Whether light walks under the surface.
     pub(super) walks: bool,
     /// What the layers above leave.
@@ -49,6 +51,16 @@ pub struct Hits<'a, L: Lanes> {
     pub normals: Option<&'a Normals<L>>,
     /// Whether light walks under the surface; else it comes out where it went in.
     pub walks: bool,
+    /// Random numbers of each hit, for surfaces that draw a way inside ([`LobeSet::drawn`](super::LobeSet)).
+    pub numbers: Option<&'a [F<L>; NUMBERS]>,
+}
+
+impl<'a, L: Lanes> Hits<'a, L> {
+    /// Hits of which nothing is asked but what passes straight, or shines.
+    #[inline(always)]
+    fn plain(values: &'a ParameterValues<'a>, at: usize, wo: Vec3<L>, entering: M<L>) -> Self {
+        Self { values, at, wo, entering, normals: None, walks: true, numbers: None }
+    }
 }
 
 /// [`Surface::layers`] as a function of its own, which all that resolve share.
@@ -70,7 +82,7 @@ impl Surface {
 
     #[inline(always)]
     fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
-        let Hits { values, at, wo, entering, normals, walks } = *hits;
+        let Hits { values, at, wo, entering, normals, walks, numbers } = *hits;
         if let Some(normals) = normals {
             let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
             lobes.tilts = self.tilts(normals, wo, presence);
@@ -88,6 +100,7 @@ impl Surface {
             coat_wo,
             coat_mu: coat_wo.z.clamp(1e-4, 1.0),
             entering,
+            numbers,
             walks,
             weight: Spectrum::one(l),
             coated: false,
@@ -133,7 +146,7 @@ impl Surface {
             return values.spectrum(l, p::EMISSION_COLOR, at);
         }
         let mut lobes = Lobes::empty(l);
-        resolve(l, self, &Hits { values, at, wo, entering, normals: None, walks: true }, &mut lobes);
+        resolve(l, self, &Hits::plain(values, at, wo, entering), &mut lobes);
         lobes.emission()
     }
 
@@ -145,7 +158,7 @@ impl Surface {
             return Spectrum::constant(open);
         }
         let mut lobes = Lobes::empty(l);
-        resolve(l, self, &Hits { values, at, wo, entering, normals: None, walks: true }, &mut lobes);
+        resolve(l, self, &Hits::plain(values, at, wo, entering), &mut lobes);
         lobes.transmittance(l, wo)
     }
 }

@@ -25,6 +25,10 @@ pub struct LobeSet {
     pub portal: bool,
     /// A fibre, which scatters about its tangent.
     pub fibre: bool,
+    /// A fibre whose hits draw a way inside.
+    pub drawn: bool,
+    /// A fibre that may be narrower than its outline: paths pass beside it. Shadow rays do not ask.
+    pub narrow: bool,
     /// Metal.
     pub metal: bool,
     /// Dielectric reflection over the opaque base.
@@ -139,6 +143,8 @@ impl Reach<'_> {
             straight: false,
             portal: false,
             fibre: false,
+            drawn: false,
+            narrow: false,
         }
     }
     /// What a single lobe can show, with the places that it reads.
@@ -146,7 +152,7 @@ impl Reach<'_> {
         let closure = switches.closure;
         let colour = self.positive(p::BASE_COLOR, 3);
         let reflects = matches!(closure, Closure::Glossy | Closure::Metallic);
-        let fibre = matches!(closure, Closure::Hair | Closure::HairReflection | Closure::HairTransmission);
+        let fibre = closure.is_fibre();
         let stretched = reflects && !self.is(p::ANISOTROPY, 0.0);
         let subsurface = closure == Closure::Subsurface && colour;
         LobeSet {
@@ -162,6 +168,8 @@ impl Reach<'_> {
             anisotropic: stretched || fibre,
             turned: stretched && !self.is(p::ROTATION, 0.0),
             fibre,
+            drawn: closure == Closure::HairElliptic,
+            narrow: closure == Closure::HairElliptic && !self.is(p::HAIR_ASPECT, 1.0),
             film: matches!(closure, Closure::Glass | Closure::Metallic) && self.film(),
             straight: closure == Closure::Transparent,
             smooth: (reflects || matches!(closure, Closure::Glass | Closure::Refraction)) && self.smooth(),

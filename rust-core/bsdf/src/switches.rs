@@ -202,6 +202,8 @@ pub enum Closure {
     Portal,
     /// A fibre: the places of the hair, index.
     Hair,
+    /// A fibre of elliptic section with a surface of facets: absorption, tilt, tints, aspect and turn of the hair, roughness, index.
+    HairElliptic,
     /// The older lobe of what a fibre reflects: base colour, widths and tilt of the hair.
     HairReflection,
     /// The older lobe of what passes a fibre.
@@ -220,6 +222,13 @@ pub enum EmissionOrder {
     UnderCoat,
     /// Nothing.
     Top,
+}
+
+impl Closure {
+    /// Whether it scatters about the tangent.
+    pub fn is_fibre(self) -> bool {
+        matches!(self, Self::Hair | Self::HairElliptic | Self::HairReflection | Self::HairTransmission)
+    }
 }
 
 /// All choices of a surface; the default is gonio's own, OpenPBR as its specification has it.

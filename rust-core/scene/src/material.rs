@@ -40,6 +40,9 @@ pub enum Model {
     GlossyToon,
     /// A hair or fibre along the tangent (Chiang et al. 2016): the parameters `hair_*` and `specular_ior`.
     Hair,
+    /// A fibre of elliptic section with a surface of facets (Huang et al. 2022): `hair_absorption`, `hair_tilt`, the tints, `hair_aspect`, `hair_turn`,
+    /// `hair_whole`, `specular_roughness` and `specular_ior`.
+    HairElliptic,
     /// What a fibre reflects as one lobe about its tangent, `base_color`, `hair_widths` and `hair_tilt`.
     HairReflection,
     /// What passes a fibre, likewise.
@@ -88,6 +91,13 @@ pub enum SubsurfaceMethod {
     RandomWalkSkin,
     /// Christensen and Burley's diffusion profile.
     Burley,
+}
+
+impl Model {
+    /// Whether it scatters about the tangent.
+    pub fn is_fibre(self) -> bool {
+        matches!(self, Self::Hair | Self::HairElliptic | Self::HairReflection | Self::HairTransmission)
+    }
 }
 
 /// What the fibres of hair models lie along on triangles; strands have a direction of their own.

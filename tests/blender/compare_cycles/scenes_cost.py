@@ -27,6 +27,14 @@ def head() -> None:
     camera((0.0, -3.2, 1.2), (0.0, 0.0, 0.55), lens=70.0)
 
 
+def head_elliptic() -> None:
+    """The same with Huang's model."""
+    head()
+    made = bpy.data.objects["Strands"].data
+    made.materials.clear()
+    made.materials.append(material("BsdfHairPrincipled", model="HUANG", **MELANIN))
+
+
 def windmills() -> None:
     """A field of wheels that turn while the shutter is open, instances of one mesh."""
     resolution(512, 256)

@@ -49,6 +49,15 @@ def hair_ribbons() -> None:
     strands_of.materials.append(made)
 
 
+def hair_elliptic() -> None:
+    """Huang's model, whose strands are flat along the normals of the curves, as ribbons."""
+    hair_curves()
+    bpy.context.scene.cycles_curves.shape = "RIBBONS"
+    strands_of = bpy.data.objects["Strands"].data
+    strands_of.materials.clear()
+    strands_of.materials.append(material("BsdfHairPrincipled", model="HUANG", Aspect_Ratio=0.6, **MELANIN))
+
+
 def fur() -> None:
     """A ball with the hair of a particle system, its children included, coloured directly."""
     resolution(192, 192)

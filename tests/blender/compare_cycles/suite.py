@@ -63,4 +63,5 @@ SCENES = [
     Scene("camera", "instances"),
     Scene("hair", "hair_curves", 384, 384),
     Scene("hair", "hair_ribbons"),
+    Scene("hair", "hair_elliptic"),
 ]

@@ -5,10 +5,15 @@
 
 mod azimuthal;
 mod chiang;
+mod elliptic;
+mod facets;
 mod longitudinal;
 mod marschner;
+mod section;
 
 pub(crate) use chiang::{Appearance, FibreLobe};
+pub use elliptic::NUMBERS;
+pub(crate) use elliptic::{EllipticLobe, Fibre};
 pub(crate) use marschner::MarschnerLobe;
 
 use gonio_simd::{F, Lanes, Vec3};

@@ -3,7 +3,7 @@
 use super::super::diffuse::DiffuseLobe;
 use super::super::fuzz::FuzzLobe;
 use super::super::glass::GlassLobe;
-use super::super::hair::{FibreLobe, MarschnerLobe};
+use super::super::hair::{EllipticLobe, FibreLobe, MarschnerLobe};
 use super::super::measured::MeasuredLobe;
 use super::super::normals::{Normal, Tilts};
 use super::super::reflect::ReflectLobe;
@@ -33,6 +33,8 @@ pub(crate) enum Shape<'s, L: Lanes> {
     Measured(MeasuredLobe<'s, L>),
     /// A fibre.
     Fibre(FibreLobe<L>),
+    /// A fibre of elliptic section.
+    Elliptic(EllipticLobe<L>),
     /// One of a fibre's lobes.
     Marschner(MarschnerLobe<L>),
 }
@@ -111,6 +113,7 @@ impl<L: Lanes> Slot<'_, L> {
             }
             Shape::Measured(lobe) => lobe.eval(wo, wi),
             Shape::Fibre(lobe) => lobe.eval(wi),
+            Shape::Elliptic(lobe) => lobe.eval(wi),
             Shape::Marschner(lobe) => {
                 let value = lobe.eval(wi);
                 (Spectrum::constant(value), value)
@@ -141,6 +144,11 @@ impl<L: Lanes> Slot<'_, L> {
                 passed = Some(through);
                 (wi, l.m(true))
             }
+            Shape::Elliptic(lobe) => {
+                // As in Cycles what has been inside counts as reflected too.
+                passed = Some(l.m(false));
+                lobe.sample(u)
+            }
             Shape::Marschner(lobe) => {
                 passed = Some(l.m(lobe.passes()));
                 lobe.sample([u[1], u[2]])
@@ -162,7 +170,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Glass(lobe) => lobe.delta,
             Shape::Straight => l.m(true),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Subsurface(_) | Shape::Measured(_) => l.m(false),
-            Shape::Fibre(_) | Shape::Marschner(_) => l.m(false),
+            Shape::Fibre(_) | Shape::Elliptic(_) | Shape::Marschner(_) => l.m(false),
         }
     }
     /// Weight and probability of the delta lanes for the direction `wi`.
@@ -174,7 +182,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Glass(lobe) => lobe.smooth(wo, wi),
             Shape::Straight | Shape::Subsurface(_) => (Spectrum::one(l), l.f(1.0)),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Toon(_) | Shape::Measured(_) => (Spectrum::zero(l), l.f(0.0)),
-            Shape::Fibre(_) | Shape::Marschner(_) => (Spectrum::zero(l), l.f(0.0)),
+            Shape::Fibre(_) | Shape::Elliptic(_) | Shape::Marschner(_) => (Spectrum::zero(l), l.f(0.0)),
         };
         (value * self.weight, pdf)
     }
@@ -188,6 +196,7 @@ impl<L: Lanes> Slot<'_, L> {
             Shape::Straight => l.f(0.0),
             Shape::Measured(lobe) => l.f(lobe.roughness()),
             Shape::Fibre(lobe) => lobe.roughness(),
+            Shape::Elliptic(lobe) => lobe.roughness(),
             Shape::Marschner(lobe) => lobe.roughness(),
             Shape::Diffuse(_) | Shape::Fuzz(_) | Shape::Subsurface(_) => l.f(1.0),
         }
@@ -196,7 +205,8 @@ impl<L: Lanes> Slot<'_, L> {
     #[inline(always)]
     pub(super) fn is_specular(&self) -> bool {
         match &self.shape {
-            Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_) | Shape::Fibre(_) | Shape::Marschner(_) => true,
+            Shape::Reflect(_) | Shape::Glass(_) | Shape::Measured(_) => true,
+            Shape::Fibre(_) | Shape::Elliptic(_) | Shape::Marschner(_) => true,
             Shape::Toon(lobe) => lobe.is_glossy(),
             _ => false,
         }
@@ -204,7 +214,7 @@ impl<L: Lanes> Slot<'_, L> {
     /// Whether it is about a fibre's tangent, so that no side of its normal is dark.
     #[inline(always)]
     pub(crate) fn is_fibre(&self) -> bool {
-        matches!(self.shape, Shape::Fibre(_) | Shape::Marschner(_))
+        matches!(self.shape, Shape::Fibre(_) | Shape::Elliptic(_) | Shape::Marschner(_))
     }
     /// Whether the bump rules count the lobe as diffuse.
     #[inline(always)]

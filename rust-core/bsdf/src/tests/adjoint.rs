@@ -23,7 +23,7 @@ fn kernel<L: Lanes>(l: L, (view, whole): (&View, bool), numbers: &[[f32; 3]], di
     let geometric = Vec3::splat(l, view.geometric.unwrap_or([0.0, 0.0, 1.0]));
     let normals = Normals { geometric, smooth: Vec3::splat(l, [0.0, 0.0, 1.0]), coat: None };
     let normals = view.geometric.map(|_| normals);
-    let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true };
+    let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true, numbers: None };
     let (mut lobes, mut room) = (Lobes::empty(l), Lobes::empty(l));
     view.surface.resolve(l, &hits, &mut lobes);
     let light = LightHits { hits, geometric, whole };
@@ -97,8 +97,8 @@ fn flux_is_what_the_camera_sees() {
     for (name, surface) in rows::all().into_iter().filter(|(name, _)| !name.contains("toon")) {
         for (from, to) in [((20.0, 0.0), (50.0, 70.0)), ((70.0, 0.0), (30.0, 200.0)), ((40.0, 0.0), (75.0, 180.0))] {
             let (from, to) = (direction(from.0, from.1), direction(to.0, to.1));
-            let arriving = View { surface: surface.clone(), wo: from, entering: true, geometric: None };
-            let seen = View { surface: surface.clone(), wo: to, entering: true, geometric: None }.eval(&[from])[0].0;
+            let arriving = View::of(&surface, from, true);
+            let seen = View::of(&surface, to, true).eval(&[from])[0].0;
             let flux = scattered(&arriving, &[], &[to]).flux[0];
             for (flux, seen) in flux.iter().zip(seen.map(|x| x * to[2] / from[2])) {
                 assert!((flux - seen).abs() <= 1e-4 * seen + 1e-6, "{name}: {flux} of flux, {seen} seen");
@@ -139,8 +139,8 @@ fn flux_that_passes_an_interface_is_what_the_camera_sees() {
         for (entering, index) in [(true, 1.5_f32), (false, 1.0 / 1.5)] {
             for (from, to) in [((15.0, 0.0), (170.0, 185.0)), ((35.0, 0.0), (150.0, 200.0)), ((30.0, 0.0), (145.0, 170.0))] {
                 let (from, to) = (direction(from.0, from.1), direction(to.0, to.1));
-                let arriving = View { surface: surface.clone(), wo: from, entering, geometric: None };
-                let view = View { surface: surface.clone(), wo: from_behind(to), entering: !entering, geometric: None };
+                let arriving = View::of(&surface, from, entering);
+                let view = View::of(&surface, from_behind(to), !entering);
                 let seen = view.eval(&[from_behind(from)])[0].0.map(|x| x * index * index * to[2].abs() / from[2]);
                 let flux = scattered(&arriving, &[], &[to]).flux[0];
                 assert!(seen[1] > 1e-3, "{name}: nothing passes");
@@ -157,10 +157,10 @@ fn flux_that_passes_a_smooth_interface_is_what_the_camera_sees() {
     const COUNT: usize = 1 << 12;
     for (name, surface) in interfaces(0.0) {
         for entering in [true, false] {
-            let arriving = View { surface: surface.clone(), wo: direction(35.0, 0.0), entering, geometric: None };
+            let arriving = View::of(&surface, direction(35.0, 0.0), entering);
             let samples = scattered(&arriving, &spread(COUNT), &[]).samples;
             let passed: Vec<_> = samples.iter().filter(|(wi, _, alone)| *alone && wi[2] < 0.0).collect();
-            let view = View { surface: surface.clone(), wo: from_behind(passed[0].0), entering: !entering, geometric: None };
+            let view = View::of(&surface, from_behind(passed[0].0), !entering);
             let seen = view.albedo(COUNT)[1];
             for (channel, seen) in seen.into_iter().enumerate() {
                 let flux = passed.iter().map(|(_, factor, _)| f64::from(factor[channel])).sum::<f64>() / COUNT as f64;

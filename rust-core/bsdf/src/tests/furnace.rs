@@ -52,7 +52,7 @@ fn white_surfaces_keep_all_energy() {
 
 #[test]
 fn no_surface_makes_energy() {
-    for (name, surface) in rows::all() {
+    for (name, surface) in rows::undrawn() {
         for angle in [5.0, 50.0, 80.0] {
             let found = total(&surface, angle);
             assert!(found < 1.01, "{name} at {angle}: {found:.5}");
@@ -79,7 +79,7 @@ fn albedo_estimates_are_near_the_truth() {
     // Tables know no anisotropy, plain lobes lose what the estimates count, and a walk's colour comes from its scattering.
     let unknown = ["glossy anisotropic", "metal turned", "oren-nayar", "beckmann anisotropic", "velvet", "walk"];
     let known = |name: &str| !unknown.contains(&name) && !name.starts_with("ashikhmin");
-    for (name, surface) in rows::all().into_iter().filter(|(name, _)| known(name)) {
+    for (name, surface) in rows::undrawn().filter(|(name, _)| known(name)) {
         let view = View::new(&surface, 40.0, true);
         let (estimate, truth) = (f64::from(view.summary().albedo[0]), view.albedo(SAMPLES));
         let truth = truth[0][0] + truth[1][0];
@@ -97,9 +97,7 @@ fn lobes_without_layers_are_reciprocal() {
     for (name, surface) in [("eon", rows::diffuse(0.8)), ("metal", metal), ("glossy", glossy([1.0; 3], 0.5, 0.0, Ggx))] {
         for (a, b) in [((20.0, 0.0), (50.0, 70.0)), ((70.0, 0.0), (30.0, 200.0)), ((80.0, 0.0), (60.0, 170.0))] {
             let (a, b) = (direction(a.0, a.1), direction(b.0, b.1));
-            let value = |wo: [f32; 3], wi: [f32; 3]| {
-                View { surface: surface.clone(), wo, entering: true, geometric: None }.eval(&[wi])[0].0[1] / wi[2]
-            };
+            let value = |wo: [f32; 3], wi: [f32; 3]| View::of(&surface, wo, true).eval(&[wi])[0].0[1] / wi[2];
             let (there, back) = (value(a, b), value(b, a));
             assert!((there - back).abs() < 1e-3 * there.max(back) + 1e-6, "{name}: {there} and {back}");
         }
@@ -110,10 +108,9 @@ fn lobes_without_layers_are_reciprocal() {
 fn refraction_scales_with_the_squared_index_when_reversed() {
     let glass = rows::glass(0.6, Ggx);
     let [outside, inside] = [direction(30.0, 0.0), direction(155.0, 190.0)];
-    let into = View { surface: glass.clone(), wo: outside, entering: true, geometric: None }.eval(&[inside])[0].0[1] / -inside[2];
+    let into = View::of(&glass, outside, true).eval(&[inside])[0].0[1] / -inside[2];
     let mirrored = |v: [f32; 3]| [v[0], v[1], -v[2]];
-    let out =
-        View { surface: glass, wo: mirrored(inside), entering: false, geometric: None }.eval(&[mirrored(outside)])[0].0[1] / outside[2];
+    let out = View::of(&glass, mirrored(inside), false).eval(&[mirrored(outside)])[0].0[1] / outside[2];
     assert!((into / (1.5 * 1.5) - out).abs() < 1e-3 * out, "{into} and {out}");
 }
 

@@ -13,7 +13,7 @@ fn about(theta: f64, phi: f64) -> [f32; 3] {
 }
 
 fn seen(surface: &Surface, wo: [f32; 3]) -> View {
-    View { surface: surface.clone(), wo, entering: true, geometric: None }
+    View::of(surface, wo, true)
 }
 
 /// I₀ by its series.

@@ -1,5 +1,6 @@
 //! Batches of samples and evaluations of one surface from one view, at any level.
 
+use crate::hair::NUMBERS;
 use crate::normals::Normals;
 use crate::{BsdfSample, Hits, Lobes, ParameterValues, Surface};
 use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
@@ -12,6 +13,8 @@ pub(super) struct View {
     pub(super) entering: bool,
     /// The triangle's normal in the shading frame, where it is another one.
     pub(super) geometric: Option<[f32; 3]>,
+    /// What fibres draw their ways inside by.
+    pub(super) inside: [f32; NUMBERS],
 }
 
 /// One sampled direction.
@@ -66,7 +69,9 @@ fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
         Some(geometric) => Some(Normals { geometric: Vec3::splat(l, geometric), smooth: Vec3::splat(l, [0.0, 0.0, 1.0]), coat: None }),
         None => None,
     };
-    let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true };
+    let inside = view.inside.map(|x| l.f(x));
+    let hits =
+        Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true, numbers: Some(&inside) };
     let mut lobes = Lobes::empty(l);
     view.surface.resolve(l, &hits, &mut lobes);
     for chunk in job.numbers.chunks(L::COUNT) {
@@ -111,7 +116,10 @@ pub(super) fn rgb<L: Lanes>(light: Spectrum<L>) -> [[f32; 16]; 3] {
 
 impl View {
     pub(super) fn new(surface: &Surface, theta: f32, entering: bool) -> Self {
-        Self { surface: surface.clone(), wo: direction(theta, 0.0), entering, geometric: None }
+        Self::of(surface, direction(theta, 0.0), entering)
+    }
+    pub(super) fn of(surface: &Surface, wo: [f32; 3], entering: bool) -> Self {
+        Self { surface: surface.clone(), wo, entering, geometric: None, inside: [0.5; NUMBERS] }
     }
     /// Over a triangle whose normal leans from the shading normal towards the view by `lean` degrees.
     pub(super) fn smooth(surface: &Surface, theta: f32, lean: f32, entering: bool) -> Self {

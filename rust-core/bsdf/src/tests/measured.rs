@@ -35,7 +35,7 @@ fn behind(d: [f32; 3]) -> [f32; 3] {
 
 fn view(surface: &Surface, wo: [f32; 3]) -> View {
     let entering = wo[2] > 0.0;
-    View { surface: surface.clone(), wo: if entering { wo } else { behind(wo) }, entering, geometric: None }
+    View::of(surface, if entering { wo } else { behind(wo) }, entering)
 }
 
 fn any_direction(number: u64) -> [f32; 3] {
@@ -199,8 +199,8 @@ fn tint_scale_and_turn_are_as_asked() {
     // A quarter of a turn on, the tangent is where y was.
     let quarter = |d: [f32; 3]| [-d[1], d[0], d[2]];
     let wo = [0.5_f32, 0.2, 0.71_f32.sqrt()];
-    let expected = View { surface: plain, wo, entering: true, geometric: None }.eval(&[wi])[0].0;
-    let found = View { surface: changed, wo: quarter(wo), entering: true, geometric: None }.eval(&[quarter(wi)])[0].0;
+    let expected = View::of(&plain, wo, true).eval(&[wi])[0].0;
+    let found = View::of(&changed, quarter(wo), true).eval(&[quarter(wi)])[0].0;
     for channel in 0..3 {
         let factor = [1.0, 2.0, 0.5][channel];
         assert!((found[channel] - factor * expected[channel]).abs() < 1e-3 * expected[channel], "{found:?} for {expected:?}");

@@ -3,6 +3,7 @@
 mod adjoint;
 mod chi_square;
 mod cycles;
+mod elliptic;
 mod film;
 mod furnace;
 mod hair;

@@ -23,7 +23,11 @@ fn answer<L: Lanes>(l: L, surface: &Surface, lean: f32, wo: [f32; 3], sun: Optio
     let normals = Normals { geometric: up, smooth: up, coat: None };
     let values = ParameterValues::constant(&surface.constants);
     let mut lobes = Lobes::empty(l);
-    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true }, &mut lobes);
+    surface.resolve(
+        l,
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, numbers: None },
+        &mut lobes,
+    );
     if let Some(sun) = sun {
         *out = f64::from(lobes.eval(l, wo, frame.to_local(Vec3::splat(l, sun))).0.to_rgb().r.to_array()[0]);
         return;
@@ -104,7 +108,11 @@ fn coat<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], normal: [f32; 3], out: 
     let normals = Normals { geometric: up, smooth: up, coat: Some(normal) };
     let values = ParameterValues::constant(&surface.constants);
     let mut lobes = Lobes::empty(l);
-    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true }, &mut lobes);
+    surface.resolve(
+        l,
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, numbers: None },
+        &mut lobes,
+    );
     let sample = harness::sample(l, &lobes, wo, [l.f(0.0), l.f(0.3), l.f(0.7)]);
     let away = sample.wi - wo.reflect(normal);
     let value = sample.value.to_rgb().r;

@@ -76,6 +76,11 @@ pub(super) fn filmed(values: Values) -> Surface {
     principled(&all)
 }
 
+/// Those of [`all`] that hits do not draw a way inside for: of those, one way tells nothing of the mean.
+pub(super) fn undrawn() -> impl Iterator<Item = (&'static str, Surface)> {
+    all().into_iter().filter(|(_, surface)| !surface.lobes.drawn)
+}
+
 /// One setting of every kind, for the statistical tests.
 pub(super) fn all() -> Vec<(&'static str, Surface)> {
     let native = Switches::default();
@@ -107,6 +112,18 @@ pub(super) fn all() -> Vec<(&'static str, Surface)> {
         (
             "fibre, tinted",
             single(Closure::Hair, &[(p::HAIR_TINT_R, &[0.5, 0.7, 0.9]), (p::HAIR_TINT_TT, &[0.2; 3]), (p::HAIR_TILT, &[0.2])]),
+        ),
+        ("elliptic fibre", single(Closure::HairElliptic, &[(p::ROUGHNESS, &[0.55])])),
+        (
+            "elliptic fibre, flat",
+            single(
+                Closure::HairElliptic,
+                &[(p::ROUGHNESS, &[0.7]), (p::HAIR_ASPECT, &[0.6]), (p::HAIR_TURN, &[0.7]), (p::HAIR_TILT, &[0.1])],
+            ),
+        ),
+        (
+            "elliptic fibre, white",
+            single(Closure::HairElliptic, &[(p::ROUGHNESS, &[0.8]), (p::HAIR_ABSORPTION, &[0.0; 3]), (p::HAIR_ASPECT, &[1.4])]),
         ),
         ("fibre reflects", single(Closure::HairReflection, &[(p::HAIR_WIDTHS, &[0.3, 0.8])])),
         ("fibre passes", single(Closure::HairTransmission, &[(p::HAIR_WIDTHS, &[0.15, 0.6]), (p::HAIR_TILT, &[0.25])])),

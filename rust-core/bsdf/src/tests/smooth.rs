@@ -44,7 +44,7 @@ fn mirrors_lose_nothing_at_rims() {
 
 #[test]
 fn smooth_normals_make_no_energy() {
-    for (name, surface) in rows::all() {
+    for (name, surface) in rows::undrawn() {
         for [view, lean] in VIEWS {
             let [reflected, transmitted] = View::smooth(&surface, view, lean, true).albedo(1 << 14);
             assert!(reflected[1] + transmitted[1] < 1.01, "{name} at {view}: {reflected:?} {transmitted:?}");

@@ -34,6 +34,8 @@ pub mod dimension {
     pub const BSDF: u32 = 2;
     /// Choice of the lobe, and opacity, within a bounce.
     pub const LOBE: u32 = 3;
+    /// The way inside of a fibre, three pairs, within a bounce: what illuminance is measured by has the same.
+    pub const FIBRE: u32 = 4;
     /// Choice of the closure, within a bounce.
     pub const CLOSURE: u32 = 7;
     /// Added for the paths that measure illuminance, and for walks that come out of surfaces.

@@ -224,7 +224,7 @@ fn glow(surface: &Surface, varying: Vec<(usize, usize, Value)>, graph: &Compiled
 
 /// The edge of triangles that fibres lie along.
 fn edge(closure: &Closure) -> Option<usize> {
-    let fibre = matches!(closure.model, Model::Hair | Model::HairReflection | Model::HairTransmission);
+    let fibre = closure.model.is_fibre();
     match closure.fibres {
         FibreDirection::FirstEdge if fibre && closure.tangent.is_none() => Some(0),
         FibreDirection::SecondEdge if fibre && closure.tangent.is_none() => Some(1),
@@ -261,6 +261,7 @@ fn switches_of(closure: &Closure) -> Switches {
         Model::DiffuseToon => single(Single::DiffuseToon),
         Model::GlossyToon => single(Single::GlossyToon),
         Model::Hair => single(Single::Hair),
+        Model::HairElliptic => single(Single::HairElliptic),
         Model::HairReflection => single(Single::HairReflection),
         Model::HairTransmission => single(Single::HairTransmission),
         Model::Translucent => single(Single::Translucent),

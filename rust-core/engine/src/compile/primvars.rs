@@ -4,7 +4,7 @@ use super::fill::append_values;
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Closure, Input, Mesh, Model, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
+    scene::{Closure, Input, Mesh, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
 };
 
 /// What texture coordinates are called, the likeliest first.
@@ -41,7 +41,7 @@ pub(super) fn used_names(scene: &Scene, measured: &CompiledMeasured) -> Vec<Stri
 /// Whether a surface depends on its tangent, and that follows texture coordinates.
 fn lies_along_coordinates(closure: &Closure, measured: &CompiledMeasured) -> bool {
     let anisotropy = closure.input("specular_anisotropy").is_some_and(|input| !matches!(input, Input::Constant([0.0, ..])));
-    let fibre = matches!(closure.model, Model::Hair | Model::HairReflection | Model::HairTransmission);
+    let fibre = closure.model.is_fibre();
     closure.tangent.is_none() && (anisotropy || fibre || measured.of(closure).is_some_and(|measured| !measured.is_isotropic()))
 }
 

@@ -7,7 +7,7 @@ use crate::stage::measure::MeasureContext;
 use crate::stage::merge::in_share;
 use crate::stage::nee::{gone_straight, seen_share, shares_of};
 use crate::stage::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::normals;
+use crate::stage::shade::{normals, way_numbers};
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
@@ -107,7 +107,9 @@ impl Integrator for LightIntegrator<'_> {
         let values = parameter_values(material, &chunk.columns.outputs);
         let normals = normals(chunk, material, point, at);
         let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
-        let hits = Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true };
+        let numbers = way_numbers(chunk, material, point);
+        let hits =
+            Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true, numbers: numbers.as_ref() };
         // What camera paths find too has to be as they find it.
         let whole = !self.wanted.specular_only && self.wanted.picture.is_none();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };

@@ -23,12 +23,13 @@ use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::transport::PathFilter;
 use gonio_bsdf::{
-    Hits, Lobes, ParameterValues,
+    Hits, Lobes, ParameterValues, WAY_NUMBERS,
     normals::{Normals, is_raised},
     parameter::{EMISSION_COLOR, spectrum},
 };
+use gonio_camera::sampler::dimension;
 use gonio_light::hit_weight;
-use gonio_simd::{Frame, Lanes, M, Rgb, Spectrum, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Rgb, Spectrum, Vec3};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -50,7 +51,9 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
         }
         let (wo, entering) = (point.local_wo, l.load(&columns.surface.side, at).gt(0.0));
         let normals = normals(chunk, material, &point, at);
-        material.surface.resolve(l, &Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: I::WALKS }, &mut lobes);
+        let numbers = way_numbers(chunk, material, &point);
+        let hits = Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: I::WALKS, numbers: numbers.as_ref() };
+        material.surface.resolve(l, &hits, &mut lobes);
         if transport.limits.caustics != [true; 2] {
             let [reflecting, refracting] = transport.limits.caustics;
             lobes.without_facets(l, [!reflecting, !refracting], scattered_diffusely(&point));
@@ -107,6 +110,26 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
 fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
     let last = (point.flags >> flag::LAST_SHIFT) & 3;
     point.alive & last.eq(flag::event::DIFFUSE) & point.bounces.ne(0)
+}
+
+/// What fibres draw their ways inside by, where the material has such.
+#[inline(always)]
+pub(crate) fn way_numbers<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    material: &SurfaceMaterial,
+    point: &Vertex<L>,
+) -> Option<[F<L>; WAY_NUMBERS]> {
+    if !material.surface.lobes.drawn {
+        return None;
+    }
+    let (l, context) = (chunk.l, &chunk.sample);
+    let (index, first) = (context.index(l, point.slot), context.dimension(dimension::FIBRE));
+    let [enters, mirrors, leaves] = [0, 1, 2].map(
+        #[inline(always)]
+        |pair| context.sampler.pair(l, index, first + pair),
+    );
+    let across = context.sampler.third(l, index, first);
+    Some([enters[0], enters[1], mirrors[0], mirrors[1], leaves[0], leaves[1], across])
 }
 
 /// The normals beside the shading normal, where the material or the way that the view meets them asks for any.
