@@ -35,8 +35,10 @@ pub struct SurfaceColumns {
     pub cone: Column,
     /// Width of a pixel on the surface, metres; zero where the ray has no cone.
     pub width: Column,
-    /// Width of a pixel in texture coordinates.
+    /// Width that images are looked up over, in texture coordinates.
     pub uv_width: Column,
+    /// The share of a pixel's width that a sample's lookups are over ([`Transport::lookup_width`](crate::Transport::lookup_width)).
+    pub lookup_width: f32,
     /// 1 on the front side, −1 on the back.
     pub side: Column,
     /// Unit directions to where the ray came from.
@@ -72,6 +74,7 @@ impl Default for SurfaceColumns {
             cone: column(),
             width: column(),
             uv_width: column(),
+            lookup_width: 1.0,
             side: column(),
             wo: three(),
             time: column(),

@@ -59,6 +59,7 @@ impl Tracer<'_> {
         let tile = [min[0] / TILE as u32, min[1] / TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
         let batch = Batch { area: TileArea { min, max }, sampler, runs };
+        ws.chunk.surface.lookup_width = self.transport.lookup_width();
         match &self.transport.estimator {
             estimator @ (Estimator::Paths | Estimator::Seen) => {
                 let integrator = PathIntegrator { lit: matches!(estimator, Estimator::Paths) };
@@ -95,6 +96,7 @@ impl Tracer<'_> {
     }
 
     fn start_at(&self, places: [&[f32]; 2], slots: &[u32], ws: &mut Workspace) {
+        ws.chunk.surface.lookup_width = 1.0;
         // Antialiasing compares neighbours, all at one time.
         ws.times.clear();
         ws.paths.set_times(&ws.times);

@@ -192,7 +192,7 @@ fn surface_lanes<L: Lanes>(
     width.store(&mut out.cone, at);
     let width = width / cosine.sqrt();
     width.store(&mut out.width, at);
-    (width * density).store(&mut out.uv_width, at);
+    (width * density * out.lookup_width).store(&mut out.uv_width, at);
 }
 
 #[inline(always)]

@@ -49,7 +49,17 @@ pub struct Transport {
     pub photons: Option<Arc<Photons>>,
 }
 
+/// Least share of a pixel's width that images are looked up over: less is sharper by little and reads many more tiles.
+const LEAST_LOOKUP: f32 = 0.25;
+
 impl Transport {
+    /// The share of a pixel's width that each sample looks images up over, as many samples see it (pbrt-v4 does likewise): all of it would blur twice.
+    pub(crate) fn lookup_width(&self) -> f32 {
+        #[allow(clippy::cast_precision_loss, reason = "a root of a count")]
+        let samples = self.samples.max(1) as f32;
+        samples.sqrt().recip().max(LEAST_LOOKUP)
+    }
+
     /// Where light that a camera path found is brought by light paths: mirrors or smooth glass sent it on last, and light paths
     /// bring what they do to the surface before; or they bring all that comes straight to it. Each path of light so belongs to one technique.
     #[inline(always)]
