@@ -45,6 +45,8 @@ fn surfaces() -> Vec<(&'static str, Surface)> {
         ("glass", surface(Switches { distribution: Distribution::Ggx, ..Switches::single(Closure::Glass) }, &[rough])),
         ("fuzz", surface(Switches::single(Closure::Sheen), &[])),
         ("toon", surface(Switches::single(Closure::DiffuseToon), &[])),
+        ("hair", surface(Switches::single(Closure::Hair), &[])),
+        ("elliptic hair", surface(Switches::single(Closure::HairElliptic), &[(p::ROUGHNESS, &[0.55]), (p::HAIR_ASPECT, &[0.85])])),
         ("plastic", surface(Switches::default(), &[rough])),
         (
             "coated metal and plastic",
