@@ -80,11 +80,10 @@ impl<L: Lanes> EllipticLobe<L> {
         let [first, passing, returning] = [reaches[0] * r, reaches[1] * tt, reaches[2] * trt];
         let rest = rest.keep_if(trt.is_lit());
         let amounts = [first * last[0].gain(&outer), passing * last[1].gain(&inner), returning * last[2].gain(&inner), rest];
-        // What smooth interfaces send on, which need no gain.
-        let leaves = [last[0].smooth(&outer), 1.0 - last[1].smooth(&inner), 1.0 - last[2].smooth(&inner)];
+        // These need no gain.
+        let leaves = [last[0].mostly_reflected(&outer), last[1].mostly_passed(&inner), last[2].mostly_passed(&inner)];
         let albedo = first * leaves[0] + passing * leaves[1] + returning * leaves[2] + rest;
-        let [a, b, c] = [share(first, leaves[0], alpha), share(passing, leaves[1], alpha), share(returning, leaves[2], alpha)];
-        let shares = [a, b, c, rest.mean()];
+        let shares = [first.mean() * leaves[0], passing.mean() * leaves[1], returning.mean() * leaves[2], rest.mean()];
         (Self { turn, theta: [view.x, cos], azimuth, alpha, ior, last, amounts, shares, albedo }, present)
     }
     /// Share of light that is scattered, about.
@@ -221,12 +220,6 @@ impl<L: Lanes> Outline<L> {
         let (end, way) = self.section.crossed(at, direction);
         (end, (self.absorption * -way).exp())
     }
-}
-
-/// How often a lobe is chosen: facets send some light on even where the surface under them would send none, above all where that reflects totally.
-#[inline(always)]
-fn share<L: Lanes>(amount: Spectrum<L>, smooth: F<L>, alpha: F<L>) -> F<L> {
-    amount.mean() * smooth.lerp(0.5, alpha * 0.5)
 }
 
 /// The section with the longer axis as its y, and that axis' angle as cosine and sine: across the view where the whole width is seen.

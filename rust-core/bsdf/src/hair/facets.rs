@@ -67,10 +67,27 @@ impl<L: Lanes> Facets<L> {
         let frame = Frame::from_normal(self.normal);
         frame.to_world(interface.widths().sample(frame.to_local(self.from), self.from.x.lanes().f(1.0), u))
     }
-    /// What a smooth interface reflects of the light.
+    /// About what it reflects of the light. Facets that are seen turn towards where they are seen from, the more the wider they are spread.
     #[inline(always)]
-    pub(super) fn smooth(&self, interface: &Interface<L>) -> F<L> {
-        dielectric(self.cosine().saturate(), interface.eta)
+    pub(super) fn mostly_reflected(&self, interface: &Interface<L>) -> F<L> {
+        dielectric(self.mostly(interface), interface.eta)
+    }
+    /// About what it lets pass, of light from inside: some even where smooth interfaces reflect totally.
+    #[inline(always)]
+    pub(super) fn mostly_passed(&self, interface: &Interface<L>) -> F<L> {
+        let middle = self.mostly(interface);
+        let spread = (1.0 - middle * middle).safe_sqrt() * interface.alpha * 0.9;
+        let [below, above] = [(middle - spread).saturate(), (middle + spread).min(1.0)].map(
+            #[inline(always)]
+            |cosine| dielectric(cosine, interface.eta),
+        );
+        (1.0 - dielectric(middle, interface.eta).lerp((below + above) * 0.5, 0.5)).max(interface.alpha * 0.2)
+    }
+    /// The usual cosine with a facet that is seen, fitted at widths about 0.3.
+    #[inline(always)]
+    fn mostly(&self, interface: &Interface<L>) -> F<L> {
+        let squared = self.cosine().saturate().squared();
+        (interface.alpha.squared() * 1.3).mul_add(1.0 - squared, squared).min(1.0).sqrt()
     }
     /// What a facet reflects of the light.
     #[inline(always)]
