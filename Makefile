@@ -106,7 +106,7 @@ blender: build $(addsuffix /ready,$(BPY))
 	$(BIN)/python blender-addon/build.py dist/here/*.whl --output-dir dist
 	for venv in $(BPY); do $$venv/bin/python -m pip install --quiet --force-reinstall --no-deps dist/here/*.whl || exit 1; done
 
-# Each test in a Blender of its own, both versions.
+# Both versions of Blender; the tests of a file share a process, which starts anew after a failure.
 test-blender: blender
 	$(BIN)/python -m pytest $(AT_ONCE) tests/blender -m "not validate"
 

@@ -1,10 +1,9 @@
 """Rendering the scenes in a Blender of their own."""
 
-import json
 from pathlib import Path
 
 import pytest
-from conftest import CHILD, pythons, run_child
+from conftest import pythons, run_alone
 
 RENDER = Path(__file__).with_name("render.py")
 SECONDS = 1500
@@ -15,4 +14,4 @@ def call(function: str, folder: Path, **arguments: str | int) -> None:
     found = pythons()
     if not found:
         pytest.skip("no Python with bpy: pip install bpy in .venv-bpy50, or set GONIO_BPY")
-    run_child(found[-1], [str(CHILD), str(RENDER), function, json.dumps({**arguments, "tmp_path": str(folder)})], seconds=SECONDS)
+    run_alone(found[-1], RENDER, function, {**arguments, "tmp_path": folder}, seconds=SECONDS)

@@ -72,12 +72,11 @@ def main() -> int:
     asked = parser.parse_args()
     python = os.environ.get("GONIO_BPY", str(SUITE.parent / ".venv-bpy50" / "bin" / "python")).split(":")[-1]
     with tempfile.TemporaryDirectory() as folder:
-        arguments = json.dumps({**vars(asked), "tmp_path": folder})
+        request = json.dumps([__file__, "cost", {**vars(asked), "tmp_path": folder}])
         # The suite's own modules are beside this file and beside `child.py`.
         path = os.pathsep.join([str(CHILD.parent), os.environ.get("PYTHONPATH", "")])
         environment = {**os.environ, "PYTHONPATH": path}
-        command = [python, str(CHILD), __file__, "cost", arguments]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=environment)
+        subprocess.run([python, str(CHILD)], input=request, text=True, check=True, stdout=subprocess.DEVNULL, env=environment)
         found = json.loads((Path(folder) / RESULT).read_text())
     print(f"{asked.scene}, {found['nodes']} nodes, {asked.samples} samples, {asked.threads} threads, load {os.getloadavg()[0]:.1f}")
     ratios = [told(kind, [[each[number] for each in found["seconds"][key]] for key in found["seconds"]]) for number, kind in KINDS]

@@ -49,8 +49,9 @@ def measured(scene: str, engine: str, asked: argparse.Namespace) -> dict[str, fl
     with tempfile.TemporaryDirectory() as folder:
         arguments = {"scene": scene, "engine": engine, "samples": asked.samples, "threads": asked.threads, "tmp_path": folder}
         path = os.pathsep.join([str(CHILD.parent), os.environ.get("PYTHONPATH", "")])
-        command = [python, str(CHILD), __file__, "picture", json.dumps(arguments)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": path})
+        request = json.dumps([__file__, "picture", arguments])
+        environment = {**os.environ, "PYTHONPATH": path}
+        subprocess.run([python, str(CHILD)], input=request, text=True, check=True, stdout=subprocess.DEVNULL, env=environment)
         found = json.loads((Path(folder) / "cost.json").read_text())
         with numpy.load(Path(folder) / "pictures.npz") as pictures:
             first, second = (pictures[name].mean(axis=2) for name in ("first", "second"))

@@ -159,8 +159,8 @@ def measure() -> None:
 
     with tempfile.TemporaryDirectory() as folder:
         for python in pythons():
-            command = [str(python), str(CHILD), str(Path(__file__).with_name("measure.py")), "measure", json.dumps({"tmp_path": folder})]
-            subprocess.run(command, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+            request = json.dumps([str(Path(__file__).with_name("measure.py")), "measure", {"tmp_path": folder}])
+            subprocess.run([str(python), str(CHILD)], input=request, text=True, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
         results.FOLDER.mkdir(exist_ok=True)
         for made in Path(folder).glob("*.txt"):
             (results.FOLDER / made.name).write_bytes(made.read_bytes())

@@ -3,11 +3,10 @@
 What the files of `measured` call exact has to stay so. `python tests/blender/nodes/page.py --measure` writes them anew.
 """
 
-import json
 from pathlib import Path
 
 import pytest
-from conftest import CHILD, run_child
+from conftest import run_alone
 from nodes import results
 
 MEASURE = Path(__file__).with_name("measure.py")
@@ -21,7 +20,7 @@ FEW = [
 
 def measured(python: Path, folder: Path, only: list[str] | None) -> None:
     """Measures in one Blender; asserts that nothing has come loose since it was measured last."""
-    run_child(python, [str(CHILD), str(MEASURE), "measure", json.dumps({"tmp_path": str(folder), "only": only})], seconds=SECONDS)
+    run_alone(python, MEASURE, "measure", {"tmp_path": folder, "only": only}, seconds=SECONDS)
     (made,) = folder.glob("*.txt")
     _, found = results.read(made)
     _, before = results.read(results.FOLDER / made.name)
