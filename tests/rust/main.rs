@@ -1,0 +1,31 @@
+//! Physics, determinism and layering over gonio's public API.
+
+mod adaptive;
+mod analytic;
+mod antialiasing;
+mod baking;
+mod beams;
+mod bench;
+mod caustics;
+mod checkpoints;
+mod curves;
+mod deep;
+mod determinism;
+mod expressions;
+mod goniometer;
+mod guiding;
+mod layers;
+mod light_alone;
+mod light_filters;
+mod linking;
+mod many_lights;
+mod maps;
+mod measuring;
+mod motion;
+mod motion_vectors;
+mod moving_fibres;
+mod observers;
+mod passes;
+mod recompile;
+mod rooms;
+mod whitted;
