@@ -75,13 +75,12 @@ pub(super) fn variants(standard: bool) -> Vec<Variant> {
 /// Times rounds of one slot a version until the seconds are over.
 pub(super) fn interleaved(kernel: &mut dyn Kernel, variants: &[Variant], seconds: f64, cancel: &AtomicBool) -> Result<Slots> {
     let mut outcomes = Vec::with_capacity(variants.len());
-    let mut calls = Vec::with_capacity(variants.len());
-    for variant in variants {
+    let mut calls = vec![1; variants.len()];
+    for (variant, calls) in variants.iter().zip(&mut calls).filter(|_| seconds > 0.0) {
         // The first call warms caches and branch predictors, the second tells how many make a slot.
         variant.run(kernel)?;
-        outcomes.push(kernel.outcome());
-        let once = if seconds > 0.0 { timed(*variant, 1, kernel)?.0 } else { SLOT };
-        calls.push((SLOT / once.max(1e-9)).clamp(1.0, MOST_CALLS).round() as u32);
+        let once = timed(*variant, 1, kernel)?.0;
+        *calls = (SLOT / once.max(1e-9)).clamp(1.0, MOST_CALLS).round() as u32;
         if cancel.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);
         }
@@ -95,6 +94,10 @@ pub(super) fn interleaved(kernel: &mut dyn Kernel, variants: &[Variant], seconds
             // Each round begins with another version, so that none always follows the same.
             let which = (turn + rounds.len()) % variants.len();
             (round[0][which], round[1][which]) = timed(variants[which], calls[which], kernel)?;
+            // The first round goes through them in their order.
+            if rounds.is_empty() {
+                outcomes.push(kernel.outcome());
+            }
         }
         let [processor, by_clock] = round;
         rounds.push(processor);
