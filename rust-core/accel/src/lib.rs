@@ -29,5 +29,5 @@ pub use traverse::beam::{Beam, BeamVisitor};
 pub use tree::blas::{Blas, BlasMemory, Care};
 pub use tree::instance::{Geometry, Instance};
 pub use tree::moving::MovingInstance;
-pub use tree::smooth_tree::{FIRST_PIECE, LAST_PIECE, Seen};
+pub use tree::smooth_tree::{FIRST_PIECE, LAST_PIECE, Seen, Spheres};
 pub use tree::tlas::Tlas;

@@ -2,9 +2,9 @@
 //!
 //! Ylitie, Karras, Laine: Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs (HPG 2017), section 3.1: for every binary
 //! node and every number of slots 1 to 7, the cheapest forest that represents the subtree. Costs are half areas times one constant for a
-//! node and one for a leaf block. Only the decisions are kept, in `FlatNode::plan`: three bits for every number of slots.
+//! node and one for a leaf block. Only the decisions are kept, in `Link::plan`: three bits for every number of slots.
 
-use super::flat_tree::FlatNode;
+use super::flat_tree::{FlatNode, Link};
 use crate::tree::node::{Kind, WIDTH};
 use obvhs::aabb::Aabb;
 
@@ -12,20 +12,18 @@ use obvhs::aabb::Aabb;
 pub(crate) trait LeafMaker: Sync {
     /// What a leaf holds.
     type Leaf: Send + Copy;
-    /// The most primitives of a leaf, at most eight.
-    const CAPACITY: u32;
+    /// What may lie in a leaf.
+    const RULE: LeafRule;
     /// The kind that refers to these leaves.
     const KIND: Kind;
-    /// The price of a leaf, in units of the price of a node.
-    const COST: f32;
     /// Builds the leaf of these primitives (at least one, sorted).
     fn leaf(&self, primitives: &[u32]) -> Self::Leaf;
 }
 
 /// What may lie in one leaf, and its price.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct LeafRule {
-    /// The most primitives of a leaf.
+    /// The most primitives of a leaf, at most eight.
     pub(crate) capacity: u32,
     /// The price of a leaf, in units of the price of a node.
     pub(crate) cost: f32,
@@ -46,12 +44,12 @@ const PLAN_BITS: u32 = 3;
 
 /// For one slot: 0 for a leaf, else the slots of eight that go left when the node becomes a wide one. For 2 to 7 slots: the slots that go
 /// left, or 0 where fewer slots are as cheap.
-pub(super) fn planned(node: &FlatNode, slots: u8) -> u8 {
+pub(super) fn planned(node: Link, slots: u8) -> u8 {
     ((node.plan >> (PLAN_BITS * u32::from(slots - 1))) & 7) as u8
 }
 
 /// The node is to become a leaf.
-pub(super) fn is_leaf(node: &FlatNode) -> bool {
+pub(super) fn is_leaf(node: Link) -> bool {
     planned(node, 1) == 0
 }
 
@@ -68,13 +66,13 @@ pub(super) fn plan(tree: &mut [FlatNode], rule: LeafRule, leaf: impl Fn(&FlatNod
     // Backwards, both subtrees of a node lie on the stack when it is met, the left one on top.
     let mut stack: Vec<Forest> = Vec::new();
     for node in tree.iter_mut().rev() {
-        if node.is_last() {
+        if node.link.is_last() {
             stack.push(leaf(node)?);
         } else {
             let (left, right) = (stack.pop()?, stack.pop()?);
             let (forest, plan) = forest(&left, &right, rule);
             node.set_box(&forest.bounds);
-            node.plan = plan;
+            node.link.plan = plan;
             stack.push(forest);
         }
     }

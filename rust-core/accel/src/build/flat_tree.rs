@@ -1,23 +1,32 @@
 //! Binary trees in preorder in one row of memory, the form the collapse reads.
 
-use super::division::Item;
+use super::division::{Item, Source};
 use crate::tree::node::Bounds;
 use bytemuck::{Pod, Zeroable};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 
-/// One node: a box, what is below, and how the collapse shares its slots.
+/// What is kept of a node until wide nodes are made: what is below, and how the collapse shares its slots. Boxes take three times as much, and
+/// lie apart where they are kept.
 ///
 /// The left child of an inner node is the next node.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
-pub(super) struct FlatNode {
-    low: [f32; 3],
-    high: [f32; 3],
+pub(super) struct Link {
     /// How far behind the right child lies, or with its kind's bit the item of a leaf or the place of a root elsewhere in the row.
-    link: u32,
+    to: u32,
     /// See `collapse.rs`.
     pub(super) plan: u32,
+}
+
+/// A box that is kept: lowest and highest corner. Memory for many comes from the kernel as zeros.
+pub(super) type KeptBox = [[f32; 3]; 2];
+
+/// One node of a tree that is built and planned.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlatNode {
+    bounds: Bounds,
+    pub(super) link: Link,
 }
 
 const LEAF: u32 = 1 << 31;
@@ -26,9 +35,29 @@ const ELSEWHERE: u32 = 1 << 30;
 /// The most nodes of a row: links hold places below.
 pub(super) const MAX_NODES: usize = ELSEWHERE as usize;
 
+impl Link {
+    /// What a leaf holds.
+    pub(super) fn item(self) -> Option<Item> {
+        (self.to & LEAF != 0).then_some(Item(self.to & !LEAF))
+    }
+
+    /// Where the root lies that this stands for.
+    pub(super) fn elsewhere_place(self) -> Option<usize> {
+        (self.to & (LEAF | ELSEWHERE) == ELSEWHERE).then_some((self.to & !ELSEWHERE) as usize)
+    }
+
+    /// Whether it has no children of its own.
+    pub(super) fn is_last(self) -> bool {
+        self.to & (LEAF | ELSEWHERE) != 0
+    }
+}
+
 impl FlatNode {
-    fn new(bounds: &Aabb, link: u32) -> Self {
-        FlatNode { low: bounds.min.to_array(), high: bounds.max.to_array(), link, plan: 0 }
+    /// Of no tree.
+    pub(super) const NONE: FlatNode = FlatNode { bounds: Bounds::EMPTY, link: Link { to: 0, plan: 0 } };
+
+    fn new(bounds: &Aabb, to: u32) -> Self {
+        FlatNode { bounds: as_bounds(bounds), link: Link { to, plan: 0 } }
     }
 
     /// A leaf with this box.
@@ -41,44 +70,72 @@ impl FlatNode {
         FlatNode::new(bounds, place as u32 | ELSEWHERE)
     }
 
-    /// What a leaf holds.
-    pub(super) fn item(&self) -> Option<Item> {
-        (self.link & LEAF != 0).then_some(Item(self.link & !LEAF))
-    }
-
-    /// Where the root lies that this stands for.
-    pub(super) fn elsewhere_place(&self) -> Option<usize> {
-        (self.link & (LEAF | ELSEWHERE) == ELSEWHERE).then_some((self.link & !ELSEWHERE) as usize)
-    }
-
-    /// Whether it has no children of its own.
-    pub(super) fn is_last(&self) -> bool {
-        self.link & (LEAF | ELSEWHERE) != 0
-    }
-
     pub(super) fn aabb(&self) -> Aabb {
-        Aabb::new(self.low.into(), self.high.into())
+        Aabb::new(self.bounds.min.into(), self.bounds.max.into())
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        Bounds { min: self.low, max: self.high }
+        self.bounds
+    }
+
+    pub(super) fn kept_box(&self) -> KeptBox {
+        [self.bounds.min, self.bounds.max]
     }
 
     pub(super) fn set_box(&mut self, bounds: &Aabb) {
-        (self.low, self.high) = (bounds.min.to_array(), bounds.max.to_array());
+        self.bounds = as_bounds(bounds);
     }
+
+    /// Left and right child of the inner node at a place of a tree.
+    pub(super) fn children(tree: &[FlatNode], place: usize) -> [usize; 2] {
+        [place + 1, place + tree[place].link.to as usize]
+    }
+}
+
+fn as_bounds(bounds: &Aabb) -> Bounds {
+    Bounds { min: bounds.min.to_array(), max: bounds.max.to_array() }
 }
 
 /// Left and right child of the inner node at a place.
 #[inline(always)]
-pub(super) fn children(row: &[FlatNode], place: usize) -> [usize; 2] {
-    [place + 1, place + row[place].link as usize].map(|child| root(row, child))
+pub(super) fn children(row: &[Link], place: usize) -> [usize; 2] {
+    [place + 1, place + row[place].to as usize].map(|child| root(row, child))
 }
 
 /// The place of the node that the one at a place stands for.
 #[inline(always)]
-pub(super) fn root(row: &[FlatNode], place: usize) -> usize {
+pub(super) fn root(row: &[Link], place: usize) -> usize {
     row[place].elsewhere_place().unwrap_or(place)
+}
+
+/// The part of a row that is the tree of a place, which nothing elsewhere belongs to.
+fn tree_at(row: &[Link], place: usize) -> &[Link] {
+    let mut open = 1;
+    let mut nodes = 0;
+    while open > 0 {
+        open = if row[place + nodes].is_last() { open - 1 } else { open + 1 };
+        nodes += 1;
+    }
+    &row[place..place + nodes]
+}
+
+/// The box of all that is below a place, which nothing elsewhere belongs to.
+pub(super) fn box_at(source: &impl Source, row: &[Link], place: usize) -> Bounds {
+    let items = tree_at(row, place).iter().filter_map(|link| link.item());
+    as_bounds(&items.fold(Aabb::empty(), |all, item| all.union(&item.bounds(source))))
+}
+
+/// The boxes of all nodes of the tree of a place, which nothing elsewhere belongs to.
+pub(super) fn boxes_at(source: &impl Source, row: &[Link], place: usize, boxes: &mut Vec<Bounds>) {
+    let tree = tree_at(row, place);
+    boxes.clear();
+    boxes.resize(tree.len(), Bounds::EMPTY);
+    for (at, link) in tree.iter().enumerate().rev() {
+        boxes[at] = match link.item() {
+            Some(item) => as_bounds(&item.bounds(source)),
+            None => boxes[at + 1].union(&boxes[at + link.to as usize]),
+        };
+    }
 }
 
 /// Nodes of a binary tree of so many leaves, at least one.
@@ -102,7 +159,7 @@ impl Writer<'_> {
     /// The next node is the right child of the one at a place.
     fn begin_right_of(&mut self, parent: Option<usize>) {
         if let Some(parent) = parent {
-            self.row[parent].link = (self.next - parent) as u32;
+            self.row[parent].link.to = (self.next - parent) as u32;
         }
     }
 }

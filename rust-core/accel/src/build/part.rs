@@ -4,7 +4,7 @@ use super::clusters::Clusters;
 use super::collapse::{Forest, LeafRule, plan};
 use super::division::{Item, Source};
 use super::effort::Effort;
-use super::flat_tree::{FlatNode, balanced, children, flatten};
+use super::flat_tree::{FlatNode, KeptBox, Link, balanced, flatten, nodes_over};
 use crate::cancelled::Cancelled;
 use obvhs::aabb::Aabb;
 use std::collections::BinaryHeap;
@@ -24,6 +24,7 @@ pub(super) struct Piece {
 pub(super) struct PartMemory {
     boxes: Vec<Aabb>,
     clusters: Clusters,
+    tree: Vec<FlatNode>,
 }
 
 /// What all parts have in common.
@@ -39,25 +40,30 @@ pub(super) struct PartWork<'a, S> {
 }
 
 impl<S: Source> PartWork<'_, S> {
-    /// Writes the binary tree of a part, planned below its pieces, into a row of its length.
-    pub(super) fn part(&self, items: &[Item], row: &mut [FlatNode]) -> Result<Vec<Piece>, Cancelled> {
+    /// Writes the binary tree of a part, planned below its pieces, into a row of its length, and its boxes if there is room for them.
+    pub(super) fn part(&self, items: &[Item], row: &mut [Link], kept: &mut [KeptBox]) -> Result<Vec<Piece>, Cancelled> {
         Cancelled::check(self.cancel)?;
         let mut memory = self.memory.lock().ok().and_then(|mut memory| memory.pop()).unwrap_or_default();
-        let PartMemory { boxes, clusters } = &mut memory;
+        let PartMemory { boxes, clusters, tree } = &mut memory;
         boxes.clear();
         boxes.extend(items.iter().map(|item| item.bounds(self.source)));
+        tree.clear();
+        tree.resize(nodes_over(items.len()), FlatNode::NONE);
         let leaf = |i: usize| FlatNode::leaf(&boxes[i], items[i]);
         match self.effort {
-            Some(effort) => flatten(clusters.tree(boxes, effort, self.cancel)?, leaf, row),
-            None => balanced(boxes, leaf, row),
+            Some(effort) => flatten(clusters.tree(boxes, effort, self.cancel)?, leaf, tree),
+            None => balanced(boxes, leaf, tree),
         }
+        let forest = |node: &FlatNode| Some(Forest::leaf(node.aabb(), node.link.item()?.count(), self.rule));
+        let ranges = pieces(tree, self.pieces);
+        let planned = |range: Range<usize>| Some(Piece { place: range.start, forest: plan(&mut tree[range], self.rule, forest)? });
+        let pieces = ranges.into_iter().filter_map(planned).collect();
+        row.iter_mut().zip(&*tree).for_each(|(link, node)| *link = node.link);
+        kept.iter_mut().zip(tree).for_each(|(kept, node)| *kept = node.kept_box());
         if let Ok(mut kept) = self.memory.lock() {
             kept.push(memory);
         }
-        let forest = |node: &FlatNode| Some(Forest::leaf(node.aabb(), node.item()?.count(), self.rule));
-        let ranges = pieces(row, self.pieces);
-        let planned = |range: Range<usize>| Some(Piece { place: range.start, forest: plan(&mut row[range], self.rule, forest)? });
-        Ok(ranges.into_iter().filter_map(planned).collect())
+        Ok(pieces)
     }
 }
 
@@ -67,10 +73,10 @@ fn pieces(tree: &[FlatNode], pieces: usize) -> Vec<Range<usize>> {
     let (mut open, mut closed) = (BinaryHeap::from([entry(0, tree.len())]), Vec::new());
     while open.len() + closed.len() < pieces {
         let Some((_, start, end)) = open.pop() else { break };
-        if tree[start].is_last() {
+        if tree[start].link.is_last() {
             closed.push((start, end));
         } else {
-            let [left, right] = children(tree, start);
+            let [left, right] = FlatNode::children(tree, start);
             open.extend([entry(left, right), entry(right, end)]);
         }
     }

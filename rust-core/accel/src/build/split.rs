@@ -3,7 +3,7 @@
 //! Early split clipping: Ernst and Greiner, Early Split Clipping for Bounding Volume Hierarchies (2007). Where a split gains most comes first, as in
 //! Karras and Aila, Fast Parallel Construction of High-Quality Bounding Volume Hierarchies (2013), section 5.
 
-use super::collapse::LeafMaker;
+use super::collapse::{LeafMaker, LeafRule};
 use super::division::Source;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::tree::blas::{Triangles, triangle_box};
@@ -192,9 +192,8 @@ impl Source for Parts<'_> {
 
 impl LeafMaker for Parts<'_> {
     type Leaf = TriangleBlock;
-    const CAPACITY: u32 = <Triangles<'_> as LeafMaker>::CAPACITY;
+    const RULE: LeafRule = <Triangles<'_> as LeafMaker>::RULE;
     const KIND: Kind = <Triangles<'_> as LeafMaker>::KIND;
-    const COST: f32 = <Triangles<'_> as LeafMaker>::COST;
 
     fn leaf(&self, primitives: &[u32]) -> TriangleBlock {
         let (mut triangles, mut count) = ([0; WIDTH], 0);

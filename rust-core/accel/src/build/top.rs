@@ -1,52 +1,35 @@
-//! The top level of a tree in parts: a binary tree over the pieces of all, and the wide nodes above them.
+//! The top level of a tree in parts: a binary tree over the pieces of all.
 
 use super::clusters::Clusters;
 use super::collapse::{Forest, LeafRule, plan};
 use super::effort::Effort;
-use super::emit::{Pending, Wide};
-use super::flat_tree::{FlatNode, balanced, flatten, root};
+use super::flat_tree::{FlatNode, KeptBox, Link, balanced, flatten, nodes_over};
 use super::part::Piece;
 use crate::cancelled::Cancelled;
-use crate::tree::node::{Kind, Node};
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
 
 /// Writes a planned binary tree over pieces, at least one and in the order of their places, into a row of its length; balanced
-/// without effort.
+/// without effort. Gives the boxes of its nodes.
 pub(super) fn plan_top(
     pieces: &[Piece],
     rule: LeafRule,
     effort: Option<Effort>,
-    row: &mut [FlatNode],
+    row: &mut [Link],
     cancel: &AtomicBool,
-) -> Result<(), Cancelled> {
+) -> Result<Vec<KeptBox>, Cancelled> {
     let boxes: Vec<Aabb> = pieces.iter().map(|piece| piece.forest.bounds).collect();
     let leaf = |i: usize| FlatNode::elsewhere(&boxes[i], pieces[i].place);
+    let mut tree = vec![FlatNode::NONE; nodes_over(pieces.len())];
     match effort {
-        Some(effort) => flatten(Clusters::default().tree(&boxes, effort, cancel)?, leaf, row),
-        None => balanced(&boxes, leaf, row),
+        Some(effort) => flatten(Clusters::default().tree(&boxes, effort, cancel)?, leaf, &mut tree),
+        None => balanced(&boxes, leaf, &mut tree),
     }
     let forest = |node: &FlatNode| -> Option<Forest> {
-        let found = pieces.binary_search_by_key(&node.elsewhere_place()?, |piece| piece.place);
+        let found = pieces.binary_search_by_key(&node.link.elsewhere_place()?, |piece| piece.place);
         found.ok().map(|i| pieces[i].forest)
     };
-    plan(row, rule, forest);
-    Ok(())
-}
-
-/// The wide nodes and leaves of the top level that begins at a place of the row, the root first, and the roots of the parts' trees before it,
-/// whose nodes are left empty.
-pub(super) fn emit_top(row: &[FlatNode], top: usize, kind: Kind) -> (Wide, Vec<Pending>) {
-    let mut wide = Wide::new(kind);
-    wide.nodes.push(Node::EMPTY);
-    let mut below = Vec::new();
-    let mut pending = vec![Pending { place: root(row, top), node: 0, depth: 1 }];
-    while let Some(next) = pending.pop() {
-        if next.place < top {
-            below.push(next);
-        } else {
-            wide.nodes[next.node] = wide.node(row, next.place, next.depth, &mut pending);
-        }
-    }
-    (wide, below)
+    plan(&mut tree, rule, forest);
+    row.iter_mut().zip(&tree).for_each(|(link, node)| *link = node.link);
+    Ok(tree.iter().map(FlatNode::kept_box).collect())
 }

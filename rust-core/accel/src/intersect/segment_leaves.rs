@@ -1,7 +1,7 @@
 //! The leaves of a tree of curves, one behind the other, each as long as it has pieces.
 
 use super::segment_block::{COUNT_SHIFT, ROWS, Segment, Segments};
-use crate::ray::NONE;
+use crate::build::wide_tree::count;
 use crate::tree::node::{MAX_INDEX, WIDTH};
 use gonio_simd::prefetch_at;
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ pub(crate) struct SegmentLeaves {
 }
 
 impl SegmentLeaves {
-    /// Puts leaves behind each other, given the pieces of each with [`NONE`] behind them; gives the numbers of the leaves too.
+    /// Puts leaves behind each other, given the pieces of each as [`count`] counts them; gives the numbers of the leaves too.
     pub(crate) fn pack(leaves: &[[u32; WIDTH]], segment: impl Fn(u32) -> Segment + Sync) -> (Self, Vec<u32>) {
         if leaves.is_empty() {
             return (Self::default(), Vec::new());
@@ -81,10 +81,6 @@ impl SegmentLeaves {
     pub(crate) fn leaf(&self, number: usize) -> Segments<'_> {
         Segments::of_tree(&self.words[number << self.step..])
     }
-}
-
-fn count(pieces: &[u32; WIDTH]) -> usize {
-    pieces.iter().position(|piece| *piece == NONE).unwrap_or(WIDTH)
 }
 
 fn write(leaf: &mut [u32], pieces: &[u32], segment: &impl Fn(u32) -> Segment) {

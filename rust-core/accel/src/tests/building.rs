@@ -4,7 +4,7 @@ use super::{Mesh, Random};
 use crate::build::collapse::{LeafMaker, LeafRule};
 use crate::build::division::{PART, Source, divide_all};
 use crate::build::effort::Effort;
-use crate::build::wide_tree::{WideTree, build, shares};
+use crate::build::wide_tree::{WideTree, build, wide_nodes};
 use crate::ray::NONE;
 use crate::tree::node::{Bounds, ChildRef, Kind, MAX_DEPTH, WIDTH};
 use crate::{Blas, Cancelled, Care};
@@ -16,9 +16,8 @@ struct Names;
 
 impl LeafMaker for Names {
     type Leaf = [u32; WIDTH];
-    const CAPACITY: u32 = 8;
+    const RULE: LeafRule = LeafRule { capacity: 8, cost: 1.2 };
     const KIND: Kind = Kind::Triangles;
-    const COST: f32 = 1.2;
 
     fn leaf(&self, primitives: &[u32]) -> [u32; WIDTH] {
         std::array::from_fn(|lane| primitives.get(lane).copied().unwrap_or(NONE))
@@ -100,10 +99,10 @@ fn every_box_is_in_one_leaf() {
 #[test]
 fn balanced_trees_are_shallow() {
     for boxes in worlds() {
-        let (rule, cancel) = (LeafRule { capacity: 8, cost: 1.2 }, AtomicBool::new(false));
+        let cancel = AtomicBool::new(false);
         let lists = divide_all(&boxes, true, &cancel).expect("not cancelled");
-        let (shares, _) = shares(&boxes, &lists, rule, Kind::Triangles, None, &cancel).expect("not cancelled");
-        assert!(shares.iter().all(|share| share.wide.depth <= MAX_DEPTH / 2));
+        let wide = wide_nodes(&boxes, &lists, Names::RULE, Kind::Triangles, None, &cancel).expect("not cancelled");
+        assert!(wide.depth <= MAX_DEPTH / 2);
     }
 }
 

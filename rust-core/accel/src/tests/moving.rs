@@ -2,7 +2,7 @@
 
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
-use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, Seen};
+use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, Seen, Spheres};
 use fearless_simd::Level;
 use gonio_simd::Execution;
 use gonio_simd::motion::{Interpolation, Motion};
@@ -134,8 +134,8 @@ fn curves_and_points_that_move_are_met_as_they_are_at_the_rays_time() {
         assert!(scene.moves());
         let stands = |time: f32| {
             let tree = match is_curve {
-                true => Blas::of_curves(&at(time), &pieces, seen, Care::Quick, &cancel),
-                false => Blas::of_points(&at(time), seen, Care::Quick, &cancel),
+                true => Blas::of_curves(Spheres::Together(&at(time)), &pieces, seen, Care::Quick, &cancel),
+                false => Blas::of_points(Spheres::Together(&at(time)), seen, Care::Quick, &cancel),
             };
             built(&[Arc::new(tree.expect("not cancelled"))], &instances, &[])
         };

@@ -1,7 +1,7 @@
 //! Curves and points against an oracle in f64, and all traversals against each other.
 
 use super::{Geometry, Instance, OwnedRays, Random, agreement::random_placement, first_hits, instance, levels, scene};
-use crate::{Blas, Care, FIRST_PIECE, Hits, LAST_PIECE, NONE, Seen, Tlas};
+use crate::{Blas, Care, FIRST_PIECE, Hits, LAST_PIECE, NONE, Seen, Spheres, Tlas};
 use gonio_simd::Execution;
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -36,11 +36,11 @@ fn strands(random: &mut Random, n: usize, pieces: usize, radius: f32) -> (Vec<[f
 }
 
 fn curves(points: &[[f32; 4]], entries: &[u32], seen: Seen) -> Arc<Blas> {
-    Arc::new(Blas::of_curves(points, entries, seen, Care::Quick, &AtomicBool::new(false)).expect("not cancelled"))
+    Arc::new(Blas::of_curves(Spheres::Together(points), entries, seen, Care::Quick, &AtomicBool::new(false)).expect("not cancelled"))
 }
 
 fn balls(points: &[[f32; 4]], seen: Seen) -> Arc<Blas> {
-    Arc::new(Blas::of_points(points, seen, Care::Quick, &AtomicBool::new(false)).expect("not cancelled"))
+    Arc::new(Blas::of_points(Spheres::Together(points), seen, Care::Quick, &AtomicBool::new(false)).expect("not cancelled"))
 }
 
 fn alone(tree: Arc<Blas>) -> Tlas {

@@ -2,7 +2,7 @@
 
 use super::moving_smooth::MovingSmooth;
 use super::node::{Bounds, ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, Node, ROUNDING_PAD, WIDTH};
-use crate::build::collapse::LeafMaker;
+use crate::build::collapse::{LeafMaker, LeafRule};
 use crate::build::division::Source;
 use crate::build::effort::Effort;
 use crate::build::split::Parts;
@@ -213,9 +213,8 @@ impl Source for Triangles<'_> {
 /// Makes blocks of up to eight triangles.
 impl LeafMaker for Triangles<'_> {
     type Leaf = TriangleBlock;
-    const CAPACITY: u32 = 8;
+    const RULE: LeafRule = LeafRule { capacity: 8, cost: 1.2 };
     const KIND: Kind = Kind::Triangles;
-    const COST: f32 = 1.2;
 
     fn leaf(&self, primitives: &[u32]) -> TriangleBlock {
         let mut block = TriangleBlock::EMPTY;

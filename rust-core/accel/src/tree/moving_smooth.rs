@@ -1,10 +1,10 @@
 //! Trees of curves and points that move while the shutter is open: boxes around all keys, and leaves between two keys at a ray's time.
 
 use super::blas::{Blas, Care};
-use super::node::{MAX_INDEX, ROUNDING_PAD, WIDTH};
-use super::smooth_tree::{Balls, Pieces, Seen};
+use super::node::{Kind, MAX_INDEX, ROUNDING_PAD, WIDTH};
+use super::smooth_tree::{Balls, PIECES, Pieces, Seen, Spheres};
 use crate::build::division::Source;
-use crate::build::wide_tree::build;
+use crate::build::wide_tree::{build, build_lists};
 use crate::cancelled::Cancelled;
 use crate::intersect::point_block::PointBlock;
 use crate::intersect::segment_block::{Segment, SegmentBlock, Segments};
@@ -56,9 +56,9 @@ impl Blas {
         cancel: &AtomicBool,
     ) -> Result<Blas, Cancelled> {
         assert!(pieces.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} pieces of curves");
-        let first = Pieces { points: &keys[0], pieces };
-        let all = Keys(keys.iter().map(|points| Pieces { points, pieces }).collect());
-        let tree = build(&all, &first, care.effort(), cancel)?;
+        let at = |points| Pieces { points: Spheres::Together(points), pieces };
+        let (first, all) = (at(&keys[0]), Keys(keys.iter().map(|points| at(points)).collect()));
+        let tree = build_lists(&all, PIECES, Kind::Smooth, care.effort(), cancel)?;
         let tree = Blas::segments(tree, &first, seen);
         Ok(tree.moving(MovingSmooth { keys, pieces: pieces.to_vec() }))
     }
@@ -66,8 +66,8 @@ impl Blas {
     /// [`Blas::of_points`] of points whose places and radii are given at two or more evenly spaced times over the shutter, as many each time.
     pub fn of_moving_points(keys: Vec<Vec<[f32; 4]>>, seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         assert!(keys[0].len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} points");
-        let all = Keys(keys.iter().map(|points| Balls { points }).collect());
-        let tree = build(&all, &Balls { points: &keys[0] }, care.effort(), cancel)?;
+        let at = |points| Balls { points: Spheres::Together(points) };
+        let tree = build(&Keys(keys.iter().map(|points| at(points)).collect()), &at(&keys[0]), care.effort(), cancel)?;
         let tree = Blas::smooth(tree, |leaves| if seen == Seen::Solid { Smooth::Spheres(leaves) } else { Smooth::Discs(leaves) });
         Ok(tree.moving(MovingSmooth { keys, pieces: Vec::new() }))
     }
@@ -121,7 +121,7 @@ impl MovingSmooth {
 
     fn segments(&self, leaf: Segments<'_>, time: f32) -> SegmentBlock {
         let (between, mut moved) = (self.between(time), SegmentBlock::empty());
-        let pieces = Pieces { points: &[], pieces: &self.pieces };
+        let pieces = Pieces { points: Spheres::Together(&[]), pieces: &self.pieces };
         for lane in 0..leaf.count() {
             let piece = leaf.primitive(lane);
             let (first, is_first, is_last) = pieces.place(piece);
@@ -148,6 +148,8 @@ impl MovingSmooth {
 struct Keys<S>(Vec<S>);
 
 impl<S: Source> Source for Keys<S> {
+    const KEEPS_BOXES: bool = S::KEEPS_BOXES;
+
     fn len(&self) -> usize {
         self.0[0].len()
     }

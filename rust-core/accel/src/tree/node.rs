@@ -85,11 +85,6 @@ impl ChildRef {
     pub(crate) fn index(self) -> usize {
         (self.0 & INDEX_MASK) as usize
     }
-
-    /// The same reference with its index moved, as when trees are put one behind the other.
-    pub(crate) fn shifted(self, nodes: usize, leaves: usize) -> Self {
-        ChildRef(self.0 + if self.is_inner() { nodes } else { leaves } as u32)
-    }
 }
 
 /// The most leaf blocks or nodes a tree can address.

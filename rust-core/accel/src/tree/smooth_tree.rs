@@ -2,15 +2,14 @@
 
 use super::blas::{Blas, Care, outline, sah_cost};
 use super::node::{ChildRef, Kind, LARGEST_COORDINATE, MAX_INDEX, ROUNDING_PAD, WIDTH};
-use crate::build::collapse::LeafMaker;
+use crate::build::collapse::{LeafMaker, LeafRule};
 use crate::build::division::Source;
-use crate::build::wide_tree::{WideTree, build};
+use crate::build::wide_tree::{WideTree, build, build_lists};
 use crate::cancelled::Cancelled;
 use crate::intersect::point_block::PointBlock;
 use crate::intersect::segment_block::Segment;
 use crate::intersect::segment_leaves::SegmentLeaves;
 use crate::intersect::smooth::Smooth;
-use crate::ray::NONE;
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
@@ -23,6 +22,9 @@ pub const LAST_PIECE: u32 = 1 << 30;
 /// Points that an extent is taken from.
 const SAMPLES: usize = 1 << 16;
 
+/// What may lie in a leaf of curves.
+pub(super) const PIECES: LeafRule = LeafRule { capacity: 8, cost: 2.0 };
+
 /// What is seen of curves or points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seen {
@@ -32,15 +34,48 @@ pub enum Seen {
     Facing,
 }
 
+/// Centres with radii.
+#[derive(Clone, Copy, Debug)]
+pub enum Spheres<'a> {
+    /// Centre and radius of each.
+    Together(&'a [[f32; 4]]),
+    /// Centres, and as many radii: as tables for shading have them, so that nobody copies millions.
+    Apart(&'a [[f32; 3]], &'a [f32]),
+}
+
+impl Spheres<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Spheres::Together(spheres) => spheres.len(),
+            Spheres::Apart(centres, radii) => centres.len().min(radii.len()),
+        }
+    }
+
+    #[inline(always)]
+    fn get(&self, number: usize) -> Option<[f32; 4]> {
+        match self {
+            Spheres::Together(spheres) => spheres.get(number).copied(),
+            Spheres::Apart(centres, radii) => centres.get(number).zip(radii.get(number)).map(|([x, y, z], radius)| [*x, *y, *z, *radius]),
+        }
+    }
+
+    /// A box around most of them.
+    fn extent(&self) -> Aabb {
+        let step = self.len().div_ceil(SAMPLES).max(1);
+        let boxes = (0..self.len()).step_by(step).filter_map(|number| ball_box(&self.get(number)?));
+        boxes.fold(Aabb::empty(), |all, b| all.union(&b))
+    }
+}
+
 impl Blas {
-    /// Builds the tree of curves: centres and radii `points[n]`, and for each straight piece the number of its first point (the second one follows it) with
+    /// Builds the tree of curves: points with their radii, and for each straight piece the number of its first point (the second one follows it) with
     /// [`FIRST_PIECE`] and [`LAST_PIECE`].
     ///
     /// Pieces without a positive radius, or with a point that is missing, not finite or beyond 1e12 are left out. Runs in the current rayon pool.
-    pub fn of_curves(points: &[[f32; 4]], pieces: &[u32], seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+    pub fn of_curves(points: Spheres<'_>, pieces: &[u32], seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         assert!(pieces.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} pieces of curves");
         let curves = Pieces { points, pieces };
-        let tree = build(&curves, &curves, care.effort(), cancel)?;
+        let tree = build_lists(&curves, PIECES, Kind::Smooth, care.effort(), cancel)?;
         Ok(Blas::segments(tree, &curves, seen))
     }
 
@@ -54,7 +89,7 @@ impl Blas {
     }
 
     /// Builds the tree of points: centres and radii. Those without a positive radius, or not finite or beyond 1e12, are left out.
-    pub fn of_points(points: &[[f32; 4]], seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
+    pub fn of_points(points: Spheres<'_>, seen: Seen, care: Care, cancel: &AtomicBool) -> Result<Blas, Cancelled> {
         assert!(points.len() <= MAX_INDEX, "a tree holds at most {MAX_INDEX} points");
         let balls = Balls { points };
         let tree = build(&balls, &balls, care.effort(), cancel)?;
@@ -89,13 +124,8 @@ fn ball_box(ball: &[f32; 4]) -> Option<Aabb> {
     usable.then(|| Aabb::new(centre - (radius + pad), centre + (radius + pad)))
 }
 
-fn extent(points: &[[f32; 4]]) -> Aabb {
-    let step = points.len().div_ceil(SAMPLES).max(1);
-    points.iter().step_by(step).filter_map(ball_box).fold(Aabb::empty(), |all, b| all.union(&b))
-}
-
 pub(super) struct Pieces<'a> {
-    pub(super) points: &'a [[f32; 4]],
+    pub(super) points: Spheres<'a>,
     pub(super) pieces: &'a [u32],
 }
 
@@ -110,6 +140,9 @@ impl Pieces<'_> {
 }
 
 impl Source for Pieces<'_> {
+    // There may be millions, in the room of a few numbers each.
+    const KEEPS_BOXES: bool = false;
+
     fn len(&self) -> usize {
         self.pieces.len()
     }
@@ -118,12 +151,12 @@ impl Source for Pieces<'_> {
     fn bounds(&self, number: u32) -> Option<Aabb> {
         let first = self.first(number);
         let (a, b) = (self.points.get(first)?, self.points.get(first + 1)?);
-        let bounds = ball_box(a)?.union(&ball_box(b)?);
+        let bounds = ball_box(&a)?.union(&ball_box(&b)?);
         (a[3].max(b[3]) > 0.0).then_some(bounds)
     }
 
     fn extent(&self) -> Aabb {
-        extent(self.points)
+        self.points.extent()
     }
 }
 
@@ -136,27 +169,15 @@ impl Pieces<'_> {
     /// A piece with what its leaf needs of its neighbours.
     fn segment(&self, piece: u32) -> Segment {
         let first = self.first(piece);
-        let next = if self.is(piece, LAST_PIECE) { None } else { self.points.get(first + 2).copied() };
-        Segment { ends: [self.points[first], self.points[first + 1]], next, first: self.is(piece, FIRST_PIECE) }
-    }
-}
-
-impl LeafMaker for Pieces<'_> {
-    // The pieces alone: how long a leaf is has to be known before it is written.
-    type Leaf = [u32; WIDTH];
-    const CAPACITY: u32 = 8;
-    const KIND: Kind = Kind::Smooth;
-    const COST: f32 = 2.0;
-
-    fn leaf(&self, primitives: &[u32]) -> [u32; WIDTH] {
-        let mut pieces = [NONE; WIDTH];
-        pieces[..primitives.len()].copy_from_slice(primitives);
-        pieces
+        let [start, end, next] = [0, 1, 2].map(|k| self.points.get(first + k));
+        // What has no box is in no leaf.
+        let ends = [start, end].map(Option::unwrap_or_default);
+        Segment { ends, next: next.filter(|_| !self.is(piece, LAST_PIECE)), first: self.is(piece, FIRST_PIECE) }
     }
 }
 
 pub(super) struct Balls<'a> {
-    pub(super) points: &'a [[f32; 4]],
+    pub(super) points: Spheres<'a>,
 }
 
 impl Source for Balls<'_> {
@@ -166,25 +187,24 @@ impl Source for Balls<'_> {
 
     #[inline(always)]
     fn bounds(&self, number: u32) -> Option<Aabb> {
-        let ball = &self.points[number as usize];
-        if ball[3] > 0.0 { ball_box(ball) } else { None }
+        let ball = self.points.get(number as usize)?;
+        if ball[3] > 0.0 { ball_box(&ball) } else { None }
     }
 
     fn extent(&self) -> Aabb {
-        extent(self.points)
+        self.points.extent()
     }
 }
 
 impl LeafMaker for Balls<'_> {
     type Leaf = PointBlock;
-    const CAPACITY: u32 = 8;
+    const RULE: LeafRule = LeafRule { capacity: 8, cost: 1.0 };
     const KIND: Kind = Kind::Smooth;
-    const COST: f32 = 1.0;
 
     fn leaf(&self, primitives: &[u32]) -> PointBlock {
         let mut block = PointBlock::EMPTY;
         for (lane, &point) in primitives.iter().enumerate() {
-            block.set(lane, self.points[point as usize], point);
+            block.set(lane, self.points.get(point as usize).unwrap_or_default(), point);
         }
         block
     }

@@ -6,7 +6,7 @@ use super::loose_lights::{LooseLight, MOST_LOOSE};
 use super::moving::{MovingInstance, MovingRecord};
 use super::node::{ChildRef, Kind, MAX_INDEX, Node};
 use super::tlas_input::TlasInput;
-use crate::build::collapse::LeafMaker;
+use crate::build::collapse::{LeafMaker, LeafRule};
 use crate::build::effort::Effort;
 use crate::build::wide_tree::build;
 use crate::cancelled::Cancelled;
@@ -188,9 +188,8 @@ struct Numbers;
 
 impl LeafMaker for Numbers {
     type Leaf = u32;
-    const CAPACITY: u32 = 1;
+    const RULE: LeafRule = LeafRule { capacity: 1, cost: 1.0 };
     const KIND: Kind = Kind::Instance;
-    const COST: f32 = 1.0;
 
     fn leaf(&self, primitives: &[u32]) -> u32 {
         primitives[0]

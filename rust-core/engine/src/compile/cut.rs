@@ -10,6 +10,7 @@ use crate::{
     scene::{CurveBasis, CurveWrap, Curves, Origin, PointKey, Points, Primvar, PrimvarInterpolation, Scene, point_key_problem},
 };
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Curves or points laid out.
 #[derive(Debug, Default)]
@@ -22,6 +23,16 @@ pub(super) struct Cut {
     pub(super) pieces: Vec<u32>,
     /// Where each point of curves lies; none where nobody asks.
     pub(super) places: Vec<Place>,
+    /// Where the tables have points, radii and pieces.
+    pub(super) laid: Laid,
+}
+
+/// Runs in the tables: of the coordinates, of the radii and of the pieces.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Laid {
+    pub(super) coordinates: Range<usize>,
+    pub(super) radii: Range<usize>,
+    pub(super) pieces: Range<usize>,
 }
 
 /// A place on a curve.

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// What [`pad`] adds to a column at most.
-const PADDED: usize = 12;
+pub(super) const PADDED: usize = 12;
 
 /// Flat tables, and what the top-level tree is built from.
 #[derive(Debug)]

@@ -151,15 +151,18 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     let scene = displaced.as_ref().map_or(scene, |displaced| &displaced.scene);
     let trees_start = Instant::now();
     let trees = trees::build_trees(scene, previous.map_or(&[], |p| &p.trees), cancel, &mut diagnostics)?;
+    let built = trees_start.elapsed();
     let mut cuts = cut::cut_all(scene, &names, &mut diagnostics);
     let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();
-    let smooth = smooth::build(scene, &cuts, previous.map_or(&[], |p| &p.smooth), cancel)?;
-    let built = trees_start.elapsed().as_secs_f64();
-    let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).chain(smooth.iter().map(|kept| kept.bounds)).collect();
+    let blurs = times::blurs(&scene.settings);
+    let mesh_bounds: Vec<Bounds> = trees.iter().map(|kept| kept.bounds).chain(cuts.iter().map(|cut| smooth::bounds(cut, blurs))).collect();
     let bounds = bounds::of_instances(scene, &mesh_bounds);
     oversized::report(scene, &bounds, &mut diagnostics);
     let origin = bounds.rebase_origin();
     let mut geometry = geometry::tables(scene, &mut cuts, &mesh_bounds, &names, &materials, origin, &mut diagnostics)?;
+    let trees_start = Instant::now();
+    let smooth = smooth::build(scene, &cuts, &geometry.table, previous.map_or(&[], |p| &p.smooth), cancel)?;
+    let built = built + trees_start.elapsed();
     motion::report_cameras(scene, &mut diagnostics);
     motion_vectors::report(scene, &mut diagnostics);
     let neighbours = motion_vectors::neighbours(scene, &cuts, &geometry, origin, &mut diagnostics);
@@ -186,7 +189,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         geometry_bytes: (tree_bytes + geometry.table.memory()) as u64,
         texture_bytes: textures.table.bytes() as u64,
         textures_s: textures.seconds,
-        build_s: built,
+        build_s: built.as_secs_f64(),
         total_s: start.elapsed().as_secs_f64(),
     };
     let any_volume = materials.surfaces.iter().any(|surface| surface.interior.is_some());

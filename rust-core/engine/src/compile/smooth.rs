@@ -1,9 +1,14 @@
 //! Trees of curves and points, kept from one compilation to the next.
 
-use super::{bounds::Bounds, cut::Cut, times};
+use super::{
+    bounds::Bounds,
+    cut::{Cut, Laid},
+    times,
+};
 use crate::{
-    accel::{Blas, Care, Seen},
+    accel::{Blas, Care, Seen, Spheres},
     error::{Diagnostic, Error, Result},
+    geometry::GeometryTable,
     scene::{CurveShape, Curves, PointShape, Points, Primvar, Scene},
 };
 use std::sync::{Arc, atomic::AtomicBool};
@@ -13,8 +18,6 @@ use std::sync::{Arc, atomic::AtomicBool};
 pub(super) struct KeptSmooth {
     source: Source,
     pub(super) tree: Arc<Blas>,
-    /// In the geometry's own space.
-    pub(super) bounds: Bounds,
 }
 
 /// Curves or points without their primvars.
@@ -45,10 +48,22 @@ impl Source {
     }
 }
 
-/// Trees of all curves and behind them all points; those that are the very same as before are kept.
-pub(super) fn build(scene: &Scene, cuts: &[Cut], previous: &[KeptSmooth], cancel: &AtomicBool) -> Result<Vec<KeptSmooth>> {
+/// What the tables have of a cut: points with radii, and pieces.
+fn laid<'a>(cut: &Cut, table: &'a GeometryTable) -> (Spheres<'a>, &'a [u32]) {
+    let Laid { coordinates, radii, pieces } = cut.laid.clone();
+    (Spheres::Apart(table.points[coordinates].as_chunks().0, &table.radii[radii]), &table.pieces[pieces])
+}
+
+/// Trees of all curves and behind them all points, from the tables; those that are the very same as before are kept.
+pub(super) fn build(
+    scene: &Scene,
+    cuts: &[Cut],
+    table: &GeometryTable,
+    previous: &[KeptSmooth],
+    cancel: &AtomicBool,
+) -> Result<Vec<KeptSmooth>> {
     let blurs = times::blurs(&scene.settings);
-    let care = Care::of_scene(cuts.iter().map(|cut| cut.pieces.len().max(cut.points.len())).sum());
+    let care = Care::of_scene(cuts.iter().map(|cut| cut.laid.pieces.len().max(cut.laid.radii.len())).sum());
     let mut built = Vec::with_capacity(cuts.len());
     for (curves, cut) in scene.curves.iter().zip(cuts) {
         let moves = blurs && !cut.keys.is_empty();
@@ -57,13 +72,14 @@ pub(super) fn build(scene: &Scene, cuts: &[Cut], previous: &[KeptSmooth], cancel
             continue;
         }
         let seen = if curves.shape == CurveShape::Round { Seen::Solid } else { Seen::Facing };
+        let (spheres, pieces) = laid(cut, table);
         let tree = match moves {
-            true => Blas::of_moving_curves(cut.keys.clone(), &cut.pieces, seen, care, cancel),
-            false => Blas::of_curves(&cut.points, &cut.pieces, seen, care, cancel),
+            true => Blas::of_moving_curves(cut.keys.clone(), pieces, seen, care, cancel),
+            false => Blas::of_curves(spheres, pieces, seen, care, cancel),
         };
         let tree = tree.map_err(|_| Error::Cancelled)?;
         let source = Source::Curves(Curves { primvars: Vec::new(), ..curves.clone() });
-        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(cut, moves) });
+        built.push(KeptSmooth { source, tree: Arc::new(tree) });
     }
     for (points, cut) in scene.points.iter().zip(&cuts[scene.curves.len()..]) {
         let moves = blurs && !cut.keys.is_empty();
@@ -74,19 +90,19 @@ pub(super) fn build(scene: &Scene, cuts: &[Cut], previous: &[KeptSmooth], cancel
         let seen = if points.shape == PointShape::Sphere { Seen::Solid } else { Seen::Facing };
         let tree = match moves {
             true => Blas::of_moving_points(cut.keys.clone(), seen, care, cancel),
-            false => Blas::of_points(&cut.points, seen, care, cancel),
+            false => Blas::of_points(laid(cut, table).0, seen, care, cancel),
         };
         let tree = tree.map_err(|_| Error::Cancelled)?;
         let source = Source::Points(Points { primvars: Vec::new(), ..points.clone() });
-        built.push(KeptSmooth { source, tree: Arc::new(tree), bounds: bounds(cut, moves) });
+        built.push(KeptSmooth { source, tree: Arc::new(tree) });
     }
     Ok(built)
 }
 
-/// Bounds of spheres, at all times where they move.
-fn bounds(cut: &Cut, moves: bool) -> Bounds {
+/// Bounds of spheres in their own space, at all times where they move.
+pub(super) fn bounds(cut: &Cut, blurs: bool) -> Bounds {
     let mut bounds = Bounds::default();
-    let keys = if moves { cut.keys.as_slice() } else { &[] };
+    let keys = if blurs { cut.keys.as_slice() } else { &[] };
     for [x, y, z, radius] in keys.iter().flatten().chain(&cut.points).map(|point| point.map(f64::from)) {
         bounds.extend([x - radius, y - radius, z - radius]);
         bounds.extend([x + radius, y + radius, z + radius]);

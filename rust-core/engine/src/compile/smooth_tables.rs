@@ -1,7 +1,8 @@
 //! Curves and points as flat tables.
 
 use super::{
-    cut::Cut,
+    cut::{Cut, Laid},
+    geometry::PADDED,
     smooth_primvars::{append_curve_primvars, append_point_primvars},
 };
 use crate::{
@@ -23,6 +24,7 @@ pub(super) fn append(
     }
     table.shapes = vec![PrimitiveShape::Triangle as u32; scene.meshes.len()];
     table.first_radius = (table.points.len() / 3) as u32;
+    reserve(cuts, table);
     let mut rows = Vec::with_capacity(cuts.len());
     let (of_curves, of_points) = cuts.split_at_mut(scene.curves.len());
     for (curves, cut) in scene.curves.iter().zip(of_curves) {
@@ -38,6 +40,14 @@ pub(super) fn append(
     Ok(rows)
 }
 
+/// Makes room for all: there may be millions.
+fn reserve(cuts: &[Cut], table: &mut GeometryTable) {
+    let points: usize = cuts.iter().map(|cut| cut.points.len()).sum();
+    table.points.reserve_exact(3 * points + PADDED);
+    table.radii.reserve_exact(points + PADDED);
+    table.pieces.reserve_exact(cuts.iter().map(|cut| cut.pieces.len()).sum::<usize>() + PADDED);
+}
+
 fn append_cut(cut: &mut Cut, shape: PrimitiveShape, table: &mut GeometryTable) -> Result<InstanceRow> {
     let first_point = table.points.len() / 3;
     if (first_point + cut.points.len()) * 3 >= i32::MAX as usize || cut.points.len() >= 1 << 30 {
@@ -48,13 +58,15 @@ fn append_cut(cut: &mut Cut, shape: PrimitiveShape, table: &mut GeometryTable) -
     if still {
         cut.places = Vec::new();
     }
-    table.points.reserve(3 * cut.points.len());
+    let begin = [table.points.len(), table.radii.len(), table.pieces.len()];
     cut.points.iter().for_each(|point| table.points.extend_from_slice(&point[..3]));
     table.radii.extend(cut.points.iter().map(|point| point[3]));
     table.pieces.extend_from_slice(&cut.pieces);
     table.shapes.push(shape as u32);
+    let [coordinates, radii, pieces] = begin;
+    cut.laid = Laid { coordinates: coordinates..table.points.len(), radii: radii..table.radii.len(), pieces: pieces..table.pieces.len() };
     if still {
-        // Nobody asks again, and there may be millions.
+        // The tables have them, and there may be millions.
         (cut.points, cut.pieces) = (Vec::new(), Vec::new());
     }
     Ok(InstanceRow { first_triangle, first_point: first_point as u32, first_slot: NONE, ..InstanceRow::default() })

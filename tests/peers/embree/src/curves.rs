@@ -4,7 +4,7 @@ use crate::embree::{self, EmbreeScene};
 use crate::rays::{OwnedRays, Random, normalized};
 use crate::{BATCH, print_row, timed};
 use fearless_simd::Level;
-use gonio::accel::{Blas, Care, FIRST_PIECE, Geometry, Hits, Instance, LAST_PIECE, NONE, Seen, Tlas};
+use gonio::accel::{Blas, Care, FIRST_PIECE, Geometry, Hits, Instance, LAST_PIECE, NONE, Seen, Spheres, Tlas};
 use gonio_simd::Execution;
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -53,7 +53,7 @@ fn scene(hair: &Hair) -> Tlas {
     let ends = |i: usize| u32::from(strand(i) == 0) * FIRST_PIECE | u32::from(strand(i) + 1 == PIECES) * LAST_PIECE;
     let pieces: Vec<u32> = hair.pieces.iter().enumerate().map(|(i, piece)| piece | ends(i)).collect();
     let care = Care::of_scene(pieces.len());
-    let tree = Blas::of_curves(&hair.points, &pieces, Seen::Solid, care, &AtomicBool::new(false)).expect("nobody cancels");
+    let tree = Blas::of_curves(Spheres::Together(&hair.points), &pieces, Seen::Solid, care, &AtomicBool::new(false)).expect("nobody cancels");
     let placed = Instance { geometry: Geometry::Mesh(0), object_to_world: Instance::IDENTITY, mask: 1, transparent: false };
     Tlas::build(vec![Arc::new(tree)], &[placed], &AtomicBool::new(false)).expect("nobody cancels")
 }
