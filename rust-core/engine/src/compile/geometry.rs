@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// What [`pad`] adds to a column at most.
-pub(super) const PADDED: usize = 12;
+const PADDED: usize = 12;
 
 /// Flat tables, and what the top-level tree is built from.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ pub(super) fn tables(
 ) -> Result<CompiledGeometry> {
     let mut table = GeometryTable { columns: 1 + names.len(), ..GeometryTable::default() };
     motion::report_meshes(scene, diagnostics);
-    reserve(scene, names, &mut table);
+    reserve(scene, cuts, names, &mut table);
     let mut meshes = scene.meshes.iter().map(|mesh| append_mesh(mesh, names, &mut table, diagnostics)).collect::<Result<Vec<_>>>()?;
     meshes.extend(smooth_tables::append(scene, cuts, names, &mut table, diagnostics)?);
     motion::fill_keys(scene, cuts, &mut table);
@@ -84,10 +84,13 @@ pub(super) fn tables(
     Ok(CompiledGeometry { table, instances, moving, first_light })
 }
 
-/// Makes room for all meshes: tables that grow are moved again and again.
-fn reserve(scene: &Scene, names: &[String], table: &mut GeometryTable) {
+/// Makes room for all meshes, curves and points: tables that grow are moved again and again.
+fn reserve(scene: &Scene, cuts: &[Cut], names: &[String], table: &mut GeometryTable) {
+    let in_cuts: usize = cuts.iter().map(|cut| cut.points.len()).sum();
     let primvars = || scene.meshes.iter().flat_map(|mesh| names.iter().filter_map(move |name| mesh.primvar(name)).chain(&mesh.normals));
-    table.points.reserve_exact(scene.meshes.iter().map(|mesh| mesh.points.len() * 3).sum::<usize>() + PADDED);
+    table.points.reserve_exact(scene.meshes.iter().map(|mesh| mesh.points.len() * 3).sum::<usize>() + 3 * in_cuts + PADDED);
+    table.radii.reserve_exact(in_cuts + PADDED);
+    table.pieces.reserve_exact(cuts.iter().map(|cut| cut.pieces.len()).sum::<usize>() + PADDED);
     table.corners.reserve_exact(scene.meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum::<usize>() + PADDED);
     table.values.reserve_exact(primvars().map(|primvar| primvar.values.len()).sum::<usize>() + PADDED);
     table.value_indices.reserve_exact(primvars().filter_map(|primvar| primvar.indices.as_ref()).map(|i| i.len()).sum::<usize>() + PADDED);

@@ -2,7 +2,6 @@
 
 use super::{
     cut::{Cut, Laid},
-    geometry::PADDED,
     smooth_primvars::{append_curve_primvars, append_point_primvars},
 };
 use crate::{
@@ -24,7 +23,6 @@ pub(super) fn append(
     }
     table.shapes = vec![PrimitiveShape::Triangle as u32; scene.meshes.len()];
     table.first_radius = (table.points.len() / 3) as u32;
-    reserve(cuts, table);
     let mut rows = Vec::with_capacity(cuts.len());
     let (of_curves, of_points) = cuts.split_at_mut(scene.curves.len());
     for (curves, cut) in scene.curves.iter().zip(of_curves) {
@@ -38,14 +36,6 @@ pub(super) fn append(
         rows.push(append_cut(cut, if solid { PrimitiveShape::Sphere } else { PrimitiveShape::Disc }, table)?);
     }
     Ok(rows)
-}
-
-/// Makes room for all: there may be millions.
-fn reserve(cuts: &[Cut], table: &mut GeometryTable) {
-    let points: usize = cuts.iter().map(|cut| cut.points.len()).sum();
-    table.points.reserve_exact(3 * points + PADDED);
-    table.radii.reserve_exact(points + PADDED);
-    table.pieces.reserve_exact(cuts.iter().map(|cut| cut.pieces.len()).sum::<usize>() + PADDED);
 }
 
 fn append_cut(cut: &mut Cut, shape: PrimitiveShape, table: &mut GeometryTable) -> Result<InstanceRow> {
