@@ -141,9 +141,7 @@ impl<L: Lanes> GlassLobe<L> {
         let h = self.widths.sample(wo, l.f(1.0), [u[1], u[2]]);
         let c = wo.dot(h);
         let reflects = Interface::reflects(self.interface.split(c.saturate()));
-        let inverse = self.interface.eta.recip();
-        let squared = 1.0 - (1.0 - c * c) * inverse * inverse;
-        let refracted = h * (c * inverse - squared.safe_sqrt()) - wo * inverse;
+        let (refracted, squared) = refract(wo, h, self.interface.eta);
         let mirrored = u[0].lt(reflects);
         let wi = mirrored.select(wo.reflect(h), refracted);
         (wi, mirrored.select(wi.z.gt(0.0), wi.z.lt(0.0) & squared.gt(0.0)))
@@ -157,4 +155,13 @@ impl<L: Lanes> GlassLobe<L> {
         let usable = wo.z.gt(0.0);
         (passes.select(split[1], split[0]).keep_if(usable), passes.select(1.0 - reflects, reflects).keep_if(usable))
     }
+}
+
+/// Where a facet of normal `h` sends what it lets pass of light seen from `wo`, and the squared cosine there: not above 0 under total reflection.
+/// `eta` = far over near index.
+#[inline(always)]
+pub(crate) fn refract<L: Lanes>(wo: Vec3<L>, h: Vec3<L>, eta: F<L>) -> (Vec3<L>, F<L>) {
+    let (c, inverse) = (wo.dot(h), eta.recip());
+    let squared = 1.0 - (1.0 - c * c) * inverse * inverse;
+    (h * (c * inverse - squared.safe_sqrt()) - wo * inverse, squared)
 }

@@ -53,6 +53,13 @@ pub struct LobeSet {
     pub smooth: bool,
 }
 
+impl LobeSet {
+    /// Whether paths may pass straight where nothing of the surface is there.
+    pub fn has_gaps(&self) -> bool {
+        self.cut_out || self.narrow
+    }
+}
+
 /// What is known before any hit: constants, which of them a graph overrides, and the model's choices.
 #[derive(Clone, Debug)]
 pub struct Surface {

@@ -74,12 +74,12 @@ impl<L: Lanes> EllipticLobe<L> {
         let ior = fibre.ior.clamp(1.0 + 1e-4, 1e3);
         let outline = Outline { section, tilt: fibre.tilt.sin_cos().into(), absorption: fibre.absorption.max(0.0) };
         let [outer, inner] = [Interface { alpha, eta: ior }, Interface { alpha, eta: ior.recip() }];
-        let DrawnWay { last, reaches, rest } = outline.way(view, entry, present, [&outer, &inner], &numbers);
+        let DrawnWay { last, gains, reaches, rest } = outline.way(view, entry, present, [&outer, &inner], &numbers);
 
         let [r, tt, trt] = fibre.tints.map(|tint| tint.max(0.0));
         let [first, passing, returning] = [reaches[0] * r, reaches[1] * tt, reaches[2] * trt];
         let rest = rest.keep_if(trt.is_lit());
-        let amounts = [first * last[0].gain(&outer), passing * last[1].gain(&inner), returning * last[2].gain(&inner), rest];
+        let amounts = [first * gains[0], passing * gains[1], returning * gains[2], rest];
         // These need no gain.
         let leaves = [last[0].mostly_reflected(&outer), last[1].mostly_passed(&inner), last[2].mostly_passed(&inner)];
         let albedo = first * leaves[0] + passing * leaves[1] + returning * leaves[2] + rest;
@@ -175,6 +175,8 @@ struct Outline<L: Lanes> {
 struct DrawnWay<L: Lanes> {
     /// Where it is first met, and met from inside.
     last: [Facets<L>; WAYS],
+    /// What makes up there for light that is lost between facets.
+    gains: [F<L>; WAYS],
     /// What reaches those of the light.
     reaches: [Spectrum<L>; WAYS],
     /// What leaves after more reflections.
@@ -198,15 +200,19 @@ impl<L: Lanes> Outline<L> {
         let (exit, passed) = self.crossed(entry, inside);
 
         let second = Facets::new(-inside, self.scale(exit, -1.0));
-        let passing = passed * (met * first.gain(outer) * enters).keep_if(second.is_met());
+        let gain = first.gain(outer);
+        let passing = passed * (met * gain * enters).keep_if(second.is_met());
         let (back, [mirrors, stays]) = second.mirror(inner, [numbers[2], numbers[3]]);
         let (end, passed_again) = self.crossed(exit, back);
 
         let third = Facets::new(-back, self.scale(end, -1.0));
-        let returning = passing * passed_again * (second.gain(inner) * mirrors).keep_if(third.is_met());
+        let inner_gain = second.gain(inner);
+        let returning = passing * passed_again * (inner_gain * mirrors).keep_if(third.is_met());
         let (_, [mirrors, stays_again]) = third.mirror(inner, [numbers[4], numbers[5]]);
-        let rest = returning * (third.gain(inner) * mirrors) * further(passed * passed_again, (stays + stays_again) * 0.5);
-        DrawnWay { last: [first, second, third], reaches: [Spectrum::constant(met), passing, returning], rest }
+        let last_gain = third.gain(inner);
+        let rest = returning * (last_gain * mirrors) * further(passed * passed_again, (stays + stays_again) * 0.5);
+        let reaches = [Spectrum::constant(met), passing, returning];
+        DrawnWay { last: [first, second, third], gains: [gain, inner_gain, last_gain], reaches, rest }
     }
     /// The normal of a scale, outwards or inwards.
     #[inline(always)]

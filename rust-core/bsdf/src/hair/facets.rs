@@ -2,6 +2,7 @@
 
 use super::super::energy;
 use super::super::fresnel::dielectric;
+use super::super::glass::refract;
 use super::super::microfacet::Widths;
 use gonio_simd::{F, Frame, Lanes, M, Vec3};
 
@@ -119,12 +120,10 @@ impl<L: Lanes> Facets<L> {
     /// The same of what it lets pass.
     #[inline(always)]
     pub(super) fn refracted(&self, interface: &Interface<L>, facet: Vec3<L>) -> (Vec3<L>, F<L>) {
-        let (c, inverse) = (self.from.dot(facet), interface.eta.recip());
-        let squared = 1.0 - (1.0 - c * c) * inverse * inverse;
-        let to = facet * (c * inverse - squared.safe_sqrt()) - self.from * inverse;
+        let (to, squared) = refract(self.from, facet, interface.eta);
         let cosine = to.dot(self.normal);
-        let passes = squared.gt(0.0) & c.gt(0.0) & cosine.lt(0.0) & self.is_above(-to);
-        (to, self.left(interface, -cosine).keep_if(passes))
+        let passes = squared.gt(0.0) & self.from.dot(facet).gt(0.0) & cosine.lt(0.0) & self.is_above(-to);
+        (to, self.left(interface, cosine).keep_if(passes))
     }
     /// Masking of the way out, given that the facet was seen on the way in.
     #[inline(always)]
@@ -150,14 +149,10 @@ impl<L: Lanes> Facets<L> {
             (l.f(0.25), d.gt(0.0) & to_local.z.gt(0.0) & self.is_above(to))
         };
         let possible = side & c.gt(0.0) & from.z.gt(0.0);
-        let widths = interface.widths();
-        let (into, out) = (widths.stretch(from), widths.stretch(to_local));
-        let (light, view) = (to_local.z.abs(), from.z);
-        let density = widths.distribution(facet) * jacobian * 2.0;
+        let pdf = interface.widths().distribution(facet) * jacobian * 2.0 / (stretch(interface.alpha, from.z) + from.z);
         let reflectance = dielectric(c.saturate(), interface.eta);
         let share = if passes { 1.0 - reflectance } else { reflectance };
-        let value = share * density * light / into.mul_add(light, out * view).max(1e-20);
-        [value.keep_if(possible), (density / (into + view)).keep_if(possible)]
+        [(share * pdf * self.left(interface, to_local.z)).keep_if(possible), pdf.keep_if(possible)]
     }
 }
 

@@ -1,5 +1,6 @@
 //! Elliptic fibres: energy over many ways inside, smooth ones against the rays of geometric optics in double precision, and what is not there.
 
+use super::hair::{about, fresnel};
 use super::harness::{Sample, View, random};
 use super::rows::{Values, single};
 use crate::hair::NUMBERS;
@@ -7,12 +8,6 @@ use crate::parameter as p;
 use crate::{Closure, Surface};
 
 type Pair = [f64; 2];
-
-/// A direction at `theta` along the fibre and `phi` about it from the normal, in degrees.
-fn about(theta: f64, phi: f64) -> [f32; 3] {
-    let (theta, phi) = (theta.to_radians(), phi.to_radians());
-    [theta.sin() as f32, (theta.cos() * phi.sin()) as f32, (theta.cos() * phi.cos()) as f32]
-}
 
 /// The fibre seen with many ways inside.
 fn ways(surface: &Surface, wo: [f32; 3], count: usize) -> impl Iterator<Item = View> {
@@ -81,8 +76,7 @@ fn rays(wo: [f64; 3], minor: f64, turn: f64, (absorption, eta): (f64, f64)) -> [
         let ratio = if way == 0 { eta } else { 1.0 / eta };
         let squared = 1.0 - (1.0 - c * c) / (ratio * ratio);
         let t = squared.max(0.0).sqrt();
-        let (s, q) = ((c - ratio * t) / (c + ratio * t), (ratio * c - t) / (ratio * c + t));
-        let f = if squared <= 0.0 { 1.0 } else { (s * s + q * q) / 2.0 };
+        let f = fresnel(c, ratio);
         let mirrored = [0, 1, 2].map(|k| 2.0 * c * n[k] - from[k]);
         let refracted = [0, 1, 2].map(|k| n[k] * (c / ratio - t) - from[k] / ratio);
         let (leaves, stays) = if way == 0 { (mirrored, refracted) } else { (refracted, mirrored) };

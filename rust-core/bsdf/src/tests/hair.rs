@@ -7,7 +7,7 @@ use crate::{Closure, Surface, Switches};
 use std::f64::consts::{PI, TAU};
 
 /// A direction at `theta` along the fibre and `phi` about it from the normal, in degrees.
-fn about(theta: f64, phi: f64) -> [f32; 3] {
+pub(super) fn about(theta: f64, phi: f64) -> [f32; 3] {
     let (theta, phi) = (theta.to_radians(), phi.to_radians());
     [theta.sin() as f32, (theta.cos() * phi.sin()) as f32, (theta.cos() * phi.cos()) as f32]
 }
@@ -27,8 +27,9 @@ fn bessel(x: f64) -> f64 {
     sum
 }
 
-fn fresnel(c: f64, eta: f64) -> f64 {
-    let t = (1.0 - (1.0 - c * c) / (eta * eta)).sqrt();
+/// Reflectance of a dielectric; 1 under total reflection.
+pub(super) fn fresnel(c: f64, eta: f64) -> f64 {
+    let t = (1.0 - (1.0 - c * c) / (eta * eta)).max(0.0).sqrt();
     let (s, p) = ((c - eta * t) / (c + eta * t), (eta * c - t) / (eta * c + t));
     (s * s + p * p) / 2.0
 }

@@ -28,7 +28,7 @@ pub(crate) fn without_cut_outs<L: Lanes>(
     u: F<L>,
     next: &mut Paths,
 ) -> M<L> {
-    if !(material.surface.lobes.cut_out || material.surface.lobes.narrow) {
+    if !material.surface.lobes.has_gaps() {
         return point.alive;
     }
     let passed = point.alive & u.ge(threshold(lobes.opacity(), material.opacity_threshold));

@@ -64,7 +64,7 @@ impl Integrator for WhittedIntegrator<'_> {
         let branches = &mut queues.branches;
         let mut straight = Branch { way: Way::Straight, wi: -point.wo, throughput: Spectrum::zero(l), share: l.f(0.0) };
         let mut present = point.alive;
-        if material.surface.lobes.cut_out || material.surface.lobes.narrow {
+        if material.surface.lobes.has_gaps() {
             present &= part_from_open(material, point, lobes, &mut straight);
         }
         let present = add_seen(chunk, material, point, lobes, (present, false), at, deposits);
