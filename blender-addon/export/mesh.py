@@ -10,6 +10,7 @@ from .mesh_attributes import ATTRIBUTES, active_uv, read, spread_out, vertex_nor
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points
 from .modelled_normals import modelled_normals
 from .tangents import tangents
+from .transforms import unit
 
 # Three numbers of corners, as Blender keeps them.
 TRIANGLE_BYTES = 12
@@ -73,7 +74,7 @@ def _add_tangents(arguments, mesh, corners, primvars, cut):
         return
     normals = arguments["normals"]
     if cut and normals is not None:
-        normals = _unit(normals)
+        normals = unit(normals)
     if normals is None:
         facing, lengths = np.empty((len(mesh.polygons), 3), dtype=np.float32), np.empty(len(mesh.polygons), dtype=np.int32)
         mesh.polygon_normals.foreach_get("vector", facing.reshape(-1))
@@ -156,16 +157,11 @@ def _point_normals(mesh, points, corners):
     mesh.polygon_normals.foreach_get("vector", facing.reshape(-1))
     after, before = np.arange(1, len(corners) + 1), np.arange(-1, len(corners) - 1)
     after[first + length - 1], before[first] = first, first + length - 1
-    ahead, back = (_unit(points[corners[other]] - points[corners]) for other in (after, before))
+    ahead, back = (unit(points[corners[other]] - points[corners]) for other in (after, before))
     angles = np.arccos(np.clip(np.einsum("ij,ij->i", ahead, back), -1.0, 1.0))
     weighted = np.repeat(facing, length, axis=0) * angles[:, None]
     summed = [np.bincount(corners, weighted[:, axis], minlength=len(points)) for axis in range(3)]
-    return np.ascontiguousarray(_unit(np.stack(summed, axis=1)), dtype=np.float32)
-
-
-def _unit(vectors):
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return vectors / np.where(lengths > 0.0, lengths, 1.0)
+    return np.ascontiguousarray(unit(np.stack(summed, axis=1)), dtype=np.float32)
 
 
 def _slots(mesh):

@@ -4,6 +4,7 @@
 import numpy as np
 
 from .random_number import of_words
+from .transforms import unit
 
 # Corners of a triangle in Blender's Parametric coordinates.
 PARAMETRIC_CORNERS = np.array([(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 0.0)], dtype=np.float32)
@@ -23,12 +24,12 @@ def pointiness(points, normals, edges):
     number, count = number.reshape(-1), len(first)
     summed = np.stack([np.bincount(number, normals[:, axis], minlength=count) for axis in range(3)], axis=1)
     pairs = np.unique(np.sort(number[edges], axis=1), axis=0)
-    along = _unit(points[first][pairs[:, 1]].astype(float) - points[first][pairs[:, 0]])
+    along = unit(points[first][pairs[:, 1]].astype(float) - points[first][pairs[:, 0]])
     ends = np.concatenate([pairs[:, 0], pairs[:, 1]])
     neighbours = np.bincount(ends, minlength=count)
     means = [np.bincount(ends, np.concatenate([along[:, axis], -along[:, axis]]), minlength=count) for axis in range(3)]
     mean = np.stack(means, axis=1) / np.maximum(neighbours, 1)[:, None]
-    cosine = np.clip(np.einsum("ij,ij->i", _unit(summed), mean), -1.0, 1.0)
+    cosine = np.clip(np.einsum("ij,ij->i", unit(summed), mean), -1.0, 1.0)
     raw = np.where(neighbours > 0, np.arccos(cosine) / np.pi, 0.0)
     around = np.bincount(ends, np.concatenate([raw[pairs[:, 1]], raw[pairs[:, 0]]]), minlength=count)
     return ((raw + around) / (neighbours + 1))[number].astype(np.float32)
@@ -95,8 +96,3 @@ def corner_points(arguments, number):
     """Of each corner the position of its triangle's first, second or third corner."""
     corners = arguments["triangles"] if arguments["corners"] is None else arguments["corners"][arguments["triangles"]]
     return np.repeat(arguments["points"][corners[:, number]], 3, axis=0)
-
-
-def _unit(vectors):
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return vectors / np.where(lengths > 0.0, lengths, 1.0)

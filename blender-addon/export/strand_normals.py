@@ -7,6 +7,7 @@ Blender's own `normals` cannot be read as a whole: the array is freed before it 
 import numpy as np
 
 from .mesh_attributes import read
+from .transforms import unit
 
 # The values of the attribute `normal_mode`; 0 is the least twist.
 Z_UP, FREE = 1, 2
@@ -14,15 +15,15 @@ Z_UP, FREE = 1, 2
 
 def of_curves(curves, tangents, begins, ends):
     """Unit normals (N, 3) of the points of hair curves that run from `begins` to `ends`, as Blender has them to within the turns between points."""
-    tangents = _unit(tangents)
+    tangents = unit(tangents.astype(np.float64))
     modes = _attribute(curves, "normal_mode", len(begins))
-    upright = _unit(np.stack([tangents[:, 1], -tangents[:, 0], np.zeros(len(tangents))], axis=1), (1.0, 0.0, 0.0))
+    upright = _unit_or(np.stack([tangents[:, 1], -tangents[:, 0], np.zeros(len(tangents))], axis=1), (1.0, 0.0, 0.0))
     normals = _least_twist(tangents, upright, begins, ends)
     by_point = np.repeat(modes, ends - begins)
     normals = np.where((by_point == Z_UP)[:, None], upright, normals)
     custom = curves.attributes.get("custom_normal")
     if custom is not None:
-        normals = np.where((by_point == FREE)[:, None], _unit(read(custom)[:, :3]), normals)
+        normals = np.where((by_point == FREE)[:, None], unit(read(custom)[:, :3]), normals)
     tilt = _attribute(curves, "tilt", len(tangents))[:, None]
     return (normals * np.cos(tilt) + np.cross(tangents, normals) * np.sin(tilt)).astype(np.float32)
 
@@ -37,7 +38,7 @@ def _least_twist(tangents, first, begins, ends):
         axis, cos = np.cross(before, after), np.sum(before * after, axis=1, keepdims=True)
         # Rodrigues' rotation without its angle.
         along = np.sum(axis * carried, axis=1, keepdims=True) / np.maximum(1.0 + cos, 1e-6)
-        normals[here] = _unit(carried * cos + np.cross(axis, carried) + axis * along, (1.0, 0.0, 0.0))
+        normals[here] = _unit_or(carried * cos + np.cross(axis, carried) + axis * along, (1.0, 0.0, 0.0))
     return normals
 
 
@@ -47,7 +48,7 @@ def _attribute(curves, name, count):
     return np.zeros(count) if attribute is None else read(attribute)[:count, 0]
 
 
-def _unit(vectors, instead=(0.0, 0.0, 1.0)):
-    vectors = np.asarray(vectors, dtype=np.float64)
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.where(lengths > 1e-12, vectors / np.maximum(lengths, 1e-12), instead)
+def _unit_or(vectors, instead):
+    """Vectors of length 1, and another in the place of zeros."""
+    vectors = unit(vectors)
+    return np.where(np.any(vectors, axis=1, keepdims=True), vectors, instead)

@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .transforms import unit
+
 # Odd factors that scatter the bits of what is hashed.
 FACTORS = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
 
@@ -14,14 +16,14 @@ def tangents(points, normals, uv, corners, triangles):
     step, step_other = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     area = step[:, 0] * step_other[:, 1] - step[:, 1] * step_other[:, 0]
     side = np.where(area > 0.0, 1.0, -1.0)
-    along = _unit(step_other[:, 1:] * edge - step[:, 1:] * other) * side[:, None]
+    along = unit(step_other[:, 1:] * edge - step[:, 1:] * other) * side[:, None]
     along[area == 0.0] = 0.0
     weighted = np.empty_like(place)
     for number in range(3):
         ahead, back = (place[:, (number + n) % 3] - place[:, number] for n in (1, 2))
         normal = facing[:, number]
-        cosine = np.einsum("ij,ij->i", _unit(_level(ahead, normal)), _unit(_level(back, normal)))
-        weighted[:, number] = _unit(_level(along, normal)) * np.arccos(np.clip(cosine, -1.0, 1.0))[:, None]
+        cosine = np.einsum("ij,ij->i", unit(_level(ahead, normal)), unit(_level(back, normal)))
+        weighted[:, number] = unit(_level(along, normal)) * np.arccos(np.clip(cosine, -1.0, 1.0))[:, None]
     _, group = np.unique(_alike(points[corners], normals, uv)[triangles] + (side[:, None] > 0.0).astype(np.uint64), return_inverse=True)
     group = group.reshape(-1)
     summed = np.stack([np.bincount(group, weighted[..., axis].reshape(-1)) for axis in range(3)], axis=1)
@@ -46,8 +48,3 @@ def _alike(*columns):
 
 def _level(vectors, normals):
     return vectors - normals * np.einsum("ij,ij->i", vectors, normals)[:, None]
-
-
-def _unit(vectors):
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return vectors / np.where(lengths > 0.0, lengths, 1.0)

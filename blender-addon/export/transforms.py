@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Matrices between Blender and the scene description."""
+"""Matrices between Blender and the scene description, and unit vectors."""
 
 import numpy as np
 
@@ -8,6 +8,12 @@ def columns(matrix):
     """A 4×4 matrix for column vectors in the form of the scene description."""
     m = np.asarray(matrix, dtype=float)
     return {"columns": [[float(m[row][column]) for row in range(3)] for column in range(4)]}
+
+
+def unit(vectors):
+    """Vectors (N, 3) of length 1; zeros stay."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return vectors / np.where(lengths > 0.0, lengths, 1.0)
 
 
 def without_scale(matrix):

@@ -76,72 +76,69 @@ def test_particle_hair_stands_on_its_emitter():
     assert [each["mesh"] for each in scene["instances"]] == [{"curves": 0}]
 
 
-@pytest.mark.blender
-def test_scales_lean_as_in_cycles(tmp_path):
+def leaning_strands(kind, named, values, *, samples, points, angle, turn=0.0):
+    """Five ribbons with a shader of attributes and inputs, leaning towards the camera and away from it; lit by suns from before and from behind."""
     import beside_cycles
     import bpy
+    import numpy as np
+
+    made = beside_cycles.scene(4, samples=samples)
+    made.render.resolution_x = made.render.resolution_y = 48
+    made.cycles_curves.shape, made.cycles.max_bounces = "RIBBONS", 0
+    made.camera.location, made.camera.rotation_euler = (0.0, -6.0, 0.0), (np.pi / 2, 0.0, 0.0)
+    for about_x in (70.0, 250.0):
+        lamp = bpy.data.lights.new("Sun", "SUN")
+        lamp.energy, lamp.angle = 3.0, np.radians(angle)
+        sun = bpy.data.objects.new("Sun", lamp)
+        sun.rotation_euler = (np.radians(about_x), 0.0, turn)
+        made.collection.objects.link(sun)
+    cover, tree, end = beside_cycles.material("Strand")
+    shader = tree.nodes.new(kind)
+    for name, value in named.items():
+        setattr(shader, name, value)
+    for name, value in values.items():
+        if name in shader.inputs:
+            shader.inputs[name].default_value = value
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    ends = [(-1.5, -1.2), (-0.75, -0.6), (0.0, 0.0), (0.75, 0.6), (1.5, 1.2)]
+    ways = [np.array([(x, y * t, 1.6 * t) for t in np.linspace(-1.0, 1.0, points)]) for x, y in ends]
+    return curves_of(ways, "Strands", cover, radius=0.2)
+
+
+def means_of_strands(tmp_path):
+    """The mean of each of the five, in Cycles and in Gonio."""
+    import beside_cycles
+    import numpy as np
+
+    return [np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path)]
+
+
+@pytest.mark.blender
+def test_scales_lean_as_in_cycles(tmp_path):
     import numpy as np
 
     kinds = [("ShaderNodeBsdfHairPrincipled", {"model": "CHIANG"})]
     kinds += [("ShaderNodeBsdfHair", {"component": part}) for part in ("Reflection", "Transmission")]
     for kind, named in kinds:
-        made = beside_cycles.scene(4, samples=256)
-        made.render.resolution_x = made.render.resolution_y = 48
-        made.cycles_curves.shape, made.cycles.max_bounces = "RIBBONS", 0
-        made.camera.location, made.camera.rotation_euler = (0.0, -6.0, 0.0), (np.pi / 2, 0.0, 0.0)
-        # Lit from before and from behind; leaning towards the camera and away from it.
-        for angle in (70.0, 250.0):
-            lamp = bpy.data.lights.new("Sun", "SUN")
-            lamp.energy, lamp.angle = 3.0, np.radians(5.0)
-            sun = bpy.data.objects.new("Sun", lamp)
-            sun.rotation_euler = (np.radians(angle), 0.0, 0.0)
-            made.collection.objects.link(sun)
-        cover, tree, end = beside_cycles.material("Strand")
-        shader = tree.nodes.new(kind)
-        for name, value in named.items():
-            setattr(shader, name, value)
-        shader.inputs["Offset"].default_value = 0.25
-        for name in ("RoughnessV", "Radial Roughness"):
-            if name in shader.inputs:
-                shader.inputs[name].default_value = 0.8
-        tree.links.new(shader.outputs[0], end.inputs["Surface"])
-        ends = [(-1.5, -1.2), (-0.75, -0.6), (0.0, 0.0), (0.75, 0.6), (1.5, 1.2)]
-        curves_of([np.array([(x, y * t, 1.6 * t) for t in np.linspace(-1.0, 1.0, 5)]) for x, y in ends], "Strands", cover, radius=0.2)
-        # The mean of each strand; the other way round they are as far apart as they are bright.
-        cycles, gonio = (np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path))
+        leaning_strands(kind, named, {"Offset": 0.25, "RoughnessV": 0.8, "Radial Roughness": 0.8}, samples=256, points=5, angle=5.0)
+        # The other way round they are as far apart as they are bright.
+        cycles, gonio = means_of_strands(tmp_path)
         assert np.allclose(gonio, cycles, rtol=0.05, atol=0.01 * cycles.max()), (kind, named, cycles, gonio)
 
 
 @pytest.mark.blender
 def test_elliptic_strands_are_as_in_cycles(tmp_path):
-    import beside_cycles
-    import bpy
     import numpy as np
 
     # Flat along the curves' normals, which turn; and an aspect above 1, which Cycles takes for its inverse. Without a tilt of the scales, for which
     # Cycles has another brightness in directions of lamps than in those it samples.
     for aspect, roughness in ((0.5, 0.3), (1.6, 0.5)):
-        made = beside_cycles.scene(4, samples=400)
-        made.render.resolution_x = made.render.resolution_y = 48
-        made.cycles_curves.shape, made.cycles.max_bounces = "RIBBONS", 0
-        made.camera.location, made.camera.rotation_euler = (0.0, -6.0, 0.0), (np.pi / 2, 0.0, 0.0)
-        for angle in (70.0, 250.0):
-            lamp = bpy.data.lights.new("Sun", "SUN")
-            lamp.energy, lamp.angle = 3.0, np.radians(20.0)
-            sun = bpy.data.objects.new("Sun", lamp)
-            sun.rotation_euler = (np.radians(angle), 0.0, 0.5)
-            made.collection.objects.link(sun)
-        cover, tree, end = beside_cycles.material("Strand")
-        shader = tree.nodes.new("ShaderNodeBsdfHairPrincipled")
-        shader.model = "HUANG"
-        for name, value in {"Aspect Ratio": aspect, "Roughness": roughness, "Secondary Reflection": 0.7, "Offset": 0.0}.items():
-            shader.inputs[name].default_value = value
-        tree.links.new(shader.outputs[0], end.inputs["Surface"])
-        ways = [(-1.5, -1.2), (-0.75, -0.6), (0.0, 0.0), (0.75, 0.6), (1.5, 1.2)]
-        strands = curves_of([np.array([(x, y * t, 1.6 * t) for t in np.linspace(-1.0, 1.0, 9)]) for x, y in ways], "Strands", cover, radius=0.2)
-        tilt = np.tile(np.linspace(0.0, 1.5, 9), len(ways)).astype(np.float32)
+        values = {"Aspect Ratio": aspect, "Roughness": roughness, "Secondary Reflection": 0.7, "Offset": 0.0}
+        named = {"model": "HUANG"}
+        strands = leaning_strands("ShaderNodeBsdfHairPrincipled", named, values, samples=400, points=9, angle=20.0, turn=0.5)
+        tilt = np.tile(np.linspace(0.0, 1.5, 9), 5).astype(np.float32)
         strands.data.attributes.new("tilt", "FLOAT", "POINT").data.foreach_set("value", tilt)
-        cycles, gonio = (np.array([band.mean() for band in np.split(picture, (10, 19, 28, 37), axis=1)]) for picture in beside_cycles.both(tmp_path))
+        cycles, gonio = means_of_strands(tmp_path)
         assert np.allclose(gonio, cycles, rtol=0.05), (aspect, gonio / cycles)
 
 
