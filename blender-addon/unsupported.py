@@ -62,6 +62,7 @@ SCENES = {
     "tone map in animations": _untold(
         "*Tone Map in Gonio* in animations: an eye that adapts over the frames", "each frame by itself; *Fixed Exposure* for all alike"
     ),
+    "frame": _quietly("Resolution, border and pixel aspect that change while an animation is rendered", "those of its start, as in Cycles"),
     "working space": _untold(
         "Working spaces ACEScg and Rec.2020",
         "colours come in and go out by the configuration's matrix, light is reckoned in linear Rec.709; saturated colours under coloured light "

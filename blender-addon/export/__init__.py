@@ -146,11 +146,14 @@ class Exporter:
         self.report.forget_all("Camera")
         return self._put_camera(view.describe(depsgraph, space_view3d, region_3d, width, height, self.report), depsgraph)
 
-    def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",), eye=None):
-        """Sets resolution, samples, limits and passes; `eye` is a view of a stereoscopic picture."""
-        arguments = settings.settings(depsgraph, width=width, height=height, crop=crop, preview=preview, passes=passes)
+    def settings(self, depsgraph, *, width, height, crop=None, preview=False, passes=("color",), eye=None, aspect=None):
+        """Sets resolution, samples, limits and passes; `eye` is a view of a stereoscopic picture, `aspect` a pixel's width and height where
+        they are not the scene's."""
+        render = depsgraph.scene.render
+        aspect = aspect or (render.pixel_aspect_x, render.pixel_aspect_y)
+        arguments = settings.settings(depsgraph, width=width, height=height, crop=crop, preview=preview, passes=passes, aspect=aspect)
         if not self._follows_view:
-            self._scene_camera(depsgraph, (width, height), eye)
+            self._scene_camera(depsgraph, (width, height), eye, aspect)
         self.scene.set(**arguments)
         return arguments
 
@@ -222,7 +225,7 @@ class Exporter:
         fill_given(depsgraph, [group for group, _ in given], [wanted for _, wanted in given])
         self._instances.write(entries, keys)
         self._materials.sweep()
-        self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.numbers)
+        self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.sets)
         self._meshes.sweep()
         self._fibres.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written
@@ -238,7 +241,7 @@ class Exporter:
         shown = self._fibres.of_group(group, materials.primvars, depsgraph)
         return [(place, [materials.numbers[min(max(slot or 0, 0), last)]]) for place, slot in shown]
 
-    def _scene_camera(self, depsgraph, size=None, eye=None):
+    def _scene_camera(self, depsgraph, size=None, eye=None, aspect=None):
         """The scene's camera, unless a 3D view was set; gives whether it differs."""
         source = depsgraph.scene.camera if eye is None or eye.camera is None else eye.camera
         if self._follows_view or source is None:
@@ -247,7 +250,7 @@ class Exporter:
         render = depsgraph.scene.render
         share = render.resolution_percentage / 100.0
         width, height = size or (int(render.resolution_x * share), int(render.resolution_y * share))
-        aspect = (render.pixel_aspect_x, render.pixel_aspect_y)
+        aspect = aspect or (render.pixel_aspect_x, render.pixel_aspect_y)
         seen_by = source.evaluated_get(depsgraph)
         description = camera.describe(seen_by, width, height, aspect, self.report, depsgraph, eye)
         keys = motion.seen_keys(self._camera_motion.get(source.session_uid, []), seen_by.matrix_world, eye and eye.matrix)

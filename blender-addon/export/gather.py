@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from .dicing import dicing_of
+from .linking import Named
 from .random_number import of_name
 from .transforms import usable
 from .visibility import Visibility, combined, is_ordinary
@@ -35,6 +36,9 @@ class Group:
     asset: str
     # The materials' session_uids, 0 for none.
     slots: tuple
+    # What links know it by: its instancer where a collection of receivers or blockers names that, else the object.
+    receiver_uid: int
+    blocker_uid: int
     # Whether the first row is the object itself.
     is_itself: bool
     rows: list
@@ -56,6 +60,7 @@ class Walk:
     def __init__(self, depsgraph, report, part=None):
         self.groups, self.materials = [], {}
         self._part, self._depsgraph, self._visibility = part, depsgraph, Visibility(depsgraph.view_layer)
+        self._named = Named()
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
             count = row + 1
@@ -67,7 +72,7 @@ class Walk:
             original, data = thing.original, thing.data
             key, parent = (hash(original), 0 if data is None else data.session_uid), None
             if parents != {} and item.is_instance:
-                parents = _special_parents(depsgraph, self._visibility) if parents is None else parents
+                parents = self._special_parents() if parents is None else parents
                 if (uid := item.parent.original.session_uid) in parents:
                     key, parent = (*key, uid), parents[uid]
             if not is_shown:
@@ -96,12 +101,23 @@ class Walk:
             group.hair = hair
         return group
 
+    def _special_parents(self):
+        """Instancers with switches or links of their own, by session_uid: their instances are grouped apart."""
+        self._named, special = Named(self._depsgraph.objects), {}
+        for thing in self._depsgraph.objects:
+            if thing.is_instancer or thing.particle_systems or thing.modifiers:
+                uid, seen = thing.original.session_uid, self._visibility.of(thing.original)
+                if not is_ordinary(seen) or uid in self._named.receivers or uid in self._named.blockers:
+                    special[uid] = seen
+        return special
+
     def _group(self, item, thing, original, data, parent, row):
         kind = thing.type
         if kind in SILENT or data is None:
             return None
         is_instance = item.is_instance
         seen = self._visibility.of(original)
+        placed_by = item.parent.original.session_uid if is_instance else 0
         return Group(
             original.name,
             original.session_uid,
@@ -114,6 +130,8 @@ class Walk:
             thing.pass_index,
             _topmost(original).name,
             self._slots(thing, data),
+            placed_by if placed_by in self._named.receivers else original.session_uid,
+            placed_by if placed_by in self._named.blockers else original.session_uid,
             not is_instance,
             [row],
             dicing=None if self._part is not None else dicing_of(thing, self._depsgraph),
@@ -139,17 +157,6 @@ def _once(groups):
     """Leaves out curves, texts and the like whose mesh the depsgraph lists too."""
     meshes = {group.object_uid for group in groups if group.kind == "MESH"}
     return [group for group in groups if group.kind not in AS_MESH or group.object_uid not in meshes]
-
-
-def _special_parents(depsgraph, visibility):
-    """Instancers with switches of their own, by session_uid: their instances are grouped apart."""
-    special = {}
-    for thing in depsgraph.objects:
-        if thing.is_instancer or thing.particle_systems or thing.modifiers:
-            seen = visibility.of(thing.original)
-            if not is_ordinary(seen):
-                special[thing.original.session_uid] = seen
-    return special
 
 
 def _fill(depsgraph, groups, count, part):

@@ -7,7 +7,7 @@ import numpy as np
 
 from .colour_management import to_rec709
 from .gather import SILENT
-from .linking import ALL, linking
+from .linking import ALL, Sets, linking
 from .material.inputs import COLOUR, INDEX, LOCATION, RANDOM
 from .motion import moved, shares_of
 from .object_attribute import object_attribute
@@ -76,19 +76,19 @@ class Instances:
         self._single = {}
         # Objects that are placed as themselves first: the number of their entry, by session_uid.
         self._own = {}
-        # The numbers of the entries of each object, by session_uid.
-        self.numbers = {}
+        # The numbers of the entries as links know them.
+        self.sets = Sets()
 
     def write(self, entries, keys):
         """Puts the given entries, (group, kind and number of what is shown, material numbers, primvars wanted), in place of what was there; `keys`
         name their groups."""
-        self.any_written, self._single, self._own, self.numbers, self._sources = False, {}, {}, {}, []
+        self.any_written, self._single, self._own, self.sets, self._sources = False, {}, {}, Sets(), []
         made = []
         for entry, key in zip(entries, keys, strict=True):
             with self._report.guard("Object", entry[0].name, "it is left out"):
                 self._make(made, key, *entry)
         for number, (group, _, _) in enumerate(made):
-            self.numbers.setdefault(group.object_uid, []).append(number)
+            self.sets.add(group, number)
         for number, (group, key, entry) in enumerate(made):
             shares = self._put_linked(number, group, entry)
             self._sources.append((key, shares))
@@ -100,7 +100,7 @@ class Instances:
     def _put_linked(self, number, group, entry):
         """Puts an entry with its links; gives the times of the shutter at which it wants to know where it is."""
         with self._report.guard("Object", group.name, "it is left out"):
-            entry.linking = linking(group.source.original, self.numbers)
+            entry.linking = linking(group.source.original, self.sets)
             self._put(number, entry)
             return shares_of(group.source.original) if group.kept is None else ()
         # Nothing takes its place, for others are known by their numbers.

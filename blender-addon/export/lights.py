@@ -134,15 +134,15 @@ class Lights:
         self._sources = []
         self.any_written = False
 
-    def lamps(self, groups, numbers):
-        """Describes the lamps anew, of groups with their keys; `numbers` are those of the instance sets that objects became, by session_uid."""
+    def lamps(self, groups, sets):
+        """Describes the lamps anew, of groups with their keys; `sets` are the instance sets as links know them."""
         self._report.forget_all("Light")
         self._lamps, self._sources = [], []
         for group, key in groups:
             with self._report.guard("Object", group.name, "the lamp is left out"):
                 first = len(self._lamps)
                 self._described(group, key)
-                links = linking(group.source.original, numbers)
+                links = linking(group.source.original, sets)
                 if links is not ALL:
                     self._lamps[first:] = [description | {"linking": links} for description in self._lamps[first:]]
 

@@ -4,10 +4,35 @@
 ALL = {"receivers": "All", "blockers": "All"}
 
 
-def linking(thing, numbers):
-    """The description of an original object's links; `numbers` are those of the instance sets that an object became, by session_uid."""
+class Named:
+    """The objects, by session_uid, that receivers and blockers of any light among some objects name. Such an instancer's own links hold for
+    its instances, as in Cycles; instances of others have those of the object that is instanced."""
+
+    def __init__(self, objects=()):
+        self.receivers, self.blockers = set(), set()
+        for thing in objects:
+            links = thing.original.light_linking
+            for collection, named in ((links.receiver_collection, self.receivers), (links.blocker_collection, self.blockers)):
+                if collection is not None:
+                    named.update(_states(collection))
+
+
+class Sets:
+    """The numbers of the instance sets of each object, by session_uid: of those that receive light, and of those that block it, by its links."""
+
+    def __init__(self):
+        self.receivers, self.blockers = {}, {}
+
+    def add(self, group, number):
+        """Counts a set that a group became."""
+        self.receivers.setdefault(group.receiver_uid, []).append(number)
+        self.blockers.setdefault(group.blocker_uid, []).append(number)
+
+
+def linking(thing, sets):
+    """The description of an original object's links among the `Sets` of the scene."""
     links = thing.light_linking
-    found = {"receivers": _link(links.receiver_collection, numbers), "blockers": _link(links.blocker_collection, numbers)}
+    found = {"receivers": _link(links.receiver_collection, sets.receivers), "blockers": _link(links.blocker_collection, sets.blockers)}
     return ALL if found == ALL else found
 
 

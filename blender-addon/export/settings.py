@@ -19,8 +19,8 @@ LEAST_EXPOSURE = 1e-6
 FALLOFFS = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
 
 
-def settings(depsgraph, *, width, height, crop, preview, passes):
-    """The arguments of `gonio.Scene.set`."""
+def settings(depsgraph, *, width, height, crop, preview, passes, aspect=(1.0, 1.0)):
+    """The arguments of `gonio.Scene.set`; `aspect` is a pixel's width and height."""
     scene = depsgraph.scene
     render, own = scene.render, getattr(scene, "gonio", None)
 
@@ -34,7 +34,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes):
         "width": int(width),
         "height": int(height),
         "crop": crop,
-        "pixel_aspect": 1.0 if preview else render.pixel_aspect_x / render.pixel_aspect_y,
+        "pixel_aspect": 1.0 if preview else aspect[0] / aspect[1],
         "samples": int(samples),
         "noise_threshold": _noise_threshold(ask, prefix, int(samples)),
         "min_samples": int(ask(f"{prefix}adaptive_min_samples", 0)),

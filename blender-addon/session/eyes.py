@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy
 
+from .frame import begun_with
+
 
 @dataclass(frozen=True, eq=False)
 class Eye:
@@ -19,7 +21,7 @@ class Eye:
 def eyes(engine, depsgraph) -> list[Eye]:
     """The views that Blender expects of a final render."""
     scene = depsgraph.scene
-    if not scene.render.use_multiview or scene.camera is None or engine.is_preview:
+    if not begun_with(engine).use_multiview or scene.camera is None or engine.is_preview:
         return [Eye()]
     result = engine.begin_result(0, 0, 1, 1, layer=depsgraph.view_layer.name)
     names = [view.name for view in result.views]

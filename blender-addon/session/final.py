@@ -11,7 +11,7 @@ from .. import baking, report
 from ..export import Exporter, limits
 from . import passes, status
 from .eyes import Eye, eyes
-from .frame import Frame, final_frame
+from .frame import Frame, begun_with, expected_frame, final_frame
 from .result import POLL, open_result
 
 # Seconds between two pictures, at least, and this many times what showing one takes.
@@ -89,8 +89,11 @@ class FinalSession:
 
     def _see(self, engine, depsgraph, layer: _Layer, kinds: list[passes.Pass], eye: Eye, preview: bool) -> None:
         """Renders one view, the only one but for stereoscopy."""
-        frame, settings = final_frame(depsgraph.scene.render), depsgraph.scene.gonio
-        samples = self._settings(depsgraph, layer, frame, kinds, preview, eye)
+        begun, settings = begun_with(engine), depsgraph.scene.gonio
+        frame = expected_frame(engine)
+        if frame != final_frame(depsgraph.scene.render):
+            layer.report.tell("frame", "Scene", depsgraph.scene.name)
+        samples = self._settings(depsgraph, layer, frame, kinds, preview, eye, begun)
         with open_result(engine, frame.size, depsgraph.view_layer.name, eye.name) as result, _started(layer, engine) as render:
             shown = time.monotonic()
             pause = SHOW_EVERY / 3
@@ -114,11 +117,11 @@ class FinalSession:
                 passes.write_passes(result, film, kinds, settings, samples)
                 passes.note_mattes(engine, film, depsgraph.view_layer.name)
 
-    def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool, eye: Eye) -> int:
+    def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool, eye: Eye, begun) -> int:
         """Puts the settings into the scene; returns the samples of a pixel."""
         names = passes.sources(kinds)
         size = {"width": frame.width, "height": frame.height, "crop": frame.crop}
-        layer.exporter.settings(depsgraph, **size, preview=preview, passes=names, eye=eye)
+        layer.exporter.settings(depsgraph, **size, preview=preview, passes=names, eye=eye, aspect=(begun.pixel_aspect_x, begun.pixel_aspect_y))
         if preview:
             layer.exporter.scene.set(samples=PREVIEW_SAMPLES, time_limit=PREVIEW_SECONDS)
             return PREVIEW_SAMPLES

@@ -50,10 +50,30 @@ def crop_of_border(width: int, height: int, left: float, bottom: float, right: f
     return x0, height - y1, x1, height - y0
 
 
+def begun_with(engine):
+    """The render settings that a render was begun with. Blender lays its results out by these for a whole animation, whatever a handler
+    makes of the scene's meanwhile. (The engine's callback hides the property's name.)"""
+    return engine.path_resolve("render")
+
+
 def final_frame(render) -> Frame:
     """What Blender expects of a final render with these render settings."""
-    width, height = (max(1, edge * render.resolution_percentage // 100) for edge in (render.resolution_x, render.resolution_y))
-    if not render.use_border:
-        return Frame(width, height)
+    whole = _whole(render)
+    return _bordered(whole, render) if render.use_border else whole
+
+
+def expected_frame(engine) -> Frame:
+    """What Blender expects of the render under way. Its result has the border's place as of the animation's start, but only where the scene
+    had its border on before this frame's handlers ran: the result's size tells which."""
+    render, result = begun_with(engine), engine.get_result()
+    whole = _whole(render)
+    return whole if (result.resolution_x, result.resolution_y) == whole.size else _bordered(whole, render)
+
+
+def _whole(render) -> Frame:
+    return Frame(*(max(1, edge * render.resolution_percentage // 100) for edge in (render.resolution_x, render.resolution_y)))
+
+
+def _bordered(whole: Frame, render) -> Frame:
     border = (render.border_min_x, render.border_min_y, render.border_max_x, render.border_max_y)
-    return Frame(width, height, crop_of_border(width, height, *border))
+    return Frame(whole.width, whole.height, crop_of_border(whole.width, whole.height, *border))

@@ -19,6 +19,17 @@ class Engine:
         self.breaks_after, self.begun = breaks_after, time.monotonic()
         self.calls, self.stats, self.fractions, self.passes, self.pressed = [], [], [], ["Combined"], None
 
+    def path_resolve(self, path):
+        import bpy
+
+        return getattr(bpy.context.scene, path)
+
+    def get_result(self):
+        import bpy
+
+        render = bpy.context.scene.render
+        return SimpleNamespace(resolution_x=render.resolution_x, resolution_y=render.resolution_y)
+
     def test_break(self):
         if self.pressed is None and time.monotonic() - self.begun > self.breaks_after:
             self.pressed = time.monotonic()
