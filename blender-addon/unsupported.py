@@ -119,7 +119,7 @@ MATERIALS = {
         "each polarisation by itself, as panes are; up to 3 % apart near 75°",
     ),
     "instancer's attribute": Limit(
-        "Attributes of instances within instances", "those of the outermost instances, else the object's own property, else 0"
+        "Attributes of instances whose IDs stand twice", "the instancer's property, else the object's own, else 0"
     ),
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
     "repeat": Limit("Repeat zones of more than 512 turns, or whose number varies", "512 turns; none"),

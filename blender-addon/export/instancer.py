@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What instancers give their instances: attributes of the instances that geometry nodes make, else properties of the instancer's object."""
+"""What instancers give their instances, as Cycles looks it up: properties of particles' settings, attributes of the innermost instances of
+geometry nodes that have them, properties of the outermost instancer, of the object itself."""
 
 import numpy as np
 
-from .mesh_attributes import as_shader_value, read
-from .object_attribute import object_attribute
+from .instance_trail import Trails
+from .object_attribute import attribute_of, object_attribute
 
 # Names of values that an instancer gives; the object's own where it gives none.
 PREFIX = "instancer "
-# The attribute by which Blender knows instances again.
-ID = "id"
 # What Blender writes where a placement is nested less deeply.
 NO_LEVEL = 2**31 - 1
 
@@ -18,69 +17,56 @@ def fill_instancer(depsgraph, groups, wanted, report):
     """Adds to groups the values that materials want of instancers: `wanted` are sets of names, one for each group."""
     if not groups:
         return
-    asked = [[name for name in names if name.startswith(PREFIX)] for names in wanted]
-    places = Places(depsgraph, {row for group in groups for row in group.rows})
-    names = {name.removeprefix(PREFIX) for each in asked for name in each}
-    instancers = {uid: Instancer(parent, depsgraph, names) for uid, parent in places.parents.items()}
+    asked = [[name.removeprefix(PREFIX) for name in names if name.startswith(PREFIX)] for names in wanted]
+    names = {name for each in asked for name in each}
+    places = Places(depsgraph, {row for group in groups for row in group.rows}, names)
     for group, each in zip(groups, asked, strict=True):
-        group.instancer = {name: _values(group, name.removeprefix(PREFIX), places, instancers, report) for name in each}
+        group.instancer = {PREFIX + name: places.values(group, name) for name in each}
+        if any(row in places.lost for row in group.rows):
+            report.tell("instancer's attribute", "Object", group.name, f"Attribute '{each[0]}' of the instancer")
 
 
 class Places:
-    """Of rows of the depsgraph's instances: their instancer, and their numbers from the innermost level to the outermost."""
+    """What gives values of these names to rows of the depsgraph's instances."""
 
-    def __init__(self, depsgraph, rows):
-        self.parents, self.of_row = {}, {}
+    def __init__(self, depsgraph, rows, names):
+        # By row: instances of geometry nodes from the innermost to the outermost, and the number of a set of properties.
+        self._of_row, self._properties, known = {}, [], {}
+        # Rows whose instances are not known.
+        self.lost = set()
+        trails = Trails(depsgraph, names)
         for row, item in enumerate(depsgraph.object_instances):
-            if row in rows and item.is_instance:
-                parent = item.parent.original
-                self.parents[parent.session_uid] = parent
-                self.of_row[row] = parent.session_uid, [level for level in item.persistent_id if level != NO_LEVEL]
+            if row not in rows or not item.is_instance:
+                continue
+            parent, leaf, system = item.parent.original, item.object.original, item.particle_system
+            levels = [level for level in item.persistent_id if level != NO_LEVEL][::-1]
+            trail = trails.follow(parent, levels, leaf)
+            if trail is None:
+                self.lost.add(row)
+            settings = None if system is None else system.settings
+            owner = parent.session_uid, 0 if settings is None else settings.session_uid
+            if owner not in known:
+                known[owner] = len(self._properties)
+                self._properties.append({name: _property(settings, parent, name) for name in names})
+            self._of_row[row] = (trail or ())[::-1], known[owner]
+
+    def values(self, group, name):
+        """A value for each placement of a group: (N, 4)."""
+        own = object_attribute(group.source, name) or (0.0,) * 4
+        values = np.empty((len(group.rows), 4), dtype=np.float32)
+        for place, row in enumerate(group.rows):
+            value = self._value(row, name) if row in self._of_row else None
+            values[place] = own if value is None else value
+        return values
+
+    def _value(self, row, name):
+        trail, number = self._of_row[row]
+        of_particles, of_parent = self._properties[number][name]
+        if of_particles is not None:
+            return of_particles
+        return next((table.values[name][instance] for table, instance in trail if name in table.values), of_parent)
 
 
-class Instancer:
-    """One object that has instances: attributes of these names as colours, a row for each, or its own property."""
-
-    def __init__(self, source, depsgraph, names):
-        evaluated = source.evaluated_get(depsgraph)
-        geometry = evaluated.evaluated_geometry() if hasattr(evaluated, "evaluated_geometry") else None
-        cloud = geometry.instances_pointcloud() if geometry is not None else None
-        # The geometry is gone after this function.
-        found = {name: read(cloud.attributes[name]) for name in (*names, ID) if name in cloud.attributes} if cloud is not None else {}
-        numbers = found.pop(ID, None)
-        self._by_id = None if numbers is None else {int(value): number for number, value in enumerate(numbers[:, 0])}
-        self._attributes = {name: _colours(values) for name, values in found.items() if values is not None}
-        self._own = {name: object_attribute(source, name) for name in names}
-
-    def value(self, name, levels):
-        """What a placement is given, None for nothing."""
-        values = self._attributes.get(name)
-        if values is not None and levels:
-            # The outermost level counts the instances of the object itself, or has their IDs.
-            number = levels[-1] if self._by_id is None else self._by_id.get(levels[-1], -1)
-            if 0 <= number < len(values):
-                return values[number]
-        return self._own[name]
-
-
-def _colours(values):
-    """Numbers and vectors as colours: 0 for missing components, alpha 1."""
-    values = as_shader_value(values)
-    colours = np.zeros((len(values), 4), dtype=np.float32)
-    colours[:, 3] = 1.0
-    colours[:, : values.shape[1]] = values
-    return colours
-
-
-def _values(group, name, places, instancers, report):
-    """A value for each placement of a group: (N, 4)."""
-    own = object_attribute(group.source, name) or (0.0,) * 4
-    values, is_lost = np.empty((len(group.rows), 4), dtype=np.float32), False
-    for place, row in enumerate(group.rows):
-        uid, levels = places.of_row.get(row, (None, ()))
-        value = instancers[uid].value(name, levels) if uid is not None else None
-        values[place] = own if value is None else value
-        is_lost |= value is None and len(levels) > 1
-    if is_lost:
-        report.tell("instancer's attribute", "Object", group.name, f"Attribute '{name}' of the instancer")
-    return values
+def _property(settings, parent, name):
+    """A property of particles' settings, and one of the instancer."""
+    return None if settings is None else attribute_of((settings,), name), object_attribute(parent, name)
