@@ -121,7 +121,8 @@ def enabled_passes(layer) -> Iterator[Pass]:
         if getattr(layer, switch):
             # Two ranks a layer.
             for number in range((layer.pass_cryptomatte_depth + 1) // 2):
-                yield Pass(f"{name}{number:02}", "RGBA", "COLOR", f"{name}{number:02}", Scale.BITS)
+                # Small letters keep files from half floats and from codecs that lose what eyes do not see.
+                yield Pass(f"{name}{number:02}", "rgba", "COLOR", f"{name}{number:02}", Scale.BITS)
     for group in layer.lightgroups:
         # The name that Cycles gives the pass too.
         yield Pass(f"Combined_{group.name}", "RGB", "COLOR", f"lightgroup:{group.name}", Scale.RADIANCE)

@@ -128,6 +128,56 @@ def test_mattes_are_those_of_cycles(tmp_path, kind):
     assert all(mine[f"{LAYER}.{matte}"][name].max() == 1.0 for matte, name in wanted[kind].items())
 
 
+DATA = ("z", "mist", "position", "normal", "vector", "uv", "object_index", "material_index")
+# The same on both sides of Blender 5.0.
+COLOURS = (".R", ".G", ".B", ".A")
+
+
+def saved(path, codec, depth):
+    """The last render's channels from a multilayer file, those of colours left out."""
+    import importlib
+
+    import bpy
+    import scenes
+
+    settings = bpy.context.scene.render.image_settings
+    importlib.import_module("gonio_extension.compat").use_multilayer_exr(settings)
+    settings.exr_codec, settings.color_depth = codec, depth
+    bpy.data.images["Render Result"].save_render(str(path))
+    channels = scenes.read(path)
+    # Coverage of a pass of coordinates is data too.
+    return {name: values for name, values in channels.items() if not name.endswith(COLOURS) or ".UV." in name}
+
+
+@pytest.mark.blender
+def test_names_and_data_keep_their_bits_in_every_file(tmp_path):
+    import bpy
+    import numpy
+
+    scene = scene_of_sheets(samples=8)
+    for switch in DATA:
+        setattr(scene.view_layers[0], f"use_pass_{switch}", True)
+    # No half float.
+    bpy.data.objects["Floor"].pass_index = bpy.data.materials["Paint"].pass_index = 4097
+    whole, lost = {}, {}
+    for engine in ("CYCLES", "GONIO"):
+        scene.render.engine, scene.cycles.samples = engine, 1
+        bpy.ops.render.render()
+        whole[engine] = saved(tmp_path / f"{engine}.exr", "ZIP", "32")
+        for codec, depth in (("ZIP", "16"), ("DWAA", "32"), ("DWAA", "16"), ("DWAB", "16"), ("B44", "16")):
+            found = saved(tmp_path / f"{engine}{codec}{depth}.exr", codec, depth)
+            assert found.keys() == whole[engine].keys()
+            same = {name: numpy.array_equal(found[name].view("u4"), values.view("u4")) for name, values in whole[engine].items()}
+            lost[engine, codec, depth] = {name for name in same if not same[name]}
+    found = whole["GONIO"]
+    # Every channel by the letter that Cycles gives it.
+    assert found.keys() == whole["CYCLES"].keys() and sum("Crypto" in name for name in found) == 24 and len(found) > 40
+    assert any(values.max() == 4097 for name, values in found.items() if "Ob" in name or "OB" in name)
+    for (engine, *file), names in lost.items():
+        # DWA takes a Y for luminance, whoever writes it.
+        assert all(name.endswith(".Y") and file[0].startswith("DWA") for name in names) and names <= lost["CYCLES", *file], (engine, file, names)
+
+
 def matte_node(scene, kind, name, picture=None):
     """A compositor that shows the matte of one name, from the render or from a picture."""
     import importlib
